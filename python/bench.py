@@ -1,4 +1,4 @@
-"""What the package costs, as ratios within one run: `python bench.py [--check]`; AFPC names an afpc, optimised.
+"""What the package costs, as ratios within one run: `python bench.py [--check] [WORDS]`; AFPC names an afpc, optimised.
 
 What is compared takes turns within a figure, and the best of each is compared, so that a busy machine blurs it less.
 A figure that misses its bar is measured twice more before it counts.
@@ -6,12 +6,15 @@ A figure that misses its bar is measured twice more before it counts.
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import os
 import re
 import signal
 import statistics
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable
@@ -66,7 +69,7 @@ def run_cost() -> float:
 
 
 def step_cost() -> float:
-    """Microseconds that a call of `step` takes beyond the step itself."""
+    """`step` against `run_to`, for the same steps."""
     plan, steps = afp.load(PLAN), 20_000
 
     def pair() -> tuple[float, float]:
@@ -80,7 +83,66 @@ def step_cost() -> float:
         return by_step, seconds(lambda: whole.run_to(end))
 
     pairs = [pair() for _ in range(ROUNDS)]
-    return (min(ours for ours, _ in pairs) - min(theirs for _, theirs in pairs)) / steps * 1e6
+    return min(ours for ours, _ in pairs) / min(theirs for _, theirs in pairs)
+
+
+def sweep_gain() -> float:
+    """A sweep against `afpc sweep`, per run."""
+    seeds, until = 16, 60.0
+    plan = afp.load(PLAN)
+    afpc = os.environ.get("AFPC", "afpc")
+
+    def pair(folder: str) -> tuple[float, float]:
+        ours = seconds(lambda: afp.sweep(plan, seeds=seeds, until=until, progress=False))
+        options = ["--seeds", f"0..{seeds}", "--until", f"{until}s", "--restart", "-o", f"{folder}/runs.csv"]
+        command = [afpc, "sweep", str(PLAN), *options]
+        return ours, seconds(lambda: subprocess.run(command, capture_output=True, check=True, cwd=ROOT))
+
+    with tempfile.TemporaryDirectory() as folder:
+        pairs = [pair(folder) for _ in range(ROUNDS)]
+    return min(theirs for _, theirs in pairs) / min(ours for ours, _ in pairs)
+
+
+def reset_time() -> float:
+    """Milliseconds that a new episode takes in a room that is given."""
+    env = afp.gym.CarbotEnv(afp.World.random(3))
+    env.reset(seed=0)
+    return best(lambda: seconds(lambda: [env.reset() for _ in range(50)])) / 50 * 1e3
+
+
+def env_cost() -> float:
+    """A step of the environment against the same drive of the robot alone."""
+    room, steps = afp.World.random(3), 500
+    env, alone = afp.gym.CarbotEnv(room, ends=[], observe=["motion"]), afp.Carbot(room)
+    env.reset(seed=0)
+    action = np.array([0.3, 0.3])
+
+    def pair() -> tuple[float, float]:
+        ours = seconds(lambda: [env.step(action) for _ in range(steps)])
+        return ours, seconds(lambda: alone.drive(0.15, 0.6, steps * 0.1))
+
+    pairs = [pair() for _ in range(ROUNDS)]
+    return min(ours for ours, _ in pairs) / min(theirs for _, theirs in pairs)
+
+
+def against_envpool() -> float:
+    """Steps a second of 16 robots against those of 16 lunar landers of EnvPool, both on two threads."""
+    envpool = importlib.import_module("envpool")
+    many, steps = 16, 200
+    landers = envpool.make("LunarLander-v2", env_type="gymnasium", num_envs=many, num_threads=2)
+    robots = afp.gym.CarbotVectorEnv(many, afp.World.random(3), max_episode_steps=600)
+    landers.reset()
+    robots.reset(seed=0)
+    rng = np.random.default_rng(0)
+    buttons = rng.integers(0, 4, (steps, many)).astype(np.int32)
+    actions = rng.uniform(-1.0, 1.0, (steps, many, 2))
+
+    def pair() -> tuple[float, float]:
+        theirs = seconds(lambda: [landers.step(button) for button in buttons])
+        return seconds(lambda: [robots.step(action) for action in actions]), theirs
+
+    pairs = [pair() for _ in range(ROUNDS)]
+    return min(theirs for _, theirs in pairs) / min(ours for ours, _ in pairs)
 
 
 def simulate(seed: int) -> None:
@@ -165,9 +227,13 @@ def supervised() -> float:
 
 BARS: list[tuple[str, Callable[[], float], str, float]] = [
     ("run, against the loop of afpc run", run_cost, "<=", 1.2),
-    ("step() beyond the step, us", step_cost, "<=", 3.0),
+    ("step(), against run_to", step_cost, "<=", 1.1),
+    ("sweep, against afpc sweep", sweep_gain, ">=", 0.95),
     ("two threads' gain, against two processes'", threads_gain, ">=", 0.9),
     ("16 robots' gain, against two processes'", robots_gain, ">=", 0.9),
+    ("a step of an environment, against driving", env_cost, "<=", 1.3),
+    ("a new episode, ms", reset_time, "<=", 0.2),
+    ("16 robots, against EnvPool's landers", against_envpool, ">=", 0.7),
     ("Ctrl-C to its exception, ms", interrupted, "<=", 100.0),
     ("supervisor at 1 kHz, times real time", supervised, ">=", 20.0),
 ]
@@ -178,7 +244,13 @@ def main() -> int:
     # A shell that starts this in the background has Ctrl-C ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     failed = 0
+    wanted = [word for word in sys.argv[1:] if not word.startswith("-")]
     for name, measure, relation, bar in BARS:
+        if wanted and not any(word in name for word in wanted):
+            continue
+        if measure is against_envpool and importlib.util.find_spec("envpool") is None:
+            print(f"{name:<42} skipped: pip install envpool")
+            continue
         for _ in range(TRIES):
             value = measure()
             kept = value <= bar if relation == "<=" else value >= bar

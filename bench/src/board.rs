@@ -10,7 +10,7 @@ pub use components::{CheckBattery, CheckButton, CheckRange, CheckTouch, Drive, H
 
 pub mod templates {
     //! The templates of the toolbox as types.
-    afp_macros::toolbox!("toolbox/board.afp");
+    afp_macros::toolbox!("toolbox/board.afp", robot = super::Board);
 }
 
 /// Readings and a command, in memory that the optimiser cannot see into.

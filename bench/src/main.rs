@@ -9,6 +9,7 @@ mod board;
 mod check;
 mod clocks;
 mod copper;
+mod debugger;
 mod drawing;
 mod editor;
 mod measure;
@@ -79,6 +80,7 @@ const GROUPS: &[(&str, Group)] = &[
     ("check", check::run),
     ("drawing", drawing::run),
     ("editor", editor::run),
+    ("debugger", debugger::run),
     ("allocations", allocations::run),
     ("web", web::run),
 ];

@@ -6,7 +6,7 @@ use std::time::Duration as Wall;
 use afp_core::Instant;
 use afp_core::trace::ComponentId;
 use afp_debug::wire::Frames;
-use afp_debug::{Adapter, Host, Launch, LogTarget, Program, Target};
+use afp_debug::{Adapter, Host, Launch, LogTarget, Program, Target, Told};
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
@@ -64,7 +64,8 @@ impl Host<'static> for Recorded {
     }
 }
 
-/// Each line that is a request is one; other lines are told that they are none. The bytes are taken for a stream, too.
+/// Each line that is a request is one, of one client or, where it begins with a space, of another one; other lines are
+/// told that they are none. The bytes are taken for a stream, too.
 ///
 /// # Panics
 /// When a request has no response or several.
@@ -75,12 +76,17 @@ pub fn debugger(data: &[u8]) {
         while let Ok(Some(_)) = frames.next_message() {}
     }
     let mut adapter = Adapter::new(Box::new(Recorded));
+    let clients = [adapter.join(), adapter.join()];
     let mut now = Wall::ZERO;
     for line in text(data).lines() {
-        let asked = usize::from(serde_json::from_str::<dapts::Request>(line).is_ok());
-        let said = adapter.handle(line, now);
-        let is_response = |said: &&String| {
-            serde_json::from_str::<Value>(said).is_ok_and(|said| said["type"] == "response")
+        let from = clients[usize::from(line.starts_with(' '))];
+        let kind = serde_json::from_str::<Value>(line).unwrap_or_default();
+        let is_request = serde_json::from_str::<dapts::Request>(line).is_ok();
+        let asked = usize::from(is_request && kind["type"] != "response");
+        let said = adapter.handle(from, line, now);
+        let is_response = |said: &&Told| {
+            let message = serde_json::from_str::<Value>(&said.message).unwrap_or_default();
+            said.to == from && message["type"] == "response"
         };
         assert_eq!(said.iter().filter(is_response).count(), asked, "{line}");
         for _ in 0..3 {

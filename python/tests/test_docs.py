@@ -11,7 +11,7 @@ import pytest
 
 from conftest import ROOT
 
-PAGES = [ROOT / "docs/python.md"]
+PAGES = [ROOT / "docs/python.md", ROOT / "docs/research.md"]
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
 

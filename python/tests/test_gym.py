@@ -32,6 +32,12 @@ def window(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:
     shown: list[bytes] = []
 
     class Widget:
+        asked: list[Any] = []
+
+        def protocol(self, name: str, handler: Any) -> None:
+            """Whoever closes the window calls the handler."""
+            self.asked.append(handler)
+
         def __init__(self, *given: Any, data: bytes = b"", **more: Any) -> None:
             if data:
                 shown.append(data)
@@ -307,6 +313,17 @@ def test_a_window_shows_each_step(window: list[bytes]) -> None:
     assert len(window[0]) == len(b"P6 256 256 255\n") + 256 * 256 * 3
 
 
+def test_who_closes_the_window_sees_no_more(window: list[bytes]) -> None:
+    env = afp.gym.CarbotEnv("random:1", render_mode="human")
+    env.reset(seed=0)
+    sys.modules["tkinter"].Tk.asked[-1]()
+    env.step(np.array([1.0, 0.0]))
+    assert len(window) == 1
+    env.close()
+    env.reset(seed=0)
+    assert len(window) == 2, "the next window is a new one"
+
+
 def test_without_a_display_a_window_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "tkinter", None)
     env = afp.gym.CarbotEnv("random:1", render_mode="human")
@@ -321,7 +338,11 @@ def test_a_cell_of_a_notebook_is_drawn_again_and_again(monkeypatch: pytest.Monke
         def update(self, data: dict[str, bytes], raw: bool) -> None:
             shown.append(data["image/png"])
 
-    display = types.SimpleNamespace(display=lambda data, raw, display_id: Handle())
+    def first(data: dict[str, bytes], raw: bool, display_id: bool) -> Handle:
+        shown.append(data["image/png"])
+        return Handle()
+
+    display = types.SimpleNamespace(display=first)
     kernel = types.SimpleNamespace(kernel=None)
     monkeypatch.setitem(sys.modules, "IPython", types.SimpleNamespace(display=display, get_ipython=lambda: kernel))
     env = afp.gym.CarbotEnv("random:1", render_mode="human")

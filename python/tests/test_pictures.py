@@ -41,6 +41,16 @@ def test_it_is_drawn_as_the_command_line_does(kind: str, log: afp.Log, tmp_path:
     assert getattr(log, kind)().svg == (tmp_path / "a.svg").read_text(encoding="utf-8")
 
 
+def test_a_run_is_drawn_as_far_as_it_has_come(log: afp.Log, wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following)
+    before = simulation.picture()
+    assert ">0.00 m<" in before.svg
+    simulation.run(until=6.0)
+    # A log places what happened between two looks at the robot where it was before.
+    drawn = [[line for line in picture.svg.splitlines() if 'class="mark"' not in line] for picture in (simulation.picture(), log.picture())]
+    assert drawn[0] == drawn[1] and simulation.picture() != before
+
+
 def test_a_film_has_the_pictures_of_the_camera(log: afp.Log, tmp_path: Path) -> None:
     assert log.film().svg.count("<image") == 12
     blind = tmp_path / "blind.mcap"

@@ -156,12 +156,15 @@ def test_what_is_plain_can_be_pickled_and_copied(wall_following: afp.Plan) -> No
             wall_following.path,
             "WallFollowing",
         )
+        assert plan == wall_following
         plan.rename("along", "beside")
+        assert plan != wall_following
         assert "along" in wall_following.text and "along" not in plan.text, "a copy is of its own"
         world = again(result._world)
         assert (world.name, world.text, world.path) == (result._world.name, result._world.text, result._world.path)
         assert afp.Simulation(wall_following, world, seed=3).run(until=3.0).trace_hash == result.trace_hash
         told = again(result)
+        assert told == result and told.events == result.events and len({told, result}) == 1
         assert [str(event) for event in told.events] == [str(event) for event in result.events]
         assert (told.trace_hash, told.entries, told.timeline) == (result.trace_hash, result.entries, result.timeline)
         assert again(broken.diagnostics[0]) == broken.diagnostics[0]
@@ -174,6 +177,20 @@ def test_scenarios_are_pickled_with_their_text() -> None:
     for scenario in plan.scenarios[:2]:
         again = pickle.loads(pickle.dumps(scenario))
         assert (again.name, again.plan, again.line) == (scenario.name, scenario.plan, scenario.line)
+        assert again == scenario and len({again, scenario}) == 1
+    assert plan.scenarios[0] != plan.scenarios[1]
+
+
+def test_a_value_that_does_not_fit_leaves_the_plan_as_it_was(wall_following: afp.Plan) -> None:
+    before = wall_following.text
+    for value in (afp.deg(3), 3, True):
+        with pytest.raises(TypeError, match="expected a length"):
+            wall_following.bind("backupCollision", "distance", value)
+    assert wall_following.text == before and wall_following.ok
+    wall_following.bind("backupCollision", "distance", "3 deg")
+    assert not wall_following.ok, "what is written as text is told by the diagnostics"
+    wall_following.bind("backupCollision", "distance", afp.cm(-3))
+    assert wall_following.ok and "distance = -0.03 m" in wall_following.text
 
 
 def test_broken_plans_are_drawn() -> None:

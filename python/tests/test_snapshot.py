@@ -92,3 +92,37 @@ def test_others_read_while_one_drives(wall_following: afp.Plan) -> None:
     driving.join()
     assert times == sorted(times) and times[-1] > 0.0
     assert simulation.time >= times[-1]
+
+
+def test_a_simulation_begins_in_a_moment_of_a_log(tmp_path: Path, wall_following: afp.Plan) -> None:
+    file = tmp_path / "run.mcap"
+    first = afp.Simulation(wall_following, seed=3, set={"walldist": afp.cm(40)}, log=file)
+    first.bump(at=1.0)
+    first.fail("ultrasonic", "frozen", at=2.0, lasting=1.0)
+    first.run_to(1.5)
+    first["walldist"] = afp.cm(35)
+    moment = first.pose
+    result = first.run(until=6.0)
+    again = afp.Log(file).simulation(at=1.5)
+    assert (again.time, again.pose, again["walldist"]) == (1.5, moment, 0.4)
+    assert again.run(until=6.0).trace_hash == result.trace_hash
+    other = afp.Log(file).simulation(at=1.5)
+    other.press(at=4.0)
+    assert other.run(until=6.0).trace_hash != result.trace_hash
+
+
+def test_a_log_has_the_plan_as_it_was(tmp_path: Path) -> None:
+    (tmp_path / "part.afp").write_text("use carbot\nplan Part { start go actor go: Forward(distance = 20 cm) { ForwardSuccessful -> terminate } }\n")
+    (tmp_path / "whole.afp").write_text('use "part.afp"\nplan Whole { start part subplan part: Part { OK -> terminate } }\n')
+    plan = afp.load(tmp_path / "whole.afp")
+    plan.check()
+    with afp.Simulation(plan, log=tmp_path / "run.mcap") as simulation:
+        result = simulation.run(until=5.0)
+    (tmp_path / "part.afp").unlink()
+    (tmp_path / "whole.afp").unlink()
+    assert afp.Log(tmp_path / "run.mcap").simulation().run(until=5.0).trace_hash == result.trace_hash
+
+
+def test_a_log_that_does_not_say_what_ran_is_told_so(tmp_path: Path) -> None:
+    with pytest.raises(OSError):
+        afp.Log(tmp_path / "nothing.mcap").simulation()

@@ -131,6 +131,11 @@ def test_components_in_python_take_turns() -> None:
     assert threading.get_ident() not in threads
 
 
+def test_what_never_happened_took_no_time() -> None:
+    runs = afp.sweep(afp.Plan(GO), seeds=2, until=0.5, progress=False)
+    assert [str(took) for took in runs.columns["contacts_s"]] == ["0.0", "0.0"]
+
+
 def test_ctrl_c_stops_a_sweep() -> None:
     begun = time.monotonic()
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
@@ -151,6 +156,23 @@ def test_ctrl_c_stops_a_sweep_whose_component_hangs() -> None:
 
     plan = afp.Plan("use tools\nplan P { start go actor go: Hangs { Done -> terminate } }", toolboxes=[tools])
     assert interrupted(lambda: afp.sweep(plan, seeds=8, jobs=2, progress=False)) < 5.0
+
+
+def test_ctrl_c_leaves_a_component_that_blocks_outside_of_python() -> None:
+    tools = afp.Toolbox("tools")
+    blocked = threading.Event()
+
+    @tools.actor(states=["Done"])
+    class Sleeps:
+        def poll(self) -> str:
+            blocked.set()
+            time.sleep(30.0)
+            return "Done"
+
+    plan = afp.Plan("use tools\nplan P { start go actor go: Sleeps { Done -> terminate Error -> go } }", toolboxes=[tools])
+    assert interrupted(lambda: afp.sweep(plan, seeds=8, jobs=2, progress=False)) < 5.0
+    assert blocked.is_set()
+    assert len(afp.sweep(afp.Plan(GO), seeds=2, until=1.0, progress=False)) == 2, "another sweep is not in its way"
 
 
 def test_tables(tmp_path: Path) -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+import afp
 
 pytest.importorskip("mypy")
 pytest.importorskip("gymnasium")
@@ -39,7 +42,55 @@ env = afp.gym.CarbotEnv(hall.build(), task=afp.gym.REACH_GOAL, reward={"nearer":
 envs = afp.gym.CarbotVectorEnv(4, faults=lambda rng: [("wheels", "slip")])
 seen, infos = envs.reset(seed=[1, 2, None, 4])
 mean: float = afp.gym.evaluate(lambda seen: seen[:, :2], "Roam", range(3), world=hall.build()).mean
+
+afp.use("project")
+known: list[tuple[str, str]] = afp.faults()
+version: str = afp.__version__
+table: afp.Runs = runs.filter(lambda row: row["seed"] == 1)
+picture: afp.Picture = simulation.picture()
+log: afp.Log = afp.Log("a.mcap")
+moment: afp.Snapshot = log.simulation(at=afp.ms(300)).save()
+simulation.restore(moment)
+watched: afp.Result = simulation.clone().watch(until=afp.minutes(1), speed=2.0)
+again: afp.Simulation = runs.simulation(0, log="b.mcap", camera=True)
+collisions: list[afp.Collision] = watched.collisions
+errors: list[afp.ComponentError] = watched.errors
+said: list[afp.Diagnostic] = plan.diagnostics
+scenario: afp.Scenario = plan.scenarios[0]
+came: afp.Verdict = scenario.run(log="c.mcap")
+broken: list[afp.Broken] = came.broken
+quantities: list[afp.Quantity] = [afp.m(1), afp.mm(1), afp.s(1), afp.rad(1), afp.kmh(1), afp.rad_per_s(1), afp.deg_per_s(1)]
+far: afp.Quantity = afp.m(2) * 2 + afp.cm(3)
+carbot = afp.Carbot(afp.World.load("hall.toml"), 3)
+carbot.drive(0.2, 0.0, 1.0)
+square: afp.Plan = afp.new_plan("Square", use=["carbot"])
+square.bind("ahead", "distance", far)
+try:
+    square.check()
+except afp.PlanError as error:
+    print(error.diagnostics[0].fix)
+except afp.AfpError as error:
+    print(error)
+toolbox = afp.Toolbox("more", version="1.0")
+
+
+@toolbox.actor(states={"There": {"went": afp.Length}}, uses=["navigator"])
+async def Creep(robot: afp.Robot, far: afp.Length, speed: afp.Speed = afp.m_per_s(0.1)) -> tuple[str, dict[str, float]]:
+    while robot.odometry[0] < far:
+        robot.drive(speed, 0.0)
+        await afp.tick()
+    return "There", {"went": robot.odometry[0]}
+
+
+@toolbox.supervisor(events=["Turned"], every=afp.ms(20))
+def CheckTurned(robot: afp.Robot, angle: afp.Angle, rate: afp.AngularSpeed, time: afp.Duration) -> str | None:
+    return "Turned" if robot.odometry[2] > angle + rate * time else None
 """
+
+
+def test_the_program_uses_every_name_of_the_package() -> None:
+    unused = [name for name in afp.__all__ if not re.search(rf"\bafp\.{name}\b", PROGRAM)]
+    assert not unused
 
 
 def test_a_program_is_clean_in_strict_mode(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 // The bar at the top: file, plans, what is saved, undo and redo, problems.
 import { batch } from "@preact/signals";
-import { current, nameOf, saved } from "./documents";
+import { current, isFailed, nameOf, saved } from "./documents";
 import { Controls } from "./debug/controls";
 import { drawing, leave, plan, trail, wanted } from "./drawing/model";
 import { finding } from "./finder";
@@ -80,7 +80,7 @@ function backTo(place: number): void {
 function Saved() {
   const state = saved.value;
   if (!current.value) return null;
-  const failed = state !== "saved" && state !== "saving";
+  const failed = isFailed(state);
   return (
     <span class={`saved ${failed ? "failed" : state}`} role="status" title={failed ? words.notSavedBecause(state) : ""}>
       {failed ? words.notSaved : state === "saved" ? words.saved : words.saving}

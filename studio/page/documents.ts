@@ -60,6 +60,9 @@ export const saved = computed<"saved" | "saving" | (string & {})>(() => {
   return all.every((each) => each.written >= each.version) ? "saved" : "saving";
 });
 
+/** Whether something could not be written; then it says why. */
+export const isFailed = (state: string): boolean => state !== "saved" && state !== "saving";
+
 export const text = (uri: string): string => documents.value.get(uri)?.text ?? "";
 export const version = (uri: string): number => documents.value.get(uri)?.version ?? 0;
 export const isOpen = (uri: string): boolean => documents.value.has(uri);

@@ -1,6 +1,7 @@
 // What scenarios, sweeps and builds of the page came to: kept until the next ones.
-import { computed, signal } from "@preact/signals";
+import { batch, computed, signal } from "@preact/signals";
 import { openLogAt } from "./debug/logs";
+import { world } from "./debug/run";
 import { current, nameOf, onText } from "./documents";
 import { drawing } from "./drawing/model";
 import { run } from "./jobs";
@@ -45,12 +46,9 @@ export const shown = signal(true);
 /** Which scenarios go on. */
 export const busy = signal("");
 
-export interface Row {
-  [name: string]: unknown;
-}
-
-/** The runs of the last sweep. */
-export const swept = signal<readonly Row[]>([]);
+/** What the last sweep said, a line for each run, and what they came to; and in which world, null for that of the plan. */
+export const swept = signal<readonly object[]>([]);
+export const sweptIn = signal<string | null>(null);
 /** An error with its document, if it has a place, and the item of that document's drawing that it is about. */
 export interface Wrong extends Mistake {
   uri: string | null;
@@ -93,11 +91,14 @@ export const runAll = () =>
     if (!all.length) throw new Error(plain(done.said) || words.jobFailed);
   });
 
-export const sweep = (seeds: string, vary: string, until: string) =>
+/** Runs the plan many times, in the world that is chosen. */
+export const sweep = (seeds: string, vary: readonly string[], until: string) =>
   doing(words.sweeping, async () => {
-    const done = await run(words.sweep, { kind: "sweep", file: current.peek(), plan: drawing.peek()?.plan ?? "", seeds, vary, until });
+    const where = world.peek();
+    const order = { kind: "sweep", file: current.peek(), plan: drawing.peek()?.plan ?? "", seeds, vary, until };
+    const done = await run(words.sweep, { ...order, ...(where === null ? {} : { world: where }) });
     if (!done) return;
-    swept.value = done.results;
+    batch(() => ([swept.value, sweptIn.value] = [done.results, where]));
     if (!done.results.length) throw new Error(plain(done.said) || words.jobFailed);
   });
 

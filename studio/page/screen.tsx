@@ -4,7 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { Bar, Tool } from "./bar";
 import { Book } from "./book";
 import { Dialogs } from "./dialogs";
-import { conflicts, current, nameOf } from "./documents";
+import { conflicts, current, isFailed, nameOf, saved } from "./documents";
 import { EndCard } from "./debug/controls";
 import { mountCanvas } from "./drawing/canvas";
 import { Finder } from "./finder";
@@ -52,6 +52,7 @@ function Banners() {
   return (
     <div class="banners" role="status">
       {!lsp().open.value && <p class="banner warning">{words.offline}</p>}
+      {isFailed(saved.value) && <p class="banner error">{words.notSavedBecause(saved.value)}</p>}
       {!pen.value && (
         <p class="banner">
           {words.watching} <button onClick={() => void lsp().request("afp/pen", { take: true })}>{words.takePen}</button>
@@ -227,7 +228,7 @@ const NarrowBar = () => (
     {NARROW.map(({ name, label }) => (
       <button aria-pressed={narrow.value === name} onClick={() => show(name)} key={name}>
         <Sign name={name} />
-        <span>{label}</span>
+        <span>{name === "jobs" ? words.jobsShort : label}</span>
       </button>
     ))}
   </nav>

@@ -110,7 +110,7 @@ export function inBrowser(name: string, files: Record<string, string>, run: (stu
         server = await serve(folder, new URL(server.address).port);
         await context.request.get(server.address);
       };
-      const isSaved = () => page.locator(".saved.saved:not(.saving)").waitFor();
+      const isSaved = () => page.locator(".saved.saved:not(.saving, .failed)").waitFor();
       const failed = await run({ page, folder, read, write, holds, becomes, crash, restart, isSaved }).then(() => null, (why: Error) => why);
       if (wrong.length) throw new Error(`the page says: ${wrong.join("\n")}`, { cause: failed });
       if (failed) throw failed;

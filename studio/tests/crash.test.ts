@@ -31,9 +31,9 @@ inBrowser("a server killed in mid-drag loses no finished edit", { "plan.afp": PL
   await page.keyboard.press("End");
   await page.keyboard.type(" // typed without a server");
   assert.ok(!(await read("plan.afp")).includes("without"));
-  assert.equal(await page.locator(".saved.saved:not(.saving)").count(), 0);
+  assert.equal(await page.locator(".saved.saved:not(.saving, .failed)").count(), 0);
   await restart();
-  await page.locator(".saved.saved:not(.saving)").waitFor();
+  await page.locator(".saved.saved:not(.saving, .failed)").waitFor();
   const text = await read("plan.afp");
   assert.match(text, /plan P \{ \/\/ typed without a server/);
   assert.match(text, /start go \/\/ typed before/);

@@ -59,7 +59,7 @@ inBrowser("what builds programs asks once whether the folder is trusted; panes o
   assert.equal(await read(".config/afp/trusted"), "");
   await page.getByLabel("Seeds").fill("0..3");
   await page.getByRole("button", { name: "Run many times" }).click();
-  await page.locator(".jobs-pane tbody tr").nth(2).waitFor({ timeout: 30_000 });
+  await page.locator(".map td button").nth(2).waitFor({ timeout: 30_000 });
   await clean(page);
 }, { timeout: 90_000 });
 

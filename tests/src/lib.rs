@@ -21,7 +21,7 @@ pub use components::{Glance, MakeMap, Map, Pick, ReadMap, Stay, Task, Watch, Wor
 
 /// The templates of `toolbox/testing.afp`.
 pub mod templates {
-    afp_macros::toolbox!("toolbox/testing.afp");
+    afp_macros::toolbox!("toolbox/testing.afp", robot = crate::platform::Platform);
 }
 
 /// The text of the toolbox.

@@ -1,6 +1,6 @@
 //! The names behind the ids of a plan, line by line, so that those of both back ends compare.
 
-use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, Kind, Names, TraceEntryId};
+use afp_core::trace::{ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Names, TraceEntryId};
 
 use crate::platform::Log;
 
@@ -32,7 +32,7 @@ pub fn note(names: &impl Names, log: &Log) {
 fn component(names: &impl Names, id: ComponentId) -> String {
     let component = names.component(id);
     let special = match component.kind {
-        Kind::Supervisor => DEADLINE_MISSED,
+        ComponentKind::Supervisor => DEADLINE_MISSED,
         _ => ERROR,
     };
     let outcomes = (0..MANY).chain([special]).filter_map(|outcome| {

@@ -1,6 +1,7 @@
 //! Other machines, as this one emulates them: what they need, and how programs for them are run.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use crate::shell::{Failure, output, program, run};
 
@@ -10,6 +11,8 @@ pub struct Emulated {
     pub name: &'static str,
     /// What Rust calls it.
     pub triple: &'static str,
+    /// What Debian calls it.
+    debian: &'static str,
     /// What compiles C and links for it.
     pub linker: &'static str,
     /// What runs its programs.
@@ -24,6 +27,7 @@ pub struct Emulated {
 pub const PI: Emulated = Emulated {
     name: "pi",
     triple: "aarch64-unknown-linux-gnu",
+    debian: "arm64",
     linker: "aarch64-linux-gnu-gcc",
     qemu: "qemu-aarch64",
     libraries: "/usr/aarch64-linux-gnu",
@@ -34,6 +38,7 @@ pub const PI: Emulated = Emulated {
 pub const PI32: Emulated = Emulated {
     name: "pi32",
     triple: "armv7-unknown-linux-gnueabihf",
+    debian: "armhf",
     linker: "arm-linux-gnueabihf-gcc",
     qemu: "qemu-arm",
     libraries: "/usr/arm-linux-gnueabihf",
@@ -80,5 +85,52 @@ impl Emulated {
             .and_then(|()| run(program("apt-get").arg("update")))
             .and_then(|()| run(program("apt-get").args(options).args(self.packages)));
         install.map_err(|why| Failure(format!("{}\nhelp: {}", why.0, missing.join(" && "))))
+    }
+
+    /// The root of a system with Python for the machine, as Debian has it, unpacked in a folder once; nothing is
+    /// installed.
+    ///
+    /// # Errors
+    /// No network for the packages.
+    pub fn python(&self, folder: &Path) -> Result<PathBuf, Failure> {
+        let root = folder.join("root");
+        let done = folder.join("done");
+        if done.exists() {
+            return Ok(root);
+        }
+        for needed in ["state/lists/partial", "cache/archives/partial"] {
+            fs::create_dir_all(folder.join(needed))?;
+        }
+        let at = |what: &str, name: &str| format!("{what}={}", folder.join(name).display());
+        let options = [
+            at("Dir::State", "state"),
+            at("Dir::Cache", "cache"),
+            "Dir::State::status=/dev/null".to_owned(),
+            format!("APT::Architecture={}", self.debian),
+            format!("APT::Architectures={}", self.debian),
+            "Debug::NoLocking=1".to_owned(),
+        ];
+        let apt = || {
+            let mut apt = program("apt-get");
+            apt.arg("-qq").args(options.iter().flat_map(|option| ["-o", option]));
+            apt
+        };
+        run(apt().arg("update"))?;
+        let download = ["-y", "--no-install-recommends", "--download-only", "install"];
+        // numpy is linked with the second.
+        run(apt().args(download).args(["python3", "libstdc++6"]))?;
+        for package in fs::read_dir(folder.join("cache/archives"))? {
+            let package = package?.path();
+            if package.extension().is_some_and(|ending| ending == "deb") {
+                run(program("dpkg").arg("--extract").arg(package).arg(&root))?;
+            }
+        }
+        fs::write(done, "")?;
+        Ok(root)
+    }
+
+    /// The words before a program of the machine that wants what is in a root.
+    pub fn emulator_in(&self, root: &Path) -> [String; 3] {
+        [self.qemu.to_owned(), "-L".to_owned(), root.display().to_string()]
     }
 }

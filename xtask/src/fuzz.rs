@@ -21,6 +21,8 @@ const SEEDS: &[(&str, &[&str])] = &[
     ("world", &["worlds"]),
     ("map", &[]),
     ("scenario", &["plans/tests"]),
+    ("messages", &[]),
+    ("debugger", &[]),
 ];
 
 const PLANS: &[&str] = &[

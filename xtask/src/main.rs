@@ -1,4 +1,5 @@
-//! Chores of the project: `cargo xtask test`, `bench`, `book`, `editors`, `fuzz`, `gallery`, `gate`, `nightly`, `lint`.
+//! Chores of the project: `cargo xtask test`, `bench`, `book`, `editors`, `fuzz`, `gallery`, `gate`, `nightly`, `lint`,
+//! `wheels`.
 //!
 //! Each says what it runs, how long it took, and how to run just what failed.
 
@@ -24,6 +25,7 @@ mod studio;
 mod suites;
 mod vacuum;
 mod wasm;
+mod wheels;
 
 use std::process::ExitCode;
 
@@ -79,6 +81,11 @@ enum Chore {
         /// Plans by name; all without any.
         plans: Vec<String>,
     },
+    /// Builds the Python package's wheels, with the command line inside, and its source distribution, into target/wheels.
+    Wheels {
+        /// Machines by name (x86_64, aarch64); all without any.
+        machines: Vec<String>,
+    },
     /// Makes the studio's page and opens the studio; arguments go on to 'afpc studio'.
     Studio {
         /// Makes the page, nothing else.
@@ -101,6 +108,7 @@ fn main() -> ExitCode {
         Chore::Book => book::run(),
         Chore::Editors => editors::pack(),
         Chore::Gallery { plans } => gallery::run(&plans),
+        Chore::Wheels { machines } => wheels::run(&machines),
         Chore::Studio { page: true, .. } => studio::page(),
         Chore::Studio { arguments, .. } => studio::open(&arguments),
     };

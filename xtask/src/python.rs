@@ -95,7 +95,7 @@ pub fn long() -> Result<(), Failure> {
 }
 
 /// A command in the package's folder.
-fn at_package(python: &Path, arguments: &[&str]) -> Command {
+pub fn at_package(python: &Path, arguments: &[&str]) -> Command {
     let mut command = program(python);
     command.args(arguments).current_dir(root().join("python")).env("CARGO_TARGET_DIR", target());
     command
@@ -114,16 +114,26 @@ fn install(python: &Path, profile: &str) -> Result<(), Failure> {
 
 /// An empty folder for what is built.
 fn wheels(name: &str) -> Result<PathBuf, Failure> {
-    let folder = target().join("xtask/wheels").join(name);
+    emptied(&target().join("xtask/wheels").join(name))
+}
+
+/// A folder, made anew.
+///
+/// # Errors
+/// It cannot be removed or made.
+pub fn emptied(folder: &Path) -> Result<PathBuf, Failure> {
     if folder.exists() {
-        fs::remove_dir_all(&folder)?;
+        fs::remove_dir_all(folder)?;
     }
-    fs::create_dir_all(&folder)?;
-    Ok(folder)
+    fs::create_dir_all(folder)?;
+    Ok(folder.to_owned())
 }
 
 /// The one file of that ending in a folder.
-fn only(folder: &Path, ending: &str) -> Result<PathBuf, Failure> {
+///
+/// # Errors
+/// There is none.
+pub fn only(folder: &Path, ending: &str) -> Result<PathBuf, Failure> {
     let files = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
     let files: Vec<PathBuf> = files.collect::<Result<_, _>>()?;
     let found = files.into_iter().find(|file| file.extension().is_some_and(|has| has == ending));

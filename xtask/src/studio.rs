@@ -1,6 +1,7 @@
 //! The studio's page, made from `studio/` with npm, and its tests in a real browser.
 
 use std::env;
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::npm;
@@ -37,12 +38,19 @@ pub fn test() -> Result<(), Failure> {
     tested(&[])
 }
 
-/// The same with many random gestures.
+/// The same with many random gestures and with what people see compared; then the figures, and a run of an hour, of an
+/// optimised program with nothing beside it.
 ///
 /// # Errors
-/// As [`test`].
+/// As [`test`]; a figure that is worse than its bar.
 pub fn long() -> Result<(), Failure> {
-    tested(&[("AFP_GESTURES", "2000")])
+    tested(&[("AFP_GESTURES", "2000"), ("AFP_SCREENS", "1")])?;
+    let features =
+        ["build", "--quiet", "--release", "--package", "afpc", "--features", "studio,lsp"];
+    run_command(cargo().args(features))?;
+    let settings = [("AFP_BARS", "check"), ("AFP_HOUR", "3600")];
+    let afpc = program_in("release");
+    run_command(npm().args(["run", "--silent", "bars"]).env("AFPC", afpc).envs(settings))
 }
 
 fn tested(settings: &[(&str, &str)]) -> Result<(), Failure> {
@@ -50,8 +58,13 @@ fn tested(settings: &[(&str, &str)]) -> Result<(), Failure> {
     run_command(npm().args(["run", "--silent", "check"]))?;
     let features = ["build", "--quiet", "--package", "afpc", "--features", "full,studio"];
     run_command(cargo().args(features))?;
-    let afpc = target().join("debug").join(format!("afpc{}", env::consts::EXE_SUFFIX));
+    let afpc = program_in("debug");
     run_command(npm().args(["test"]).env("AFPC", afpc).envs(settings.iter().copied()))
+}
+
+/// `afpc` as a profile builds it.
+fn program_in(profile: &str) -> PathBuf {
+    target().join(profile).join(format!("afpc{}", env::consts::EXE_SUFFIX))
 }
 
 fn npm() -> Command {

@@ -6,7 +6,7 @@ use crate::install::Profile;
 use crate::shell::{Failure, cargo, run as run_command};
 use crate::{
     arm, bench, dap, editors, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio,
-    vacuum, wasm,
+    vacuum, wasm, wheels,
 };
 
 /// A suite by its name.
@@ -37,6 +37,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("single faults", single_faults),
     ("every event", every_event),
     ("slips", slips),
+    ("messages", messages),
     ("goals", goals),
     ("objects", objects),
     ("arm", arm::run),
@@ -44,6 +45,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("engine", engine::run),
     ("python", python::run),
     ("python long", python::long),
+    ("wheels", || wheels::run(&[])),
     ("scxml", || scxml::run(2000)),
     ("dap", dap::run),
     ("vscode", editors::extension),
@@ -147,12 +149,14 @@ fn again(name: &str) -> String {
         "random worlds" => {
             format!("    AFP_WORLDS={RANDOM_WORLDS} cargo test --release -p afp-worlds")
         }
+        "messages" => "    cargo xtask nightly messages".to_owned(),
         "single faults" => format!(
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
         "goals" => format!("    AFP_GOALS={GOALS} cargo test --release -p afp-worlds --test goals"),
         "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
         "python long" => "    cargo xtask nightly 'python long'".to_owned(),
+        "wheels" => "    cargo xtask wheels".to_owned(),
         "arm" | "pi" | "engine" | "opencv" => format!("    cargo xtask nightly {name}"),
         "long run" => {
             format!("    AFP_STEPS={STEPS} cargo test --release -p afp-tests --test no_allocation")
@@ -167,7 +171,7 @@ fn again(name: &str) -> String {
 fn workspace() -> Result<(), Failure> {
     let all = ["test", "--workspace", "--features", "afpc/full", "--no-fail-fast"];
     // They have suites of their own.
-    let but = ["afp-bench", "afp-py", "afp-py-wheel", "afp-wasm", "xtask"]
+    let but = ["afp-bench", "afp-py", "afp-py-wheel", "afp-language-server", "afp-wasm", "xtask"]
         .map(|name| ["--exclude", name]);
     // Property tests search anew at each run by hand; here the same commit gives the same answer.
     run_command(cargo().args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20"))
@@ -185,6 +189,12 @@ fn slips() -> Result<(), Failure> {
     by_night("afp-ide", "features")?;
     let drawn = ["test", "--release", "--package", "afp-draw", "--lib", "scene"];
     run_command(cargo().args(drawn).env("AFP_BY_NIGHT", "1"))
+}
+
+/// Random messages to the language server and to the debug adapter.
+fn messages() -> Result<(), Failure> {
+    by_night("afp-lsp", "lsp")?;
+    by_night("afp-debug", "messages")
 }
 
 /// A test that takes more cases when nobody waits for it.

@@ -1,8 +1,12 @@
-//! Projects that bring their own robot, outside of the workspace as their authors have them: the example, and a new one.
+//! Projects that bring their own robot, outside of the workspace as their authors have them: the example, simulated and as the
+//! robot itself with a stand-in for its board, and a new one.
 
 use std::fs;
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use crate::shell::{
     Failure, cargo, output, program, quickly_built, root, run as run_command, target,
@@ -33,7 +37,8 @@ pub fn test() -> Result<(), Failure> {
     // The versions that the workspace is tested with.
     fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock"))?;
     let mut tests = cargo();
-    run_command(tests.arg("test").current_dir(folder).env("CARGO_TARGET_DIR", target()))
+    tests.args(["test", "--workspace"]).current_dir(folder);
+    run_command(tests.env("CARGO_TARGET_DIR", target()))
 }
 
 /// Runs every command of `afpc` on the robot, and the program that it builds: it says what the interpreter says.
@@ -48,13 +53,69 @@ pub fn all() -> Result<(), Failure> {
     run_command(here(&afpc).args(["log", "target/afp/runs/clean.mcap", "--svg"]).arg(picture()))?;
     let sweep = ["sweep", "plans/clean.afp", "--world", "random:0..4", "--until", "60s"];
     run_command(here(&afpc).args(sweep).args(["--restart", "-o"]).arg(table()))?;
-    let built = output(here(&afpc).args(["build", "plans/clean.afp"]))?;
+    let built = output(here(&afpc).args(["build", "plans/clean.afp", "--hardware"]))?;
     let binary = Path::new(built.lines().last().unwrap_or_default()).to_owned();
     let again = output(here(&binary).args(&RUN[2..]))?;
-    match said == again {
-        true => Ok(()),
-        false => Err("error: the program and the interpreter differ on the vacuum cleaner".into()),
+    if said != again {
+        return Err("error: the program and the interpreter differ on the vacuum cleaner".into());
     }
+    on_the_board(here(&afpc).args(["run", "plans/clean.afp"]))?;
+    on_the_board(&mut here(&binary))
+}
+
+/// Runs the plan on the robot itself, with a stand-in for its board: to the end of the time that it gets, and until a signal ends
+/// it. Both times the wheels have turned, and the board is told to stop.
+fn on_the_board(command: &mut Command) -> Result<(), Failure> {
+    let mut firmware = cargo();
+    firmware.args(["build", "--package", "vacuum-board", "--example", "firmware"]);
+    run_command(firmware.current_dir(root().join(FOLDER)).env("CARGO_TARGET_DIR", target()))?;
+    command.args(["--robot", "hardware", "--json", "--log", "none"]);
+    for (signal, code) in [(false, 0), (true, 143)] {
+        let (mut board, port) = board()?;
+        let mut run = Command::new(command.get_program());
+        run.args(command.get_args()).arg("--set").arg(format!("robot.port={port}"));
+        run.current_dir(root().join(FOLDER)).stdout(Stdio::null());
+        run.envs(command.get_envs().filter_map(|(name, value)| Some((name, value?))));
+        if !signal {
+            run.args(["--until", "2s"]);
+        }
+        eprintln!("$ on a board that stands in: {run:?}");
+        let mut run = run.spawn()?;
+        if signal {
+            // It has built before, so it drives soon.
+            thread::sleep(Duration::from_secs(4));
+            run_command(program("kill").args(["-TERM", &run.id().to_string()]))?;
+        }
+        let ended = run.wait()?.code();
+        let mut told = String::new();
+        // It ends when it is told to stop.
+        board
+            .stdout
+            .take()
+            .into_iter()
+            .try_for_each(|mut out| out.read_to_string(&mut told).map(drop))?;
+        board.wait()?;
+        let moved = told.lines().any(|line| line.starts_with("drive 0.2"));
+        if ended != Some(code) || !moved || !told.ends_with("stop\n") {
+            return Err(
+                format!("error: it ended with {ended:?}, the board was told\n{told}").into()
+            );
+        }
+    }
+    Ok(())
+}
+
+/// A stand-in for the board, and its port.
+fn board() -> Result<(Child, String), Failure> {
+    let path = target().join("debug/examples/firmware");
+    let mut board = program(path).stdout(Stdio::piped()).spawn()?;
+    let mut port = String::new();
+    if let Some(out) = board.stdout.take() {
+        let mut out = BufReader::with_capacity(1, out);
+        out.read_line(&mut port)?;
+        board.stdout = Some(out.into_inner());
+    }
+    Ok((board, port.trim().to_owned()))
 }
 
 fn picture() -> PathBuf {

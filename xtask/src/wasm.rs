@@ -1,24 +1,28 @@
 //! The gate of the web: compiler, interpreter, drawing, edits and simulator in one WebAssembly module,
-//! which runs.
+//! which runs; and the language server in another one, with which Node.js talks as its own tests do.
 
 use std::fs;
 
-use crate::shell::{Failure, cargo, program, run as run_command, target};
+use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 const PACKAGE: &str = "afp-wasm";
+/// What has standard input and output, for the language server.
+const WITH_INPUT: &str = "wasm32-wasip1";
+const LANGUAGE_SERVER: &str = "afp-language-server";
 /// The module imports nothing; a failed assertion is a trap.
 const RUN: &str = "WebAssembly.instantiate(require('fs').readFileSync(process.argv[1]))\
     .then(({ instance }) => process.exit(instance.exports.main(0, 0)))\
     .catch(why => { console.error(why); process.exit(1); })";
 
-/// Builds the module and runs it in Node.js.
+/// Builds the modules and runs them in Node.js.
 ///
 /// # Errors
 /// Something does not compile for the web, or fails there; the target or Node.js is missing.
 pub fn run() -> Result<(), Failure> {
-    run_command(program("rustup").args(["target", "add", TARGET])).map_err(|why| {
-        Failure(format!("{}\nhelp: install the standard library for {TARGET}", why.0))
+    run_command(program("rustup").args(["target", "add", TARGET, WITH_INPUT])).map_err(|why| {
+        let both = format!("{TARGET} and {WITH_INPUT}");
+        Failure(format!("{}\nhelp: install the standard libraries for {both}", why.0))
     })?;
     let folder = target().join("wasm");
     let build = ["build", "--target", TARGET, "--package", PACKAGE];
@@ -28,5 +32,23 @@ pub fn run() -> Result<(), Failure> {
     run_command(program("node").arg("--eval").arg(RUN).arg(&module))
         .map_err(|why| Failure(format!("{}\nhelp: the gate needs Node.js (nodejs)", why.0)))?;
     println!("it runs");
-    Ok(())
+    talk()
+}
+
+/// Talks with the language server.
+fn talk() -> Result<(), Failure> {
+    let folder = target().join("wasm");
+    let build = ["build", "--target", WITH_INPUT, "--package", LANGUAGE_SERVER];
+    run_command(cargo().args(build).env("CARGO_TARGET_DIR", &folder))?;
+    let module = folder.join(WITH_INPUT).join("debug").join(LANGUAGE_SERVER).with_extension("wasm");
+    println!(
+        "{LANGUAGE_SERVER} for {WITH_INPUT}: {} bytes, not optimised",
+        fs::metadata(&module)?.len()
+    );
+    let talk = root().join("tests/lsp/web.js");
+    let mut node = program("node");
+    node.args(["--no-warnings", "--test-reporter=tap"]).arg(talk);
+    node.env("AFP_LANGUAGE_SERVER", &module);
+    node.env("AFP_CASES", root().join("crates/afp-lsp/tests/cases"));
+    run_command(&mut node)
 }

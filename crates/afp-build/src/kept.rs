@@ -6,7 +6,7 @@ mod fresh;
 use std::path::{Path, PathBuf};
 
 use afp_codegen::{LinkOptions, extension_files, runner_files};
-use afp_project::RobotLink;
+use afp_project::{HardwareLink, RobotLink};
 use afp_run::{RunError, hash, say};
 
 use crate::cargo::{self, Artifact, Blame, Job};
@@ -77,6 +77,7 @@ impl Kept {
             package: String::new(),
             origin: origin::of_afp(parts.project)?,
             robot: parts.robot.as_ref().map(RobotLink::rust_type),
+            hardware: parts.hardware.as_ref().map(HardwareLink::rust_type),
             toolboxes: Vec::new(),
             dependencies: parts.crates().map(origin::dependency).collect(),
             features: product.features().iter().map(|&name| name.to_owned()).collect(),

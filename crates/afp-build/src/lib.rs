@@ -17,7 +17,7 @@ use afp_project::ProjectError;
 use afp_run::RunError;
 
 pub use kept::{Product, cache};
-pub use parts::Parts;
+pub use parts::{Parts, no_hardware};
 pub use toolboxes::{OwnToolbox, OwnToolboxes};
 
 /// Why something was not built.

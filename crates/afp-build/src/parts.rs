@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use afp_dsl::graph::Graph;
-use afp_project::{CrateLink, ProjectFile, RobotLink};
+use afp_project::{CrateLink, HardwareLink, ProjectFile, RobotLink};
 use afp_run::RunError;
 
 use crate::NotBuilt;
@@ -14,6 +14,7 @@ use crate::toolboxes::{OwnToolbox, OwnToolboxes};
 pub struct Parts<'a> {
     pub(crate) project: &'a ProjectFile,
     pub(crate) robot: Option<RobotLink>,
+    pub(crate) hardware: Option<HardwareLink>,
     pub(crate) toolboxes: Vec<OwnToolbox>,
 }
 
@@ -54,7 +55,19 @@ impl<'a> Parts<'a> {
     }
 
     fn new(project: &'a ProjectFile, robot: Option<RobotLink>) -> Self {
-        Parts { project, robot, toolboxes: Vec::new() }
+        Parts { project, robot, hardware: None, toolboxes: Vec::new() }
+    }
+
+    /// The same with the robot itself.
+    ///
+    /// # Errors
+    /// The project has none, or it has no crate.
+    pub fn with_hardware(mut self) -> Result<Self, RunError> {
+        self.hardware = self.project.hardware()?;
+        match self.hardware {
+            Some(_) => Ok(self),
+            None => Err(no_hardware(self.project)),
+        }
     }
 
     /// Adds the toolboxes of a plan for a robot.
@@ -88,11 +101,13 @@ impl<'a> Parts<'a> {
         self.robot.is_none() && self.toolboxes.is_empty()
     }
 
-    /// Whether a program with a robot (none for the Carbot) and toolboxes has all of it.
-    pub fn are_in(&self, robot: Option<&str>, toolboxes: &[&str]) -> bool {
+    /// Whether a program with a robot (none for the Carbot), the robot itself and toolboxes has all of it.
+    pub fn are_in(&self, robot: Option<&str>, hardware: Option<&str>, toolboxes: &[&str]) -> bool {
+        let itself = self.hardware.as_ref().map(HardwareLink::rust_type);
+        let has_hardware = itself.is_none() || itself.as_deref() == hardware;
         let own = self.robot.as_ref().map(RobotLink::rust_type);
         let has = |own: &OwnToolbox| toolboxes.contains(&&*own.name);
-        own.as_deref() == robot && self.toolboxes.iter().all(has)
+        has_hardware && own.as_deref() == robot && self.toolboxes.iter().all(has)
     }
 
     /// The file that has them linked in: what was kept of an earlier build if nothing has changed since, else built now.
@@ -107,7 +122,8 @@ impl<'a> Parts<'a> {
 
     pub(crate) fn crates(&self) -> impl Iterator<Item = &CrateLink> {
         let robot = self.robot.iter().map(|robot| &robot.krate);
-        self.toolboxes.iter().map(|own| &own.krate).chain(robot)
+        let hardware = self.hardware.iter().map(|hardware| &hardware.krate);
+        self.toolboxes.iter().map(|own| &own.krate).chain(robot).chain(hardware)
     }
 
     /// What they are built from beside Rust: the manifests of their crates.
@@ -124,12 +140,32 @@ impl<'a> Parts<'a> {
             [one] => format!("the toolbox {one}"),
             _ => format!("the toolboxes {}", names.join(" and ")),
         };
-        let robot = self.robot.as_ref().map(|robot| format!("the robot '{}'", robot.rust_type()));
+        let robot = self.robot.as_ref().map(RobotLink::rust_type);
+        let itself = self.hardware.as_ref().map(HardwareLink::rust_type);
+        let robot = itself.or(robot).map(|name| format!("the robot '{name}'"));
         match (robot, toolboxes.is_empty()) {
             (None, _) => toolboxes,
             (Some(robot), true) => robot,
             (Some(robot), false) => format!("{robot} with {toolboxes}"),
         }
+    }
+}
+
+/// There is nothing that a plan could run on but a simulation.
+pub fn no_hardware(project: &ProjectFile) -> RunError {
+    match &project.project.robot {
+        None => RunError::usage(
+            "the Carbot itself is not in this release: its plans run in simulation",
+            "a robot of your own has 'hardware' in '[robot]' of its afp.toml",
+        ),
+        Some(_) => RunError::usage(
+            format!(
+                "'[robot]' in '{}' has no 'hardware'",
+                afp_project::shown(&project.path()).display()
+            ),
+            "write 'hardware = { type = \"Board\", crate = { path = \"board\" } }', the Rust type that implements \
+             'Hardware'",
+        ),
     }
 }
 

@@ -24,7 +24,7 @@ pub use flow::{Flow, FlowCamera, Grid, Shift};
 pub use infrared_sensor::{Glow, InfraredSensor};
 pub use localisation::{Belief, Localisation};
 pub use navigator::{Body, Navigator};
-pub use odometry::{Motion, Odometry};
+pub use odometry::{Bump, Motion, Odometry};
 pub use planner::{PathPlanner, Trip};
 pub use rotator::{RotatingTelemetry, Rotator};
 pub use signals::Signals;

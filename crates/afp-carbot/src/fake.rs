@@ -1,8 +1,8 @@
 //! A robot for tests: it moves exactly as commanded among plane walls, and its devices can fail.
 
 use crate::devices::{
-    Battery, Beam, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame, Glow,
-    InfraredSensor, Invalid, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
+    Battery, Beam, Body, Bump, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame,
+    Glow, InfraredSensor, Invalid, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
     Rotator, TouchSensor, Trip, Ultrasonic,
 };
 use crate::motion::wrap;
@@ -39,6 +39,8 @@ pub(crate) struct Fake {
     pub(crate) motion: Motion,
     pub(crate) rotator: f64,
     pub(crate) touched: bool,
+    /// What the bumper felt last.
+    pub(crate) bump: Option<Bump>,
     pub(crate) escape: bool,
     pub(crate) dead_odometry: bool,
     /// From this many milliseconds on the range sensor sends no ping.
@@ -105,6 +107,7 @@ impl Fake {
             motion: Motion::default(),
             rotator: 0.0,
             touched: false,
+            bump: None,
             escape: false,
             dead_odometry: false,
             range_dies: u64::MAX,
@@ -322,6 +325,10 @@ impl Camera for Fake {
 impl Odometry for Fake {
     fn motion(&self) -> Reading<Motion> {
         reading(self.dead_odometry, self.motion, self.now)
+    }
+
+    fn last_bump(&self) -> Option<Bump> {
+        self.bump
     }
 }
 

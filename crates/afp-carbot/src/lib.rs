@@ -64,7 +64,13 @@ mod sweep;
 pub mod table;
 pub mod templates {
     //! The templates of the toolbox as types: ports, states and events.
-    afp_macros::toolbox!("carbot.afp");
+    use crate::devices::{
+        Battery, ColorSensor, FlowCamera, InfraredSensor, Localisation, PathPlanner, Signals,
+    };
+
+    afp_macros::toolbox!("carbot.afp",
+        robot: crate::Carbot + Battery + ColorSensor + FlowCamera + InfraredSensor + Localisation + PathPlanner + Signals
+    );
 }
 pub mod tracking;
 mod turn;

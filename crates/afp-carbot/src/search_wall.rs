@@ -1,16 +1,27 @@
 //! Look around, standing still, and find the wall.
+//!
+//! What stands lower than the range sensor is felt and not heard. So that the robot does not go along the wall that led it there
+//! again and again, what it has just felt counts as a wall where it would be met once more.
 
-use crate::devices::{Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
+use crate::devices::{Bump, Motion, Navigator, Odometry, RotatingTelemetry, Rotator, Ultrasonic};
 use crate::line_fit::{MOST, Return, fit};
+use crate::motion::wrap;
 use crate::sweep::Sweep;
 use crate::templates;
 use crate::templates::search_wall::{Inputs, Live, State};
 use afp_core::quantity::Angle;
-use afp_core::{Actor, Fault, Instant, Poll};
+use afp_core::{Actor, Duration, Fault, Instant, Poll};
 use heapless::Vec;
 
 /// A wall ahead is put on the right side by this much more than its bearing.
 const QUARTER: f64 = core::f64::consts::FRAC_PI_2;
+
+/// What was felt is put on the right side, and by this much behind: nothing is heard of it, so it is to be left.
+const AWAY: f64 = 30.0 / 180.0 * core::f64::consts::PI;
+/// What was felt longer ago than this may be gone, or the odometry be off.
+const RECENT: Duration = Duration::from_secs(15);
+/// What was felt farther away than this is not met before the next look around, metres.
+const NEAR: f64 = 1.0;
 
 /// Sweeps the range sensor from one side to the other and fits one wall to the echoes.
 #[derive(Clone, Debug)]
@@ -39,7 +50,12 @@ where
         if !heard.last {
             return Ok(Poll::Pending);
         }
-        Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0)))
+        let bump = env.last_bump().filter(|bump| now.since(bump.time) <= RECENT);
+        let felt = bump.zip(env.motion().value.ok()).map(|(bump, motion)| {
+            let body = env.body();
+            Felt::new(&bump, &motion, [body.front.si(), body.half_width.si()])
+        });
+        Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0, felt)))
     }
 
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
@@ -49,11 +65,43 @@ where
 }
 
 impl SearchWall {
-    fn result(&self, half_beam: f64) -> State {
-        match fit(&self.returns, half_beam) {
-            Some(wall) => State::WallFound { angle: Angle::from_si(wall.bearing + QUARTER) },
-            None => State::NoWallFound,
-        }
+    fn result(&self, half_beam: f64, felt: Option<Felt>) -> State {
+        let Some(wall) = fit(&self.returns, half_beam) else { return State::NoWallFound };
+        let along = wall.bearing + QUARTER;
+        let felt = felt.filter(|felt| felt.is_met(along));
+        let angle = felt.map_or(along, |felt| wrap(felt.facing) + QUARTER + AWAY);
+        State::WallFound { angle: Angle::from_si(angle) }
+    }
+}
+
+/// What the bumper felt, seen from where the robot stands.
+#[derive(Clone, Copy, Debug)]
+struct Felt {
+    /// Ahead and to the left, metres.
+    at: [f64; 2],
+    /// Where the bumper pointed, against the heading now.
+    facing: f64,
+    /// Nothing is met that is farther to the side than this, metres.
+    aside: f64,
+}
+
+impl Felt {
+    /// A bump of a robot that has moved since; its body reaches so far to the front and to either side.
+    fn new(bump: &Bump, now: &Motion, [front, side]: [f64; 2]) -> Self {
+        let facing = (bump.at.heading - now.heading).si();
+        let (ahead, left) = bump.at.seen_from(now);
+        let (sin, cos) = libm::sincos(facing);
+        // It may reach as far to either side as the bumper does.
+        let at = [ahead.si() + front * cos, left.si() + front * sin];
+        Felt { at, facing, aside: 2.0 * side }
+    }
+
+    /// Whether the robot meets it when it turns to a bearing and drives on.
+    fn is_met(&self, bearing: f64) -> bool {
+        let (sin, cos) = libm::sincos(bearing);
+        let [ahead, left] = self.at;
+        let (along, across) = (ahead * cos + left * sin, left * cos - ahead * sin);
+        (0.0..NEAR).contains(&along) && across.abs() < self.aside
     }
 }
 
@@ -88,6 +136,30 @@ mod tests {
     fn in_a_corner_the_wall_ahead_is_found_and_not_the_one_beside() {
         let turn = found(&[plane(0.0, 0.5), plane(-90.0, 0.475)]);
         assert!((turn - 90.0).abs() < 3.0, "{turn}");
+    }
+
+    /// The turn after a bump at a place straight ahead, with a wall on the right; so long ago.
+    fn after_bump(x: f64, y: f64, seconds: u64) -> f64 {
+        let mut robot = Fake::new(&[plane(-60.0, 0.7)]);
+        robot.now = Instant::ZERO + Duration::from_secs(60);
+        let at = Motion { x: Length::from_si(x), y: Length::from_si(y), ..robot.motion };
+        robot.bump = Some(Bump { at, time: Instant::ZERO + Duration::from_secs(60 - seconds) });
+        let state = search(&mut robot);
+        let Ok(Some(State::WallFound { angle })) = state else { panic!("{state:?}") };
+        angle.si().to_degrees()
+    }
+
+    #[test]
+    fn what_was_felt_on_the_way_along_the_wall_is_the_wall() {
+        let mut robot = Fake::new(&[plane(-60.0, 0.7)]);
+        let state = search(&mut robot);
+        let Ok(Some(State::WallFound { angle })) = state else { panic!("{state:?}") };
+        let without = angle.si().to_degrees();
+        assert!((without - 30.0).abs() < 3.0, "{without}: along the wall");
+        assert!((after_bump(0.3, 0.0, 5) - 120.0).abs() < 1e-9, "it is met again");
+        assert!((after_bump(-0.6, 0.0, 5) - without).abs() < 1e-9, "it lies behind");
+        assert!((after_bump(0.3, -0.6, 5) - without).abs() < 1e-9, "it lies aside");
+        assert!((after_bump(0.3, 0.0, 50) - without).abs() < 1e-9, "it was long ago");
     }
 
     #[test]

@@ -36,6 +36,9 @@ const FASTEST_TURN: f64 = 1.4;
 const SLOWING: f64 = 20.0 / 180.0 * core::f64::consts::PI;
 /// Driving on for so long without the wall means that it ended, metres.
 const LOST: f64 = 0.35;
+/// Driving on for so long beside nothing that could be the wall, and looking there so often, means that there was none.
+const ABSENT: f64 = 0.15;
+const LOOKS: u8 = 3;
 /// The beam may look this far beside the wall's normal for an echo to count, radians.
 const SQUARE: f64 = 25.0 / 180.0 * core::f64::consts::PI;
 /// The step counts as driven when less than this is left, metres.
@@ -64,6 +67,8 @@ struct Course {
     driven: f64,
     /// `driven` when the wall was last heard near enough.
     heard: f64,
+    /// Pings that went square to where the wall should be, as far as they count.
+    looks: u8,
     track: Track,
     glance: Glance,
 }
@@ -165,6 +170,7 @@ impl Course {
             last: motion,
             driven: 0.0,
             heard: 0.0,
+            looks: 0,
             track: Track::new(motion.heading.si()),
             glance: Glance::new(),
         }
@@ -195,6 +201,7 @@ impl Course {
         let beyond_front = body.front.si() - beam.forward.si();
         self.glance.hear(bearing, distance.map(|d| d - beyond_front), self.driven);
         let slant = wrap(bearing - self.square()).abs();
+        self.looks = self.looks.saturating_add(u8::from(slant < SQUARE));
         let Some(distance) = distance.filter(|_| slant < SQUARE) else { return };
         let forward = beam.forward.si();
         let square = distance * libm::cos((slant - beam.opening.si() / 2.0).max(0.0));
@@ -210,7 +217,8 @@ impl Course {
         if self.glance.blocked(self.driven, inputs.lanedist.si(), self.last.speed.si()) {
             return Some(State::LaneNotFree);
         }
-        if self.driven - self.heard > LOST {
+        let absent = self.looks >= LOOKS && self.track.distance(&self.last).is_none();
+        if self.driven - self.heard > if absent { ABSENT } else { LOST } {
             return Some(State::WallLost);
         }
         (inputs.step.si() - self.driven < CLOSE).then_some(State::ForwardSuccessful)

@@ -38,7 +38,7 @@ fn atom(tokens: TokenStream) -> Expr {
 /// Writes the formulas of one component.
 pub struct Formulas<'a> {
     /// Where types live.
-    pub home: &'a TypePaths<'a>,
+    pub type_paths: &'a TypePaths<'a>,
     /// The getters of the plan's entries.
     pub entries: &'a [Ident],
     /// The names of the scratch texts, for what no entry holds, in the order of their use.
@@ -47,8 +47,8 @@ pub struct Formulas<'a> {
 
 impl<'a> Formulas<'a> {
     /// For one component of a plan.
-    pub fn new(home: &'a TypePaths<'a>, entries: &'a [Ident]) -> Self {
-        Formulas { home, entries, scratch: Vec::new() }
+    pub fn new(type_paths: &'a TypePaths<'a>, entries: &'a [Ident]) -> Self {
+        Formulas { type_paths, entries, scratch: Vec::new() }
     }
 
     /// What an input port of the formula's type gets: texts and objects are borrowed.
@@ -88,7 +88,7 @@ impl<'a> Formulas<'a> {
             FormulaKind::Bool(value) => atom(quote!(#value)),
             FormulaKind::Int(value) => signed(int(*value), *value < 0),
             FormulaKind::Float(value) => {
-                let tokens = self.home.constant(dimension(&formula.ty), *value);
+                let tokens = self.type_paths.constant(dimension(&formula.ty), *value);
                 signed(
                     tokens,
                     value.is_sign_negative() && dimension(&formula.ty) == Dimension::NONE,
@@ -97,7 +97,8 @@ impl<'a> Formulas<'a> {
             FormulaKind::Text(text) => atom(quote!(Text::try_from(#text)?)),
             FormulaKind::Choice(index) => match &formula.ty {
                 Type::Enum(choices) => {
-                    let (path, variant) = (self.home.value(&formula.ty), variant(choices, *index));
+                    let (path, variant) =
+                        (self.type_paths.value(&formula.ty), variant(choices, *index));
                     atom(quote!(#path::#variant))
                 }
                 _ => atom(quote!(#index)),
@@ -120,7 +121,7 @@ impl<'a> Formulas<'a> {
             },
             FormulaKind::Call(function, operands) => {
                 let value = self.called(*function, operands);
-                atom(self.home.quantity_from(dimension(&formula.ty), value))
+                atom(self.type_paths.quantity_from(dimension(&formula.ty), value))
             }
             FormulaKind::Convert(conversion, inner) => self.converted(conversion, inner),
         }
@@ -194,11 +195,11 @@ impl<'a> Formulas<'a> {
                 let (a, b) = (self.si(a), self.si(b));
                 let sign = if operator == Operator::Mul { quote!(*) } else { quote!(/) };
                 let bond = if to == plain { Bond::Product } else { Bond::Atom };
-                Expr(self.home.quantity_from(to, quote!(#a #sign #b)), bond)
+                Expr(self.type_paths.quantity_from(to, quote!(#a #sign #b)), bond)
             }
             Operator::Rem => {
                 let (a, b) = (self.si(a), self.si(b));
-                atom(self.home.quantity_from(to, quote!(rem(#a, #b)?)))
+                atom(self.type_paths.quantity_from(to, quote!(rem(#a, #b)?)))
             }
         }
     }
@@ -223,13 +224,13 @@ impl<'a> Formulas<'a> {
             }
             Conversion::FromText(_) => {
                 let text = self.text(inner);
-                atom(convert(self.home, conversion, text))
+                atom(convert(self.type_paths, conversion, text))
             }
             Conversion::ToText(_) => {
                 let value = self.expr(inner).at(Bond::Atom);
-                atom(convert(self.home, conversion, value))
+                atom(convert(self.type_paths, conversion, value))
             }
-            _ => atom(convert(self.home, conversion, self.value(inner))),
+            _ => atom(convert(self.type_paths, conversion, self.value(inner))),
         }
     }
 }
@@ -260,7 +261,11 @@ fn borrowed_text(formulas: &Formulas<'_>, formula: &Formula) -> Option<TokenStre
 }
 
 /// A value converted; a text comes as an `&str`, a quantity to be printed as an operand of `.`.
-pub fn convert(home: &TypePaths<'_>, conversion: &Conversion, value: TokenStream) -> TokenStream {
+pub fn convert(
+    type_paths: &TypePaths<'_>,
+    conversion: &Conversion,
+    value: TokenStream,
+) -> TokenStream {
     match conversion {
         Conversion::IntToFloat => quote!(int_to_float(#value)),
         Conversion::FloatToInt => quote!(float_to_int(#value)?),
@@ -282,7 +287,7 @@ pub fn convert(home: &TypePaths<'_>, conversion: &Conversion, value: TokenStream
             Type::Quantity(dimension) => {
                 let units = units_name(*dimension);
                 let units = quote!(super::units::#units.iter().copied());
-                home.quantity_from(*dimension, quote!(parse_quantity(#value, #units)?))
+                type_paths.quantity_from(*dimension, quote!(parse_quantity(#value, #units)?))
             }
             Type::Enum(_) => quote!(read_choice(#value)?),
             _ => quote!(Text::try_from(#value)?),

@@ -27,8 +27,21 @@ pub struct CrateOptions {
     /// The path of the type of the robot that the program runs on, whose crate is among the dependencies; without one
     /// it is the simulated Carbot.
     pub robot: Option<String>,
+    /// The robot itself, which the program has beside the simulated one; its crate is among the dependencies, too.
+    pub hardware: Option<Hardware>,
+    /// Features of what runs the plan: `live` lets others watch.
+    pub features: Vec<String>,
     /// Whether only a library is wanted, without the program that runs it in simulation.
     pub lib: bool,
+}
+
+/// The robot itself.
+#[derive(Clone, Debug)]
+pub struct Hardware {
+    /// The path of its type.
+    pub ty: String,
+    /// What it is opened with, name and value.
+    pub settings: Vec<(String, String)>,
 }
 
 /// A file of a generated crate.
@@ -90,11 +103,13 @@ fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let origin = &options.origin;
     let mut all = vec![Dependency::ours("afp", origin).with_only(&[])];
     if !options.lib {
-        all.push(Dependency::ours("afp-run", origin).with_only(&[]));
+        all.push(Dependency::ours("afp-run", origin).with_only(&options.features));
         match &options.robot {
             None => all.push(Dependency::ours("afp-sim", origin).with_only(&[])),
             Some(path) => all.extend(given(options, path).cloned()),
         }
+        let itself = options.hardware.as_ref().and_then(|itself| given(options, &itself.ty));
+        all.extend(itself.cloned());
     }
     for toolbox in &graph.toolboxes {
         let built_in = || {
@@ -136,7 +151,9 @@ fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
 
 fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> String {
     let name = &graph.main().name;
-    let about = format!(" Runs the plan `{name}` on the simulated robot.");
+    let itself = options.hardware.as_ref();
+    let also = if itself.is_some() { ", or on the robot itself" } else { "" };
+    let about = format!(" Runs the plan `{name}` on the simulated robot{also}.");
     let (krate, ty) = (ident(&snake(name)), &generated.plan);
     let path = &options.file;
     let (import, robot) = match options.robot.as_ref().and_then(|path| path.parse().ok()) {
@@ -148,6 +165,12 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
         ),
         Some(robot) => (TokenStream::new(), robot),
     };
+    let settings = itself.iter().flat_map(|itself| &itself.settings);
+    let settings = settings.map(|(name, value)| quote!((#name, #value)));
+    let main = match itself.and_then(|itself| itself.ty.parse::<TokenStream>().ok()) {
+        None => quote!(afp_run::main::<#robot, _>(program, #ty::new)),
+        Some(hardware) => quote!(afp_run::main_with::<#robot, #hardware, _>(program, #ty::new)),
+    };
     file(quote! {
         #![doc = #about]
         use std::process::ExitCode;
@@ -157,8 +180,13 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
         use #krate::#ty;
 
         fn main() -> ExitCode {
-            let program = Program { name: #name, file: #path, texts: #krate::TEXTS };
-            afp_run::main::<#robot, _>(program, #ty::new)
+            let program = Program {
+                name: #name,
+                file: #path,
+                texts: #krate::TEXTS,
+                hardware: &[#(#settings),*],
+            };
+            #main
         }
     })
 }

@@ -4,7 +4,7 @@
 //! compiler does not; code that goes to the compiler as tokens has them taken out. Places of the plan
 //! travel the same way, and leave the text as a table beside it.
 
-use proc_macro2::{Group, TokenStream, TokenTree};
+use proc_macro2::{Group, Span as RustSpan, TokenStream, TokenTree};
 use quote::quote;
 
 use crate::places::Places;
@@ -40,6 +40,23 @@ pub fn doc(help: &str, fallback: &str) -> TokenStream {
     let lines =
         help.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
     quote!(#(#[doc = #lines])*)
+}
+
+/// Tokens for the compiler as if they stood at a place; `$crate` means what it meant.
+pub fn located(tokens: TokenStream, at: RustSpan) -> TokenStream {
+    let each = tokens.into_iter().map(|mut token| {
+        match &mut token {
+            TokenTree::Group(group) => {
+                let mut inner = Group::new(group.delimiter(), located(group.stream(), at));
+                inner.set_span(at);
+                *group = inner;
+            }
+            TokenTree::Ident(ident) if ident == "$crate" => {}
+            token => token.set_span(at),
+        }
+        token
+    });
+    each.collect()
 }
 
 /// Tokens for the compiler: the same code without the comments.

@@ -7,6 +7,7 @@
 
 mod enums;
 mod formula;
+mod input;
 mod krate;
 mod layout;
 mod linked;
@@ -15,18 +16,23 @@ mod names;
 mod places;
 mod plan;
 mod rust_type;
+mod scenarios;
 mod toolbox;
+mod wrong;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-pub use krate::{CrateFile, CrateOptions, crate_files};
+pub use input::MacroInput;
+pub use krate::{CrateFile, CrateOptions, Hardware, crate_files};
 pub use layout::{code, file};
 pub use linked::{LinkOptions, extension_files, runner_files};
 pub use manifest::{Dependency, Features, MADE_BY, Origin};
 pub use places::Places;
 pub use plan::{Generated, Module, plan};
-pub use toolbox::{Support, declaration, register_supported, toolbox};
+pub use scenarios::{ScenarioSetting, ScenarioTests};
+pub use toolbox::{Asked, Support, complete, declaration, register_supported, toolbox};
+pub use wrong::{compile_error, compile_errors};
 
 /// How generated code names what it uses.
 #[derive(Clone, Debug)]

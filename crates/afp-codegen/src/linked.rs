@@ -15,6 +15,8 @@ pub struct LinkOptions {
     pub origin: Origin,
     /// The path of the robot's type; without one it is the Carbot.
     pub robot: Option<String>,
+    /// The path of the type of the robot itself, for the command line; beside a simulated one of the project.
+    pub hardware: Option<String>,
     /// The toolboxes: the name behind `use`, and the path of the module that has `templates`.
     pub toolboxes: Vec<(String, String)>,
     /// The crates of the robot and of the toolboxes.
@@ -75,13 +77,13 @@ fn about(options: &LinkOptions) -> String {
 }
 
 /// A closure that registers the templates, those of the built-in toolboxes too for a robot of one's own.
-fn register(options: &LinkOptions) -> Result<TokenStream, String> {
+fn register(options: &LinkOptions, robot: Option<&str>) -> Result<TokenStream, String> {
     let own = options.toolboxes.iter().map(|(_, path)| {
-        let home = tokens(path)?;
-        Ok(quote!(#home::templates::register(registry);))
+        let module = tokens(path)?;
+        Ok(quote!(#module::templates::register(registry);))
     });
     let own = own.collect::<Result<TokenStream, String>>()?;
-    Ok(match options.robot.as_deref().map(tokens).transpose()? {
+    Ok(match robot.map(tokens).transpose()? {
         None => quote!(|registry| { #own }),
         // Templates of the Carbot need its devices, which another robot may have in part.
         Some(ty) => quote!(|registry| {
@@ -94,14 +96,23 @@ fn register(options: &LinkOptions) -> Result<TokenStream, String> {
 
 fn program(options: &LinkOptions) -> Result<String, String> {
     let about = format!(" The command line with {} linked in.", about(options));
-    let register = register(options)?;
+    let made = register(options, options.robot.as_deref())?;
     let toolboxes = options.toolboxes.iter().map(|(name, _)| name);
     let (robot, own_robot) = match &options.robot {
-        None => (quote!(afpc::carbot(#register)), quote!(None)),
+        None => (quote!(afpc::carbot(#made)), quote!(None)),
         Some(name) => {
             let ty = tokens(name)?;
-            (quote!(afpc::simulated::<#ty, _>(#register)), quote!(Some(#name)))
+            (quote!(afpc::simulated::<#ty, _>(#made)), quote!(Some(#name)))
         }
+    };
+    let (opener, hardware) = match (&options.robot, &options.hardware) {
+        (Some(sim), Some(name)) => {
+            let (sim, ty) = (tokens(sim)?, tokens(name)?);
+            let made = register(options, Some(name))?;
+            let opener = quote!(let hardware = afpc::hardware::<#sim, #ty, _>(#made););
+            (opener, quote!(Some((#name, &hardware))))
+        }
+        _ => (TokenStream::new(), quote!(None)),
     };
     Ok(file(quote! {
         #![doc = #about]
@@ -111,9 +122,11 @@ fn program(options: &LinkOptions) -> Result<String, String> {
 
         fn main() -> ExitCode {
             let robot = #robot;
+            #opener
             afpc::main(&Linked {
                 robot: &robot,
                 own_robot: #own_robot,
+                hardware: #hardware,
                 toolboxes: &[#(#toolboxes),*],
             })
         }
@@ -123,7 +136,7 @@ fn program(options: &LinkOptions) -> Result<String, String> {
 fn extension(options: &LinkOptions) -> Result<String, String> {
     let about =
         format!(" The native half of the Python package with {} linked in.", about(options));
-    let register = register(options)?;
+    let register = register(options, options.robot.as_deref())?;
     let toolboxes = options.toolboxes.iter().map(|(name, _)| name);
     let toolboxes = quote!(&[#(#toolboxes),*]);
     let link = match &options.robot {

@@ -79,12 +79,12 @@ fn words(name: &str) -> Vec<String> {
 
 /// Hands out names that differ from one another.
 #[derive(Debug, Default)]
-pub struct Names(Vec<String>);
+pub struct UniqueNames(Vec<String>);
 
-impl Names {
+impl UniqueNames {
     /// A register in which some names are taken.
     pub fn taken(names: &[&str]) -> Self {
-        Names(names.iter().map(|name| (*name).to_owned()).collect())
+        UniqueNames(names.iter().map(|name| (*name).to_owned()).collect())
     }
 
     /// The name itself, or the first of `name_2`, `name_3`... that is free.
@@ -99,7 +99,7 @@ impl Names {
 
 #[cfg(test)]
 mod tests {
-    use super::{Names, camel, ident, shout, snake};
+    use super::{UniqueNames, camel, ident, shout, snake};
 
     #[test]
     fn names_follow_rust_in_case() {
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_taken_name_gets_a_number() {
-        let mut names = Names::taken(&["touch"]);
+        let mut names = UniqueNames::taken(&["touch"]);
         assert_eq!(names.unique("touch".into()), "touch_2");
         assert_eq!(names.unique("lane".into()), "lane");
         assert_eq!(names.unique("touch".into()), "touch_3");

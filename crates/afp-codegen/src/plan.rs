@@ -66,18 +66,18 @@ pub fn plan(graph: &Graph, options: &Options) -> Generated {
     for id in ids.clone() {
         modules.push(module(&Context::new(graph, (&enums, &tables), id), options, id));
     }
-    let plans = ids.map(|id| home(graph, id));
-    let (main, plan) = home(graph, graph.main);
+    let plans = ids.map(|id| module_and_type(graph, id));
+    let (main, plan) = module_and_type(graph, graph.main);
     Generated { modules, plans: plans.collect(), main, plan }
 }
 
 fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
     let plan = context.plan;
-    let home = plan.file.as_ref().map(|file| format!(" of `{file}`")).unwrap_or_default();
+    let of_file = plan.file.as_ref().map(|file| format!(" of `{file}`")).unwrap_or_default();
     let about = if plan.doc.is_empty() {
-        format!("The plan `{}`{home}.", plan.name)
+        format!("The plan `{}`{of_file}.", plan.name)
     } else {
-        format!("The plan `{}`{home}: {}", plan.name, plan.doc)
+        format!("The plan `{}`{of_file}: {}", plan.name, plan.doc)
     };
     let sections = vec![
         ("Actors", elements::elements(context)),
@@ -138,7 +138,7 @@ impl Generated {
         });
         let (main, plan) = (&self.main, &self.plan);
         let subs = self.plans.iter().filter(|(module, _)| module != main).cloned();
-        let (homes, types): (Vec<_>, Vec<_>) = subs.unzip();
+        let (owners, types): (Vec<_>, Vec<_>) = subs.unzip();
         let about = doc("", &format!("The plan `{plan}` and what it uses."));
         quote! {
             #about
@@ -146,7 +146,7 @@ impl Generated {
             pub mod #main {
                 #(#modules)*
                 pub use self::#main::*;
-                #(pub use self::#homes::#types;)*
+                #(pub use self::#owners::#types;)*
             }
             #[allow(unused_imports, reason = "whoever embeds the plan may name its module")]
             pub use self::#main::#plan;
@@ -155,7 +155,7 @@ impl Generated {
 }
 
 /// The module and the type of a plan.
-fn home(graph: &Graph, id: PlanId) -> (Ident, Ident) {
+fn module_and_type(graph: &Graph, id: PlanId) -> (Ident, Ident) {
     let name = &graph.plan(id).name;
     (context::module_name(name), context::type_name(&camel(name)))
 }

@@ -38,17 +38,17 @@ impl TypePaths<'_> {
 
     /// The type of a quantity, by its alias where there is one.
     pub fn quantity(&self, dimension: Dimension) -> TokenStream {
-        let home = &self.quantity;
+        let quantity = &self.quantity;
         if dimension == Dimension::NONE {
             return quote!(f64);
         }
         if let Some(alias) = alias(dimension) {
             let alias = ident(alias);
-            return quote!(#home #alias);
+            return quote!(#quantity #alias);
         }
         let Dimension { length, mass, time, angle, temperature, voltage } = dimension;
         let exponents = [length, mass, time, angle, temperature, voltage].map(int);
-        quote!(#home Quantity<#(#exponents),*>)
+        quote!(#quantity Quantity<#(#exponents),*>)
     }
 
     /// A quantity made from the tokens of its SI value.

@@ -3,6 +3,7 @@
 //! A crate that implements a toolbox puts this into a module `templates`; the types that implement
 //! the templates carry the templates' names in the module around it.
 
+mod complete;
 mod declared;
 mod devices;
 mod outcomes;
@@ -20,6 +21,7 @@ use crate::rust_type::TypePaths;
 use afp_dsl::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use afp_dsl::types::{Enum, Object, Type};
 
+pub use complete::{Asked, complete};
 pub use declared::declaration;
 pub use register::{Support, register_supported};
 
@@ -68,7 +70,7 @@ fn words(kind: TemplateKind) -> Words {
 }
 
 /// Types as the module of a template sees them.
-fn home(core: &TokenStream) -> TypePaths<'_> {
+fn type_paths(core: &TokenStream) -> TypePaths<'_> {
     let choice = &|choices: &Enum| {
         let name = ident(&camel(&choices.name));
         quote!(super::#name)

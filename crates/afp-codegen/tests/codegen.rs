@@ -98,7 +98,9 @@ fn wall_following() -> (String, Graph, CrateOptions) {
         texts: vec![("wall_following.afp".to_owned(), text.clone())],
         origin: Origin::Path("/home/a \"b\"".to_owned()),
         robot: None,
+        hardware: None,
         dependencies: Vec::new(),
+        features: Vec::new(),
         lib: false,
     };
     (text, compiled.graph.unwrap(), options)

@@ -63,6 +63,8 @@ faults! {
     LIVELOCK = "livelock", "the plan takes edge after edge without time passing";
     /// A component panicked.
     PANIC = "panic", "a component panicked";
+    /// The sink or the clock of a step panicked, whoever drives the plan.
+    PANIC_OUTSIDE = "panic-outside", "what records or times the run panicked";
     /// A test made a component fail.
     INJECTED = "injected", "a test made the component fail";
     /// The run time met a state that the compiler rules out.

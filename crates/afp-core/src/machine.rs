@@ -23,10 +23,8 @@ mod held;
 mod leave;
 mod sweep;
 
-use crate::clock::Clock;
-use crate::component::Environment;
 use crate::fault::Fault;
-use crate::rt::{Committer, Cx, ElementRow, Plan, PlanState, Polled, Slot, Tables, Target};
+use crate::rt::{Committer, Cx, ElementRow, Plan, PlanState, Polled, Run, Slot, Tables, Target};
 use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
 use at::StepAt;
@@ -116,24 +114,18 @@ impl<P: PlanState> Machine<P> {
     }
 
     /// Starts afresh: initial values, global supervisors, first element.
-    pub fn start<E, S, C>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Flow
+    pub fn start<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         self.level.start(&self.tables, cx)
     }
 
     /// Does everything that is due.
     #[inline]
-    pub fn step<E, S, C>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Flow
+    pub fn step<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         self.level.step(&self.tables, cx)
     }
@@ -142,12 +134,9 @@ impl<P: PlanState> Machine<P> {
     ///
     /// # Errors
     /// The fault of an `interrupt`: the whole run must end.
-    pub fn interrupt<E, S, C>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Result<(), Fault>
+    pub fn interrupt<R: Run>(&mut self, cx: &mut Cx<'_, R>) -> Result<(), Fault>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let result = self.level.interrupt_active(&self.tables, cx);
         self.level.plan.end();
@@ -155,11 +144,7 @@ impl<P: PlanState> Machine<P> {
     }
 
     /// Commits what is staged from outside.
-    pub(crate) fn commit<E: ?Sized, S: Sink, C>(
-        &mut self,
-        author: Author,
-        cx: &mut Cx<'_, E, S, C>,
-    ) {
+    pub(crate) fn commit<R: Run>(&mut self, author: Author, cx: &mut Cx<'_, R>) {
         self.level.commit(author, cx);
     }
 }
@@ -173,12 +158,9 @@ impl<P: PlanState + Clone> Clone for Machine<P> {
 }
 
 impl<P: PlanState> Level<P> {
-    fn start<E, S, C>(&mut self, t: &P::Tables, cx: &mut Cx<'_, E, S, C>) -> Flow
+    fn start<R: Run>(&mut self, t: &P::Tables, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         self.active = None;
         self.due = Instant::MAX;
@@ -207,12 +189,9 @@ impl<P: PlanState> Level<P> {
     }
 
     #[inline]
-    fn step<E, S, C>(&mut self, t: &P::Tables, cx: &mut Cx<'_, E, S, C>) -> Flow
+    fn step<R: Run>(&mut self, t: &P::Tables, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let Some(element) = self.active else { return Flow::Fatal(Fault::INTERNAL) };
         P::at_element(element, StepAt { level: self, t, cx })
@@ -220,17 +199,9 @@ impl<P: PlanState> Level<P> {
 
     /// A step while an element is active.
     #[inline(always)]
-    fn step_element<E, S, C>(
-        &mut self,
-        t: &P::Tables,
-        element: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Flow
+    fn step_element<R: Run>(&mut self, t: &P::Tables, element: u16, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let Some(row) = t.table().element(element) else { return Flow::Fatal(Fault::INTERNAL) };
         let wake = match self.sweep(t, element, row, cx) {
@@ -255,11 +226,9 @@ impl<P: PlanState> Level<P> {
         }
     }
 
-    fn stop<E, S, C>(&mut self, stop: Stop, cx: &mut Cx<'_, E, S, C>) -> Flow
+    fn stop<R: Run>(&mut self, stop: Stop, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: ?Sized,
-        S: Sink,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         match stop {
             Stop::Plan(ending) => self.end(ending, cx),
@@ -267,24 +236,22 @@ impl<P: PlanState> Level<P> {
         }
     }
 
-    fn end<E, S, C>(&mut self, ending: Ending, cx: &mut Cx<'_, E, S, C>) -> Flow
+    fn end<R: Run>(&mut self, ending: Ending, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: ?Sized,
-        S: Sink,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         self.active = None;
         self.plan.discard();
         self.plan.end();
         cx.step.passed_on = matches!(ending, Ending::Error(_));
-        if S::ENABLED {
+        if R::Sink::ENABLED {
             cx.sink.record(cx.now, &Record::Ended { plan: cx.place.plan, ending });
         }
         Flow::Ended(ending)
     }
 
     #[inline]
-    fn commit<E: ?Sized, S: Sink, C>(&mut self, author: Author, cx: &mut Cx<'_, E, S, C>) {
+    fn commit<R: Run>(&mut self, author: Author, cx: &mut Cx<'_, R>) {
         cx.step.commits = cx.step.commits.wrapping_add(1);
         self.plan.commit(&mut Committer {
             sink: &mut *cx.sink,
@@ -295,8 +262,8 @@ impl<P: PlanState> Level<P> {
         });
     }
 
-    fn trace_entries<E: ?Sized, S: Sink, C>(&mut self, t: &P::Tables, cx: &mut Cx<'_, E, S, C>) {
-        if !S::ENABLED {
+    fn trace_entries<R: Run>(&mut self, t: &P::Tables, cx: &mut Cx<'_, R>) {
+        if !R::Sink::ENABLED {
             return;
         }
         let mut committer = Committer {
@@ -330,17 +297,13 @@ fn slot(t: &impl Tables, supervisor: u16) -> Option<usize> {
 
 /// The id of an element.
 #[inline]
-fn component<E: ?Sized, S, C>(cx: &Cx<'_, E, S, C>, element: u16) -> ComponentId {
+fn component<R: Run>(cx: &Cx<'_, R>, element: u16) -> ComponentId {
     ComponentId(cx.place.components.saturating_add(u32::from(element)))
 }
 
 /// The id of a supervisor.
 #[inline]
-fn supervisor_id<E: ?Sized, S, C>(
-    t: &impl Tables,
-    cx: &Cx<'_, E, S, C>,
-    supervisor: u16,
-) -> ComponentId {
+fn supervisor_id<R: Run>(t: &impl Tables, cx: &Cx<'_, R>, supervisor: u16) -> ComponentId {
     let elements = t.table().elements.len() as u32;
     ComponentId(cx.place.components.saturating_add(elements).saturating_add(u32::from(supervisor)))
 }

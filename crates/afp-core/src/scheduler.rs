@@ -1,6 +1,7 @@
 //! The outermost plan: its start and its steps.
 
 mod drive;
+mod guard;
 mod outside;
 
 use core::fmt;
@@ -11,10 +12,12 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, MAX_TRANSITIONS_PER_STEP, Machine};
-use crate::rt::{Cx, Place, Plan, PlanState, StepState};
+use crate::rt::{Cx, Place, Plan, PlanState, StepState, With};
 use crate::time::Instant;
-use crate::trace::{Author, ComponentId, Ending, Names, Record, Sink, TraceEntryId};
+use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink, TraceEntryId};
 use crate::value::Value;
+
+use guard::guarded;
 
 pub use outside::{SetError, TypedEntry};
 
@@ -47,7 +50,7 @@ pub enum StartError {
 /// Whoever drives it calls [`Scheduler::step`] at the times that [`Wake`] names, and calls
 /// [`Environment::emergency_stop`] before leaving the robot alone.
 ///
-/// Nothing here catches a panic. Where one of a component unwinds through a call, the plan is broken:
+/// Nothing here catches a panic. Where one unwinds through a call, of a component, the sink or the clock, the plan is broken:
 /// the next [`Scheduler::step`], [`Scheduler::start`] or [`Scheduler::abort`] gives the emergency stop
 /// and ends the run in `Error`, and no component is called again. Drivers that catch do so at once.
 pub struct Scheduler<P: PlanState> {
@@ -97,27 +100,11 @@ impl core::error::Error for StartError {}
 enum State {
     Ready,
     Running,
-    /// A panic unwound through a call.
-    Broken,
+    /// A panic unwound through a call: of a component, or `outside`, of a sink or a clock.
+    Broken {
+        outside: bool,
+    },
     Ended(Ending),
-}
-
-/// Stands around a call of the machine: dropped by the unwinding of a panic, it marks the plan broken.
-struct Unwinding<'a>(&'a mut State);
-
-impl Drop for Unwinding<'_> {
-    fn drop(&mut self) {
-        *self.0 = State::Broken;
-    }
-}
-
-/// Runs `call` so that a panic in it leaves the state broken.
-#[inline(always)]
-fn guarded<R>(state: &mut State, call: impl FnOnce() -> R) -> R {
-    let unwinding = Unwinding(state);
-    let result = call();
-    core::mem::forget(unwinding);
-    result
 }
 
 impl<P: PlanState> Scheduler<P> {
@@ -177,7 +164,7 @@ impl<P: PlanState> Scheduler<P> {
     pub fn ending(&self) -> Option<Ending> {
         match self.state {
             State::Ended(ending) => Some(ending),
-            State::Ready | State::Running | State::Broken => None,
+            State::Ready | State::Running | State::Broken { .. } => None,
         }
     }
 
@@ -214,7 +201,7 @@ impl<P: PlanState> Scheduler<P> {
     {
         match self.state {
             State::Ready => {}
-            State::Broken => return Ok(self.broken(env, sink)),
+            State::Broken { outside } => return Ok(self.broken(outside, env, sink)),
             State::Running | State::Ended(_) => return Err(StartError::AlreadyStarted),
         }
         if let Some(entry) = self.machine.plan().missing_input() {
@@ -226,7 +213,7 @@ impl<P: PlanState> Scheduler<P> {
         if self.stop_requested {
             return Ok(self.stop_now(env, sink, clock));
         }
-        let flow = guarded(&mut self.state, || {
+        let flow = guarded(&mut self.state, (sink, clock), |sink, clock| {
             self.machine.start(&mut context(env, sink, clock, now, &mut self.step))
         });
         Ok(self.conclude(flow, env, sink))
@@ -256,7 +243,7 @@ impl<P: PlanState> Scheduler<P> {
         if self.stop_requested {
             return self.stop_now(env, sink, clock);
         }
-        let flow = guarded(&mut self.state, || {
+        let flow = guarded(&mut self.state, (sink, clock), |sink, clock| {
             let mut cx = context(env, sink, clock, self.last, &mut self.step);
             if !self.writes.is_empty() {
                 while let Some((entry, value)) = self.writes.pop_front() {
@@ -274,17 +261,18 @@ impl<P: PlanState> Scheduler<P> {
 
     /// The plan cannot be stepped any more, for instance because a component panicked: the
     /// platform stops, the run ends in `Error` unless it has ended before.
-    pub fn abort<E, S>(&mut self, env: &mut E, sink: &mut S, fault: Fault) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    pub fn abort<E: Environment + ?Sized, S: Sink>(
+        &mut self,
+        env: &mut E,
+        sink: &mut S,
+        fault: Fault,
+    ) -> Wake {
         match self.state {
             State::Ended(ending) => {
                 env.emergency_stop();
                 Wake::Ended(ending)
             }
-            State::Broken => self.broken(env, sink),
+            State::Broken { outside } => self.broken(outside, env, sink),
             State::Ready | State::Running => self.conclude(Flow::Fatal(fault), env, sink),
         }
     }
@@ -292,43 +280,40 @@ impl<P: PlanState> Scheduler<P> {
     #[inline]
     fn prepare<C: Clock>(&mut self, clock: &C, now: Instant) {
         self.step.edges_left = MAX_TRANSITIONS_PER_STEP;
-        self.step.clock = clock.now(now);
+        self.step.clock =
+            guarded(&mut self.state, (&mut NoTrace, clock), |_, clock| clock.now(now));
     }
 
     #[cold]
-    fn not_running<E, S>(&mut self, env: &mut E, sink: &mut S) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    fn not_running<E: Environment + ?Sized, S: Sink>(&mut self, env: &mut E, sink: &mut S) -> Wake {
         match self.state {
             State::Ended(ending) => Wake::Ended(ending),
-            State::Broken => self.broken(env, sink),
+            State::Broken { outside } => self.broken(outside, env, sink),
             State::Ready | State::Running => Wake::NotStarted,
         }
     }
 
     /// Ends a run after a panic: nobody is asked, not even to be interrupted.
-    fn broken<E, S>(&mut self, env: &mut E, sink: &mut S) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
-        self.fatal(self.step.called, Fault::PANIC, env, sink)
+    fn broken<E: Environment + ?Sized, S: Sink>(
+        &mut self,
+        outside: bool,
+        env: &mut E,
+        sink: &mut S,
+    ) -> Wake {
+        match outside {
+            true => self.fatal(ComponentId(0), Fault::PANIC_OUTSIDE, env, sink),
+            false => self.fatal(self.step.called, Fault::PANIC, env, sink),
+        }
     }
 
     /// The platform stops, the run ends in `Error`.
-    fn fatal<E, S>(
+    fn fatal<E: Environment + ?Sized, S: Sink>(
         &mut self,
         component: ComponentId,
         fault: Fault,
         env: &mut E,
         sink: &mut S,
-    ) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    ) -> Wake {
         env.emergency_stop();
         let (plan, ending) = (ComponentId(0), Ending::Error(fault));
         // An actor that could not be interrupted has been noted already.
@@ -348,7 +333,7 @@ impl<P: PlanState> Scheduler<P> {
         C: Clock,
         P: Plan<E>,
     {
-        let flow = guarded(&mut self.state, || {
+        let flow = guarded(&mut self.state, (sink, clock), |sink, clock| {
             let mut cx = context(env, sink, clock, self.last, &mut self.step);
             cx.trace(&Record::StopRequested);
             match self.machine.interrupt(&mut cx) {
@@ -364,11 +349,12 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     /// Turns a level's flow into the run's state.
-    fn conclude<E, S>(&mut self, flow: Flow, env: &mut E, sink: &mut S) -> Wake
-    where
-        E: Environment + ?Sized,
-        S: Sink,
-    {
+    fn conclude<E: Environment + ?Sized, S: Sink>(
+        &mut self,
+        flow: Flow,
+        env: &mut E,
+        sink: &mut S,
+    ) -> Wake {
         match flow {
             Flow::Running(wake) => Wake::At(wake),
             Flow::Ended(ending) => {
@@ -380,12 +366,12 @@ impl<P: PlanState> Scheduler<P> {
     }
 }
 
-fn context<'a, E: ?Sized, S, C>(
+fn context<'a, E: Environment + ?Sized, S: Sink, C: Clock>(
     env: &'a mut E,
     sink: &'a mut S,
     clock: &'a C,
     now: Instant,
     step: &'a mut StepState,
-) -> Cx<'a, E, S, C> {
+) -> Cx<'a, With<E, S, C>> {
     Cx { env, now, sink, clock, step, place: Place::OUTERMOST }
 }

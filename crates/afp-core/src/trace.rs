@@ -10,6 +10,7 @@ use crate::fault::{Detail, Fault};
 use crate::time::{Duration, Instant};
 use crate::value::ValueRef;
 
+pub use afp_number::{ComponentKind, EntryKind};
 pub use display::Line;
 pub use hash::TraceHash;
 
@@ -257,21 +258,6 @@ impl<A: Sink, B: Sink> Sink for (A, B) {
     }
 }
 
-/// What a component is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// The outermost plan.
-    Plan,
-    /// An actor.
-    Actor,
-    /// A computation.
-    Computation,
-    /// A sub-plan.
-    SubPlan,
-    /// A supervisor.
-    Supervisor,
-}
-
 /// A component as people know it. All names are those of the text.
 #[derive(Clone, Copy, Debug)]
 pub struct ComponentName<'a> {
@@ -279,7 +265,7 @@ pub struct ComponentName<'a> {
     /// for id 0.
     pub path: &'a str,
     /// What it is.
-    pub kind: Kind,
+    pub kind: ComponentKind,
     /// Name of its template, of its plan for a sub-plan.
     pub template: &'a str,
 }
@@ -339,7 +325,7 @@ pub struct Reaction<'a> {
 impl ComponentName<'_> {
     /// What an unknown id is called.
     pub const NONE: ComponentName<'static> =
-        ComponentName { path: "", kind: Kind::Actor, template: "" };
+        ComponentName { path: "", kind: ComponentKind::Actor, template: "" };
 }
 
 impl EntryName<'_> {
@@ -353,19 +339,6 @@ impl<'a> EntryName<'a> {
     pub fn range_text(&self) -> Option<impl core::fmt::Display + use<'a>> {
         self.range.map(|(least, greatest)| display::Range { least, greatest, unit: self.unit })
     }
-}
-
-/// Who may set an entry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EntryKind {
-    /// Set by whoever starts the plan.
-    In,
-    /// A result of the plan.
-    Out,
-    /// Inner data.
-    Var,
-    /// Never changes.
-    Const,
 }
 
 /// The names behind the ids of a plan. Unknown ids have empty names.

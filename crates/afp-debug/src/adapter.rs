@@ -1,10 +1,13 @@
 //! The adapter: messages of a client in, messages to it out.
 
+mod clients;
 mod force;
+mod goto;
 mod launch;
 mod look;
 mod outside;
 mod places;
+mod roles;
 mod steer;
 mod stop;
 mod time;
@@ -12,19 +15,25 @@ mod trace;
 mod why;
 mod world;
 
+use std::collections::BTreeMap;
 use std::time::Duration as Wall;
 
 use afp_core::Instant;
 use afp_session::{Drawing, Droppable};
 use afp_token::Token;
-use dapts::{IEvent, IRequest, event, request};
+use dapts::{IRequest, event, request};
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 use crate::breakpoints::Breakpoints;
 use crate::target::Target;
 
+pub use clients::{ClientId, Told};
 pub use launch::Launch;
+pub(crate) use places::Wanted;
+
+use clients::Client;
 use steer::{Mode, Pace};
 
 /// What an adapter cannot do by itself.
@@ -60,28 +69,21 @@ pub struct Surroundings {
     pub camera: bool,
 }
 
-/// A debug adapter for one client.
+/// A debug adapter for clients who share one run: one steers, all watch, anybody may end it.
 pub struct Adapter<'h> {
     host: Box<dyn Host<'h> + 'h>,
-    client: Client,
+    clients: BTreeMap<ClientId, Client>,
+    /// How many have come so far.
+    joined: u32,
+    /// Who asks for what is answered now.
+    asker: ClientId,
+    /// Who steers.
+    operator: Option<ClientId>,
     run: Option<Run<'h>>,
     breakpoints: Breakpoints,
-    /// The number of the last message to the client.
-    sent: i64,
-    out: Vec<Value>,
-    /// Whether the client has said goodbye.
-    over: bool,
-    /// What the client has to know.
+    out: Vec<(ClientId, Value)>,
+    /// What clients have to know.
     token: Option<Token>,
-}
-
-/// How a client counts.
-#[derive(Clone, Copy, Debug)]
-struct Client {
-    /// The number of the first line.
-    first_line: u32,
-    /// The number of the first column.
-    first_column: u32,
 }
 
 /// What is debugged.
@@ -94,15 +96,17 @@ struct Run<'h> {
     transitions: Vec<u64>,
     /// The last thing that went wrong.
     exception: Option<(&'static str, String)>,
-    /// Whether the client wants to be told what is the case.
-    told: bool,
-    /// What happened and was not told yet, where the client wants to be told.
+    /// What happened and was not told yet, where a client wants to be told.
     traced: Option<Vec<Value>>,
-    /// When it was told so last.
+    /// When it was told last what is the case.
     told_at: Wall,
+    /// Whether it has been let go.
+    has_begun: bool,
+    /// What the robot touched last.
+    touched: Option<String>,
     /// When the plan is stopped at the latest.
     end: Instant,
-    /// What the client holds in place.
+    /// What who steers holds in place.
     forces: Vec<force::Force>,
 }
 
@@ -122,12 +126,13 @@ impl<'h> Adapter<'h> {
     pub fn new(host: Box<dyn Host<'h> + 'h>) -> Adapter<'h> {
         Adapter {
             host,
-            client: Client { first_line: 1, first_column: 1 },
+            clients: BTreeMap::new(),
+            joined: 0,
+            asker: ClientId::default(),
+            operator: None,
             run: None,
             breakpoints: Breakpoints::default(),
-            sent: 0,
             out: Vec::new(),
-            over: false,
             token: None,
         }
     }
@@ -137,34 +142,28 @@ impl<'h> Adapter<'h> {
         Adapter { token: Some(token.clone()), ..Adapter::new(host) }
     }
 
-    /// Whether the client has said goodbye.
-    pub fn is_over(&self) -> bool {
-        self.over
-    }
-
-    /// Answers a message; what goes back, in order. `now` is the time on the wall, from whenever.
-    pub fn handle(&mut self, message: &str, now: Wall) -> Vec<String> {
+    /// Answers a message of a client that has joined; what goes to whom, in order. `now` is the time on the wall, from
+    /// whenever.
+    pub fn handle(&mut self, from: ClientId, message: &str, now: Wall) -> Vec<Told> {
+        self.asker = from;
+        let is_answer = serde_json::from_str::<Said>(message).is_ok_and(|it| it.kind == "response");
         match serde_json::from_str::<dapts::Request>(message) {
+            // What it says does not matter: that it comes does.
+            _ if is_answer => self.hear_answer(from, now),
             Ok(asked) => self.answer(asked, now),
-            Err(why) => self.output("stderr", &format!("not a request: {why}\n")),
+            Err(why) => {
+                let body = output("stderr", &format!("not a request: {why}\n"));
+                self.event_to::<event::Output>(from, &body);
+            }
         }
         self.take()
     }
 
     /// Lets the run go on by what has passed on the wall; what is to be told.
-    pub fn tick(&mut self, now: Wall) -> Vec<String> {
+    pub fn tick(&mut self, now: Wall) -> Vec<Told> {
+        self.look_after_lease(now);
         self.drive(now);
         self.take()
-    }
-
-    fn take(&mut self) -> Vec<String> {
-        let numbered = self.out.drain(..).zip(self.sent + 1..).map(|(mut message, number)| {
-            message["seq"] = json!(number);
-            message.to_string()
-        });
-        let messages: Vec<_> = numbered.collect();
-        self.sent += messages.len() as i64;
-        messages
     }
 
     fn answer(&mut self, asked: dapts::Request, now: Wall) {
@@ -183,18 +182,30 @@ impl<'h> Adapter<'h> {
             }
         }
         // What a request brings about is told after it was answered.
-        self.out.insert(before, response);
+        self.out.insert(before, (self.asker, response));
     }
 
     fn dispatch(&mut self, command: &str, arguments: Value, now: Wall) -> Answer<Value> {
+        if command.starts_with("afp/")
+            && let Some(client) = self.clients.get_mut(&self.asker)
+        {
+            client.ours = true;
+        }
+        self.check_part(command)?;
+        self.may(command, now)?;
         match command {
             request::Initialize::COMMAND => {
                 self.on::<request::Initialize>(arguments, Self::initialize)
             }
             "launch" => self.launch(parse(arguments)?, now),
-            "restart" => self.restart(now),
+            "attach" => self.attach(parse(arguments)?, now),
+            "restart" => self.restart(&arguments, now),
             request::ConfigurationDone::COMMAND => self.configured(now),
-            "disconnect" | "terminate" => self.stop(command),
+            "terminate" => self.terminate(),
+            request::Disconnect::COMMAND => {
+                let asked: dapts::DisconnectArguments = parse(arguments)?;
+                self.disconnect(&asked)
+            }
             request::SetBreakpoints::COMMAND => {
                 self.on::<request::SetBreakpoints>(arguments, Self::set_breakpoints)
             }
@@ -229,8 +240,30 @@ impl<'h> Adapter<'h> {
             request::SetVariable::COMMAND => {
                 self.on::<request::SetVariable>(arguments, Self::set_variable)
             }
-            request::Evaluate::COMMAND => self.on::<request::Evaluate>(arguments, Self::evaluate),
+            request::SetExpression::COMMAND => {
+                self.on::<request::SetExpression>(arguments, Self::set_expression)
+            }
+            request::GotoTargets::COMMAND => {
+                self.on::<request::GotoTargets>(arguments, Self::goto_targets)
+            }
+            request::Evaluate::COMMAND => {
+                self.on::<request::Evaluate>(arguments, |me, asked| me.evaluate(asked, now))
+            }
             _ => self.steer(command, arguments, now),
+        }
+    }
+
+    /// Whether the client that asks takes part in the run, or asks for something else.
+    fn check_part(&self, command: &str) -> Answer<()> {
+        let takes_part = self.clients.get(&self.asker).is_some_and(|client| client.attached);
+        let is_first = ["initialize", "launch", "attach", "disconnect"].contains(&command);
+        match &self.token {
+            _ if takes_part || is_first => Ok(()),
+            Some(_) => Err("'launch' or 'attach' comes first, with the token".into()),
+            None if self.run.is_some() && command != "afp/world" => {
+                Err("'attach' comes first: it joins those who watch the run".into())
+            }
+            None => Ok(()),
         }
     }
 
@@ -251,34 +284,27 @@ impl<'h> Adapter<'h> {
             .ok_or_else(|| Refusal("nothing runs yet: 'launch' comes first".to_owned()))
     }
 
-    fn event<E: IEvent>(&mut self, body: &E::Body) {
-        let body = serde_json::to_value(body).unwrap_or_default();
-        self.tell(E::EVENT, body);
-    }
-
-    /// Sends an event.
-    fn tell(&mut self, event: &str, body: Value) {
-        let mut message = json!({"type": "event", "event": event});
-        if !body.is_null() {
-            message["body"] = body;
-        }
-        self.out.push(message);
-    }
-
-    /// Shows a text where the client shows such texts.
+    /// Shows a text where clients show such texts.
     fn output(&mut self, category: &str, text: &str) {
-        let category = match category {
-            "stderr" => dapts::OutputEventCategory::Stderr,
-            "important" => dapts::OutputEventCategory::Important,
-            _ => dapts::OutputEventCategory::Console,
-        };
-        let output = text.to_owned();
-        self.event::<event::Output>(&dapts::OutputEvent {
-            category: Some(category),
-            output,
-            ..dapts::OutputEvent::default()
-        });
+        self.event::<event::Output>(&output(category, text));
     }
+}
+
+/// What a client says, as far as it says what that is.
+#[derive(Deserialize)]
+struct Said {
+    #[serde(rename = "type")]
+    kind: String,
+}
+
+fn output(category: &str, text: &str) -> dapts::OutputEvent {
+    let category = match category {
+        "stderr" => dapts::OutputEventCategory::Stderr,
+        "important" => dapts::OutputEventCategory::Important,
+        _ => dapts::OutputEventCategory::Console,
+    };
+    let (category, output) = (Some(category), text.to_owned());
+    dapts::OutputEvent { category, output, ..dapts::OutputEvent::default() }
 }
 
 /// The arguments of a request; a client may leave out what is empty.

@@ -2,39 +2,49 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use afp_core::Fault;
 use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR};
 use afp_session::{EventKind, RunEvent};
 
+use crate::adapter::{ClientId, Wanted};
 use crate::program::{Program, Spot};
 use crate::state::State;
 use crate::watched::Watched;
 
-/// What a run that is held stands still at, by what it was set with.
+/// What a run stands still at: of every client what it has set, together.
 #[derive(Debug, Default)]
 pub(crate) struct Breakpoints {
-    /// By the path of their file.
-    lines: BTreeMap<String, Vec<Breakpoint>>,
-    functions: Vec<Breakpoint>,
-    data: Vec<Breakpoint>,
+    sets: BTreeMap<(ClientId, Set), Vec<Breakpoint>>,
     /// What goes wrong.
-    pub filters: Filters,
+    filters: BTreeMap<ClientId, Filters>,
     /// Those at each spot.
     at: HashMap<Spot, Vec<u64>>,
     made: u64,
+}
+
+/// Breakpoints that a client sets together.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Set {
+    /// At lines of a file, by its path.
+    Lines(String),
+    Functions,
+    Data,
 }
 
 /// One of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Breakpoint {
     pub id: u64,
-    /// Where; nowhere while it is not known.
+    /// What it was set with, for a text that has changed.
+    pub wanted: Wanted,
+    /// Where.
     pub spots: Vec<Spot>,
+    /// The line at which it is, from 0, where it was set at one.
+    pub line: Option<u32>,
     /// The run stands still at the hit of that number alone, and later ones.
     pub from_hit: u64,
     /// Counts as hit only while this holds.
     pub condition: Option<Watched>,
-    /// Says this in place of standing still.
-    pub log: Option<String>,
     /// Hits so far.
     pub hits: u64,
 }
@@ -56,6 +66,10 @@ pub(crate) struct Filters {
     pub deadline_missed: bool,
     /// An element is interrupted.
     pub interruption: bool,
+    /// Edge after edge is taken without time passing.
+    pub livelock: bool,
+    /// The robot touches something, where that is known.
+    pub collision: bool,
 }
 
 /// What an event comes to.
@@ -69,6 +83,16 @@ pub(crate) struct Hits {
     pub exception: Option<&'static str>,
 }
 
+impl Set {
+    fn kind(&self) -> Kind {
+        match self {
+            Set::Lines(_) => Kind::Line,
+            Set::Functions => Kind::Function,
+            Set::Data => Kind::Data,
+        }
+    }
+}
+
 impl Breakpoints {
     /// A number for a new one.
     pub fn number(&mut self) -> u64 {
@@ -76,43 +100,74 @@ impl Breakpoints {
         self.made
     }
 
-    /// Puts breakpoints in place of all of a file.
-    pub fn set_lines(&mut self, file: String, all: Vec<Breakpoint>) {
-        self.lines.insert(file, all);
+    /// Puts breakpoints of a client in place of all that it set together; gives those.
+    pub fn set(&mut self, owner: ClientId, set: Set, all: Vec<Breakpoint>) -> Vec<Breakpoint> {
+        let before = self.sets.insert((owner, set), all).unwrap_or_default();
         self.sort();
+        before
     }
 
-    /// Puts breakpoints in place of all of their kind.
-    pub fn set(&mut self, kind: Kind, all: Vec<Breakpoint>) {
-        match kind {
-            Kind::Function => self.functions = all,
-            Kind::Data | Kind::Line => self.data = all,
+    /// What goes wrong that a client wants to see.
+    pub fn set_filters(&mut self, owner: ClientId, filters: Filters) {
+        self.filters.insert(owner, filters);
+    }
+
+    /// Whether somebody wants to see the robot touch something.
+    pub fn looks_for_collisions(&self) -> bool {
+        self.filters.values().any(|filters| filters.collision)
+    }
+
+    /// Forgets all of a client; gives them.
+    pub fn forget(&mut self, owner: ClientId) -> Vec<Breakpoint> {
+        self.filters.remove(&owner);
+        let own = self.sets.keys().filter(|(known, _)| *known == owner).cloned();
+        let own: Vec<_> = own.collect();
+        let gone = own.iter().filter_map(|key| self.sets.remove(key)).flatten().collect();
+        self.sort();
+        gone
+    }
+
+    /// Those of all clients but one, with whose they are.
+    pub fn of_others(&self, than: ClientId) -> impl Iterator<Item = (ClientId, &Breakpoint)> {
+        let others = self.sets.iter().filter(move |((owner, _), _)| *owner != than);
+        others.flat_map(|((owner, _), all)| all.iter().map(|each| (*owner, each)))
+    }
+
+    /// Finds all of them in a program anew; gives those that are nowhere in it any more, with why.
+    pub fn find_in(&mut self, program: &Program) -> Vec<(Breakpoint, String)> {
+        let mut lost = Vec::new();
+        for all in self.sets.values_mut() {
+            for each in std::mem::take(all) {
+                match each.wanted.clone().made(each.id, program) {
+                    Ok(found) => all.push(found),
+                    Err(why) => lost.push((each, why)),
+                }
+            }
         }
         self.sort();
+        lost
     }
 
     fn sort(&mut self) {
         let mut at: HashMap<Spot, Vec<u64>> = HashMap::new();
-        for each in self.all() {
+        for each in self.sets.values().flatten() {
             each.spots.iter().for_each(|spot| at.entry(*spot).or_default().push(each.id));
         }
         self.at = at;
     }
 
-    fn all(&self) -> impl Iterator<Item = &Breakpoint> {
-        self.lines.values().flatten().chain(&self.functions).chain(&self.data)
-    }
-
     fn find(&mut self, id: u64) -> Option<(Kind, &mut Breakpoint)> {
-        let lines = self.lines.values_mut().flatten().map(|it| (Kind::Line, it));
-        let functions = self.functions.iter_mut().map(|it| (Kind::Function, it));
-        let data = self.data.iter_mut().map(|it| (Kind::Data, it));
-        lines.chain(functions).chain(data).find(|(_, it)| it.id == id)
+        let all = self.sets.iter_mut().flat_map(|((_, set), all)| {
+            let kind = set.kind();
+            all.iter_mut().map(move |each| (kind, each))
+        });
+        all.into_iter().find(|(_, each)| each.id == id)
     }
 
     /// What an event comes to, as the next hit of those that are set there.
     pub fn hits(&mut self, event: &RunEvent, program: &Program, state: &State) -> Hits {
-        let mut hits = Hits { exception: self.filters.exception(event), ..Hits::default() };
+        let exception = self.filters.values().find_map(|filters| filters.exception(event));
+        let mut hits = Hits { exception, ..Hits::default() };
         let numbers: Vec<_> = spots(event, program)
             .filter_map(|spot| self.at.get(&spot))
             .flatten()
@@ -125,7 +180,7 @@ impl Breakpoints {
             }
             found.hits += 1;
             let plan = found.spots.first().map_or(ComponentId(0), |spot| program.plan_at(*spot));
-            match &found.log {
+            match &found.wanted.log {
                 Some(text) => hits.logs.push(filled(text, plan, program, state)),
                 None if found.hits >= found.from_hit => hits.stop.push((id, kind)),
                 None => {}
@@ -138,6 +193,11 @@ impl Breakpoints {
 impl Filters {
     fn exception(self, event: &RunEvent) -> Option<&'static str> {
         match event.kind {
+            EventKind::Faulted | EventKind::Ended
+                if self.livelock && event.fault == Fault::LIVELOCK.code() =>
+            {
+                Some("livelock")
+            }
             EventKind::Faulted if self.fault => Some("fault"),
             EventKind::Missed if self.deadline_missed => Some("deadlineMissed"),
             EventKind::Interrupted if self.interruption => Some("interruption"),

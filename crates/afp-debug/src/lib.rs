@@ -24,9 +24,9 @@ mod text;
 mod watched;
 pub mod wire;
 
-pub use adapter::{Adapter, Host, Launch, Surroundings};
+pub use adapter::{Adapter, ClientId, Host, Launch, Surroundings, Told};
 pub use log_target::LogTarget;
-pub use program::{Entry, Place, Program, Spot, Unit};
+pub use program::{Entry, Place, Program, Spot, Times, Unit};
 pub use session_target::SessionTarget;
 pub use state::State;
 pub use target::{Advance, Happened, Position, Target};

@@ -159,6 +159,15 @@ impl Target for LogTarget {
         Ok(())
     }
 
+    fn past(&mut self, at: Instant) -> Result<State, String> {
+        let (here, now) = (self.passed, self.now);
+        self.seek(Position::At(at))?;
+        let state = self.state.clone();
+        self.go(here);
+        self.now = now;
+        Ok(state)
+    }
+
     fn pose(&self) -> Option<Pose2> {
         let later = self.poses.partition_point(|(at, _)| *at <= self.now);
         self.poses.get(later.saturating_sub(1)).map(|(_, pose)| *pose)

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use afp_core::Duration;
 use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId};
 use afp_dsl::graph::{EntryKind, Graph};
+use afp_dsl::timing::{SupervisorTiming, timing};
 use afp_dsl::types::Type;
-use afp_dsl::unfold::{Kind, Reaction, places, unfold};
+use afp_dsl::unfold::{ComponentKind, Reaction, places, unfold};
 use afp_syntax::source::{Encoding, Lines, Sources, Span};
 
 /// A plan with the places of everything in it.
@@ -35,7 +37,7 @@ pub struct Unit {
     /// Its template or plan.
     pub template: String,
     /// What it is.
-    pub kind: Kind,
+    pub kind: ComponentKind,
     /// The plan that it belongs to, by the number of its element.
     pub plan: ComponentId,
     /// The element of a local supervisor.
@@ -46,8 +48,21 @@ pub struct Unit {
     pub outcomes: Vec<(String, String)>,
     /// Its edges that hold instead of those of supervisors of its plan: supervisor, event and target.
     pub reactions: Vec<(ComponentId, u16, String)>,
+    /// How often a supervisor is asked, and what follows from it.
+    pub times: Option<Times>,
     /// Where it stands.
     pub at: Place,
+}
+
+/// The times of a supervisor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Times {
+    /// Its period.
+    pub every: Duration,
+    /// How long after its release its poll must be over.
+    pub deadline: Duration,
+    /// How long after its condition the robot stands, and how far that can be trusted; none where it interrupts nothing.
+    pub bound: Option<String>,
 }
 
 /// An entry of a plan.
@@ -101,6 +116,7 @@ impl Program {
     pub fn new(graph: &Graph, sources: &Sources, path: &dyn Fn(&str) -> String) -> Program {
         let texts = Texts::new(sources);
         let (unfolded, places) = (unfold(graph), places(graph));
+        let times = times(graph);
         let units = unfolded.components.into_iter().zip(&places).map(|(names, place)| Unit {
             name: last(&names.path).to_owned(),
             path: names.path,
@@ -113,6 +129,7 @@ impl Program {
                 .collect(),
             outcomes: names.outcomes,
             reactions: names.reactions.into_iter().map(reaction).collect(),
+            times: times.get(&place.span).cloned(),
             at: texts.place(place.span),
         });
         let entries = unfolded.entries.into_iter().map(|entry| Entry {
@@ -136,7 +153,7 @@ impl Program {
         for (number, place) in (0..).zip(&places).skip(1) {
             let id = ComponentId(number);
             let kind = program.units[number as usize].kind;
-            let special = if kind == Kind::Supervisor { DEADLINE_MISSED } else { ERROR };
+            let special = if kind == ComponentKind::Supervisor { DEADLINE_MISSED } else { ERROR };
             program.add(texts.place(place.span), first(id, kind));
             let outcomes = (0..).zip(&place.edges.outcomes);
             for (outcome, span) in outcomes.chain([(special, &place.edges.extra)]) {
@@ -240,15 +257,29 @@ impl Program {
     }
 }
 
+/// The times of all supervisors, by their names' places in the text.
+fn times(graph: &Graph) -> BTreeMap<Span, Times> {
+    let row = |row: SupervisorTiming| {
+        let bound = row.interruption.map(|it| {
+            let total = it.total().map(afp_dsl::types::text::duration);
+            let trust = it.trust.as_str();
+            total.map_or_else(|| trust.to_owned(), |total| format!("{total} ({trust})"))
+        });
+        let [every, deadline] = [row.every, row.deadline].map(Duration::from_nanos);
+        (row.span, Times { every, deadline, bound })
+    };
+    timing(graph, None).supervisors.into_iter().map(row).collect()
+}
+
 fn reaction((edge, target): (Reaction, String)) -> (ComponentId, u16, String) {
     (ComponentId(edge.supervisor), edge.event.unwrap_or(DEADLINE_MISSED), target)
 }
 
 /// What happens at the line where a component is declared.
-fn first(id: ComponentId, kind: Kind) -> Spot {
+fn first(id: ComponentId, kind: ComponentKind) -> Spot {
     match kind {
-        Kind::Supervisor | Kind::Computation => Spot::Reports(id),
-        Kind::Plan | Kind::Actor | Kind::SubPlan => Spot::Start(id),
+        ComponentKind::Supervisor | ComponentKind::Computation => Spot::Reports(id),
+        ComponentKind::Plan | ComponentKind::Actor | ComponentKind::SubPlan => Spot::Start(id),
     }
 }
 

@@ -6,8 +6,8 @@ use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, EntryName, TraceEntryId};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
-    AnySession, Applied, Datum, NamedRecord, Observer, Open, Pose2, Request, RunEvent, SampleRef,
-    SetError, Stimulus, View, refusal,
+    AnySession, Applied, Datum, Figures, NamedRecord, Observer, Open, Pose2, Request, RunEvent,
+    SampleRef, SetError, Stimulus, View, refusal,
 };
 
 use crate::program::Program;
@@ -71,8 +71,8 @@ impl<'m> SessionTarget<'m> {
         }
     }
 
-    /// Takes the run to a position; what was asked for comes again.
-    fn replay(&mut self, asked: &[(Instant, Request)], to: Position) -> Result<(), String> {
+    /// The run at a position; what was asked for comes again.
+    fn replayed(&mut self, asked: &[(Instant, Request)], to: Position) -> Result<Run, String> {
         let before = |run: &Run| match to {
             Position::Step(steps) => run.steps <= steps,
             Position::At(at) => run.session.now() <= at,
@@ -96,8 +96,7 @@ impl<'m> SessionTarget<'m> {
         while !is_there(&run) && run.session.ending().is_none() {
             run.advance(limit, &self.program, &mut |_, _| {})?;
         }
-        self.run = run;
-        Ok(())
+        Ok(run)
     }
 
     /// Forgets what was asked for later than now, for what happens next is another run.
@@ -110,7 +109,7 @@ impl<'m> SessionTarget<'m> {
             self.run.session.requests().iter().filter(|(at, _)| *at <= now).cloned().collect();
         let steps = self.run.steps;
         self.keyframes.retain(|run| run.steps <= steps);
-        self.replay(&asked, Position::Step(steps))?;
+        self.run = self.replayed(&asked, Position::Step(steps))?;
         self.furthest = steps;
         Ok(())
     }
@@ -173,7 +172,32 @@ impl Target for SessionTarget<'_> {
 
     fn seek(&mut self, to: Position) -> Result<(), String> {
         let asked = self.run.session.requests().to_vec();
-        self.replay(&asked, to)
+        self.run = self.replayed(&asked, to)?;
+        Ok(())
+    }
+
+    fn past(&mut self, at: Instant) -> Result<State, String> {
+        let asked = self.run.session.requests().to_vec();
+        Ok(self.replayed(&asked, Position::At(at))?.state)
+    }
+
+    fn contact(&self) -> Option<String> {
+        let session = &self.run.session;
+        let mut touches = false;
+        session.read(find_signal(session.devices(), "robot", "collision")?, &mut |sample| {
+            touches = matches!(sample, SampleRef::Bool(true));
+        });
+        let mut thing = String::new();
+        if let Some(contact) =
+            find_signal(session.devices(), "robot", "contact").filter(|_| touches)
+        {
+            session.read(contact, &mut |sample| {
+                if let SampleRef::Text(text) = sample {
+                    text.clone_into(&mut thing);
+                }
+            });
+        }
+        touches.then_some(thing)
     }
 
     fn pose(&self) -> Option<Pose2> {
@@ -213,6 +237,14 @@ impl Target for SessionTarget<'_> {
             }
         });
         picture
+    }
+
+    fn figures(&self) -> Figures {
+        self.run.session.figures()
+    }
+
+    fn misses(&self) -> u64 {
+        self.run.session.misses()
     }
 
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {

@@ -1,10 +1,10 @@
 //! What is the case in a running plan, as far as its events tell.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use afp_core::Instant;
 use afp_core::trace::{ComponentId, TraceEntryId};
-use afp_dsl::unfold::Kind;
+use afp_core::{Duration, Instant};
+use afp_dsl::unfold::ComponentKind;
 use afp_session::{Datum, EndingKind, EventKind, Miss, RunEvent};
 
 use crate::program::Program;
@@ -15,8 +15,8 @@ use crate::text::Line;
 pub struct State {
     /// The active element of each plan, by the plan's number.
     active: BTreeMap<ComponentId, ComponentId>,
-    /// The supervisors that watch.
-    watching: BTreeSet<ComponentId>,
+    /// The supervisors that watch, and since when.
+    watching: BTreeMap<ComponentId, Instant>,
     /// Values of entries that were written.
     entries: BTreeMap<TraceEntryId, Datum>,
     /// What components started with, by port.
@@ -57,7 +57,7 @@ impl State {
         let id = event.component_id;
         self.follow(event, program);
         match event.kind {
-            EventKind::Started => self.start(id, program),
+            EventKind::Started => self.start(id, event.at, program),
             EventKind::Finished | EventKind::Interrupted => self.leave(id, program),
             EventKind::Diverted => self.leave(id, program),
             EventKind::Committed => {
@@ -94,7 +94,7 @@ impl State {
             EventKind::Started => return self.begin(id, event.at, program),
             _ => return,
         };
-        if program.unit(by).is_some_and(|unit| unit.kind == Kind::Computation) {
+        if program.unit(by).is_some_and(|unit| unit.kind == ComponentKind::Computation) {
             // It is done at once, without a start.
             self.begin(by, event.at, program);
         }
@@ -113,21 +113,21 @@ impl State {
 
     /// Keeps in mind why an element becomes active.
     fn begin(&mut self, id: ComponentId, at: Instant, program: &Program) {
-        let unit = program.unit(id).filter(|unit| unit.kind != Kind::Supervisor);
+        let unit = program.unit(id).filter(|unit| unit.kind != ComponentKind::Supervisor);
         let Some(unit) = unit else { return };
         let led = self.taken.remove(&unit.plan);
         self.causes.insert(id, led.filter(|led| led.at == at && led.target == unit.name));
         self.since.insert(id, at);
     }
 
-    fn start(&mut self, id: ComponentId, program: &Program) {
+    fn start(&mut self, id: ComponentId, at: Instant, program: &Program) {
         let Some(unit) = program.unit(id) else { return };
         match unit.kind {
-            Kind::Supervisor => {
-                self.watching.insert(id);
+            ComponentKind::Supervisor => {
+                self.watching.insert(id, at);
             }
-            Kind::Plan => {}
-            Kind::Actor | Kind::Computation | Kind::SubPlan => {
+            ComponentKind::Plan => {}
+            ComponentKind::Actor | ComponentKind::Computation | ComponentKind::SubPlan => {
                 self.active.insert(unit.plan, id);
             }
         }
@@ -141,14 +141,14 @@ impl State {
         }
         self.close(id, program);
         let owner = |supervisor: &ComponentId| program.unit(*supervisor).and_then(|it| it.owner);
-        self.watching.retain(|supervisor| owner(supervisor) != Some(id));
+        self.watching.retain(|supervisor, _| owner(supervisor) != Some(id));
     }
 
     /// Nothing in a plan goes on.
     fn close(&mut self, plan: ComponentId, program: &Program) {
         let inner = self.active.remove(&plan);
         let of = |supervisor: &ComponentId| program.unit(*supervisor).map(|it| it.plan);
-        self.watching.retain(|supervisor| of(supervisor) != Some(plan));
+        self.watching.retain(|supervisor, _| of(supervisor) != Some(plan));
         inner.into_iter().for_each(|inner| self.close(inner, program));
     }
 
@@ -177,7 +177,19 @@ impl State {
 
     /// The supervisors that watch, by number.
     pub fn watching(&self) -> impl Iterator<Item = ComponentId> + '_ {
-        self.watching.iter().copied()
+        self.watching.keys().copied()
+    }
+
+    /// The active element of a plan, by the plan's number.
+    pub fn active(&self, plan: ComponentId) -> Option<ComponentId> {
+        self.active.get(&plan).copied()
+    }
+
+    /// When a supervisor that is asked so often is asked next: the grid begins where it began to watch.
+    pub fn next_release(&self, id: ComponentId, every: Duration, now: Instant) -> Option<Instant> {
+        let since = *self.watching.get(&id)?;
+        let (every, passed) = (every.as_nanos().max(1), now.as_nanos() - since.as_nanos());
+        Some(since + Duration::from_nanos((passed / every + 1).saturating_mul(every)))
     }
 
     /// The value of an entry; none before it was written.
@@ -224,7 +236,7 @@ impl State {
 
     /// Whether an element is active, a supervisor watches.
     pub fn is_on(&self, id: ComponentId) -> bool {
-        self.watching.contains(&id) || self.active.values().any(|active| *active == id)
+        self.watching.contains_key(&id) || self.active.values().any(|active| *active == id)
     }
 
     /// How the plan ended, and in words why where that is `Error`.

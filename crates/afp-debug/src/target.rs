@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use afp_session::{Pose2, Request, RunEvent};
+use afp_session::{Figures, Pose2, Request, RunEvent};
 
 use crate::program::Program;
 use crate::state::State;
@@ -47,6 +47,18 @@ pub trait Target {
     /// It cannot be done: why.
     fn seek(&mut self, to: Position) -> Result<(), String>;
 
+    /// What was the case after all that was done up to an instant that is over; the run stays where it is.
+    ///
+    /// # Errors
+    /// It cannot be told: why.
+    fn past(&mut self, at: Instant) -> Result<State, String>;
+
+    /// What the robot touches, empty where only that it touches something is known; none where it touches nothing, or
+    /// does not signal that.
+    fn contact(&self) -> Option<String> {
+        None
+    }
+
     /// Where the robot is, for pictures; none where it does not signal that.
     fn pose(&self) -> Option<Pose2> {
         None
@@ -60,6 +72,16 @@ pub trait Target {
     /// The last picture of the robot's camera, where it has one: width, height, and a byte for each of red, green and blue.
     fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {
         None
+    }
+
+    /// What the run came to so far; nothing where that is not known.
+    fn figures(&self) -> Figures {
+        Figures::default()
+    }
+
+    /// How many deadlines were missed so far.
+    fn misses(&self) -> u64 {
+        0
     }
 
     /// Writes an entry of the outermost plan as people write it; gives the value.

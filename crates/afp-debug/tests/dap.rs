@@ -8,23 +8,31 @@ mod common;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::{Client, Texted};
+use afp_debug::{Host, Launch, Target};
+
+use common::{Clients, Texted};
 
 /// A case with the answers that are given now.
 fn answered(case: &str) -> String {
     let (plan, talk) = case.split_once("\n---\n").expect("a plan, '---', a talk");
-    let mut client = Client::new(Box::new(Texted(plan.to_owned())));
-    for line in talk.lines().filter(|line| !line.starts_with("<--")) {
-        client.told += line;
-        client.told += "\n";
+    let mut clients = Clients::new(Box::new(Texted(plan.to_owned())));
+    for line in talk.lines().filter(|line| !line.starts_with('<')) {
+        clients.told += line;
+        clients.told += "\n";
         match line.split_once(' ').unwrap_or((line, "")) {
-            ("-->", said) => client.say(said),
-            ("tick", "") => client.tick(None),
-            ("tick", wall) => client.tick(Some(wall.parse().expect("milliseconds"))),
-            _ => {}
+            ("-->", said) => clients.say(said),
+            ("tick", "") => clients.tick(None),
+            ("tick", wall) => clients.tick(Some(wall.parse().expect("milliseconds"))),
+            ("lose", number) => clients.lose(number.parse().expect("a client")),
+            (arrow, said) => {
+                let number = arrow.strip_prefix('-').and_then(|rest| rest.strip_suffix('>'));
+                if let Some(number) = number.and_then(|number| number.parse().ok()) {
+                    clients.say_as(number, said);
+                }
+            }
         }
     }
-    format!("{plan}\n---\n{}", client.told)
+    format!("{plan}\n---\n{}", clients.told)
 }
 
 fn cases() -> Vec<PathBuf> {
@@ -52,4 +60,96 @@ fn clients_are_told_what_they_were() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A plan whose text is another one with each launch.
+struct Edited(Vec<String>);
+
+impl Host<'static> for Edited {
+    fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target>, String> {
+        Texted(self.0.remove(0)).launch(launch)
+    }
+
+    fn path(&self, path: &str) -> String {
+        path.to_owned()
+    }
+}
+
+#[test]
+fn a_restart_finds_breakpoints_in_the_text_as_it_is_then() {
+    let plan = "use std
+plan P {
+    start a
+    actor a: Wait(duration = 1 s) { Elapsed -> b }
+    actor b: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+";
+    // A component more before those that there were, and one of another name.
+    let more =
+        plan.replace("start a\n", "start c\n    actor c: Wait(duration = 1 s) { Elapsed -> a }\n");
+    let more = more.replace("Elapsed -> b", "Elapsed -> d").replace("actor b", "actor d");
+    let mut clients = Clients::new(Box::new(Edited(vec![plan.to_owned(), more])));
+    for said in [
+        r#"initialize {"adapterID":"afp"}"#,
+        r#"launch {"program":"plan.afp"}"#,
+        r#"setBreakpoints {"source":{"path":"plan.afp"},"breakpoints":[{"line":5}]}"#,
+        r#"setFunctionBreakpoints {"breakpoints":[{"name":"b"}]}"#,
+        "configurationDone",
+    ] {
+        clients.say(said);
+    }
+    clients.tick(None);
+    assert!(
+        clients.told.contains(r#""description":"b started at 1.000 s","hitBreakpointIds":[1,2]"#),
+        "{}",
+        clients.told
+    );
+    clients.told.clear();
+    clients.say("restart");
+    clients.tick(None);
+    let told = &clients.told;
+    assert!(
+        told.contains(r#"{"breakpoint":{"id":2,"message":"the plan has nothing called 'b'"#),
+        "{told}"
+    );
+    assert!(
+        told.contains(r#""description":"a started at 1.000 s","hitBreakpointIds":[1]"#),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_run_is_held_where_edges_are_taken_without_time_passing() {
+    let plan = "use std
+plan Spin {
+    var left: int = 0
+    start wait
+    actor wait: Wait(duration = 100 ms) { Elapsed -> here }
+    actor here: Wait(duration = 1 s) {
+        supervise low: CheckValue(value = left, limit = 9) { Below -> there, Above -> ignore }
+        Elapsed -> terminate
+    }
+    actor there: Wait(duration = 1 s) {
+        supervise low: CheckValue(value = left, limit = 9) { Below -> here, Above -> ignore }
+        Elapsed -> terminate
+    }
+}
+";
+    let mut clients = Clients::new(Box::new(Texted(plan.to_owned())));
+    clients.say(r#"launch {"program":"plan.afp"}"#);
+    clients.say(r#"setExceptionBreakpoints {"filters":["livelock"]}"#);
+    clients.say("configurationDone");
+    clients.tick(None);
+    let held =
+        r#"Spin fault livelock: the plan takes edge after edge without time passing at 0.100 s"#;
+    assert!(clients.told.contains(held), "{}", clients.told);
+    clients.told.clear();
+    clients.say("stepBack");
+    clients.say(r#"stackTrace {"threadId":1}"#);
+    assert!(clients.told.contains(r#""name":"wait: Wait""#), "{}", clients.told);
+    clients.say("continue");
+    clients.tick(None);
+    clients.say("continue");
+    clients.tick(None);
+    assert!(clients.told.contains("Spin ended in Error after 0.100 s"), "{}", clients.told);
 }

@@ -8,7 +8,7 @@ use afp_core::{Duration, Instant};
 use afp_debug::{Host, Launch, LogTarget, Target};
 use afp_log::{About, LogData, OwnedNames, SessionLog};
 use afp_session::{Open, Request};
-use common::{Client, Texted, compiled, session};
+use common::{Clients, Texted, compiled, session};
 
 /// A plan's text and the file of a log of it.
 struct Recorded(String, LogData);
@@ -48,7 +48,7 @@ fn recorded(text: &str, name: &str, seconds: u64, press: Option<Duration>) -> Lo
 }
 
 /// What a client sees where a run stands still.
-fn look(client: &mut Client) -> String {
+fn look(client: &mut Clients) -> String {
     client.told.clear();
     client.say("threads");
     client.say(r#"stackTrace {"threadId":1}"#);
@@ -83,8 +83,8 @@ fn plans() -> [(String, &'static str, u64); 4] {
 fn a_log_shows_what_its_run_showed() {
     for (text, name, seconds) in plans() {
         let log = recorded(&text, name, seconds, None);
-        let mut run = Client::new(Box::new(Texted(text.clone())));
-        let mut past = Client::new(Box::new(Recorded(text, log)));
+        let mut run = Clients::new(Box::new(Texted(text.clone())));
+        let mut past = Clients::new(Box::new(Recorded(text, log)));
         for (client, launch) in [
             (&mut run, format!(r#"{{"program":"{name}","until":{seconds},"stopOnEntry":true}}"#)),
             (&mut past, format!(r#"{{"log":"{name}","stopOnEntry":true}}"#)),
@@ -118,7 +118,7 @@ fn a_log_shows_what_its_run_showed() {
 #[test]
 fn a_log_is_sought_through_and_cannot_be_changed() {
     let log = recorded(SHIPPED, "plan.afp", 12, Some(Duration::from_secs(3)));
-    let mut past = Client::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
+    let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
     past.say(r#"initialize {"adapterID":"afp"}"#);
     past.say(r#"launch {"log":"plan.afp","until":3}"#);
     assert!(past.told.contains("leave 'world', 'start', 'set' and 'until' out"), "{}", past.told);
@@ -170,7 +170,7 @@ fn a_log_is_sought_through_and_cannot_be_changed() {
 fn a_log_that_was_cut_short_says_so() {
     let mut log = recorded(SHIPPED, "plan.afp", 5, None);
     log.events.truncate(40);
-    let mut past = Client::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
+    let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
     past.say(r#"launch {"log":"plan.afp"}"#);
     past.say("configurationDone");
     past.tick(None);
@@ -183,7 +183,7 @@ fn a_log_that_was_cut_short_says_so() {
 fn a_log_of_another_plan_is_refused() {
     let log = recorded(SHIPPED, "plan.afp", 1, None);
     let other = plans()[1].0.clone();
-    let mut past = Client::new(Box::new(Recorded(other, log)));
+    let mut past = Clients::new(Box::new(Recorded(other, log)));
     past.say(r#"launch {"log":"plan.afp:Outer"}"#);
     assert!(past.told.contains("which its plan has not any more"), "{}", past.told);
 }

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::scene::{Drawn, DrawnPlan};
-use super::view::{Exit, Input, Output, To, View, entry_kind_name, entry_name, entry_type, name};
+use super::view::{Exit, Input, Output, To, View, entry_name, entry_type, name};
 use super::{Options, Rect};
 use crate::layout_file::Position;
 use afp_dsl::outline::{Component, Outline, Part, Plan};
@@ -145,7 +145,7 @@ fn entries(view: &View) -> Value {
         let mut object = Map::new();
         put(&mut object, "name", json!(entry_name(entry)));
         put(&mut object, "doc", json!(entry.doc));
-        put(&mut object, "kind", json!(entry_kind_name(entry.kind)));
+        put(&mut object, "kind", json!(entry.kind.word()));
         put(&mut object, "live", json!(entry.live.then_some(true)));
         put(&mut object, "type", json!(entry_type(entry)));
         put(&mut object, "init", json!(entry.init.as_ref().map(|init| &init.text)));

@@ -4,10 +4,13 @@
 //! boxes, straight out of exits and straight into targets. The search ([`search`]) counts length,
 //! bends, crossings and how full the gaps between boxes are ([`gaps`]). Edges that share a line are
 //! put in the order with the fewest crossings ([`sequence`]) and moved apart as far as the gap
-//! allows ([`spread`]). Time and memory depend on how many boxes and edges there are, never on
-//! where they stand. Routes that are kept stay exactly as they are; others go around them.
+//! allows ([`spread`]); many of one kind to one box become one where they meet ([`bundle`]). Time
+//! and memory depend on how many boxes and edges there are, never on where they stand. Routes that
+//! are kept stay exactly as they are; others go around them.
 
+mod bundle;
 mod gaps;
+mod lay;
 mod lines;
 mod merge;
 mod queue;
@@ -19,16 +22,13 @@ mod tree;
 #[cfg(test)]
 mod tests;
 
+use bundle::Trees;
+pub(super) use bundle::bundles;
+use lay::Laid;
 use lines::Lines;
-use merge::{Join, merged};
-use search::Search;
-use spread::Spread;
 
 /// Edges nearer to each other than this cannot be told apart.
 const LEAST: f64 = 6.0;
-
-/// How often edges are led elsewhere because they are too near to others.
-const DETOURS: usize = 5;
 
 /// What routing may take before no edge is led elsewhere any more, in states of the search: about a second.
 pub(super) const BUDGET: u64 = 20_000_000;
@@ -144,6 +144,11 @@ impl Bounds {
 }
 
 impl Axis {
+    /// That of a straight part from one point to another.
+    fn of(a: Point, b: Point) -> Axis {
+        if (a.0 - b.0).abs() < (a.1 - b.1).abs() { Axis::Upright } else { Axis::Level }
+    }
+
     /// The coordinate of a point across a line of this axis.
     pub(super) fn across(self, (x, y): Point) -> f64 {
         if self == Axis::Upright { x } else { y }
@@ -175,7 +180,7 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
     let boxes: Vec<_> = boxes.iter().map(Bounds::inflated).collect();
     let kept_of = |wire: usize| kept.get(wire).and_then(Option::as_deref);
     let mut order: Vec<_> = (0..wires.len()).filter(|wire| kept_of(*wire).is_none()).collect();
-    let mut corners: Vec<Vec<Point>> =
+    let corners: Vec<Vec<Point>> =
         (0..wires.len()).map(|wire| kept_of(wire).unwrap_or_default().to_vec()).collect();
     if order.is_empty() {
         return Routes { corners, ..Routes::default() };
@@ -186,68 +191,13 @@ pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>
         (from.0 - to.0).abs() + (from.1 - to.1).abs()
     };
     order.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
-    let lines = Lines::new(&boxes, wires, &order);
-    let mut search = Search::new(&lines, &boxes);
-    for points in corners.iter().filter(|points| !points.is_empty()) {
-        search.occupy(points);
-    }
-    let mut joins = vec![Join::None; wires.len()];
-    for wire in &order {
-        let full = search.is_full(&wires[*wire]);
-        joins[*wire] = if full { Join::Nearest } else { Join::None };
-        corners[*wire] = search.route(&wires[*wire], &boxes, full);
-    }
-    let fixed: Vec<bool> = (0..wires.len()).map(|wire| kept_of(wire).is_some()).collect();
-    let spread = |corners: &[Vec<Point>], joins: &[Join]| {
-        let mut corners = corners.to_vec();
-        let crowded = Spread { boxes: &boxes, wires, fixed: &fixed, joins }.apply(&mut corners);
-        Routes { corners, crowded, effort: 0 }
-    };
-    let apart = spread(&corners, &joins);
-    merged(wires, &apart.corners, &fixed, &mut joins);
-    let mut best = spread(&corners, &joins);
-    let mut tried = vec![false; wires.len()];
-    for _ in 0..DETOURS {
-        let detours = detours(&best.crowded, &mut tried);
-        if detours.is_empty() || search.effort() > BUDGET {
-            break;
-        }
-        for narrow in &detours {
-            search.avoid(narrow);
-            let full = narrow.arrives || joins[narrow.edge] == Join::Nearest;
-            joins[narrow.edge] = if full { Join::Nearest } else { Join::None };
-            corners[narrow.edge] = search.route(&wires[narrow.edge], &boxes, full);
-        }
-        let found = spread(&corners, &joins);
-        if squeezed(&found) < squeezed(&best) {
-            best = found;
-        }
-    }
-    Routes { effort: search.effort(), ..best }
-}
-
-/// How many parts are too near to others to be told apart.
-fn squeezed(routes: &Routes) -> usize {
-    routes.crowded.iter().filter(|part| part.distance < LEAST).count()
-}
-
-/// Of each group of edges that run too near to each other one that shall go elsewhere: first those
-/// that can join another one at their target, no edge twice.
-fn detours(crowded: &[Crowded], tried: &mut [bool]) -> Vec<Crowded> {
-    let mut chosen: Vec<Crowded> = Vec::new();
-    for arrives in [true, false] {
-        for part in crowded.iter().filter(|part| part.distance < LEAST && part.arrives == arrives) {
-            let beside = |other: &Crowded| {
-                let near = (other.at - part.at).abs() < 4.0 * PITCH && other.axis == part.axis;
-                near && other.span.0 < part.span.1 && part.span.0 < other.span.1
-            };
-            if !tried[part.edge] && !chosen.iter().any(beside) {
-                tried[part.edge] = true;
-                chosen.push(*part);
-            }
-        }
-    }
-    chosen
+    let trees = Trees::new(wires);
+    let bundled =
+        (0..wires.len()).filter(|wire| trees.holds(*wire)).flat_map(|wire| &corners[wire]);
+    let lines = Lines::new(&boxes, wires, &order, bundled.copied());
+    let mut laid = Laid::new(&boxes, wires, &lines, trees, corners);
+    laid.lay_all(&order);
+    laid.routes()
 }
 
 /// Drops corners that lie on the straight line between their neighbours, and repeated ones.

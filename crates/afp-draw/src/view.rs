@@ -8,7 +8,6 @@ use std::borrow::Cow;
 use super::usage::{Count, PlanUsage, Reaction, times};
 use super::{Options, formula};
 use crate::layout_file::Position;
-use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{
     self, Component, ComponentKind, Destination, ElementId, Entry, ExitKind, Outline, Plan, PlanId,
     Target,
@@ -309,16 +308,6 @@ pub(super) fn entry_name(entry: &Entry) -> &str {
 pub(super) fn entry_type(entry: &Entry) -> String {
     let written = || entry.written_type.as_ref().map(|name| name.text.clone());
     entry.ty.as_ref().map(ToString::to_string).or_else(written).unwrap_or_default()
-}
-
-/// The word for an entry's kind.
-pub(super) fn entry_kind_name(kind: EntryKind) -> &'static str {
-    match kind {
-        EntryKind::In => "in",
-        EntryKind::Out => "out",
-        EntryKind::Var => "var",
-        EntryKind::Const => "const",
-    }
 }
 
 /// When a supervisor is polled, for its tooltip.

@@ -2,6 +2,7 @@
 //!
 //! `AFP_BLESS=1` rewrites the table; look at the drawings that changed.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -69,7 +70,13 @@ struct Counted {
 impl Counted {
     fn of(plan: &PlanScene) -> Counted {
         let ways: Vec<&[Point]> = plan.edges.iter().map(|edge| &edge.points[..]).collect();
-        let bends = ways.iter().map(|way| way.len().saturating_sub(2)).sum();
+        // What edges have in common in front of their target is seen once.
+        let kinds = plan.edges.iter().map(|edge| edge.kind);
+        let inner = |way: &[Point]| way.iter().skip(1).rev().skip(1).copied().collect::<Vec<_>>();
+        let bends = ways.iter().zip(kinds).flat_map(|(way, kind)| {
+            inner(way).into_iter().map(move |(x, y)| (kind, x.to_bits(), y.to_bits()))
+        });
+        let bends = bends.collect::<BTreeSet<_>>().len();
         let pairs = (0..ways.len())
             .flat_map(|first| ways[first + 1..].iter().map(move |second| (first, second)));
         let crossings = pairs.map(|(first, second)| crossings(ways[first], second)).sum();

@@ -51,7 +51,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
 use entries::EntryDraft;
-use names::Places;
+use names::Indices;
 pub(crate) use plan::{Made, Member, Members};
 use scope::FileScope;
 use signature::Signatures;
@@ -103,7 +103,7 @@ pub(crate) struct PlanHead {
     /// Its entries.
     pub entries: Vec<EntryDraft>,
     /// Where the entries stand.
-    pub places: Places,
+    pub indices: Indices,
     /// The edge by which it can end as `Interrupted`.
     pub interrupting: Option<Span>,
 }

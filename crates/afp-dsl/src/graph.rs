@@ -15,7 +15,7 @@ use crate::toolbox::{Template, Toolbox};
 use crate::types::{Conversion, Type};
 use afp_syntax::source::{Source, Span};
 
-pub use afp_number::Function;
+pub use afp_number::{EntryKind, Function};
 pub use afp_syntax::ast::Operator;
 pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};
@@ -120,19 +120,6 @@ pub struct Entry {
     pub ranged_by: Vec<EntryId>,
     /// The name in the text.
     pub span: Span,
-}
-
-/// Who may set an entry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum EntryKind {
-    /// Set by whoever starts the plan.
-    In,
-    /// A result of the plan.
-    Out,
-    /// Inner data.
-    Var,
-    /// Never changes.
-    Const,
 }
 
 /// An actor, a computation or a sub-plan.

@@ -291,17 +291,27 @@ impl Index {
         self.uses[first..end].iter().map(|name| self.names[*name as usize].span)
     }
 
-    /// What can be named at a place of a plan file, in the order of the definitions: plans, enums and
+    /// What of some kinds can be named at a place of a plan file, in the order of the definitions: plans, enums and
     /// tables of the file and of those that it uses, what its toolboxes declare, and in a plan or its
     /// scenario the entries, elements and global supervisors.
-    pub fn visible(&self, file: u16, offset: u32) -> Vec<DefinitionId> {
+    pub fn visible(
+        &self,
+        file: u16,
+        offset: u32,
+        fits: impl Fn(DefinitionKind) -> bool,
+    ) -> Vec<DefinitionId> {
         let mut visible = Vec::new();
+        let mut add = |id, known: &Definition| {
+            if fits(known.kind) {
+                visible.push(id);
+            }
+        };
         let mut files = vec![file];
         for name in self.names_in(file) {
             match name.meaning {
                 Meaning::File(used) => files.push(used),
                 Meaning::Refers(id) if self.definition(id).kind == DefinitionKind::Toolbox => {
-                    visible.extend(self.members(id).map(|(member, _)| member));
+                    self.members(id).for_each(|(member, known)| add(member, known));
                 }
                 _ => {}
             }
@@ -311,7 +321,7 @@ impl Index {
         };
         for (id, known) in files.iter().flat_map(|seen| self.definitions_in(*seen)) {
             if known.owner.is_none() && is_outer(known.kind) {
-                visible.push(id);
+                add(id, known);
             }
         }
         let place = Span { file, start: offset, end: offset };
@@ -323,7 +333,7 @@ impl Index {
                 _ => None,
             };
             let members = plan.into_iter().flat_map(|plan| self.members(plan));
-            visible.extend(members.map(|(member, _)| member));
+            members.for_each(|(member, known)| add(member, known));
         }
         visible.sort_unstable();
         visible.dedup();

@@ -10,6 +10,7 @@ mod order;
 mod size;
 mod wanted;
 
+pub use afp_number::{Child, ElementKind, Range};
 pub(crate) use lower::lower;
 pub(crate) use order::polling_order;
 pub(crate) use size::{MAX_EVENTS, MAX_ROWS, MAX_STATES, Table, tables};
@@ -36,35 +37,6 @@ pub struct Rows {
     /// For each element, the rows in [`Rows::supervisors`] of its supervisors and of the global ones, in
     /// polling order.
     pub sweeps: Vec<u16>,
-}
-
-/// A run of rows in another table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Range {
-    /// Index of the first.
-    pub first: u16,
-    /// How many.
-    pub len: u16,
-}
-
-/// What an element is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ElementKind {
-    /// An actor.
-    Actor,
-    /// A computation.
-    Computation,
-    /// A sub-plan.
-    SubPlan,
-}
-
-/// Where the ids of a sub-plan begin, counted from the first id of the plan that uses it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Child {
-    /// Offset of its component ids.
-    pub components: u32,
-    /// Offset of its entry ids.
-    pub entries: u32,
 }
 
 /// One element.
@@ -113,13 +85,6 @@ pub struct SupervisorRow {
     pub wanted: u64,
     /// The same in the look, where an element's own supervisors do not start it anew.
     pub wanted_in_look: u64,
-}
-
-impl Range {
-    /// The indices.
-    pub fn indices(self) -> std::ops::Range<usize> {
-        usize::from(self.first)..usize::from(self.first) + usize::from(self.len)
-    }
 }
 
 impl Rows {

@@ -2,7 +2,6 @@
 
 pub mod readable;
 pub mod text;
-pub mod value;
 
 use std::fmt;
 use std::sync::Arc;

@@ -12,24 +12,10 @@ use crate::graph::{
     Component, EdgeSpans, Element, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming,
 };
 use crate::types::Type;
+pub use afp_number::ComponentKind;
 use afp_syntax::source::Span;
 use ports::Ports;
 pub use texts::{PlanTexts, TextPlace};
-
-/// What a component is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// The outermost plan.
-    Plan,
-    /// An actor.
-    Actor,
-    /// A computation.
-    Computation,
-    /// A sub-plan.
-    SubPlan,
-    /// A supervisor.
-    Supervisor,
-}
 
 /// A component with the names that a trace needs.
 #[derive(Clone, Debug)]
@@ -37,7 +23,7 @@ pub struct ComponentNames {
     /// Dotted path from the outermost plan; the plan's own name for the outermost.
     pub path: String,
     /// What it is.
-    pub kind: Kind,
+    pub kind: ComponentKind,
     /// Name of its template or plan.
     pub template: String,
     /// States or events with where they lead (empty where unconnected), by position.
@@ -233,7 +219,7 @@ pub fn unfold(graph: &Graph) -> Unfolded {
     let mut all = Unfolded { texts: PlanTexts::new(graph), ..Unfolded::default() };
     all.components.push(ComponentNames {
         path: main.name.clone(),
-        kind: Kind::Plan,
+        kind: ComponentKind::Plan,
         template: main.name.clone(),
         outcomes: Vec::new(),
         special: String::new(),
@@ -279,8 +265,8 @@ fn element(
         Component::Actor(id) | Component::Computation(id) => {
             let template = graph.template(id);
             let kind = match element.component {
-                Component::Actor(_) => Kind::Actor,
-                _ => Kind::Computation,
+                Component::Actor(_) => ComponentKind::Actor,
+                _ => ComponentKind::Computation,
             };
             let states = template.outcomes.iter().map(|state| state.name.clone()).collect();
             (kind, template.name.clone(), states)
@@ -288,7 +274,7 @@ fn element(
         Component::SubPlan(id) => {
             let child = graph.plan(id);
             let states = vec!["OK".to_owned(), "Interrupted".to_owned()];
-            (Kind::SubPlan, child.name.clone(), states)
+            (ComponentKind::SubPlan, child.name.clone(), states)
         }
     };
     let targets = element.states.iter().map(|state| target(plan, *state));
@@ -315,7 +301,7 @@ fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> Compone
     let ports = Ports::of_template(plan, template);
     ComponentNames {
         path: format!("{prefix}{}{}", owner.unwrap_or_default(), supervisor.name),
-        kind: Kind::Supervisor,
+        kind: ComponentKind::Supervisor,
         template: template.name.clone(),
         outcomes: template.outcomes.iter().map(|event| event.name.clone()).zip(targets).collect(),
         special: target(plan, supervisor.on_miss),

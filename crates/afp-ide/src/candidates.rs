@@ -163,7 +163,7 @@ fn step(input: &Input, unit: &str) -> Option<f64> {
         Some(Type::Quantity(_) | Type::Number) => {}
         _ => return None,
     }
-    let one = Literal::parse(&format!("1 {unit}")).ok().and_then(|literal| literal.value());
+    let one = Literal::parse(&format!("1 {unit}")).and_then(|literal| literal.value());
     let one = one.filter(|one| *one > 0.0).unwrap_or(1.0);
     let default = match input.default {
         Some(Constant::Float(value)) if value != 0.0 => Some(value.abs() / 10.0),

@@ -11,6 +11,8 @@ mod scenarios;
 mod toolboxes;
 mod values;
 
+use std::collections::BTreeMap;
+
 use crate::View;
 use crate::describe::declaration;
 use crate::edit::TextEdit;
@@ -61,7 +63,7 @@ pub enum CompletionKind {
 /// Everything that can be written at a byte, best first; the word that ends there is taken as begun.
 pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
     let context = Context::at(view, offset);
-    let mut list = List { view, replaces: context.word, all: Vec::new() };
+    let mut list = List { view, replaces: context.word, all: Vec::new(), uses: BTreeMap::new() };
     match &context.place {
         Place::Nothing => {}
         Place::File => match view.is_plan_file() {
@@ -115,6 +117,8 @@ struct List<'v, 'a> {
     view: &'v View<'a>,
     replaces: Span,
     all: Vec<Completion>,
+    /// The edits that bring toolboxes into view, by toolbox: each reads the whole file.
+    uses: BTreeMap<String, Vec<TextEdit>>,
 }
 
 impl List<'_, '_> {

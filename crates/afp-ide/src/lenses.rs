@@ -9,14 +9,14 @@ pub struct Lens {
     /// The name of the plan or scenario.
     pub span: Span,
     /// What can be done with it.
-    pub deed: Deed,
+    pub action: LensAction,
     /// The plan's name, or the scenario's without quotes.
     pub name: String,
 }
 
 /// What can be done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Deed {
+pub enum LensAction {
     /// Running a plan.
     Run,
     /// Running a plan step by step.
@@ -32,15 +32,15 @@ pub fn lenses(view: &View) -> Vec<Lens> {
     let mut lenses = Vec::new();
     for plan in view.plans() {
         let Some(name) = &plan.name else { continue };
-        for deed in [Deed::Run, Deed::Debug, Deed::Draw] {
-            lenses.push(Lens { span: name.span, deed, name: name.text.clone() });
+        for action in [LensAction::Run, LensAction::Debug, LensAction::Draw] {
+            lenses.push(Lens { span: name.span, action, name: name.text.clone() });
         }
     }
     let files = view.outline().files.iter().filter(|file| file.file == view.file);
     for scenario in files.flat_map(|file| &file.scenarios) {
         let Some(name) = &scenario.name else { continue };
         let text = name.text.trim_matches('"').to_owned();
-        lenses.push(Lens { span: name.span, deed: Deed::Test, name: text });
+        lenses.push(Lens { span: name.span, action: LensAction::Test, name: text });
     }
     lenses.sort_by_key(|lens| lens.span);
     lenses

@@ -35,7 +35,8 @@ pub struct Offer {
 /// names that begin so before names that hold it before helps.
 pub fn palette(view: &View, query: &str) -> Vec<Offer> {
     let query = query.to_lowercase();
-    let visible = view.index().visible(view.file, 0);
+    let is_offered = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
+    let visible = view.index().visible(view.file, 0, is_offered);
     let mut ranked: Vec<(u8, Offer)> = Vec::new();
     for (id, definition) in view.index().definitions() {
         let seen = visible.contains(&id);

@@ -263,11 +263,11 @@ impl Encoder {
         mut self,
         in_order: bool,
         last: Instant,
-        untold: u64,
+        unreported: u64,
     ) -> Result<(PathBuf, u64), LogError> {
         self.close_commit()?;
-        if untold > 0 {
-            self.lost(last, untold)?;
+        if unreported > 0 {
+            self.lost(last, unreported)?;
         }
         self.to.finish(in_order)
     }

@@ -323,11 +323,11 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
         Component {
             path: path.to_owned(),
             kind: match kind {
-                trace::Kind::Plan => plan_table::Kind::Plan,
-                trace::Kind::Actor => plan_table::Kind::Actor,
-                trace::Kind::Computation => plan_table::Kind::Computation,
-                trace::Kind::SubPlan => plan_table::Kind::SubPlan,
-                trace::Kind::Supervisor => plan_table::Kind::Supervisor,
+                trace::ComponentKind::Plan => plan_table::Kind::Plan,
+                trace::ComponentKind::Actor => plan_table::Kind::Actor,
+                trace::ComponentKind::Computation => plan_table::Kind::Computation,
+                trace::ComponentKind::SubPlan => plan_table::Kind::SubPlan,
+                trace::ComponentKind::Supervisor => plan_table::Kind::Supervisor,
             }
             .into(),
             template: template.to_owned(),

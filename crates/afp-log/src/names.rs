@@ -1,7 +1,7 @@
 //! An owned copy of a plan's names, for threads that outlive the step that made a record.
 
 use afp_core::trace::{
-    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
+    ComponentId, ComponentKind, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Names,
     PortName, Reaction, TextPlace, TraceEntryId,
 };
 
@@ -17,7 +17,7 @@ pub struct OwnedNames {
 #[derive(Clone, Debug)]
 struct Component {
     path: String,
-    kind: Kind,
+    kind: ComponentKind,
     template: String,
     /// Name and target of each outcome, then those of `DeadlineMissed` and `Error`.
     outcomes: Vec<(String, String)>,
@@ -67,11 +67,11 @@ impl OwnedNames {
         let component = |row: &plan_table::Component| Component {
             path: row.path.clone(),
             kind: match row.kind() {
-                plan_table::Kind::Actor => Kind::Actor,
-                plan_table::Kind::Computation => Kind::Computation,
-                plan_table::Kind::SubPlan => Kind::SubPlan,
-                plan_table::Kind::Supervisor => Kind::Supervisor,
-                plan_table::Kind::Plan | plan_table::Kind::Unknown => Kind::Plan,
+                plan_table::Kind::Actor => ComponentKind::Actor,
+                plan_table::Kind::Computation => ComponentKind::Computation,
+                plan_table::Kind::SubPlan => ComponentKind::SubPlan,
+                plan_table::Kind::Supervisor => ComponentKind::Supervisor,
+                plan_table::Kind::Plan | plan_table::Kind::Unknown => ComponentKind::Plan,
             },
             template: row.template.clone(),
             outcomes: row.outcomes.iter().map(outcome).collect(),

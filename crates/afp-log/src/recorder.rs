@@ -118,7 +118,7 @@ pub struct Recorder {
     when_full: WhenFull,
     lost: u64,
     /// Of those, the ones that the log does not mention yet.
-    untold: u64,
+    unreported: u64,
     end: Arc<End>,
     thread: Option<JoinHandle<Outcome>>,
 }
@@ -129,7 +129,7 @@ type Outcome = Result<(PathBuf, u64), LogError>;
 #[derive(Default)]
 struct End {
     state: AtomicU8,
-    untold: AtomicU64,
+    unreported: AtomicU64,
 }
 
 const RUN: u8 = 0;
@@ -177,7 +177,7 @@ impl Recorder {
                 move || write_all(file, items, &seen).map_err(|error| error.writing(&path))
             })
             .map_err(|error| LogError::Create { path: path.to_owned(), error })?;
-        Ok(Recorder { queue, when_full, lost: 0, untold: 0, end, thread: Some(thread) })
+        Ok(Recorder { queue, when_full, lost: 0, unreported: 0, end, thread: Some(thread) })
     }
 
     /// Writes the configuration that the plan starts with.
@@ -248,8 +248,8 @@ impl Recorder {
     }
 
     fn push(&mut self, item: Item, at: Instant) {
-        if self.untold > 0 && self.queue.slots() > 1 {
-            let count = std::mem::take(&mut self.untold);
+        if self.unreported > 0 && self.queue.slots() > 1 {
+            let count = std::mem::take(&mut self.unreported);
             // There is room: only this thread fills the queue.
             let _ = self.queue.push(Item::Lost { at, count });
         }
@@ -257,7 +257,7 @@ impl Recorder {
         while let Err(PushError::Full(back)) = self.queue.push(item) {
             if self.when_full == WhenFull::Drop || self.queue.is_abandoned() {
                 self.lost += 1;
-                self.untold += 1;
+                self.unreported += 1;
                 return;
             }
             item = back;
@@ -268,7 +268,7 @@ impl Recorder {
     /// `None` when there is no writer any more.
     fn close(&mut self, how: u8) -> Option<Outcome> {
         let thread = self.thread.take()?;
-        self.end.untold.store(self.untold, Ordering::Relaxed);
+        self.end.unreported.store(self.unreported, Ordering::Relaxed);
         self.end.state.store(how, Ordering::Release);
         Some(thread.join().unwrap_or(Err(LogError::Writer)))
     }
@@ -309,7 +309,7 @@ fn write_all(mut file: Encoder, mut items: Consumer<Item>, end: &End) -> Outcome
         if idle && state != RUN {
             return match failure {
                 Some(failure) => Err(failure),
-                None => file.finish(state == CLOSE, last, end.untold.load(Ordering::Relaxed)),
+                None => file.finish(state == CLOSE, last, end.unreported.load(Ordering::Relaxed)),
             };
         }
         if idle {

@@ -1,7 +1,7 @@
 //! What a log says about deadlines, interruptions and coverage.
 
 use afp_core::Duration;
-use afp_core::trace::{ComponentId, Kind, Names};
+use afp_core::trace::{ComponentId, ComponentKind, Names};
 use afp_session::{Counts, Usage};
 
 use crate::read::LogData;
@@ -78,7 +78,7 @@ pub fn statistics(log: &LogData) -> Statistics {
         let path = row.path.to_owned();
         let own = (0..).take(usage.outcomes.len()).map(|outcome| {
             let count = match row.kind {
-                Kind::Supervisor => counts.by_own_edge(id, outcome),
+                ComponentKind::Supervisor => counts.by_own_edge(id, outcome),
                 _ => usage.outcomes[usize::from(outcome)],
             };
             let outcome_name = format!("{path}.{}", names.outcome(id, outcome));
@@ -99,8 +99,8 @@ pub fn statistics(log: &LogData) -> Statistics {
             }
         }
         match row.kind {
-            Kind::Supervisor => all.supervisors.push(supervisor(path, usage)),
-            Kind::Plan => {}
+            ComponentKind::Supervisor => all.supervisors.push(supervisor(path, usage)),
+            ComponentKind::Plan => {}
             _ => all.elements.push(ElementStatistics {
                 path,
                 activations: usage.starts,

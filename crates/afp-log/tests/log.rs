@@ -6,8 +6,8 @@ use std::process::Command;
 use std::thread;
 
 use afp_core::trace::{
-    Author, Cause, ComponentId, ComponentName, Ending, EntryKind, EntryName, Kind, Names, Reaction,
-    Record, Sink, TraceEntryId, Verdict,
+    Author, Cause, ComponentId, ComponentKind, ComponentName, Ending, EntryKind, EntryName, Names,
+    Reaction, Record, Sink, TraceEntryId, Verdict,
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
@@ -29,9 +29,9 @@ impl Names for Names1 {
 
     fn component(&self, id: ComponentId) -> ComponentName<'_> {
         let (path, kind, template) = match id.0 {
-            0 => ("Walk", Kind::Plan, "Walk"),
-            1 => ("go", Kind::Actor, "Forward"),
-            2 => ("go.touch", Kind::Supervisor, "CheckTouchSensor"),
+            0 => ("Walk", ComponentKind::Plan, "Walk"),
+            1 => ("go", ComponentKind::Actor, "Forward"),
+            2 => ("go.touch", ComponentKind::Supervisor, "CheckTouchSensor"),
             _ => return ComponentName::NONE,
         };
         ComponentName { path, kind, template }

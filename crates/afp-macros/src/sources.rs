@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+use afp_codegen::compile_error;
+use afp_dsl::Compiled;
 use afp_dsl::files::Disk;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::{CrateLink, ProjectError, ProjectFile};
@@ -18,73 +20,71 @@ pub struct File {
     pub text: TokenStream,
 }
 
-/// A toolbox file: one beside the manifest, else a built-in one.
-///
-/// # Errors
-/// A sentence that says what is missing.
-pub fn toolbox(path: &str) -> Result<File, String> {
-    let builtin = afp_toolboxes::ALL.iter().find(|builtin| builtin.file_name == path);
-    match (read(path), builtin) {
-        (Err(_), Some(builtin)) => {
-            let text = builtin.text;
-            Ok(File { source: Source::new(path, text), text: quote!(#text) })
-        }
-        (read, _) => read,
-    }
-}
-
-/// A file beside the manifest.
-///
-/// # Errors
-/// A sentence that says what is missing.
-pub fn read(path: &str) -> Result<File, String> {
-    let full = root().join(path);
-    let text = fs::read_to_string(&full)
-        .map_err(|error| format!("error: cannot read '{}': {error}", full.display()))?;
-    Ok(File { source: Source::new(path, text), text: include(&full) })
-}
-
-/// The plan files that others use, seen from the manifest.
-pub fn used() -> Disk {
-    Disk(root())
-}
-
-/// The expression of the text of a file beside the manifest.
-pub fn included(path: &str) -> TokenStream {
-    include(&root().join(path))
-}
-
-/// The toolboxes that a plan can use.
+/// What a plan file is compiled with.
+#[derive(Default)]
 pub struct Available {
-    /// The toolboxes for the compiler of plans.
-    pub toolboxes: Toolboxes,
+    toolboxes: Toolboxes,
     /// The expressions of the texts that were read, the project file's included.
     pub texts: Vec<TokenStream>,
     /// Toolboxes without a crate: the name and the error that says why.
     pub without_crate: Vec<(String, String)>,
 }
 
-/// The built-in toolboxes, then those of the project whose `afp.toml` stands beside the manifest or
-/// above, then those of `files`, each with the module that implements it.
+/// A toolbox file: one beside the manifest, else a built-in one.
 ///
 /// # Errors
-/// A sentence that says what is missing or wrong.
-pub fn toolboxes(files: &[(String, String)]) -> Result<Available, String> {
-    let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
-    let mut all = Available { toolboxes, texts: Vec::new(), without_crate: Vec::new() };
-    all.add_project().map_err(|error| error.to_string())?;
-    for (path, module) in files {
-        let file = read(path)?;
-        all.toolboxes.add(file.source, module);
-        all.texts.push(file.text);
+/// A compile error that says what is missing, as of everything here.
+pub fn toolbox(path: &str) -> Result<File, TokenStream> {
+    read(path).or_else(|missing| {
+        let is_it = |each: &&afp_toolboxes::Builtin| each.file_name == path;
+        let text = afp_toolboxes::ALL.iter().find(is_it).ok_or(missing)?.text;
+        Ok(File { source: Source::new(path, text), text: quote!(#text) })
+    })
+}
+
+/// A file beside the manifest.
+pub fn read(path: &str) -> Result<File, TokenStream> {
+    let full = root().join(path);
+    match fs::read_to_string(&full) {
+        Ok(text) => Ok(File { source: Source::new(path, text), text: include(&full) }),
+        Err(why) => Err(compile_error(&format!("error: cannot read '{}': {why}", full.display()))),
     }
-    Ok(all)
+}
+
+/// The file itself, or the plan files of the folder, seen from the manifest.
+pub fn plan_files(path: &str) -> Vec<String> {
+    let root = root();
+    if !root.join(path).is_dir() {
+        return vec![path.to_owned()];
+    }
+    let files = afp_project::files(&root.join(path)).into_iter();
+    let plans = files.filter(|file| file.extension().is_some_and(|ending| ending == "afp"));
+    plans.map(|file| file.strip_prefix(&root).unwrap_or(&file).display().to_string()).collect()
+}
+
+/// Compiles a plan file with the built-in toolboxes, then those of the project whose `afp.toml` stands beside the
+/// manifest or above, then those of `files`, each with the module that implements it.
+pub fn compile(
+    file: &File,
+    files: &[(String, String)],
+) -> Result<(Compiled, Available), TokenStream> {
+    let root = root();
+    let toolboxes = afp_toolboxes::sources().collect();
+    let mut all = Available { toolboxes, ..Available::default() };
+    all.add_project(&root).map_err(|error| compile_error(&error.to_string()))?;
+    for (path, module) in files {
+        let File { source, text } = read(path)?;
+        all.toolboxes.add(source, module);
+        all.texts.push(text);
+    }
+    let compiled = afp_dsl::compile(&file.source, &all.toolboxes, &Disk(root.clone()));
+    all.texts.extend(compiled.plan_sources().map(|source| include(&root.join(&source.name))));
+    Ok((compiled, all))
 }
 
 impl Available {
-    fn add_project(&mut self) -> Result<(), ProjectError> {
-        let root = root();
-        let project = ProjectFile::find(&root)?;
+    fn add_project(&mut self, root: &Path) -> Result<(), ProjectError> {
+        let project = ProjectFile::find(root)?;
         if project.exists {
             self.texts.push(include(&project.path()));
         }
@@ -94,14 +94,14 @@ impl Available {
         for file in project.toolboxes()? {
             let name = file.toolbox.name;
             let path = match file.krate {
-                Ok(krate) => rust_path(&krate, &root),
+                Ok(krate) => rust_path(&krate, root),
                 Err(mistake) => {
                     let error = project.wrong(vec![mistake]).to_string();
                     self.without_crate.push((name.clone(), error));
                     name
                 }
             };
-            let shown = file.path.strip_prefix(&root).unwrap_or(&file.path).display().to_string();
+            let shown = file.path.strip_prefix(root).unwrap_or(&file.path).display().to_string();
             self.toolboxes.add(Source::new(shown, file.text), &path);
             self.texts.push(include(&file.path));
         }

@@ -13,7 +13,7 @@ mod kit {
     };
 
     pub mod templates {
-        afp_macros::toolbox!("../afp-codegen/tests/codegen/toolbox.afp");
+        afp_macros::toolbox!("../afp-codegen/tests/codegen/toolbox.afp", robot = super::Script);
     }
 
     /// What polls say next, and what was done.

@@ -1,5 +1,5 @@
-//! The arithmetic of formulas, and how texts become numbers and numbers texts: one meaning for
-//! compiler and run time.
+//! What compiler and run time say alike: the arithmetic of formulas, how texts become numbers and numbers texts, and
+//! what components, entries and parts of rows are.
 //!
 //! A formula that is constant is computed by the compiler, any other by the interpreter or by
 //! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
@@ -12,8 +12,10 @@ mod arithmetic;
 mod decimal;
 mod exact;
 mod function;
+mod kind;
 mod measured;
 mod read;
+mod row;
 mod text;
 
 pub use arithmetic::{
@@ -26,8 +28,10 @@ pub use function::{
     Function, abs, atan2, clamp, cos, hypot, int_abs, int_clamp, int_max, int_min, max, min, sin,
     sqrt,
 };
+pub use kind::{ComponentKind, EntryKind};
 pub use measured::Measured;
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
+pub use row::{Child, ElementKind, Range};
 pub use text::{Nanoseconds, Rounded};
 
 use core::fmt;

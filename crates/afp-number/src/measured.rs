@@ -5,7 +5,7 @@ use core::fmt;
 use crate::Rounded;
 
 /// A number of an SI unit as people write it: angles in degrees; less than a metre in centimetres, less than a
-/// second in milliseconds; told to the thousandth of its part.
+/// second in milliseconds; shown to the thousandth of its part.
 ///
 /// Two that are equal read the same.
 ///
@@ -17,7 +17,7 @@ use crate::Rounded;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured<'a> {
-    told: f64,
+    value: f64,
     decimals: usize,
     unit: &'a str,
 }
@@ -42,24 +42,24 @@ impl<'a> Measured<'a> {
     /// A number from one on in its unit, below in parts of it that are so many powers of ten smaller.
     fn whole_or_parts(number: f64, unit: &'a str, part: &'a str, power: u8) -> Self {
         let decimals = usize::from(power) + 3;
-        let told = Self::rounded(number, decimals, unit);
-        if told.told.abs() < 1.0 {
-            Self::rounded(told.told * libm::pow(10.0, f64::from(power)), 3, part)
+        let shown = Self::rounded(number, decimals, unit);
+        if shown.value.abs() < 1.0 {
+            Self::rounded(shown.value * libm::pow(10.0, f64::from(power)), 3, part)
         } else {
-            told
+            shown
         }
     }
 
     fn rounded(number: f64, decimals: usize, unit: &'a str) -> Self {
         let scale = libm::pow(10.0, decimals as f64);
-        let told = libm::round(number * scale) / scale;
-        Measured { told: if told.is_finite() { told } else { number }, decimals, unit }
+        let shown = libm::round(number * scale) / scale;
+        Measured { value: if shown.is_finite() { shown } else { number }, decimals, unit }
     }
 }
 
 impl fmt::Display for Measured<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", Rounded(self.told, self.decimals))?;
+        write!(f, "{}", Rounded(self.value, self.decimals))?;
         match self.unit {
             "" => Ok(()),
             unit => write!(f, " {unit}"),

@@ -5,7 +5,7 @@ use std::{fmt, fs, io};
 
 use afp_excerpt::{Mark, Report, Severity};
 
-use crate::krate::{self, CrateLink, RobotLink};
+use crate::krate::{self, CrateLink, HardwareLink, RobotLink};
 use crate::project::{Mistake, Project, Toolbox};
 use crate::read::read;
 
@@ -134,6 +134,17 @@ impl ProjectFile {
         let krate = krate.cloned().unwrap_or_default();
         let file = toolbox.map_or_else(|| self.path(), |toolbox| self.folder.join(&toolbox.path));
         let linked = krate::link_robot(&self.folder, robot, &krate, &file);
+        linked.map(Some).map_err(|mistake| self.wrong(vec![mistake]))
+    }
+
+    /// The robot itself with its crate; none where there is a simulated one alone.
+    ///
+    /// # Errors
+    /// As [`ProjectFile::robot`].
+    pub fn hardware(&self) -> Result<Option<HardwareLink>, ProjectError> {
+        let hardware = self.project.robot.as_ref().and_then(|robot| robot.hardware.as_ref());
+        let (Some(hardware), Some(robot)) = (hardware, self.robot()?) else { return Ok(None) };
+        let linked = krate::link_hardware(&self.folder, hardware, robot.krate);
         linked.map(Some).map_err(|mistake| self.wrong(vec![mistake]))
     }
 

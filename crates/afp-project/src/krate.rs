@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use toml_edit::Document;
 
-use crate::file::shown;
-use crate::project::{Crate, Mistake, Origin, Robot, Toolbox};
+use crate::file::{NAME, shown};
+use crate::project::{Crate, Hardware, Mistake, Origin, Robot, Toolbox};
 
 /// A crate of the project, as a manifest can depend on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,6 +61,24 @@ impl RobotLink {
     }
 }
 
+/// The type of the robot itself and the crate that holds it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HardwareLink {
+    /// The crate.
+    pub krate: CrateLink,
+    /// The type, seen from the crate's root.
+    pub ty: String,
+    /// What it is opened with, name and value.
+    pub settings: Vec<(String, String)>,
+}
+
+impl HardwareLink {
+    /// The path of the type, as other crates name it.
+    pub fn rust_type(&self) -> String {
+        format!("{}::{}", self.krate.rust_name(), self.ty)
+    }
+}
+
 /// What is wrong, and what to do.
 type Wrong = (String, String);
 
@@ -88,6 +106,27 @@ pub(crate) fn link_robot(
     let what = format!("'{}'", shown(file).display());
     let krate = find(folder, krate, "robot", (&what, file)).map_err(wrong)?;
     Ok(RobotLink { toolbox: robot.toolbox.clone(), krate, sim: robot.sim.clone() })
+}
+
+/// Finds the crate of the robot itself, for the project in `folder`; `krate` is that of the simulated one.
+///
+/// # Errors
+/// As [`link`].
+pub(crate) fn link_hardware(
+    folder: &Path,
+    hardware: &Hardware,
+    krate: CrateLink,
+) -> Result<HardwareLink, Mistake> {
+    let Hardware { ty, settings, span, .. } = hardware;
+    let wrong = |(message, help)| Mistake { span: span.clone(), message, help };
+    let project = folder.join(NAME);
+    let krate = match &hardware.krate {
+        Some(own) => {
+            find(folder, own, "hardware", ("the project file", &project)).map_err(wrong)?
+        }
+        None => krate,
+    };
+    Ok(HardwareLink { krate, ty: ty.clone(), settings: settings.clone() })
 }
 
 /// Finds a crate; without an origin it is the one around a file, which is called something.

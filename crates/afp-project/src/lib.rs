@@ -20,6 +20,7 @@
 //! [robot]
 //! toolbox = "gripper"                                         # its crate holds the robot, too
 //! sim = "Arm"
+//! hardware = { type = "Board", crate = { path = "board" }, settings = { port = "/dev/ttyUSB0" } }
 //!
 //! [afp]
 //! path = "../afp"
@@ -33,8 +34,8 @@ mod time;
 mod tree;
 
 pub use file::{ProjectError, ProjectFile, ToolboxFile, shown};
-pub use krate::{CrateLink, RobotLink};
-pub use project::{Crate, Mistake, Origin, Project, Robot, Target, Toolbox};
+pub use krate::{CrateLink, HardwareLink, RobotLink};
+pub use project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
 pub use time::duration;
 pub use tree::{files, logs};

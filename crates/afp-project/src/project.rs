@@ -54,7 +54,22 @@ pub struct Robot {
     pub sim: String,
     /// Its crate; else that of its toolbox, else the one around the project file.
     pub krate: Option<Crate>,
+    /// The robot itself, beside the simulated one.
+    pub hardware: Option<Hardware>,
     /// The heading in the text, in bytes.
+    pub span: Range<usize>,
+}
+
+/// The robot itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hardware {
+    /// The type that implements `afp_session::Hardware`, seen from the root of its crate.
+    pub ty: String,
+    /// Its crate; else that of the simulated robot.
+    pub krate: Option<Crate>,
+    /// What it is opened with, name and value, in the order of the file.
+    pub settings: Vec<(String, String)>,
+    /// The key in the text, in bytes.
     pub span: Range<usize>,
 }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use toml_edit::{Document, Item, TableLike, Value};
 
-use crate::project::{Crate, Mistake, Origin, Project, Robot, Target, Toolbox};
+use crate::project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
 use crate::time::duration;
 
 /// Reads the text of an `afp.toml`. What is wrong is left out of the project and said beside it, in
@@ -123,20 +123,62 @@ impl Reader {
 
     fn robot(&mut self, robot: &Pair<'_>, toolboxes: &[Toolbox]) -> Option<Robot> {
         let before = self.mistakes.len();
-        let (mut toolbox, mut sim, mut krate) = (None, None, None);
+        let (mut toolbox, mut sim, mut krate, mut hardware) = (None, None, None, None);
         for pair in self.table(robot, "a heading '[robot]'") {
             match pair.key {
                 "toolbox" => toolbox = self.known_toolbox(&pair, toolboxes),
                 "sim" => sim = self.type_path(&pair),
                 "crate" => krate = Some(self.krate(&pair)),
-                _ => self.unknown(&pair, "'[robot]'", "it has 'toolbox', 'sim' and 'crate'"),
+                "hardware" => hardware = self.hardware(&pair),
+                _ => {
+                    let help = "it has 'toolbox', 'sim', 'crate' and 'hardware'";
+                    self.unknown(&pair, "'[robot]'", help);
+                }
             }
         }
         if sim.is_none() && self.mistakes.len() == before {
             let help = "write 'sim = \"Vacuum\"', the Rust type that implements 'Simulated'";
             self.wrong(robot.span.clone(), "'[robot]' has no 'sim'".to_owned(), help);
         }
-        Some(Robot { toolbox, sim: sim?, krate, span: robot.span.clone() })
+        Some(Robot { toolbox, sim: sim?, krate, hardware, span: robot.span.clone() })
+    }
+
+    fn hardware(&mut self, hardware: &Pair<'_>) -> Option<Hardware> {
+        let example = "hardware = { type = \"Board\", crate = { path = \"board\" } }";
+        let before = self.mistakes.len();
+        let (mut ty, mut krate, mut settings) = (None, None, Vec::new());
+        for pair in self.table(hardware, example) {
+            match pair.key {
+                "type" => ty = self.type_path(&pair),
+                "crate" => krate = Some(self.krate(&pair)),
+                "settings" => settings = self.settings(&pair),
+                _ => self.unknown(&pair, "'hardware'", "it has 'type', 'crate' and 'settings'"),
+            }
+        }
+        if ty.is_none() && self.mistakes.len() == before {
+            let help = "write 'type = \"Board\"', the Rust type that implements 'Hardware'";
+            self.wrong(hardware.span.clone(), "'hardware' has no 'type'".to_owned(), help);
+        }
+        Some(Hardware { ty: ty?, krate, settings, span: hardware.span.clone() })
+    }
+
+    /// Names with texts, numbers or truth values, each as its text.
+    fn settings(&mut self, settings: &Pair<'_>) -> Vec<(String, String)> {
+        let mut all = Vec::new();
+        for pair in self.table(settings, "settings = { port = \"/dev/ttyUSB0\" }") {
+            let value = match pair.item.as_value() {
+                Some(Value::String(text)) => Some(text.value().clone()),
+                Some(Value::Integer(number)) => Some(number.value().to_string()),
+                Some(Value::Float(number)) => Some(number.value().to_string()),
+                Some(Value::Boolean(truth)) => Some(truth.value().to_string()),
+                _ => None,
+            };
+            match value {
+                Some(value) => all.push((pair.key.to_owned(), value)),
+                None => self.value(&pair, "a text in quotes, a number, true or false"),
+            }
+        }
+        all
     }
 
     fn known_toolbox(&mut self, pair: &Pair<'_>, toolboxes: &[Toolbox]) -> Option<String> {

@@ -11,6 +11,7 @@
 mod carbot;
 mod component;
 mod errors;
+mod forks;
 mod link;
 mod log;
 mod pause;
@@ -42,6 +43,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     let is_carbot = link.own_robot().is_none();
     let own_robot = link.own_robot();
     link::set(link);
+    forks::listen(module)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("own_robot", own_robot)?;
     let py = module.py();
@@ -60,6 +62,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_class::<world::World>()?;
     module.add_function(wrap_pyfunction!(log::draw_log, module)?)?;
     module.add_function(wrap_pyfunction!(log::read_log, module)?)?;
+    module.add_function(wrap_pyfunction!(log::read_recipe, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::faults, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::alike, module)?)?;
     // Its robot takes the place of the common one.

@@ -9,11 +9,11 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::errors::{log_error, run_error};
+use crate::errors::{error, log_error, run_error};
 use crate::link::link;
 use crate::pause::in_background;
 use crate::simulation::{Event, value};
-use crate::world::table;
+use crate::world::{World, table};
 
 /// Reads a log, as far as it goes, into a dictionary.
 #[pyfunction]
@@ -46,6 +46,25 @@ pub fn read_log<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDi
     dict.set_item("events", events)?;
     dict.set_item("cut_short", log.cut_short)?;
     Ok(dict)
+}
+
+/// Paths and texts of a plan's files, the name of the plan, the world, the seed.
+type Made = (Vec<(String, String)>, String, World, u64);
+
+/// What the run of a log was made of.
+#[pyfunction]
+pub fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<Made> {
+    let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
+    let recipe = log.recipe();
+    if recipe.texts.is_empty() || recipe.world.text.is_empty() {
+        return Err(error(format!("'{}' does not say which plan ran where", path.display())));
+    }
+    let texts = recipe.texts.into_iter().map(|file| (file.name, file.text)).collect();
+    let mut world = World::parse(recipe.world.text)?;
+    if let Some(start) = recipe.start {
+        world.loaded = world.loaded.started_at(start).map_err(error)?;
+    }
+    Ok((texts, recipe.plan, world, recipe.seed))
 }
 
 /// A picture of a log, as SVG: `path`, `sonar` or `film`.

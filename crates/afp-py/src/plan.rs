@@ -13,7 +13,8 @@ use afp_dsl::Compiled;
 use afp_dsl::outline::PlanId;
 use afp_dsl::toolbox::Toolbox as Declared;
 use afp_ide::edit::{self, Change};
-use afp_syntax::source::Source;
+use afp_syntax::diagnostics::Severity;
+use afp_syntax::source::{Source, Span};
 use afp_test::Coverage;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -24,13 +25,13 @@ use crate::scenario::{self, Scenario};
 use crate::toolbox::Toolbox;
 
 use crate::pause::in_background;
-use compile::Desk;
+use compile::Workspace;
 pub use diagnostic::{Diagnostic, diagnostics};
 
 /// A plan: its text, what the compiler says of it, its drawings, and changes of it.
 #[pyclass(module = "afp", frozen, subclass)]
 pub struct Plan {
-    desk: Mutex<Desk>,
+    workspace: Mutex<Workspace>,
     toolboxes: Vec<Py<Toolbox>>,
 }
 
@@ -44,8 +45,9 @@ impl Plan {
         name: Option<String>,
         toolboxes: Vec<Py<Toolbox>>,
     ) -> PyResult<Self> {
-        let desk = Desk::new(text, path, name, &toolboxes).map_err(|why| run_error(&why))?;
-        Ok(Plan { desk: Mutex::new(desk), toolboxes })
+        let workspace =
+            Workspace::new(text, path, name, &toolboxes).map_err(|why| run_error(&why))?;
+        Ok(Plan { workspace: Mutex::new(workspace), toolboxes })
     }
 
     /// The text.
@@ -200,10 +202,17 @@ impl Plan {
         change::plans(self.lock().text())
     }
 
-    /// Makes a change of meaning: its kind and its parts by name, see the methods of `afp.Plan`.
-    fn _change(&self, kind: &str, parts: &Bound<'_, pyo3::types::PyDict>) -> PyResult<()> {
+    /// Makes a change of meaning: its kind and its parts by name, see the methods of `afp.Plan`; with `fits` one that is
+    /// refused where the compiler finds an error in what it writes.
+    #[pyo3(signature = (kind, parts, fits=false))]
+    fn _change(
+        &self,
+        kind: &str,
+        parts: &Bound<'_, pyo3::types::PyDict>,
+        fits: bool,
+    ) -> PyResult<()> {
         let change = change::read(kind, parts, self.lock().text())?;
-        self.change(&change)
+        self.change(&change, fits)
     }
 
     fn _repr_svg_(&self, py: Python<'_>) -> Option<String> {
@@ -235,9 +244,9 @@ fn icon(_: &Declared, name: &str) -> Option<String> {
 }
 
 impl Plan {
-    fn lock(&self) -> MutexGuard<'_, Desk> {
+    fn lock(&self) -> MutexGuard<'_, Workspace> {
         // A text is replaced as a whole: a panic leaves nothing half done.
-        self.desk.lock().unwrap_or_else(PoisonError::into_inner)
+        self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What became of the text, compiled anew only after a change.
@@ -247,9 +256,15 @@ impl Plan {
 
     /// What it is made of, for pickles and copies.
     pub fn state(&self, py: Python<'_>) -> State {
-        let desk = self.lock();
-        let (text, path) = (desk.text().to_owned(), desk.path().cloned());
-        (text, path, desk.name().cloned(), self.python_toolboxes(py), desk.others().clone())
+        let workspace = self.lock();
+        let (text, path) = (workspace.text().to_owned(), workspace.path().cloned());
+        (
+            text,
+            path,
+            workspace.name().cloned(),
+            self.python_toolboxes(py),
+            workspace.others().clone(),
+        )
     }
 
     /// The toolboxes that were given with it.
@@ -262,10 +277,10 @@ impl Plan {
         if !self.toolboxes.is_empty() {
             return Some("components are in Python: run it there");
         }
-        let desk = self.lock();
-        let Some(path) = desk.path() else { return Some("the plan has no file") };
-        let same = std::fs::read_to_string(path).is_ok_and(|text| text == desk.text());
-        let others = desk.others();
+        let workspace = self.lock();
+        let Some(path) = workspace.path() else { return Some("the plan has no file") };
+        let same = std::fs::read_to_string(path).is_ok_and(|text| text == workspace.text());
+        let others = workspace.others();
         (!same || !others.is_empty()).then_some("the plan has been changed and not saved")
     }
 
@@ -286,17 +301,37 @@ impl Plan {
         }
     }
 
-    fn change(&self, change: &Change) -> PyResult<()> {
-        let mut desk = self.lock();
-        let files: Vec<Source> = desk.compiled().plan_sources().cloned().collect();
-        let edits = edit::edit(&files, desk.known(), 0, change).map_err(error)?;
+    fn change(&self, change: &Change, fits: bool) -> PyResult<()> {
+        let mut workspace = self.lock();
+        let before = (workspace.text().to_owned(), workspace.others().clone());
+        let files: Vec<Source> = workspace.compiled().plan_sources().cloned().collect();
+        let edits = edit::edit(&files, workspace.known(), 0, change).map_err(error)?;
+        let mut written = Vec::new();
         for (number, source) in (0..=u16::MAX).zip(&files) {
             let own: Vec<_> =
                 edits.iter().filter(|edit| edit.span.file == number).cloned().collect();
             if !own.is_empty() {
-                desk.replace(&source.name, edit::apply(&source.text, &own));
+                workspace.replace(&source.name, edit::apply(&source.text, &own));
+                written.push((&source.name, change::written(&own)));
             }
         }
-        Ok(())
+        if !fits {
+            return Ok(());
+        }
+        let compiled = workspace.compiled();
+        let mut errors = compiled.diags.iter().filter(|it| it.severity == Severity::Error);
+        let is_new = |span: Span| {
+            let name = compiled.sources.get(span.file).map(|source| &source.name);
+            let mut own = written.iter().filter(|(file, _)| Some(*file) == name);
+            own.any(|(_, news)| news.iter().any(|new| change::meet(*new, span)))
+        };
+        match errors.find(|error| is_new(error.span)) {
+            None => Ok(()),
+            Some(wrong) => {
+                workspace.set_text(before.0);
+                workspace.set_others(before.1);
+                Err(change::misfit(wrong))
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod verdict;
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -100,6 +101,19 @@ impl Scenario {
         }
         let came = came.map_err(|why| run_error(&why))?;
         Ok(verdict(&self.compiled, came.ok_or_else(|| error("the scenario was called off"))?))
+    }
+
+    /// Whether it is the same one of the same text.
+    fn __eq__(&self, py: Python<'_>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        let Ok(other) = other.cast::<Scenario>() else { return Ok(false) };
+        let other = other.get();
+        Ok(self.index == other.index && self.source.bind(py).eq(&other.source)?)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (&self.file, self.index).hash(&mut hasher);
+        hasher.finish()
     }
 
     fn __repr__(&self) -> PyResult<String> {

@@ -16,7 +16,8 @@ use afp_core::devices::faults as faults_of;
 use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::Compiled;
-use afp_session::{Request, SessionError, Waypoint};
+use afp_run::{SoFar, draw_run};
+use afp_session::{Request, SessionError, Track, Waypoint};
 use numpy::PyArray2;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -24,8 +25,9 @@ use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
 use crate::component::{AnyRegistry, Components, Host, may_run};
-use crate::errors::{error, plan_error};
+use crate::errors::{error, log_error, plan_error};
 use crate::link::{devices, fits, link};
+use crate::pause::in_background;
 use crate::plan::Plan;
 use crate::value::{Given, no_pickle, to_python};
 use crate::world::{World, table};
@@ -34,8 +36,8 @@ use event::line;
 pub use event::{Event, value};
 use glance::Seen;
 pub use keeper::Keeper;
-pub use session::Run;
-use session::{Setting, no_pose};
+use session::no_pose;
+pub use session::{Run, Setting};
 use stimuli::control;
 pub use stimuli::fault;
 pub use time::{duration, instant};
@@ -123,6 +125,12 @@ impl Runner {
     /// Asks the plan to stop at its next step; from any thread.
     fn request_stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Asks for all that came from outside in the run of a log.
+    fn repeat(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
+        log.recipe().ask(&mut *self.lock()?.session).map_err(error)
     }
 
     /// The same run at this moment, which goes on by itself; it writes no log.
@@ -213,6 +221,18 @@ impl Runner {
         let path: Vec<_> = session.track.path.iter().map(row).collect();
         drop(session);
         table(py, &path)
+    }
+
+    /// The path so far over the world, as SVG.
+    fn draw(&self, py: Python<'_>, plan: String, world: &World, seed: u64) -> PyResult<String> {
+        let run = self.lock()?;
+        let (track, names, time) = (run.track.clone(), run.names.clone(), run.session.now());
+        drop(run);
+        let (world, seed) = (Arc::clone(&world.loaded.world), seed.to_string());
+        in_background(py, move || {
+            let Track { path, marks, .. } = &track;
+            draw_run(&SoFar { plan: &plan, world: &*world, seed: &seed, time, path, marks }, &names)
+        })
     }
 
     /// Where the robot is: x, y, heading.

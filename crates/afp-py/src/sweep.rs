@@ -30,7 +30,7 @@ use crate::component::{AnyRegistry, Components};
 use crate::errors::{error, plan_error, run_error};
 use crate::link::{fits, link};
 use crate::plan::Plan;
-use crate::simulation::{Run, Runner};
+use crate::simulation::{Run, Runner, Setting as Begun};
 use crate::toolbox::Toolbox;
 use crate::value::no_pickle;
 use crate::world::World;
@@ -89,7 +89,7 @@ impl Sweeper {
             seeds: seeds.seeds()?,
             until: Duration::from_secs_f64(until),
         };
-        let header = with_setting(py, &toolboxes, |robot, _| {
+        let header = with_setting(py, &toolboxes, |robot| {
             let graph = graph(&compiled)?;
             let names = PlanNames::new(graph);
             let axes = vary.into_iter().map(|(name, values)| values.axis(&names, name));
@@ -206,8 +206,15 @@ impl Sweeper {
         Ok(count)
     }
 
-    /// A run about to begin again, and its world.
-    fn runner(&self, py: Python<'_>, run: u64) -> PyResult<(Runner, World)> {
+    /// A run about to begin again, and its world; its log is written to a file, perhaps with what the camera sees.
+    #[pyo3(signature = (run, log=None, camera=false))]
+    fn runner(
+        &self,
+        py: Python<'_>,
+        run: u64,
+        log: Option<PathBuf>,
+        camera: bool,
+    ) -> PyResult<(Runner, World)> {
         let row = self.row(run)?;
         let graph = graph(&self.compiled)?;
         let components = Components::new(py, &self.toolboxes)?;
@@ -221,7 +228,10 @@ impl Sweeper {
             made.map_err(|why| run_error(&why))?
         };
         let host = components.host(py)?;
-        let runner = Runner::new(Run::new(session, graph), host, &self.compiled);
+        let (world, log) = (&loaded, log.as_deref());
+        let (file, texts) = (&*self.file, self.compiled.plan_texts());
+        let setting = Begun { graph, world, seed: row.seed, file, texts, log, camera };
+        let runner = Runner::new(Run::logged(session, &setting)?, host, &self.compiled);
         Ok((runner, World { loaded }))
     }
 
@@ -303,11 +313,11 @@ impl Done {
 fn with_setting<T>(
     py: Python<'_>,
     toolboxes: &[Py<Toolbox>],
-    use_it: impl FnOnce(&dyn Loader, &Components<'_>) -> PyResult<T>,
+    use_it: impl FnOnce(&dyn Loader) -> PyResult<T>,
 ) -> PyResult<T> {
     let components = Components::new(py, toolboxes)?;
     let more = |registry: &mut dyn AnyRegistry| components.register(registry);
-    let used = use_it(&*link().loader(&more), &components);
+    let used = use_it(&*link().loader(&more));
     components.raised(py)?;
     used
 }

@@ -36,7 +36,7 @@ impl World {
 
     /// Reads a world from the text of its file.
     #[staticmethod]
-    fn parse(text: String) -> PyResult<World> {
+    pub fn parse(text: String) -> PyResult<World> {
         let world = link().kind().world(&text).map_err(|why| match why.span {
             Some(span) => {
                 let (line, column) = afp_excerpt::line_column(&text, span.start);

@@ -7,6 +7,7 @@ use afp_session::{AnyRobot, Build, Recipe};
 
 use crate::Program;
 use crate::error::RunError;
+use crate::run::HARDWARE;
 use crate::stderr::warn;
 use crate::world::{self, LoadedWorld};
 
@@ -28,6 +29,13 @@ impl Again {
     pub(crate) fn read(path: &Path) -> Result<Self, RunError> {
         let log = afp_log::read(path)?;
         let recipe = log.recipe();
+        if recipe.robot == HARDWARE {
+            let message = format!(
+                "'{}' is of the robot itself: what it met does not come again",
+                path.display()
+            );
+            return Err(RunError::usage(message, "name the log of a simulated run"));
+        }
         if recipe.plan.is_empty() || recipe.world.text.is_empty() {
             let message = format!("'{}' does not say which plan ran where", path.display());
             return Err(RunError::usage(message, "name the log of a run"));

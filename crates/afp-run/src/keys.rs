@@ -27,16 +27,19 @@ mod terminal {
 
     /// Standard input without line editing and echo, for as long as this lives and the process is
     /// in the foreground.
-    pub(crate) struct Keys(());
+    pub(crate) struct Keys {
+        /// Whether the key that suspends the process does so; otherwise it counts as Escape.
+        suspends: bool,
+    }
 
     impl Keys {
         /// Takes over standard input; `None` when it is no terminal.
-        pub(crate) fn take() -> Option<Keys> {
+        pub(crate) fn take(suspends: bool) -> Option<Keys> {
             if !io::stdin().is_terminal() {
                 return None;
             }
             take();
-            Some(Keys(()))
+            Some(Keys { suspends })
         }
 
         /// Whether Escape was pressed since the last time. Does not wait, unless the key that
@@ -49,6 +52,9 @@ mod terminal {
             };
             let typed = &bytes[..read];
             if suspend_key != NO_KEY && typed.contains(&suspend_key) {
+                if !self.suspends {
+                    return true;
+                }
                 suspend();
             }
             // A longer text that begins with Escape is an arrow or function key.
@@ -113,7 +119,7 @@ pub(crate) struct Keys;
 
 #[cfg(not(unix))]
 impl Keys {
-    pub(crate) fn take() -> Option<Keys> {
+    pub(crate) fn take(_: bool) -> Option<Keys> {
         None
     }
 

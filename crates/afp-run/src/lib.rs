@@ -24,20 +24,23 @@ pub mod world;
 use std::process::ExitCode;
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_session::{AnySession, AnyWorld, Session, Simulated, TextFile, kind};
+use afp_session::{
+    AnyRobot, AnySession, AnyWorld, Hardware, Opened, Robot, Session, Settings, Simulated,
+    TextFile, kind,
+};
 use clap::{Args, Command, FromArgMatches};
 
-use crate::options::RunOptions;
+use crate::options::{OnRobot, RunOptions};
 
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::{check_apart, check_writable, is_same_file, write_whole};
 pub use picture::{PictureFormat, Rasterizer};
 pub use report::{event_line, line, timeline};
-pub use run::{MakeSession, run};
+pub use run::{MakeSession, OpenHardware, run, run_on_hardware};
 pub use stderr::{say, warn};
 pub use stop::StopFlag;
-pub use svg::{draw_film, draw_log, draw_sonar};
+pub use svg::{SoFar, draw_film, draw_log, draw_run, draw_sonar};
 
 /// A plan and where it comes from.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +52,8 @@ pub struct Program<'a> {
     /// Path and text of the plan's file, then of those that it uses, then of toolboxes ([`Program::TOOLBOX`]), for the
     /// log.
     pub texts: &'a [(&'a str, &'a str)],
+    /// What the project says of the robot's hardware, name and value.
+    pub hardware: &'a [(&'a str, &'a str)],
 }
 
 impl Program<'_> {
@@ -77,20 +82,61 @@ where
     P: NamedPlan + Plan<R> + 'static,
     Session<P, R>: AnySession,
 {
+    let options = match options_of(&program, &kind::<R>()) {
+        Ok(options) => options,
+        Err(error) => error.exit(),
+    };
+    finish(simulate::<R, P>(&program, new, &options))
+}
+
+/// The whole of a generated binary with the robot itself linked in, too: `--robot hardware` runs the plan on it.
+pub fn main_with<R, H, P>(program: Program<'static>, new: impl FnOnce() -> P) -> ExitCode
+where
+    R: Simulated,
+    H: Hardware + Robot<Devices = R::Devices>,
+    P: NamedPlan + Plan<R> + Plan<H> + 'static,
+    Session<P, R>: AnySession,
+    Session<P, H>: AnySession,
+{
+    let options = match options_of(&program, &kind::<R>()) {
+        Ok(options) => options,
+        Err(error) => error.exit(),
+    };
+    finish(match options.robot {
+        OnRobot::Sim => simulate::<R, P>(&program, new, &options),
+        OnRobot::Hardware => {
+            let open = |settings: &Settings| Opened::new::<P, H>(new(), settings);
+            run_on_hardware(&program, Box::new(open), &options, None)
+        }
+    })
+}
+
+/// Runs a plan in simulation.
+fn simulate<R, P>(
+    program: &Program<'_>,
+    new: impl FnOnce() -> P,
+    options: &RunOptions,
+) -> Result<u8, RunError>
+where
+    R: Simulated,
+    P: NamedPlan + Plan<R> + 'static,
+    Session<P, R>: AnySession,
+{
     let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
         let session = Session::<P, R>::in_world(new(), world, seed, measures)?;
         Ok(Box::new(session) as Box<dyn AnySession>)
     };
+    run(program, &kind::<R>(), Box::new(make), options, None)
+}
+
+/// What the command line of a generated binary says; where it is wrong or asks for help, what to tell.
+fn options_of(program: &Program<'static>, robot: &dyn AnyRobot) -> Result<RunOptions, clap::Error> {
     let about = format!("Runs the plan {}.", program.name);
     // The help of the options' own struct must not take the place of the program's.
     let command = RunOptions::augment_args(Command::new(program.name)).about(about);
     let command = command.long_about(None).after_help(EXAMPLES);
-    let command = options::for_robot(command, &kind::<R>());
-    let matches = command.get_matches();
-    match RunOptions::from_arg_matches(&matches) {
-        Ok(options) => finish(run(&program, &kind::<R>(), Box::new(make), &options, None)),
-        Err(error) => error.exit(),
-    }
+    let command = options::for_robot(command, robot);
+    RunOptions::from_arg_matches(&command.get_matches())
 }
 
 /// Tells of an error and gives the exit code.

@@ -26,7 +26,7 @@ impl Live {
             None => Ok(None),
             Some(_) => Err(RunError::usage(
                 "'--live' is not in this program: it was built without the feature 'live'",
-                "'cargo install --path crates/afpc --features live' builds it",
+                "'afpc build --live' builds a plan with it, 'cargo install --path crates/afpc --features live' an afpc",
             )),
         }
     }

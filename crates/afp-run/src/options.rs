@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use afp_core::{Duration, Instant};
 use afp_session::Pose2;
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use crate::error::RunError;
 
@@ -19,6 +19,10 @@ pub use parse::{Destination, Failure, Press, Speed, failure, press};
 /// How a run goes.
 #[derive(Args, Clone, Debug)]
 pub struct RunOptions {
+    /// What the plan runs on
+    #[arg(long, value_enum, value_name = "ROBOT", default_value_t = OnRobot::Sim)]
+    pub robot: OnRobot,
+
     /// World file, map (.yaml) or random:SEED; else `[run] world` in afp.toml, else worlds/<plan>.toml, else a built-in room
     #[arg(long, value_name = "FILE")]
     pub world: Option<PathBuf>,
@@ -101,6 +105,27 @@ pub struct RunOptions {
     pub rt_report: bool,
 }
 
+/// What a plan runs on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum OnRobot {
+    /// The robot simulated
+    #[default]
+    Sim,
+    /// The robot itself, in real time: that of '[robot.hardware]' in afp.toml
+    Hardware,
+}
+
+/// Who sees to it that time passes no faster than it should.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum TimeKeeper {
+    /// Nobody: a simulation computes as fast as it can.
+    Nobody,
+    /// The gate of the run, at so many times real time.
+    Gate(f64),
+    /// The robot, which sleeps.
+    Robot,
+}
+
 /// How long a run at full speed lasts unless told otherwise.
 const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
 
@@ -116,12 +141,46 @@ impl RunOptions {
                 "'--speed 1x' runs in real time, without guarantees",
             ));
         }
-        Ok(())
+        match self.robot {
+            OnRobot::Sim => Ok(()),
+            OnRobot::Hardware => self.check_hardware(),
+        }
+    }
+
+    /// Refuses what only a simulation can do.
+    fn check_hardware(&self) -> Result<(), RunError> {
+        let of_simulation = [
+            ("--world", self.world.is_some()),
+            ("--again", self.again.is_some()),
+            ("--start", self.start.is_some()),
+            ("--seed", self.seed != 0),
+            ("--speed", self.speed.is_some_and(|speed| speed != Speed::Times(1.0))),
+            ("--press", !self.press.is_empty()),
+            ("--fail", !self.fail.is_empty()),
+            ("--measure", !self.measure.is_empty()),
+        ];
+        match of_simulation.iter().find(|(_, given)| *given) {
+            None => Ok(()),
+            Some((option, _)) => Err(RunError::usage(
+                format!("'{option}' is of the simulation: the robot itself cannot do that"),
+                format!("leave '{option}' out, or '--robot hardware'"),
+            )),
+        }
+    }
+
+    /// Who sees to it that time passes no faster than it should.
+    pub(crate) fn time_keeper(&self) -> TimeKeeper {
+        match (self.robot, self.speed()) {
+            (OnRobot::Hardware, _) => TimeKeeper::Robot,
+            (OnRobot::Sim, Speed::Max) => TimeKeeper::Nobody,
+            (OnRobot::Sim, Speed::Times(times)) => TimeKeeper::Gate(times),
+        }
     }
 
     /// How fast time passes: as fast as it goes, in real time where others watch, unless that is said.
     pub fn speed(&self) -> Speed {
-        let usual = if self.live.is_some() { Speed::Times(1.0) } else { Speed::Max };
+        let real = self.live.is_some() || self.robot == OnRobot::Hardware;
+        let usual = if real { Speed::Times(1.0) } else { Speed::Max };
         self.speed.unwrap_or(usual)
     }
 

@@ -1,4 +1,4 @@
-//! Holds simulated time back to a multiple of real time.
+//! Holds simulated time back to a multiple of real time, and looks at keys and signals for whoever keeps it by itself.
 
 use std::thread;
 use std::time::{Duration as Span, Instant as Wall};
@@ -6,7 +6,7 @@ use std::time::{Duration as Span, Instant as Wall};
 use afp_core::Instant;
 
 use crate::keys::Keys;
-use crate::options::Speed;
+use crate::options::TimeKeeper;
 use crate::stop::StopFlag;
 
 /// Keys and signals are looked at this often while waiting.
@@ -28,17 +28,19 @@ pub(crate) enum Waited {
 /// Holds simulated time back.
 pub(crate) struct Pace {
     begun: Wall,
-    speed: Speed,
+    keeper: TimeKeeper,
     keys: Option<Keys>,
 }
 
 impl Pace {
-    pub(crate) fn new(speed: Speed) -> Self {
-        let keys = match speed {
-            Speed::Max => None,
-            Speed::Times(_) => Keys::take(),
+    pub(crate) fn new(keeper: TimeKeeper) -> Self {
+        let keys = match keeper {
+            TimeKeeper::Nobody => None,
+            TimeKeeper::Gate(_) => Keys::take(true),
+            // A process that sleeps stops no robot.
+            TimeKeeper::Robot => Keys::take(false),
         };
-        Pace { begun: Wall::now(), speed, keys }
+        Pace { begun: Wall::now(), keeper, keys }
     }
 
     /// Seconds of real time so far.
@@ -46,11 +48,11 @@ impl Pace {
         self.begun.elapsed().as_secs_f64()
     }
 
-    /// Where simulated time stands by the wall clock; `None` at full speed.
+    /// Where simulated time stands by the wall clock, where that holds it back.
     pub(crate) fn simulated(&self) -> Option<Instant> {
-        match self.speed {
-            Speed::Max => None,
-            Speed::Times(times) => {
+        match self.keeper {
+            TimeKeeper::Nobody | TimeKeeper::Robot => None,
+            TimeKeeper::Gate(times) => {
                 Some(Instant::from_nanos((self.begun.elapsed().as_nanos() as f64 * times) as u64))
             }
         }
@@ -65,10 +67,10 @@ impl Pace {
             if asked() {
                 return Waited::Asked;
             }
-            let Speed::Times(times) = self.speed else { return Waited::Due };
             if self.keys.as_ref().is_some_and(Keys::escape_pressed) {
                 return Waited::Escape;
             }
+            let TimeKeeper::Gate(times) = self.keeper else { return Waited::Due };
             let due = self.begun + Span::from_secs_f64((at.as_secs_f64() / times).min(1e9));
             let left = due.saturating_duration_since(Wall::now());
             if left.is_zero() {

@@ -1,5 +1,6 @@
 //! What a run says about itself: a timeline for people, lines of JSON for machines, a summary.
 
+mod behind;
 mod json;
 mod progress;
 mod summary;
@@ -9,10 +10,14 @@ use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
 
 use afp_core::Instant;
-use afp_core::trace::{Kind, Names, Record};
+use afp_core::trace::{ComponentKind, Names, Record};
 use afp_log::LogData;
 use afp_session::{Applied, EventKind, NamedRecord, Observer, RunEvent};
 
+use crate::options::TimeKeeper;
+use crate::stderr::warn;
+
+use behind::{Behind, Out};
 use progress::Progress;
 pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
 
@@ -20,7 +25,7 @@ pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
     log.events.iter().filter_map(|event| {
         let name = log.names.component(event.component_id);
-        let watches = name.kind == Kind::Supervisor;
+        let watches = name.kind == ComponentKind::Supervisor;
         let starts = event.kind == EventKind::Started;
         if watches && starts { None } else { timeline::line(event, name.template) }
     })
@@ -31,7 +36,7 @@ pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<Strin
     let template = match *record {
         Record::Polled { .. } | Record::Input { .. } => return None,
         Record::Started { component } => match names.component(component) {
-            name if name.kind == Kind::Supervisor => return None,
+            name if name.kind == ComponentKind::Supervisor => return None,
             name => name.template,
         },
         _ => "",
@@ -59,7 +64,7 @@ impl Observer for Shown<'_> {
 
 /// Writes to standard output as the run goes.
 pub(crate) struct Report {
-    out: Box<dyn Write>,
+    out: Out,
     /// Whether people look at it, not a program.
     terminal: bool,
     json: bool,
@@ -69,14 +74,18 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    pub(crate) fn new(json: bool, end: Instant) -> Self {
+    /// # Errors
+    /// There is no thread for what must not wait.
+    pub(crate) fn new(json: bool, end: Instant, keeper: TimeKeeper) -> io::Result<Self> {
         let terminal = io::stdout().is_terminal();
-        let out: Box<dyn Write> = match terminal {
+        let out = match (keeper, terminal) {
+            (TimeKeeper::Robot, _) => Out::Behind(Behind::new(Box::new(anstream::stdout()))?),
             // Line by line for people, in blocks for pipes.
-            true => Box::new(anstream::stdout()),
-            false => Box::new(io::BufWriter::new(anstream::stdout())),
+            (_, true) => Out::Here(Box::new(anstream::stdout())),
+            (_, false) => Out::Here(Box::new(io::BufWriter::new(anstream::stdout()))),
         };
-        Report { out, terminal, json, progress: Progress::new(end), failure: None }
+        let progress = Progress::new(end, keeper != TimeKeeper::Robot);
+        Ok(Report { out, terminal, json, progress, failure: None })
     }
 
     /// Whether nobody reads any more, or nothing can be written.
@@ -142,8 +151,14 @@ impl Report {
             let line = summary.json(self.json);
             self.write(&line);
         }
-        let flushed = self.out.flush();
-        match self.failure.map_or(flushed, Err) {
+        let written = self.out.finish();
+        let written = written.map(|lost| match lost {
+            0 => {}
+            lost => {
+                warn(&format!("{lost} lines are missing: who reads standard output is too slow"))
+            }
+        });
+        match self.failure.map_or(written, Err) {
             Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
             _ => Ok(()),
         }

@@ -1,6 +1,7 @@
 //! One run from its options to its summary.
 
 mod gate;
+mod hardware;
 mod paths;
 
 use std::cell::RefCell;
@@ -10,15 +11,15 @@ use afp_core::{Ending, Instant, StartError};
 use afp_log::{About, OwnedNames, SessionLog, Written};
 use afp_project::ProjectFile;
 use afp_session::{
-    AnyRobot, AnySession, AnyWorld, Build, Counts, Go, Observer, Recipe, Requested, SessionError,
-    TextFile, Track,
+    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, Go, LastResort, Observer, Recipe,
+    Requested, SessionError, TextFile, Track,
 };
 
 use crate::again::Again;
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
 use crate::live::Live;
-use crate::options::{RunOptions, Speed};
+use crate::options::{OnRobot, RunOptions, TimeKeeper};
 use crate::output::write_whole;
 use crate::pace::Pace;
 use crate::picture::Rasterizer;
@@ -30,6 +31,9 @@ use crate::{Program, inputs, requests};
 
 use gate::{Halt, RunGate};
 use paths::Paths;
+
+pub(crate) use hardware::HARDWARE;
+pub use hardware::{OpenHardware, run_on_hardware};
 
 /// Makes the session of a run: in a world, with a seed, judged by some measures.
 pub type MakeSession<'a> =
@@ -49,6 +53,10 @@ pub fn run(
     rasterizer: Option<Rasterizer<'_>>,
 ) -> Result<u8, RunError> {
     options.check()?;
+    if options.robot == OnRobot::Hardware {
+        let message = "this program was built without the robot's hardware";
+        return Err(RunError::usage(message, "'afpc build --hardware' links it"));
+    }
     let again = options.again.as_deref().map(Again::read).transpose()?;
     let world = match &again {
         Some(again) => again.world(robot)?,
@@ -74,7 +82,7 @@ pub fn run(
     }
     let (facts, world, again) = (robot.facts(), &world, again.as_ref());
     let setting = Setting { program, options, recipe, world, facts, again, rasterizer };
-    drive(&mut *session, &setting)
+    drive(&mut *session, None, &setting)
 }
 
 /// The world that the options ask for.
@@ -135,6 +143,8 @@ fn measures(program: &Program<'_>, options: &RunOptions) -> Result<Vec<String>, 
     Ok(all)
 }
 
+const STANDARD_OUTPUT: &str = "standard output";
+
 /// What was asked for.
 struct Setting<'a> {
     program: &'a Program<'a>,
@@ -149,7 +159,11 @@ struct Setting<'a> {
 }
 
 /// Drives a session to its end and says what it came to.
-fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunError> {
+fn drive(
+    session: &mut dyn AnySession,
+    last_resort: Option<LastResort>,
+    setting: &Setting<'_>,
+) -> Result<u8, RunError> {
     let Setting { program, options, world, rasterizer, .. } = *setting;
     let end = setting.recipe.until.unwrap_or(Instant::MAX);
     let paths = Paths::new(program, options, world.path.as_deref())?;
@@ -164,7 +178,11 @@ fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunE
     };
     let stop =
         StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
-    let report = RefCell::new(Report::new(options.json, end));
+    stop.set_last_resort(last_resort);
+    let keeper = options.time_keeper();
+    let report = Report::new(options.json, end, keeper);
+    let report =
+        RefCell::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);
     report.borrow_mut().head(&head(setting));
     let mut counts = Counts::new(session.names());
     let mut track = Track::new(session.devices());
@@ -172,22 +190,29 @@ fn drive(session: &mut dyn AnySession, setting: &Setting<'_>) -> Result<u8, RunE
     let scene = || world.world.scene();
     let sent = live.as_ref().map(|live| live.log(session, scene(), options.camera));
     let mut sent = sent.transpose()?;
-    let mut gate = RunGate::new(&report, Pace::new(options.speed()), stop.clone(), live.as_ref());
+    let mut gate = RunGate::new(&report, Pace::new(keeper), stop.clone(), live.as_ref());
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
     let mut observers: Vec<&mut dyn Observer> =
         vec![&mut counts, &mut track, &mut requests, &mut shown];
     let logs = log.iter_mut().chain(&mut sent);
     observers.extend(logs.map(|log| log as &mut dyn Observer));
-    let stopped_by = run_to_end(session, end, &mut gate, live.as_ref(), &mut observers)
-        .map_err(|error| inputs::missing(error, session.names()))?;
+    let run_to_end = match keeper {
+        TimeKeeper::Robot => hardware::run_to_end,
+        TimeKeeper::Nobody | TimeKeeper::Gate(_) => run_to_end,
+    };
+    let went = run_to_end(session, end, &mut gate, live.as_ref(), &mut observers);
+    // The robot stands before anything is written that may take its time.
+    let measured = session.end();
+    stop.set_last_resort(None);
+    let stopped_by = went.map_err(|error| inputs::missing(error, session.names()))?;
     let speed = session.now().as_secs_f64() / gate.spent();
     drop(gate);
     let written = log.map(|log| log.finish(session)).transpose()?;
     sent.map(|sent| sent.finish(session)).transpose()?;
     live.into_iter().for_each(Live::finish);
     let requests = requests.finish(session);
-    let came = Came { stopped_by, speed, written, counts, track, requests, raster };
+    let came = Came { stopped_by, speed, measured, written, counts, track, requests, raster };
     let code = came.finish(session, report.into_inner(), &paths, setting)?;
     setting.again.map_or(Ok(()), |again| again.compare(program, session.trace()))?;
     Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
@@ -228,6 +253,7 @@ fn run_to_end(
 struct Came<'a> {
     stopped_by: Option<StoppedBy>,
     speed: f64,
+    measured: Figures,
     written: Option<Written>,
     counts: Counts,
     track: Track,
@@ -245,8 +271,7 @@ impl Came<'_> {
         paths: &Paths,
         setting: &Setting<'_>,
     ) -> Result<u8, RunError> {
-        let Came { stopped_by, speed, written, counts, track, requests, raster } = self;
-        let measured = session.end();
+        let Came { stopped_by, speed, measured, written, counts, track, requests, raster } = self;
         let ran = Ran {
             plan: setting.program.name,
             world: setting.world.world.name(),
@@ -279,7 +304,7 @@ impl Came<'_> {
         let log: Option<PathBuf> = written.map(|written| written.path);
         let summary = Summary { figures, speed, log, svg: paths.svg.clone(), lost };
         let told = report.end(&summary);
-        told.map_err(RunError::file("cannot write to", "standard output".as_ref()))?;
+        told.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?;
         match session.ending() {
             Some(Ending::Error(_)) => Ok(EXIT_PLAN_ERROR),
             _ => Ok(EXIT_OK),
@@ -288,13 +313,17 @@ impl Came<'_> {
 }
 
 fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
-    let Setting { program, recipe, world, again, .. } = setting;
+    let Setting { program, options, recipe, world, again, .. } = setting;
+    let plan = ("plan", format!("{} ({})", program.name, program.file));
+    if options.robot == OnRobot::Hardware {
+        return vec![plan, ("robot", "hardware, in real time".to_owned())];
+    }
     let file = match &world.path {
         Some(path) => path.display().to_string(),
         None => "built-in room".to_owned(),
     };
     let mut head = vec![
-        ("plan", format!("{} ({})", program.name, program.file)),
+        plan,
         ("world", format!("{} ({file})", world.world.name())),
         ("seed", recipe.seed.to_string()),
     ];
@@ -306,7 +335,11 @@ fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
 fn about(setting: &Setting<'_>) -> About {
     let Setting { options, recipe, world, facts, .. } = setting;
     let mut about = About::new(recipe);
-    let clock = if options.speed() == Speed::Max { "virtual" } else { "virtual, paced" };
+    let clock = match options.time_keeper() {
+        TimeKeeper::Nobody => "virtual",
+        TimeKeeper::Gate(_) => "virtual, paced",
+        TimeKeeper::Robot => "the robot's",
+    };
     let more = [
         ("plan_hash", plan_hash(&recipe.texts)),
         ("world_hash", hash(&world.text)),

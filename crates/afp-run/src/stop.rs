@@ -1,17 +1,28 @@
 //! Requests to stop from outside: Ctrl-C, SIGTERM.
 
-use std::sync::Arc;
+use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use afp_session::LastResort;
 
 /// Whether somebody asked the process to stop.
 #[derive(Clone, Debug, Default)]
 pub struct StopFlag(Arc<Stop>);
 
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct Stop {
     raised: AtomicBool,
     /// The number of the signal that asked, where others than the user send it; else zero.
     signal: AtomicU8,
+    /// What is done before the process ends by force.
+    last_resort: Mutex<Option<LastResort>>,
+}
+
+impl fmt::Debug for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stop").field("raised", &self.raised).finish_non_exhaustive()
+    }
 }
 
 impl StopFlag {
@@ -42,6 +53,19 @@ impl StopFlag {
     /// The flag itself, for other threads to look at.
     pub fn flag(&self) -> &AtomicBool {
         &self.0.raised
+    }
+
+    /// What is done before a second signal ends the process by force; none any more where nothing is given.
+    pub(crate) fn set_last_resort(&self, resort: Option<LastResort>) {
+        *self.0.last_resort.lock().unwrap_or_else(PoisonError::into_inner) = resort;
+    }
+
+    /// Does what is to be done before the process ends by force.
+    fn resort(&self) {
+        let resort = self.0.last_resort.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(mut resort) = resort {
+            resort();
+        }
     }
 
     /// What a program that ends as asked exits with, if SIGTERM or SIGHUP asked: 128 and the signal, as a shell says
@@ -103,9 +127,34 @@ mod signals {
                 flag.0.signal.store(number, Ordering::Relaxed);
             }
             if flag.0.raised.swap(true, Ordering::Relaxed) {
+                flag.resort();
                 keys::give_back();
                 low_level::exit(EXIT_SIGNAL);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_resort_is_done_once_and_not_when_it_was_taken_back() {
+        let (stop, done) = (StopFlag::default(), Arc::new(AtomicU8::new(0)));
+        let count = || -> LastResort {
+            let done = done.clone();
+            Box::new(move || {
+                done.fetch_add(1, Ordering::Relaxed);
+            })
+        };
+        stop.set_last_resort(Some(count()));
+        stop.resort();
+        stop.resort();
+        assert_eq!(done.load(Ordering::Relaxed), 1);
+        stop.set_last_resort(Some(count()));
+        stop.set_last_resort(None);
+        stop.resort();
+        assert_eq!(done.load(Ordering::Relaxed), 1);
     }
 }

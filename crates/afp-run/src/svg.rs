@@ -7,8 +7,9 @@ mod legend;
 mod marks;
 mod sonar;
 
-use afp_core::trace::{ComponentId, Kind, Names};
-use afp_session::{Drawing, Mark, Pose2, Waypoint};
+use afp_core::Instant;
+use afp_core::trace::{ComponentId, ComponentKind, Names};
+use afp_session::{AnyWorld, Drawing, Mark, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
@@ -41,6 +42,46 @@ pub(crate) struct Picture<'a> {
     pub marks: &'a [Mark],
     /// Names and values below the legend.
     pub figures: Vec<(String, String)>,
+}
+
+/// A run as far as it has come.
+#[derive(Clone, Copy, Debug)]
+pub struct SoFar<'a> {
+    /// The plan's name.
+    pub plan: &'a str,
+    /// The world.
+    pub world: &'a dyn AnyWorld,
+    /// The seed, as it is shown.
+    pub seed: &'a str,
+    /// How far it is.
+    pub time: Instant,
+    /// Where the robot was.
+    pub path: &'a [Waypoint],
+    /// What happened on the way.
+    pub marks: &'a [Mark],
+}
+
+/// Draws the path of a run over its world, as far as it has come.
+pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
+    let SoFar { plan, world, seed, time, path, marks } = *run;
+    let way = path.windows(2).map(|pair| {
+        let (from, to) = (pair[0].pose, pair[1].pose);
+        libm::hypot(to.x - from.x, to.y - from.y)
+    });
+    // A sum of nothing is a negative zero.
+    let distance = way.fold(0.0, |all, piece| all + piece);
+    let figures = vec![
+        ("time".to_owned(), format!("{:.1} s", time.as_secs_f64())),
+        ("distance".to_owned(), format!("{distance:.2} m")),
+    ];
+    let subtitle = subtitle(world, seed);
+    let world = &world.drawing();
+    draw(&Picture { world, title: plan.to_owned(), subtitle, figures, path, marks }, names)
+}
+
+/// The line below the title.
+fn subtitle(world: &dyn AnyWorld, seed: &str) -> String {
+    format!("{}, seed {seed}", world.name())
 }
 
 /// Draws the path of a run.
@@ -119,7 +160,7 @@ fn actors(path: &[Waypoint]) -> Vec<ComponentId> {
 /// The actors that have colours, in the order of the plan: all of it, so that one has the same colour in every run; in a plan with
 /// more actors than colours those that ran.
 fn known_actors(path: &[Waypoint], names: &dyn Names) -> Vec<ComponentId> {
-    let is_actor = |id: &ComponentId| names.component(*id).kind == Kind::Actor;
+    let is_actor = |id: &ComponentId| names.component(*id).kind == ComponentKind::Actor;
     let all: Vec<_> = (0..names.components()).map(ComponentId).filter(is_actor).collect();
     if all.len() <= PALETTE.len() {
         return all;
@@ -174,10 +215,13 @@ fn bounds(world: &Drawing, path: &[Waypoint]) -> [[f64; 2]; 2] {
 
 /// The outline of a body that stands at a pose.
 fn placed(body: &[[f64; 2]], pose: Pose2) -> impl Iterator<Item = [f64; 2]> {
-    body.iter().map(move |[x, y]| {
+    // Of a robot whose body is not known, where it is.
+    let point = body.is_empty().then_some([pose.x, pose.y]);
+    let corners = body.iter().map(move |[x, y]| {
         let corner = pose.beyond(Pose2 { x: *x, y: *y, heading: 0.0 });
         [corner.x, corner.y]
-    })
+    });
+    corners.chain(point)
 }
 
 /// The middle and the width of an outline.

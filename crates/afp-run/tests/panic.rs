@@ -15,7 +15,7 @@ use clap::{Args, Command, FromArgMatches};
 
 mod templates {
     #![allow(missing_docs)]
-    afp_macros::toolbox!("tests/panicking.afp");
+    afp_macros::toolbox!("tests/panicking.afp", robot: super::Navigator);
 }
 
 #[derive(Clone)]
@@ -67,7 +67,12 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
     };
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("a.mcap");
-    let program = Program { name: "Breaks", file: "breaks.afp", texts: &[("breaks.afp", PLAN)] };
+    let program = Program {
+        name: "Breaks",
+        file: "breaks.afp",
+        texts: &[("breaks.afp", PLAN)],
+        hardware: &[],
+    };
     let log_name = log.to_str().unwrap();
     let options = options(&["--json", "--svg", "none", "--log", log_name]);
     assert_eq!(

@@ -1,7 +1,7 @@
 //! How often a run used each part of its plan, and where it ended: the one place that counts.
 
 use afp_core::trace::{
-    self, Cause, ComponentId, DEADLINE_MISSED, ERROR, Ending, Kind, Names, Record,
+    self, Cause, ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Ending, Names, Record,
 };
 use afp_core::{Duration, Failure, Fault, Instant};
 
@@ -18,7 +18,7 @@ pub struct Counts {
     pub ending: Option<Ending>,
     /// The actor that is active.
     pub actor: Option<ComponentId>,
-    kinds: Vec<Kind>,
+    kinds: Vec<ComponentKind>,
     /// The actor or computation that was left last.
     left: Option<ComponentId>,
     /// What it was left for.
@@ -125,7 +125,7 @@ impl Counts {
             Record::Started { component } => self.started(at, component),
             Record::Interrupted { element } => {
                 self.with(element, |usage| usage.interruptions += 1);
-                if self.kind(element) == Some(Kind::Actor) {
+                if self.kind(element) == Some(ComponentKind::Actor) {
                     self.interruptions += 1;
                 }
                 self.stopped(at, element);
@@ -133,7 +133,7 @@ impl Counts {
             }
             Record::Finished { element, state } => {
                 // A computation is over when it starts.
-                if self.kind(element) == Some(Kind::Computation) {
+                if self.kind(element) == Some(ComponentKind::Computation) {
                     self.with(element, |usage| usage.starts += 1);
                 }
                 self.reached(element, state);
@@ -172,7 +172,7 @@ impl Counts {
 
     /// Whether a component watches.
     pub fn is_supervisor(&self, id: ComponentId) -> bool {
-        self.kind(id) == Some(Kind::Supervisor)
+        self.kind(id) == Some(ComponentKind::Supervisor)
     }
 
     /// Adds how often another run of the same plan used each component.
@@ -235,7 +235,7 @@ impl Counts {
         }
     }
 
-    fn kind(&self, id: ComponentId) -> Option<Kind> {
+    fn kind(&self, id: ComponentId) -> Option<ComponentKind> {
         self.kinds.get(id.0 as usize).copied()
     }
 
@@ -250,7 +250,7 @@ impl Counts {
             usage.starts += 1;
             usage.since = Some(at);
         });
-        if self.kind(id) == Some(Kind::Actor) {
+        if self.kind(id) == Some(ComponentKind::Actor) {
             self.actor = Some(id);
         }
     }
@@ -268,7 +268,7 @@ impl Counts {
         if self.actor == Some(id) {
             self.actor = None;
         }
-        let inner = !matches!(self.kind(id), Some(Kind::Plan | Kind::SubPlan));
+        let inner = !matches!(self.kind(id), Some(ComponentKind::Plan | ComponentKind::SubPlan));
         if inner {
             self.left = Some(id);
         }

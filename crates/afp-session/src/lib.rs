@@ -26,6 +26,7 @@ mod counts;
 mod event;
 mod faults;
 mod figures;
+mod hardware;
 mod observer;
 pub mod parts;
 mod recipe;
@@ -44,6 +45,9 @@ pub use counts::{Counts, Usage};
 pub use event::{Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
+pub use hardware::{Hardware, LastResort, NoWorld, Opened, Settings};
+#[cfg(feature = "load")]
+pub use hardware::{Opener, hardware};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};

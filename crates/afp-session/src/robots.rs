@@ -65,6 +65,8 @@ pub enum SessionError {
     World(String),
     /// The world is that of another robot.
     OtherWorld,
+    /// The robot that is there cannot be reached.
+    Hardware(String),
     /// The robot has no such measure; it has these.
     Measure(String, &'static [&'static str]),
 }
@@ -217,6 +219,10 @@ impl SessionError {
             SessionError::World(_) | SessionError::OtherWorld => {
                 "look at the world's file".to_owned()
             }
+            SessionError::Hardware(_) => {
+                "look at the robot and its connection, and at 'settings' in '[robot.hardware]'"
+                    .to_owned()
+            }
             SessionError::Measure(_, []) => "it has none".to_owned(),
             SessionError::Measure(_, known) => format!("it has {}", known.join(", ")),
         }
@@ -230,6 +236,7 @@ impl fmt::Display for SessionError {
             SessionError::Load(error) => error.fmt(f),
             SessionError::World(why) => f.write_str(why),
             SessionError::OtherWorld => f.write_str("the world is that of another robot"),
+            SessionError::Hardware(why) => write!(f, "the robot cannot be reached: {why}"),
             SessionError::Measure(name, _) => write!(f, "the robot has no measure '{name}'"),
         }
     }

@@ -2,7 +2,7 @@
 
 mod any;
 mod asked;
-mod told;
+mod report;
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 

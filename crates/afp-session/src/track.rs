@@ -2,7 +2,7 @@
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, find_signal};
-use afp_core::trace::{ComponentId, Kind, Record};
+use afp_core::trace::{ComponentId, ComponentKind, Record};
 
 use crate::observer::{NamedRecord, Observer, Sampling, View};
 use crate::sample::{Pose2, SampleRef};
@@ -65,7 +65,7 @@ impl Observer for Track {
     fn on_record(&mut self, named: &NamedRecord<'_>) {
         match *named.record {
             Record::Started { component }
-                if named.names.component(component).kind == Kind::Actor =>
+                if named.names.component(component).kind == ComponentKind::Actor =>
             {
                 self.actor = Some(component);
             }

@@ -1,4 +1,4 @@
-//! The simulated Carbot: a planar world in virtual time.
+//! The simulated Carbot: a planar world in virtual time; and its parts, for other robots.
 //!
 //! A [`World`] is read from TOML; a [`Simulation`] puts the robot into it and implements the
 //! device traits of `afp-carbot`, so that templates cannot tell it from the real robot. What only
@@ -11,13 +11,16 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod chassis;
 mod devices;
 mod film;
 #[cfg(feature = "load")]
 mod load;
 mod noise;
+pub mod parts;
 mod scene;
 mod simulation;
+mod stage;
 mod truth;
 mod vehicle;
 mod wall;

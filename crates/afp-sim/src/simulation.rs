@@ -1,14 +1,13 @@
 //! The robot in its world, in virtual time.
 
 mod bare;
-mod build;
 mod bumper;
 mod devices;
 mod faults;
 mod hand;
 mod keyframe;
 mod locate;
-mod movers;
+mod obstacles;
 mod ping;
 mod robot;
 mod see;
@@ -17,6 +16,7 @@ mod snapshot;
 pub use bare::Bare;
 pub use snapshot::{Snapshot, Sonar};
 
+use crate::chassis::Chassis;
 use crate::devices::battery::Battery;
 use crate::devices::bumper::Switch;
 use crate::devices::camera::Exposure;
@@ -27,11 +27,11 @@ use crate::devices::rotator::Rotator;
 use crate::devices::sonar;
 use crate::noise::Source;
 use crate::scene::Scene;
-use crate::truth::{Collisions, Pose, Truth};
-use crate::vehicle::Twist;
+use crate::stage::{DT, Stage};
+use crate::truth::{Pose, Truth};
 use crate::vehicle::drive::Drive;
-use crate::world::{Light, Obstacle, World, WorldError};
-use afp_carbot::devices::{Color, Echo, Glow, Invalid, Reading};
+use crate::world::{Light, World, WorldError};
+use afp_carbot::devices::{Bump, Color, Echo, Glow, Invalid, Reading};
 use afp_carbot::table::Fault;
 use afp_core::quantity::Frequency;
 use afp_core::{Duration, Instant};
@@ -39,20 +39,14 @@ use afp_flow::{FlowJob, FlowSensor, LucasKanade};
 use afp_session::Faults;
 use afp_session::parts::VirtualClock;
 use afp_worker::VirtualWorker;
-use build::{Built, build};
 use faults::Lines;
 use locate::{Located, SimulatedLocator, SimulatedPlanner};
-use movers::Mover;
-use rapier2d::math::{Pose as Isometry, Vector};
-use rapier2d::parry::shape::SharedShape;
-use rapier2d::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle};
+use rapier2d::math::Pose as Isometry;
 use std::sync::Arc;
 
 /// The physics' own grid.
 pub const STEP: Duration = Duration::from_millis(5);
 
-/// The step in seconds.
-const DT: f64 = 0.005;
 /// Physics steps between two pings.
 const PING_STEPS: u64 = sonar::PERIOD.as_nanos() / STEP.as_nanos();
 
@@ -61,11 +55,7 @@ type SimulatedFlow = FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>
 
 /// A robot in a world. It implements every device trait of the Carbot.
 pub struct Simulation {
-    physics: PhysicsWorld,
-    body: RigidBodyHandle,
-    collider: ColliderHandle,
-    obstacles: Vec<Obstacle>,
-    shapes: Vec<(Isometry, SharedShape)>,
+    stage: Stage,
     /// Where the robot started.
     start: Pose,
     now: Instant,
@@ -73,15 +63,16 @@ pub struct Simulation {
     drive: Drive,
     odometer: Odometer,
     rotator: Rotator,
-    sonar: sonar::Sonar,
+    sonar: sonar::RangeSensor,
     /// The ping that is under way: when its echo arrives and what it will say.
     ping: Option<(Instant, Reading<Echo>)>,
     echo: Reading<Echo>,
     switch: Switch,
+    /// Where the bumper was pressed last.
+    bump: Option<Bump>,
     battery: Battery,
     scene: Scene,
     lights: Vec<Light>,
-    movers: Vec<Mover>,
     infrared: Infrared,
     glow: Reading<Option<Glow>>,
     color_sensor: ColorSensor,
@@ -111,7 +102,6 @@ pub struct Simulation {
     /// Whether a line delays.
     delayed: bool,
     clock: VirtualClock,
-    collisions: Collisions,
     /// The edge of the map, see [`World::map`].
     map: Vec<[f64; 2]>,
     /// When the robot first was beyond it.
@@ -125,28 +115,28 @@ impl Simulation {
     /// # Errors
     /// An obstacle without an area; [`World::parse`] lets none through.
     pub fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
-        let Built { physics, body, collider, shapes, movers } = build(world)?;
+        let stage = Stage::new(world, Chassis::CARBOT)?;
         let mut differences = Source::Build.of(seed);
         Ok(Simulation {
-            physics,
-            body,
-            collider,
-            obstacles: world.obstacles.clone(),
-            shapes,
+            stage,
             start: world.start,
             now: Instant::ZERO,
             steps: 0,
             drive: Drive::new(),
             odometer: Odometer::new(seed, &mut differences),
             rotator: Rotator::new(),
-            sonar: sonar::Sonar::new(seed, &mut differences),
+            sonar: sonar::RangeSensor::new(
+                sonar::CARBOT,
+                Source::Ultrasonic.of(seed),
+                &mut differences,
+            ),
             ping: None,
             echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
-            switch: Switch::new(seed),
+            switch: Switch::new(Source::Bumper.of(seed)),
+            bump: None,
             battery: Battery::new(world.charge),
             scene: Scene::new(world),
             lights: world.lights.clone(),
-            movers,
             infrared: Infrared::new(seed),
             glow: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             color_sensor: ColorSensor::new(seed),
@@ -166,7 +156,6 @@ impl Simulation {
             lines: Lines::default(),
             delayed: false,
             clock: VirtualClock::default(),
-            collisions: Collisions::default(),
             map: world.map.clone(),
             left_map: None,
         })
@@ -211,10 +200,7 @@ impl Simulation {
     /// Whether the engine has taken no body out for being nowhere: where a pose or a velocity is not
     /// finite, it lets the body take no more part.
     pub fn sound(&self) -> bool {
-        let mut bodies = self.physics.bodies.iter();
-        let mut colliders = self.physics.colliders.iter();
-        bodies.all(|(_, body)| body.is_enabled())
-            && colliders.all(|(_, collider)| collider.is_enabled())
+        self.stage.is_sound()
     }
 
     /// Holds the escape button down.
@@ -239,15 +225,12 @@ impl Simulation {
 
     /// What only a judge may know.
     pub fn truth(&self) -> Truth<'_> {
-        let body = &self.physics.bodies[self.body];
+        let body = &self.stage.physics.bodies[self.stage.body];
         Truth {
             now: self.now,
             motion: (f64::from(body.linvel().length()), f64::from(body.angvel())),
             asked: self.drive.asked(),
-            position: self.position(),
-            obstacles: &self.obstacles,
-            shapes: &self.shapes,
-            collisions: &self.collisions,
+            stage: &self.stage,
             left_map: self.left_map,
             pictures: [self.exposed_before.as_ref(), self.exposure.value.as_ref().ok()]
                 .map(|picture| picture.map(Arc::as_ref)),
@@ -259,22 +242,22 @@ impl Simulation {
     }
 
     fn position(&self) -> &Isometry {
-        self.physics.bodies[self.body].position()
+        self.stage.position()
     }
 
     /// One physics step and everything that goes on its grid.
     fn step(&mut self) {
         let now = self.grid(self.steps);
         self.push(now);
-        self.move_obstacles(now);
-        self.physics.step();
-        self.note_obstacles();
+        let Simulation { stage, scene, .. } = self;
+        stage.step_noting(now, |n, at, direction| scene.place(n, at, direction));
         self.odometer.step(self.drive.wheels(), DT);
         self.rotator.step(DT);
         let [left, right] = self.drive.wheels();
         self.battery.step([left.speed(), right.speed()], DT);
         self.now = now;
         self.feel(now);
+        self.note_bump(now);
         self.look_for_edge(now);
         if self.steps.is_multiple_of(PING_STEPS) {
             self.receive();
@@ -287,19 +270,7 @@ impl Simulation {
 
     /// Lets the wheels push the body.
     fn push(&mut self, now: Instant) {
-        let body = &mut self.physics.bodies[self.body];
-        let turn = *body.rotation();
-        let velocity = turn.inverse_transform_vector(body.linvel());
-        let twist = Twist {
-            x: f64::from(velocity.x),
-            y: f64::from(velocity.y),
-            turn: f64::from(body.angvel()),
-        };
-        let push = self.drive.step(twist, now, self.battery.speed(), DT);
-        let force = turn.transform_vector(Vector::new(push.x as f32, push.y as f32));
-        body.reset_forces(false);
-        body.reset_torques(false);
-        body.add_force(force, false);
-        body.add_torque(push.turn as f32, false);
+        let push = self.drive.step(self.stage.twist(), now, self.battery.speed(), DT);
+        self.stage.push(push);
     }
 }

@@ -5,13 +5,13 @@
 use crate::devices::camera::{self, Exposure};
 use crate::devices::sonar;
 use crate::simulation::STEP;
+use crate::stage::Stage;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
-use crate::world::Obstacle;
 use afp_core::Instant;
 pub use afp_session::Pose2 as Pose;
-use rapier2d::math::{Pose as Isometry, Vector};
+use rapier2d::math::Vector;
 use rapier2d::parry::query;
-use rapier2d::parry::shape::{Segment, SharedShape};
+use rapier2d::parry::shape::Segment;
 
 /// A stretch of time in which the robot touched one obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,20 +40,21 @@ impl Collisions {
         }
     }
 
+    pub(crate) fn all(&self) -> &[Collision] {
+        &self.0
+    }
+
     /// Those that last at `now`. A touch lasts to the end of the physics step that found it.
-    fn lasting(&self, now: Instant) -> impl DoubleEndedIterator<Item = &Collision> {
+    pub(crate) fn lasting(&self, now: Instant) -> impl DoubleEndedIterator<Item = &Collision> {
         self.0.iter().filter(move |touch| now.since(touch.end) < STEP)
     }
 }
 
 /// The truth about a running simulation.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Truth<'a> {
     pub(crate) now: Instant,
-    pub(crate) position: &'a Isometry,
-    pub(crate) obstacles: &'a [Obstacle],
-    pub(crate) shapes: &'a [(Isometry, SharedShape)],
-    pub(crate) collisions: &'a Collisions,
+    pub(crate) stage: &'a Stage,
     pub(crate) left_map: Option<Instant>,
     /// Metres and radians a second.
     pub(crate) motion: (f64, f64),
@@ -69,12 +70,7 @@ const STANDING: (f64, f64) = (0.005, 0.02);
 impl<'a> Truth<'a> {
     /// Where the robot's centre is.
     pub fn pose(&self) -> Pose {
-        let (at, turn) = (self.position.translation, self.position.rotation);
-        Pose {
-            x: f64::from(at.x),
-            y: f64::from(at.y),
-            heading: libm::atan2(f64::from(turn.im), f64::from(turn.re)),
-        }
+        self.stage.pose()
     }
 
     /// Whether the robot does not move: less than 5 mm/s and 0.02 rad/s.
@@ -99,7 +95,7 @@ impl<'a> Truth<'a> {
 
     /// Every collision so far, in the order of their beginnings.
     pub fn collisions(&self) -> &'a [Collision] {
-        &self.collisions.0
+        self.stage.collisions()
     }
 
     /// When the robot's centre first was beyond the edge of the map.
@@ -109,7 +105,7 @@ impl<'a> Truth<'a> {
 
     /// The collisions that last now, in the order of their beginnings.
     pub fn touching(&self) -> impl DoubleEndedIterator<Item = &'a Collision> {
-        self.collisions.lasting(self.now)
+        self.stage.touching(self.now)
     }
 
     /// Distance from the body's right side to the nearest obstacle that is high enough for the
@@ -118,10 +114,13 @@ impl<'a> Truth<'a> {
         let y = -HALF_WIDTH as f32;
         let side =
             Segment::new(Vector::new(-HALF_LENGTH as f32, y), Vector::new(HALF_LENGTH as f32, y));
-        let gaps = self.obstacles.iter().zip(self.shapes).filter_map(|(obstacle, (at, shape))| {
-            let high = obstacle.height >= sonar::HEIGHT;
-            high.then(|| query::distance(self.position, &side, at, &**shape).ok()).flatten()
-        });
+        let gaps = self.stage.obstacles.iter().zip(&self.stage.shapes).filter_map(
+            |(obstacle, (at, shape))| {
+                let high = obstacle.height >= sonar::HEIGHT;
+                high.then(|| query::distance(self.stage.position(), &side, at, &**shape).ok())
+                    .flatten()
+            },
+        );
         gaps.map(|gap| f64::from(gap.distance)).reduce(f64::min)
     }
 }

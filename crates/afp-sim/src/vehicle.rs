@@ -2,13 +2,15 @@
 
 mod floor;
 mod place;
+mod two_wheels;
 
 pub(crate) mod drive;
 pub(crate) mod servo;
 pub(crate) mod wheel;
 
-pub(crate) use floor::{Push, Twist};
+pub use floor::{Demand, Footing, Motor, Push, Twist};
 pub(crate) use place::Place;
+pub use two_wheels::{TwoWheels, WheelModel};
 
 /// Half the body's length, metres; the turning centre is its middle.
 pub const HALF_LENGTH: f64 = 0.20;

@@ -1,6 +1,6 @@
 //! How well the robot keeps its distance to a wall: a measure that is asked for.
 
-use afp_core::trace::{ComponentId, Kind, Record};
+use afp_core::trace::{ComponentId, ComponentKind, Record};
 use afp_core::{Duration, Instant, ValueRef};
 use afp_session::{Figure, FigureValue, Measure, NamedRecord, SAMPLE};
 
@@ -41,7 +41,7 @@ impl Measure<Simulation> for WallDistance {
         match *named.record {
             Record::Input { component, port, value: ValueRef::Float(wanted) } => {
                 let known = names.component(component);
-                let follows = known.template == FOLLOWER && known.kind == Kind::Actor;
+                let follows = known.template == FOLLOWER && known.kind == ComponentKind::Actor;
                 if follows && names.input(component, port) == DISTANCE_PORT {
                     self.following = Some(Following { actor: component, since: named.at, wanted });
                 }

@@ -12,6 +12,7 @@ mod path;
 mod place;
 mod random;
 mod session;
+mod world_of;
 
 pub use afp_session::WorldError;
 pub use look::{Look, Rgb, Texture};
@@ -21,13 +22,13 @@ pub use path::Path;
 use error::at_key;
 pub(crate) use outline::isometry;
 pub(crate) use session::shape;
+pub use world_of::{Body, WorldOf};
 
+use crate::chassis::Chassis;
 use crate::truth::Pose;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use outline::rectangle;
-use rapier2d::math::Vector;
 use rapier2d::parry::query;
-use rapier2d::parry::shape::Cuboid;
 
 /// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
 pub(crate) const FARTHEST: f64 = 1000.0;
@@ -121,8 +122,16 @@ impl World {
     /// The first thing that is wrong, with its place: not TOML, an unknown or a missing key, a
     /// value that makes no sense, a robot that starts inside of something.
     pub fn parse(text: &str) -> Result<World, WorldError> {
+        World::parse_for(&Chassis::CARBOT, text)
+    }
+
+    /// The same for a robot with another body.
+    ///
+    /// # Errors
+    /// As [`World::parse`].
+    pub fn parse_for(robot: &Chassis, text: &str) -> Result<World, WorldError> {
         let world = file::read(text)?;
-        match world.obstacle_at(world.start) {
+        match world.obstacle_in_way_of(robot, world.start) {
             Some(obstacle) => Err(at_key(
                 text,
                 &["robot", "pose_m_deg"],
@@ -145,11 +154,16 @@ impl World {
     /// The first obstacle that a robot at this pose would be inside of, as things stand at the
     /// start.
     pub fn obstacle_at(&self, pose: Pose) -> Option<&Obstacle> {
-        let robot = Cuboid::new(Vector::new(HALF_LENGTH as f32, HALF_WIDTH as f32));
+        self.obstacle_in_way_of(&Chassis::CARBOT, pose)
+    }
+
+    /// The same for a robot with another body.
+    pub fn obstacle_in_way_of(&self, robot: &Chassis, pose: Pose) -> Option<&Obstacle> {
+        let robot = robot.shared();
         let start = isometry(pose);
         self.obstacles.iter().find(|obstacle| {
             let Some((at, shape)) = obstacle.outline.shape() else { return false };
-            query::intersection_test(&start, &robot, &at, &*shape)
+            query::intersection_test(&start, &*robot, &at, &*shape)
                 .is_ok_and(|test| test.intersecting)
         })
     }

@@ -2,7 +2,7 @@
 
 use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
-use afp_core::trace::{Kind, Names, Record, Sink};
+use afp_core::trace::{ComponentKind, Names, Record, Sink};
 use afp_core::{Duration, Instant, Scheduler, StillClock, Wake};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
@@ -23,7 +23,7 @@ impl<N: Names> Sink for Actors<N> {
     fn record(&mut self, at: Instant, record: &Record<'_>) {
         if let Record::Started { component } = *record {
             let name = self.names.component(component);
-            if name.kind == Kind::Actor {
+            if name.kind == ComponentKind::Actor {
                 self.started.push((at, name.path.to_owned()));
             }
         }

@@ -8,8 +8,10 @@ use afp_token::Token;
 use axum::http::HeaderMap;
 use axum::http::header::{COOKIE, HOST, ORIGIN};
 
+use crate::lock::Lock;
+
 /// How long the code of an address works.
-const CODE_LASTS: Duration = Duration::from_secs(60);
+pub(crate) const CODE_LASTS: Duration = Duration::from_secs(60);
 
 /// What a browser must know, and where it may come from.
 #[derive(Clone, Debug)]
@@ -19,6 +21,8 @@ pub struct Secret {
     token: Token,
     /// The code that has not been used yet, and when it was made.
     code: Arc<Mutex<Option<(Token, Instant)>>>,
+    /// Where those who start a second studio leave codes; none where nothing can be locked.
+    lock: Option<Arc<Lock>>,
     origins: Arc<[String]>,
 }
 
@@ -27,11 +31,12 @@ impl Secret {
     ///
     /// # Errors
     /// The system has no randomness.
-    pub fn new(port: u16, origins: Vec<String>) -> io::Result<Secret> {
+    pub(crate) fn new(port: u16, origins: Vec<String>, lock: Option<Lock>) -> io::Result<Secret> {
         Ok(Secret {
             port,
             token: Token::new()?,
             code: Arc::new(Mutex::new(Some((Token::new()?, Instant::now())))),
+            lock: lock.map(Arc::new),
             origins: origins.into(),
         })
     }
@@ -45,14 +50,19 @@ impl Secret {
 
     /// The cookie for who brings the code, which does not work again.
     pub fn redeem(&self, code: &str) -> Option<String> {
-        let mut kept = self.code.lock().unwrap_or_else(PoisonError::into_inner);
-        let (good, made) = kept.as_ref()?;
-        if made.elapsed() > CODE_LASTS || !good.is(code) {
+        if !self.redeems(code) && !self.lock.as_ref().is_some_and(|lock| lock.redeem(code)) {
             return None;
         }
-        *kept = None;
         let (name, token) = (self.cookie(), self.token.word());
         Some(format!("{name}={token}; HttpOnly; SameSite=Strict; Path=/"))
+    }
+
+    /// Whether a code is that of the printed address, which does not work again.
+    fn redeems(&self, code: &str) -> bool {
+        let mut kept = self.code.lock().unwrap_or_else(PoisonError::into_inner);
+        let works =
+            |(good, made): &mut (Token, Instant)| made.elapsed() <= CODE_LASTS && good.is(code);
+        kept.take_if(works).is_some()
     }
 
     /// Whether a request is for this server and from a page of it.
@@ -101,7 +111,7 @@ mod tests {
 
     #[test]
     fn a_code_works_once_and_its_cookie_afterwards() {
-        let secret = Secret::new(4000, Vec::new()).unwrap();
+        let secret = Secret::new(4000, Vec::new(), None).unwrap();
         let address = secret.address();
         let code = address.split_once("code=").unwrap().1;
         assert_eq!(secret.redeem("guessed"), None);
@@ -117,7 +127,7 @@ mod tests {
 
     #[test]
     fn foreign_hosts_and_pages_are_not_ours() {
-        let secret = Secret::new(4000, vec!["https://lab.example".to_owned()]).unwrap();
+        let secret = Secret::new(4000, vec!["https://lab.example".to_owned()], None).unwrap();
         let own = [
             &[(HOST, "127.0.0.1:4000")][..],
             &[(HOST, "localhost:4000"), (ORIGIN, "http://localhost:4000")],

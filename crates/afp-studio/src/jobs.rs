@@ -1,21 +1,24 @@
 //! Runs jobs: this program again, in another process, so that what it does there can be ended and can end nothing here.
 
+mod group;
+
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::Sender;
 use std::thread;
 
 use crate::room::{JobId, Order};
 use crate::sockets::Event;
+use group::Group;
 
 /// Processes that go on.
 pub(crate) struct Runner {
     program: PathBuf,
     folder: PathBuf,
     events: Sender<Event>,
-    running: BTreeMap<JobId, Child>,
+    running: BTreeMap<JobId, Group>,
 }
 
 impl Runner {
@@ -28,9 +31,8 @@ impl Runner {
         match order {
             Order::Begin(id, arguments) => self.begin(id, &arguments),
             Order::End(id) => {
-                if let Some(child) = self.running.get_mut(&id) {
-                    // It may have ended by itself.
-                    let _ = child.kill();
+                if let Some(group) = self.running.get_mut(&id) {
+                    group.end();
                 }
             }
         }
@@ -39,10 +41,11 @@ impl Runner {
     fn begin(&mut self, id: JobId, arguments: &[String]) {
         let mut command = Command::new(&self.program);
         command.args(arguments).current_dir(&self.folder).stdin(Stdio::null());
-        match command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn() {
-            Ok(mut child) => {
-                let (out, err) = (child.stdout.take(), child.stderr.take());
-                self.running.insert(id, child);
+        match Group::start(command.stdout(Stdio::piped()).stderr(Stdio::piped())) {
+            Ok(mut group) => {
+                let first = group.first();
+                let (out, err) = (first.stdout.take(), first.stderr.take());
+                self.running.insert(id, group);
                 self.listen(id, out, err);
             }
             Err(why) => {
@@ -78,9 +81,9 @@ impl Runner {
 
 impl Drop for Runner {
     fn drop(&mut self) {
-        for child in self.running.values_mut() {
-            let _ = child.kill();
-            let _ = child.wait();
+        for group in self.running.values_mut() {
+            group.kill();
+            let _ = group.wait();
         }
     }
 }

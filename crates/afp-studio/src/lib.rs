@@ -10,23 +10,27 @@
 
 mod debugging;
 mod doors;
+mod examples;
 mod files;
 mod jobs;
+mod lock;
 mod page;
 mod room;
 mod server;
 mod sockets;
 mod trust;
 
-use std::io;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
+use std::{env, io};
 
 use afp_lsp::Host;
 
-pub use doors::Secret;
+use doors::Secret;
+pub use examples::Example;
 pub use files::Folder;
+use lock::Lock;
 pub use room::{ClientId, Room};
 
 /// Where the language server of a client finds texts that nobody has open.
@@ -46,8 +50,19 @@ pub struct Options {
     pub origins: Vec<String>,
     /// The command line that does jobs: this program.
     pub program: PathBuf,
-    /// Plans that people can begin with: a name for the file, and the text.
-    pub examples: Vec<(String, String)>,
+    /// Plans that people can begin with.
+    pub examples: Vec<Example>,
+    /// The folder of the user's own files, outside of what is served, which says who serves what; [`own_folder`],
+    /// and nowhere where there is no home.
+    pub own: Option<PathBuf>,
+}
+
+/// Where files of this user are kept that are of no project.
+pub fn own_folder() -> Option<PathBuf> {
+    let folder = |name: &str| env::var_os(name).map(PathBuf::from).filter(|it| it.is_absolute());
+    let own = folder("XDG_CONFIG_HOME").or_else(|| folder("APPDATA"));
+    let own = own.or_else(|| Some(folder("HOME")?.join(".config")));
+    Some(own?.join("afp"))
 }
 
 /// A client that wants to run and debug plans: it speaks the Debug Adapter Protocol, a message at a time.
@@ -57,6 +72,15 @@ pub struct Debugging {
     pub said: std::sync::mpsc::Receiver<String>,
     /// What it is told; closed when it is gone.
     pub told: tokio::sync::mpsc::Sender<String>,
+}
+
+/// Who serves a folder.
+#[derive(Debug)]
+pub enum Opened {
+    /// This program does.
+    Here(Box<Studio>),
+    /// Another one does already: what a browser opens to be there, once, within a minute.
+    Elsewhere(String),
 }
 
 /// A server that has its port.
@@ -69,16 +93,31 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Takes the port and reads the folder.
+    /// Takes the port and reads the folder, unless it is served already.
     ///
     /// # Errors
     /// The port is taken, there is no such folder.
-    pub fn new(options: &Options, host: MakeHost) -> io::Result<Studio> {
+    pub fn open(options: &Options, host: MakeHost) -> io::Result<Opened> {
         let folder = Folder::new(&options.folder)?;
+        let among = options.own.as_ref().map(|own| own.join("open"));
+        // Where nothing can be locked, what two of them write is merged.
+        let lock = among.and_then(|among| Lock::take(folder.root(), &among).ok()).transpose();
+        let lock = match lock {
+            Ok(lock) => lock,
+            Err(other) => {
+                let file = options.open.as_ref().and_then(|file| file.to_str());
+                return Ok(Opened::Elsewhere(other.address(file)?));
+            }
+        };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port))?;
-        let secret = Secret::new(listener.local_addr()?.port(), options.origins.clone())?;
+        let port = listener.local_addr()?.port();
+        if let Some(lock) = &lock {
+            lock.say(port)?;
+        }
+        let secret = Secret::new(port, options.origins.clone(), lock)?;
         let room = Room::new(folder, options.open.as_deref(), options.examples.clone(), host);
-        Ok(Studio { listener, secret, room, program: options.program.clone() })
+        let program = options.program.clone();
+        Ok(Opened::Here(Box::new(Studio { listener, secret, room, program })))
     }
 
     /// What a browser opens: works once, for a minute.

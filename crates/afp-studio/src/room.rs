@@ -16,6 +16,7 @@ use lsp_server::{Notification, Request};
 use serde_json::{Value, json};
 
 use crate::MakeHost;
+use crate::examples::Example;
 use crate::files::{Folder, Stamp};
 use crate::trust::Trust;
 use document::Document;
@@ -35,7 +36,7 @@ const LOOKS_EVERY: Duration = Duration::from_millis(500);
 pub struct Room {
     folder: Folder,
     open: Option<String>,
-    examples: Vec<(String, String)>,
+    examples: Vec<Example>,
     host: MakeHost,
     clients: BTreeMap<ClientId, Client>,
     /// The texts that are open, by path.
@@ -66,7 +67,7 @@ impl Room {
     pub fn new(
         folder: Folder,
         open: Option<&Path>,
-        examples: Vec<(String, String)>,
+        examples: Vec<Example>,
         host: MakeHost,
     ) -> Room {
         let open = open.and_then(|path| folder.inside(path.to_str()?).ok());

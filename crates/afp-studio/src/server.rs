@@ -53,11 +53,29 @@ pub(crate) async fn serve(
     let listener = tokio::net::TcpListener::from_std(listener)?;
     let served = tokio::select! {
         served = async { axum::serve(listener, routes).await } => served,
-        asked = tokio::signal::ctrl_c() => asked,
+        asked = asked_to_end() => asked,
     };
     sockets.end();
     let _ = tokio::task::spawn_blocking(move || worker.join()).await;
     served
+}
+
+/// Waits for Ctrl-C, for the end of the terminal, or for whoever ends programs.
+#[cfg(unix)]
+async fn asked_to_end() -> io::Result<()> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let mut terminated = signal(SignalKind::terminate())?;
+    let mut hung_up = signal(SignalKind::hangup())?;
+    tokio::select! {
+        asked = tokio::signal::ctrl_c() => asked,
+        _ = terminated.recv() => Ok(()),
+        _ = hung_up.recv() => Ok(()),
+    }
+}
+
+#[cfg(not(unix))]
+async fn asked_to_end() -> io::Result<()> {
+    tokio::signal::ctrl_c().await
 }
 
 /// Turns away what is not ours and what brings no cookie, and says to the browser what the page may do.
@@ -91,9 +109,10 @@ async fn index(
 ) -> Response {
     if let Some(code) = query.get("code") {
         let known = shared.secret.knows(&headers);
+        let away = away(query.get("file"));
         return match shared.secret.redeem(code) {
-            Some(cookie) => ([(header::SET_COOKIE, cookie)], away()).into_response(),
-            None if known => away(),
+            Some(cookie) => ([(header::SET_COOKIE, cookie)], away).into_response(),
+            None if known => away,
             None => {
                 let words = "this code has been used or is too old: start 'afpc studio' again\n";
                 (StatusCode::FORBIDDEN, words).into_response()
@@ -123,9 +142,10 @@ async fn index(
     (headers, text).into_response()
 }
 
-/// To the page without the code, which would stay in the history otherwise.
-fn away() -> Response {
-    (StatusCode::SEE_OTHER, [(header::LOCATION, "/")]).into_response()
+/// To the page without the code, which would stay in the history otherwise, and to a file.
+fn away(file: Option<&String>) -> Response {
+    let page = file.map_or("/".to_owned(), |path| format!("/#{}", afp_lsp::uri_of(path)));
+    (StatusCode::SEE_OTHER, [(header::LOCATION, page)]).into_response()
 }
 
 async fn file(Path(name): Path<String>) -> Response {

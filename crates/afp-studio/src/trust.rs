@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::{env, fs, io};
+use std::{fs, io};
 
 use afp_project::ProjectFile;
+
+use crate::own_folder;
 
 /// The trust of one folder.
 #[derive(Clone, Debug)]
@@ -18,7 +20,7 @@ pub(crate) struct Trust {
 impl Trust {
     /// The trust that a folder was given before.
     pub fn of(root: &Path) -> Trust {
-        Trust::kept(root, list())
+        Trust::kept(root, own_folder().map(|own| own.join("trusted")))
     }
 
     fn kept(root: &Path, list: Option<PathBuf>) -> Trust {
@@ -85,14 +87,6 @@ fn code_of(folder: &Path) -> Vec<String> {
     let toolboxes =
         toolboxes.map(|it| format!("the toolbox '{}'", file.folder.join(&it.path).display()));
     robot.chain(toolboxes).collect()
-}
-
-/// Where trusted folders are kept.
-fn list() -> Option<PathBuf> {
-    let folder = |name: &str| env::var_os(name).map(PathBuf::from).filter(|it| it.is_absolute());
-    let own = folder("XDG_CONFIG_HOME").or_else(|| folder("APPDATA"));
-    let own = own.or_else(|| Some(folder("HOME")?.join(".config")));
-    Some(own?.join("afp/trusted"))
 }
 
 #[cfg(test)]

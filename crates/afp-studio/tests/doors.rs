@@ -2,19 +2,24 @@
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
+use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
 use afp_lsp::NoFiles;
-use afp_studio::{Options, Studio};
+use afp_studio::{Opened, Options, Studio};
+
+fn options(folder: &Path, own: Option<&Path>) -> Options {
+    let (folder, own, program) = (folder.to_owned(), own.map(Path::to_owned), "afpc".into());
+    let (port, origins, examples) = (0, Vec::new(), Vec::new());
+    Options { folder, open: None, port, origins, program, examples, own }
+}
 
 /// A server on a port of its own that ends with the test.
-fn serve() -> (u16, String) {
-    let folder = std::env::temp_dir();
-    let (port, origins, examples) = (0, Vec::new(), Vec::new());
-    let program = "afpc".into();
-    let options = Options { folder, open: None, port, origins, program, examples };
-    let studio = Studio::new(&options, || Box::new(NoFiles)).unwrap();
+fn serve(options: &Options) -> (u16, String) {
+    let Opened::Here(studio) = Studio::open(options, || Box::new(NoFiles)).unwrap() else {
+        panic!("somebody else serves it");
+    };
     let address = studio.address();
     let rest = address.strip_prefix("http://127.0.0.1:").unwrap();
     let (port, code) = rest.split_once("/?code=").unwrap();
@@ -43,7 +48,7 @@ fn status(answer: &str) -> &str {
 
 #[test]
 fn a_code_opens_once_and_foreign_pages_never() {
-    let (port, code) = serve();
+    let (port, code) = serve(&options(&std::env::temp_dir(), None));
     assert_eq!(status(&get(port, "/", &[])), "403");
     assert_eq!(status(&get(port, "/main.js", &[])), "403");
     assert_eq!(status(&get(port, "/?code=0123", &[])), "403");
@@ -68,4 +73,27 @@ fn a_code_opens_once_and_foreign_pages_never() {
     let key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==";
     let without = [upgrade[1], upgrade[2], key];
     assert_eq!(status(&get(port, "/lsp", &without)), "403", "a socket needs the cookie");
+}
+
+#[test]
+fn who_starts_a_second_one_is_let_in_by_the_first() {
+    let (folder, own) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let mut options = options(folder.path(), Some(own.path()));
+    let (port, first) = serve(&options);
+    let plan = folder.path().join("a plan.afp");
+    options.open = Some(plan.clone());
+    let Opened::Elsewhere(address) = Studio::open(&options, || Box::new(NoFiles)).unwrap() else {
+        panic!("two serve one folder");
+    };
+    let path = address.strip_prefix(&format!("http://127.0.0.1:{port}")).unwrap();
+    let entered = get(port, path, &[]);
+    assert_eq!(status(&entered), "303", "{entered}");
+    let shown = format!("location: /#{}\r\n", afp_lsp::uri_of(plan.to_str().unwrap()));
+    assert!(entered.contains("set-cookie") && entered.contains(&shown), "{entered}");
+    assert_eq!(status(&get(port, path, &[])), "403", "it works once");
+    assert_eq!(
+        status(&get(port, &format!("/?code={first}"), &[])),
+        "303",
+        "so does the printed one"
+    );
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use afp_lsp::{Host, Message};
-use afp_studio::{ClientId, Folder, Room};
+use afp_studio::{ClientId, Example, Folder, Room};
 use serde_json::{Value, json};
 
 const PLAN: &str =
@@ -40,7 +40,8 @@ impl Place {
     fn new(text: &str) -> Place {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("p.afp"), text).unwrap();
-        let examples = vec![("first.afp".to_owned(), format!("/// Wait.\n{PLAN}"))];
+        let (name, plan) = ("first.afp".to_owned(), format!("/// Wait.\n{PLAN}"));
+        let examples = vec![Example { name, plan, ..Example::default() }];
         let room =
             Room::new(Folder::new(folder.path()).unwrap(), None, examples, || Box::new(Disk));
         Place { folder, room, now: Duration::ZERO, asked: 0 }
@@ -261,6 +262,30 @@ fn a_disk_that_takes_nothing_is_said_and_tried_again() {
 }
 
 #[test]
+fn a_file_that_was_removed_is_not_saved_until_it_is_written_anew() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    fs::remove_file(place.path("p.afp")).unwrap();
+    let out = place.pass(600);
+    assert!(out.iter().any(|(_, value)| value["params"]["failed"].is_string()), "{out:?}");
+    assert!(!place.path("p.afp").exists(), "who removes a file means it");
+    let next = PLAN.replace("go", "stay");
+    place.types(1, 2, &next);
+    let out = place.pass(600);
+    assert!(out.iter().any(|(_, value)| value["method"] == "afp/saved"), "{out:?}");
+    assert_eq!(place.on_disk(), next);
+    // Back as it was: that is news, and what lies there is what people see.
+    fs::remove_file(place.path("p.afp")).unwrap();
+    place.pass(600);
+    fs::write(place.path("p.afp"), &next).unwrap();
+    let out = place.pass(600);
+    let saved = |(_, value): &(_, Value)| {
+        value["method"] == "afp/saved" && value["params"]["failed"].is_null()
+    };
+    assert!(out.iter().any(saved), "{out:?}");
+}
+
+#[test]
 fn everything_is_saved_at_the_end() {
     let mut place = Place::new(PLAN);
     place.client(1);
@@ -283,6 +308,8 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
     for (wrong, why) in [
         (json!({ "kind": "generate", "file": "file:///etc/passwd.afp" }), "outside"),
         (json!({ "kind": "sweep", "file": file, "seeds": "--world" }), "seeds"),
+        (json!({ "kind": "sweep", "file": file, "vary": ["gain=1,2", "--output=x"] }), "vary"),
+        (json!({ "kind": "sweep", "file": file, "world": "/etc/rooms.toml" }), "outside"),
         (json!({ "kind": "new", "name": "../up" }), "name"),
         (json!({ "kind": "format c:" }), "no job"),
     ] {

@@ -104,7 +104,8 @@ pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, f64> {
             ),
             FigureValue::Spans { spans, .. } => {
                 let lasted = spans.iter().map(|span| span.end.since(span.begin).as_secs_f64());
-                all.insert(format!("{}_s", figure.name), lasted.sum());
+                // A sum of nothing is a negative zero.
+                all.insert(format!("{}_s", figure.name), lasted.fold(0.0, |all, each| all + each));
             }
         }
     }

@@ -17,7 +17,7 @@ use afp_syntax::source::Source;
 
 mod templates {
     #![allow(missing_docs)]
-    afp_macros::toolbox!("../afp-run/tests/panicking.afp");
+    afp_macros::toolbox!("../afp-run/tests/panicking.afp", robot: super::Navigator);
 }
 
 #[derive(Clone)]

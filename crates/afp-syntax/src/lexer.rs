@@ -219,7 +219,16 @@ fn is_word(each: char) -> bool {
 
 /// The length in bytes of the characters at the start that fit.
 fn run(text: &str, fits: impl Fn(char) -> bool) -> usize {
-    text.find(|each| !fits(each)).unwrap_or(text.len())
+    // Nearly all text is ASCII, which needs no decoding.
+    let is_plain = |byte: &u8| byte.is_ascii() && fits(char::from(*byte));
+    let plain = text.bytes().take_while(is_plain).count();
+    match text.as_bytes().get(plain) {
+        Some(byte) if !byte.is_ascii() => {
+            let rest = &text[plain..];
+            plain + rest.find(|each| !fits(each)).unwrap_or(rest.len())
+        }
+        _ => plain,
+    }
 }
 
 /// The length in bytes up to the line break.

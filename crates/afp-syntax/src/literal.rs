@@ -19,32 +19,11 @@ pub struct Literal {
     pub unit: Option<Unit>,
 }
 
-/// Why a text is no value of the wanted type.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum LiteralError {
-    /// It is not written like a value of the type.
-    Malformed,
-    /// It has no unit; the usual one is given.
-    UnitMissing(String),
-    /// It has another dimension, which is given.
-    WrongDimension(Dimension),
-    /// Its unit is not in the list.
-    UnknownUnit(String),
-    /// It is too large for the type.
-    TooLarge,
-    /// It is none of the enum's values.
-    UnknownChoice,
-    /// A text of more than 64 bytes.
-    TooLong,
-    /// The type has no literals.
-    NoLiteral,
-}
-
 impl Literal {
     /// A number and its unit as they stand in the tree, foreign spellings of units included; `None`
     /// where the unit is none.
     pub fn of_tokens(number: &str, unit: Option<&str>) -> Option<Literal> {
-        let mut literal = Literal::parse(&number.replace(',', ".")).ok()?;
+        let mut literal = Literal::parse(&number.replace(',', "."))?;
         literal.unit = match unit {
             Some(unit) => Some(Unit::of_token(unit)?),
             None => None,
@@ -53,49 +32,26 @@ impl Literal {
     }
 
     /// Reads an optional sign, a number and an optional unit; white space may stand between number
-    /// and unit and at both ends.
-    ///
-    /// # Errors
-    /// [`LiteralError::Malformed`] or [`LiteralError::UnknownUnit`].
-    pub fn parse(text: &str) -> Result<Literal, LiteralError> {
+    /// and unit and at both ends. `None` where the text is not that.
+    pub fn parse(text: &str) -> Option<Literal> {
         let text = text.trim();
         let (negative, text) = match text.strip_prefix('-') {
             Some(rest) => (true, rest.trim_start()),
             None => (false, text),
         };
-        let (number, unit_text) = text.split_at(number_length(text));
-        let number = Decimal::parse(number).ok_or(LiteralError::Malformed)?;
-        let unit_text = unit_text.trim_start();
-        let unit = match unit_text {
+        let (number, unit) = text.split_at(number_length(text));
+        let number = Decimal::parse(number)?;
+        let unit = match unit.trim_start() {
             "" => None,
-            _ => Some(
-                Unit::parse(unit_text)
-                    .ok_or_else(|| LiteralError::UnknownUnit(unit_text.to_owned()))?,
-            ),
+            unit => Some(Unit::parse(unit)?),
         };
         let digits = number.digits().skip_while(|digit| *digit == 0).collect();
-        Ok(Literal { negative, digits, exponent: number.exponent(), unit })
+        Some(Literal { negative, digits, exponent: number.exponent(), unit })
     }
 
     /// The same number with the other sign.
     pub fn negated(&self) -> Literal {
         Literal { negative: !self.negative, ..self.clone() }
-    }
-
-    /// The value in SI units, when it has the wanted dimension.
-    ///
-    /// # Errors
-    /// [`LiteralError::UnitMissing`], [`LiteralError::WrongDimension`], [`LiteralError::TooLarge`].
-    pub fn quantity(&self, dimension: Dimension) -> Result<f64, LiteralError> {
-        match self.unit {
-            None if dimension != Dimension::NONE => {
-                Err(LiteralError::UnitMissing(dimension.usual_unit()))
-            }
-            Some(unit) if unit.dimension != dimension => {
-                Err(LiteralError::WrongDimension(unit.dimension))
-            }
-            _ => self.value().ok_or(LiteralError::TooLarge),
-        }
     }
 
     /// The dimension of its unit.

@@ -35,7 +35,7 @@ const MAX_DEPTH: usize = 64;
 pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> GreenNode {
     let mended = braces::mend(&mut tokens, file, diags);
     let mut parser = Parser::new(&tokens, file, diags);
-    parser.tell(&mended.told);
+    parser.note_reported(&mended.reported);
     parser.balanced = mended.balanced;
     parser.file();
     parser.withdraw_fixes();
@@ -59,7 +59,7 @@ struct Parser<'t, 'd> {
     balanced: bool,
     marks: Marks,
     /// Lines of which something is said that comes before the grammar, by where they end, each with the place of that.
-    told: BTreeMap<u32, u32>,
+    reported: BTreeMap<u32, u32>,
     /// Where the lines end on which something is wrong that is not said.
     hidden: BTreeSet<u32>,
     /// Where the line behind the last error begins: what is wrong before it comes of that.
@@ -86,7 +86,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             misplaced: false,
             balanced: false,
             marks,
-            told: BTreeMap::new(),
+            reported: BTreeMap::new(),
             hidden: BTreeSet::new(),
             quiet: 0,
             behind_arrow: 0,

@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use afp_draw::Usage;
 use afp_dsl::graph::{EntryKind, Graph};
-use afp_dsl::unfold::{ComponentNames, EntryNames, Goal, Kind, Place, Reaction, places, unfold};
+use afp_dsl::unfold::{
+    ComponentKind, ComponentNames, EntryNames, Goal, Place, Reaction, places, unfold,
+};
 use afp_log::LogData;
 
 use crate::parts::Parts;
@@ -128,7 +130,7 @@ impl Coverage {
 
 fn add(names: &ComponentNames, place: &Place, touched: &Touched, parts: &mut Vec<Part>) {
     let (kind, special, path) = (names.kind, &place.special, &names.path);
-    let watches = kind == Kind::Supervisor;
+    let watches = kind == ComponentKind::Supervisor;
     let mut part = |kind, name: String, count| parts.push(Part { kind, name, count });
     if !watches {
         part(PartKind::Element, path.clone(), touched.starts);

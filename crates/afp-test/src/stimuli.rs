@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use afp::load::{Injection, value_of};
 use afp_core::devices::{find_control, find_fault};
-use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, Kind, Names};
+use afp_core::trace::{ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Names};
 use afp_core::{Duration, Instant};
 use afp_dsl::scenario::{self, Action, Failure, MomentId, Outcome, Part, Scenario};
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
@@ -70,7 +70,7 @@ fn injected(injection: &scenario::Injection, names: &dyn Names) -> Injection {
         component,
         outcome: match (injection.outcome, names.component(component).kind) {
             (Outcome::Declared(outcome), _) => outcome,
-            (Outcome::Special, Kind::Supervisor) => DEADLINE_MISSED,
+            (Outcome::Special, ComponentKind::Supervisor) => DEADLINE_MISSED,
             (Outcome::Special, _) => ERROR,
         },
         outputs: injection.outputs.iter().map(|(port, value)| (*port, value_of(value))).collect(),

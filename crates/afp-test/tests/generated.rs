@@ -22,7 +22,7 @@ use templates::forward::{Inputs, Live, State};
 
 /// The templates of `examples/embed`, for a robot without a loudspeaker.
 mod shop {
-    afp::toolbox!("../../examples/embed/shop.afp");
+    afp::toolbox!("../../examples/embed/shop.afp", robot = super::Simulation);
 }
 
 const SHOP: &str = include_str!("../../../examples/embed/shop.afp");

@@ -12,7 +12,7 @@ use std::time::Duration as Span;
 
 mod templates {
     #![allow(missing_docs)]
-    afp_macros::toolbox!("tests/sums.afp");
+    afp_macros::toolbox!("tests/sums.afp", robot = super::Bench);
 }
 
 afp_macros::plan!("tests/add.afp", toolboxes = { "tests/sums.afp" => crate });

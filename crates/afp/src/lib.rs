@@ -74,7 +74,21 @@ macro_rules! scenarios {
 /// Makes typed templates from a toolbox file.
 ///
 /// It belongs into a module beside the types that implement the templates under the templates'
-/// names: `pub mod templates { afp::toolbox!("signals.afp"); }`.
+/// names: `pub mod templates { afp::toolbox!("signals.afp", robot: super::Lights); }`.
+///
+/// Behind the file stand the traits that a robot implements which can use every template, nothing where templates ask
+/// for none, or `robot = Bench` where they are implemented for one type alone. What is declared and not implemented for
+/// such a robot does not compile:
+///
+/// ```compile_fail,E0277
+/// /// The type is there, the implementation of the template is not.
+/// #[derive(Clone)]
+/// pub struct Announce;
+///
+/// pub mod templates {
+///     afp::toolbox!("../../examples/embed/shop.afp");
+/// }
+/// ```
 #[macro_export]
 macro_rules! toolbox {
     ($($arguments:tt)*) => {

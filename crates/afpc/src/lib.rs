@@ -15,9 +15,10 @@ mod toolchain;
 
 use std::process::ExitCode;
 
-use afp_session::Loader;
+use afp_build::Parts;
+use afp_session::{Loader, Opener};
 
-pub use afp_session::simulated;
+pub use afp_session::{hardware, simulated};
 pub use afp_sim::carbot;
 
 /// Trees are many small pieces; checking a large plan takes a third less time than with the
@@ -29,6 +30,8 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 const FEATURES: &[&str] = &[
     #[cfg(feature = "dap")]
     "dap",
+    #[cfg(feature = "live")]
+    "live",
     #[cfg(feature = "lsp")]
     "lsp",
     #[cfg(feature = "parquet")]
@@ -46,11 +49,19 @@ pub struct Linked<'a> {
     pub robot: &'a dyn Loader,
     /// The path of the robot's type, where it is one of a project; none for the Carbot.
     pub own_robot: Option<&'a str>,
+    /// The robot itself, by the path of its type, where it is linked in.
+    pub hardware: Option<(&'a str, &'a dyn Opener)>,
     /// The toolboxes beside the built-in ones, by the names behind `use`.
     pub toolboxes: &'a [&'a str],
 }
 
 impl Linked<'_> {
+    /// Whether all of these parts are linked in.
+    fn has(&self, parts: &Parts<'_>) -> bool {
+        let hardware = self.hardware.map(|(name, _)| name);
+        parts.are_in(self.own_robot, hardware, self.toolboxes)
+    }
+
     /// Whether anything of a project is linked in.
     fn is_runner(&self) -> bool {
         self.own_robot.is_some() || !self.toolboxes.is_empty()

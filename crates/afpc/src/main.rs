@@ -5,5 +5,6 @@ use std::process::ExitCode;
 use afpc::Linked;
 
 fn main() -> ExitCode {
-    afpc::main(&Linked { robot: &afpc::carbot(|_| {}), own_robot: None, toolboxes: &[] })
+    let robot = afpc::carbot(|_| {});
+    afpc::main(&Linked { robot: &robot, own_robot: None, hardware: None, toolboxes: &[] })
 }

@@ -30,6 +30,20 @@ pub fn become_one_for<'a>(
     Parts::of_plans(plans)?.map_or(Ok(()), |parts| become_one(parts, linked))
 }
 
+/// As [`become_one_for`] for one plan, with the robot itself.
+///
+/// # Errors
+/// As there, and a project without one.
+pub fn become_one_with_hardware(
+    (own, graph): (&OwnToolboxes, &Graph),
+    linked: &Linked<'_>,
+) -> Result<(), NoPlan> {
+    match Parts::of_plans([(own, graph)])? {
+        None => Ok(()),
+        Some(parts) => become_one(parts.with_hardware()?, linked),
+    }
+}
+
 /// Whether this program has the robot and the toolboxes of a plan.
 ///
 /// # Errors
@@ -37,7 +51,7 @@ pub fn become_one_for<'a>(
 #[cfg(feature = "dap")]
 pub fn is_linked(own: &OwnToolboxes, graph: &Graph, linked: &Linked<'_>) -> Result<bool, NoPlan> {
     let parts = Parts::of_plans([(own, graph)])?;
-    Ok(parts.is_none_or(|parts| parts.are_in(linked.own_robot, linked.toolboxes)))
+    Ok(parts.is_none_or(|parts| linked.has(&parts)))
 }
 
 /// Comes back when this program has the robot of a project; otherwise goes on as one that has.
@@ -50,7 +64,7 @@ pub fn become_one_of(project: &ProjectFile, linked: &Linked<'_>) -> Result<(), N
 
 /// Comes back when this program has all parts; otherwise goes on as one that has.
 fn become_one(parts: Parts<'_>, linked: &Linked<'_>) -> Result<(), NoPlan> {
-    if parts.are_in(linked.own_robot, linked.toolboxes) {
+    if linked.has(&parts) {
         return Ok(());
     }
     if linked.is_runner() {

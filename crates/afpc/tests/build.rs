@@ -64,6 +64,22 @@ fn shared_target() -> &'static Path {
     Path::new(concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans"))
 }
 
+/// A program is watched where it was built for that; another one says how it would be.
+fn others_watch(place: &Place, deaf: &str) {
+    let options = ["--live=0", "--speed", "max", "--until", "1s", "--log", "none", "--svg", "none"];
+    let run = |binary: &str| {
+        said(Command::new(binary).args(options).current_dir(place.path("")).output().unwrap())
+    };
+    run(deaf).fails(2, &["'--live' is not in this program", "'afpc build --live'"]);
+    let mut command = place.command();
+    command.args(["build", "wall_following.afp", "--live", "-o", "watched"]);
+    let built = said(command.env("CARGO_TARGET_DIR", shared_target()).output().unwrap());
+    built.succeeds();
+    let watched = run(built.out.lines().last().unwrap());
+    watched.succeeds();
+    assert!(watched.err.contains("live: ws://127.0.0.1:"), "{watched:?}");
+}
+
 #[test]
 #[ignore = "builds the physics engine in release mode; `cargo xtask test install` runs it"]
 fn the_binary_says_the_same_as_the_interpreter_over_twenty_seeds() {
@@ -85,6 +101,7 @@ fn the_binary_says_the_same_as_the_interpreter_over_twenty_seeds() {
         let ours = run(place.command().args(["run", "wall_following.afp"]));
         assert_eq!(run(&mut Command::new(binary)), ours, "seed {seed}");
     }
+    others_watch(&place, binary);
     let symbols = std::fs::read(binary).unwrap();
     let contains = |text: &str| symbols.windows(text.len()).any(|part| part == text.as_bytes());
     for stranger in ["afp_dsl", "LoadedPlan", "global_supervisors"] {

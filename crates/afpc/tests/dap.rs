@@ -1,9 +1,10 @@
-//! `afpc dap` over standard input: how it ends.
+//! `afpc dap` over standard input: how it ends; and over a socket: what it says, to one client and to several.
 
 mod common;
 
-use std::io::Write;
-use std::process::Stdio;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Stdio};
 
 use common::{Place, Said, said};
 
@@ -77,4 +78,160 @@ fn a_log_is_looked_at_with_the_text_that_ran() {
     place.write("run.mcap", "no log");
     let none = told_in(&place, talk(1).as_bytes());
     assert!(none.succeeds().out.contains(r#""success":false"#), "{none:?}");
+}
+
+/// A client on a stream of bytes.
+struct Client<R, W> {
+    from: BufReader<R>,
+    to: W,
+    said: u32,
+    /// All that has arrived.
+    heard: Vec<u8>,
+}
+
+impl<R: Read, W: Write> Client<R, W> {
+    fn new(from: R, to: W) -> Client<R, W> {
+        Client { from: BufReader::new(from), to, said: 0, heard: Vec::new() }
+    }
+
+    fn say(&mut self, command: &str, arguments: &str) {
+        self.said += 1;
+        let said = self.said;
+        let body = format!(
+            r#"{{"seq":{said},"type":"request","command":"{command}","arguments":{arguments}}}"#
+        );
+        write!(self.to, "Content-Length: {}\r\n\r\n{body}", body.len()).unwrap();
+        self.to.flush().unwrap();
+    }
+
+    /// Reads messages up to one that has this in it.
+    fn hear(&mut self, wanted: &str) -> String {
+        loop {
+            let mut header = String::new();
+            self.from.read_line(&mut header).unwrap();
+            let length: usize =
+                header.trim().strip_prefix("Content-Length: ").unwrap().parse().unwrap();
+            let mut rest = vec![0; 2 + length];
+            self.from.read_exact(&mut rest).unwrap();
+            self.heard.extend(header.bytes().chain(rest.iter().copied()));
+            let message = String::from_utf8(rest).unwrap();
+            if message.contains(wanted) {
+                return message;
+            }
+        }
+    }
+
+    /// Says something and waits for the answer.
+    fn ask(&mut self, command: &str, arguments: &str) -> String {
+        self.say(command, arguments);
+        self.hear(r#""type":"response""#)
+    }
+}
+
+/// A server with its token, for a while.
+struct Server(Child);
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.0.kill().ok();
+        self.0.wait().ok();
+    }
+}
+
+impl Server {
+    /// A server in a folder, its port and its token.
+    fn new(place: &Place) -> (Server, u16, String) {
+        let mut command = place.command();
+        command.args(["dap", "--port", "0"]).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+        let (port, token) = line.trim().split_once(", token ").unwrap();
+        let port = port.rsplit(':').next().unwrap().parse().unwrap();
+        (Server(child), port, token.to_owned())
+    }
+}
+
+fn connected(port: u16) -> Client<TcpStream, TcpStream> {
+    let stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    stream.set_read_timeout(Some(std::time::Duration::from_secs(120))).unwrap();
+    Client::new(stream.try_clone().unwrap(), stream)
+}
+
+/// A whole session: to a breakpoint, a look around, a step, back, to the end.
+fn session<R: Read, W: Write>(client: &mut Client<R, W>, token: &str) {
+    client.ask("initialize", r#"{"adapterID":"afp"}"#);
+    let launch = format!(r#"{{"program":"wall_following.afp","until":30,"token":"{token}"}}"#);
+    client.ask("launch", &launch);
+    client.ask("setFunctionBreakpoints", r#"{"breakpoints":[{"name":"backupCollision"}]}"#);
+    client.ask("configurationDone", "{}");
+    client.hear(r#""event":"stopped""#);
+    for (command, arguments) in [
+        ("threads", "{}"),
+        ("stackTrace", r#"{"threadId":1}"#),
+        ("scopes", r#"{"frameId":1}"#),
+        ("nonsense", "{}"),
+        ("next", r#"{"threadId":1}"#),
+    ] {
+        client.ask(command, arguments);
+    }
+    client.hear(r#""event":"stopped""#);
+    client.ask("stepBack", r#"{"threadId":1}"#);
+    client.hear(r#""event":"stopped""#);
+    client.ask("terminate", "{}");
+    client.hear(r#""event":"terminated""#);
+    client.ask("disconnect", "{}");
+}
+
+#[test]
+fn a_session_is_the_same_bytes_over_standard_output_and_over_a_socket() {
+    let place = Place::with_plan();
+    let mut command = place.command();
+    command.arg("dap").stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let mut piped = Client::new(child.stdout.take().unwrap(), child.stdin.take().unwrap());
+    session(&mut piped, "none is needed");
+    assert!(child.wait().unwrap().success());
+    let (_server, port, token) = Server::new(&place);
+    let mut socket = connected(port);
+    session(&mut socket, &token);
+    assert!(piped.heard.len() > 5_000, "{} bytes", piped.heard.len());
+    let [one, other] = [&piped.heard, &socket.heard].map(|it| String::from_utf8_lossy(it));
+    assert!(one == other, "{one}\n---\n{other}");
+}
+
+#[test]
+fn several_clients_watch_one_run_and_anybody_may_end_it() {
+    let place = Place::with_plan();
+    let (_server, port, token) = Server::new(&place);
+    let (mut one, mut other, mut stranger) = (connected(port), connected(port), connected(port));
+    for client in [&mut one, &mut other, &mut stranger] {
+        client.ask("initialize", r#"{"adapterID":"afp"}"#);
+    }
+    let launch = format!(
+        r#"{{"program":"wall_following.afp","speed":1,"stopOnEntry":true,"token":"{token}"}}"#
+    );
+    assert!(one.ask("launch", &launch).contains(r#""success":true"#));
+    one.ask("configurationDone", "{}");
+    one.hear(r#""event":"stopped""#);
+    let refused = stranger.ask("attach", r#"{"token":"guessed"}"#);
+    assert!(refused.contains("'token' is the one that 'afpc dap' printed"), "{refused}");
+    for command in ["threads", "continue", "terminate", "setBreakpoints", "afp/world", "afp/role"] {
+        let refused = stranger.ask(command, r#"{"threadId":1}"#);
+        assert!(refused.contains("'launch' or 'attach' comes first"), "{refused}");
+    }
+    let attached = other.ask("attach", &format!(r#"{{"token":"{token}"}}"#));
+    assert!(attached.contains(r#""plan":"WallFollowing""#), "{attached}");
+    other.ask("configurationDone", "{}");
+    other.hear(r#""event":"stopped""#);
+    let refused = other.ask("continue", r#"{"threadId":1}"#);
+    assert!(refused.contains("client 1 steers this run"), "{refused}");
+    other.ask("terminate", "{}");
+    for client in [&mut one, &mut other] {
+        client.hear("WallFollowing was interrupted after 0.000 s");
+        client.hear(r#""event":"terminated""#);
+    }
+    // A client that is gone takes nobody with it.
+    drop(other);
+    assert!(one.ask("launch", &launch).contains(r#""success":true"#));
 }

@@ -98,6 +98,8 @@ const configurations: vscode.DebugConfigurationProvider = {
 
 const adapters: vscode.DebugAdapterDescriptorFactory = {
   createDebugAdapterDescriptor({ configuration }) {
+    // What runs elsewhere runs already.
+    if (configuration.request === "attach") return new vscode.DebugAdapterServer(configuration.port as number);
     if (!vscode.workspace.isTrusted) throw new Error("This folder is not trusted, so nothing of it is run.");
     const file = configuration.program ? programOf(configuration.program as string).file : (configuration.log as string);
     return new vscode.DebugAdapterExecutable(command(), adapterOf(configuration as Launch), { cwd: path.dirname(file) });

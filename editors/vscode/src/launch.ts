@@ -8,6 +8,8 @@ export interface Launch {
   name?: string;
   program?: string;
   log?: string;
+  port?: number;
+  token?: string;
   speed?: number | null;
   [more: string]: unknown;
 }
@@ -25,6 +27,7 @@ const REAL_TIME = 1;
 export function completed(config: Launch, open: Open | null): Launch | string {
   const plan = open?.language === "afp" && open.path.endsWith(".afp") ? open.path : null;
   const isEmpty = !config.type && !config.request && !config.name;
+  if (config.request === "attach") return joining(config);
   if (isEmpty && !plan) return "Open a plan first.";
   const full: Launch = isEmpty ? { name: "Debug the plan", program: plan! } : { ...config };
   if (!full.program && !full.log) return "The configuration needs a 'program', the plan's file, or a 'log'.";
@@ -34,6 +37,12 @@ export function completed(config: Launch, open: Open | null): Launch | string {
   // Without it the run is as fast as it can be computed.
   if (full.speed === null) delete full.speed;
   return full;
+}
+
+/** What joins a run that 'afpc dap --port' serves, or a sentence that says what is missing. */
+function joining(config: Launch): Launch | string {
+  const both = Number.isInteger(config.port) && config.token;
+  return both ? { ...config, type: "afp" } : "To join a run, the configuration needs the 'port' and the 'token' that 'afpc dap --port' said.";
 }
 
 /** The configuration of a lens above a plan, or of a file without one. */

@@ -62,6 +62,12 @@ test("debug launches the plan of its lens, with an adapter that has the plan", a
   assert.deepEqual([adapter.command, adapter.args, adapter.options], [AFPC, ["dap", `${file}:Patrol`], { cwd: folder }]);
 });
 
+test("a run that is joined has its adapter already", () => {
+  const configuration = { type: "afp", request: "attach", port: 4711, token: "t" };
+  const adapter = seen.factories.get("afp").createDebugAdapterDescriptor({ configuration });
+  assert.equal(adapter.port, 4711);
+});
+
 test("of a folder that is not trusted nothing is run, and plans are drawn all the same", async () => {
   seen.trusted = false;
   for (const name of ["afp.run", "afp.test", "afp.debug"]) void run(name, lens);

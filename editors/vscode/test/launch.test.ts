@@ -25,6 +25,13 @@ test("a configuration says what it lacks, and may ask for all speed there is", (
   assert.equal((completed({ type: "afp", program: "a", speed: 3 }, open) as Launch).speed, 3);
 });
 
+test("a run is joined by what its server said", () => {
+  const attach = { type: "afp", request: "attach", name: "x", port: 4711, token: "t" };
+  assert.deepEqual(completed(attach, null), attach);
+  assert.match(completed({ ...attach, token: "" }, open) as string, /the 'port' and the 'token'/);
+  assert.match(completed({ ...attach, port: undefined }, open) as string, /the 'port' and the 'token'/);
+});
+
 test("a lens names the plan", () => {
   assert.equal(launchOf("/w/a.afp", "Patrol").program, "/w/a.afp:Patrol");
   assert.deepEqual(programOf("C:\\w\\a.afp:Patrol"), { file: "C:\\w\\a.afp", plan: "Patrol" });

@@ -54,6 +54,10 @@ export class DebugAdapterExecutable {
   ) {}
 }
 
+export class DebugAdapterServer {
+  constructor(readonly port: number) {}
+}
+
 export const DiagnosticSeverity = { Error: 0, Warning: 1 };
 export const ViewColumn = { Beside: -2, One: 1 };
 export const TaskScope = { Workspace: 2 };

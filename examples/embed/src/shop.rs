@@ -10,7 +10,7 @@ use afp_sim::Simulation;
 
 /// The shop's templates, declared in `shop.afp`.
 pub mod templates {
-    afp::toolbox!("shop.afp");
+    afp::toolbox!("shop.afp", robot: super::Loudspeaker);
 }
 
 /// The platform: the robot, and the shop that it is in.

@@ -7,7 +7,7 @@ use afp::load::Registry;
 use afp_dsl::toolbox::{TemplateKind, Toolbox};
 
 use robot::Part;
-pub use robot::{Nothing, Nowhere, StandIn};
+pub use robot::{Nothing, StandIn};
 
 /// Gives every actor and supervisor of a toolbox a part that does nothing by itself. What is computed nobody can play.
 pub fn register(toolbox: &Toolbox, registry: &mut Registry<StandIn>) {

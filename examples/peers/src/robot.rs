@@ -1,10 +1,10 @@
-//! The robot, which has no devices, and the world, in which there is nothing.
+//! The robot, which has no devices and no world.
 
 use afp::core::Platform;
 use afp::core::devices::{ControlId, DeviceRow, Devices, FaultId};
 use afp::load::{ActorSlot, Args, BadValue, Outputs, See, SupervisorSlot};
 use afp::{Environment, Events, Fault, Instant, StillClock};
-use afp_session::{Drawing, Pose2, Robot, Samples, Shape, Simulated, World, WorldError};
+use afp_session::{NoWorld, Robot, Samples, Simulated};
 
 /// The robot that plays every part.
 #[derive(Clone, Debug, Default)]
@@ -58,38 +58,10 @@ impl Robot for StandIn {
 }
 
 impl Simulated for StandIn {
-    type World = Nowhere;
+    type World = NoWorld;
 
-    fn new(_: &Nowhere, _: u64) -> Result<StandIn, String> {
+    fn new(_: &NoWorld, _: u64) -> Result<StandIn, String> {
         Ok(StandIn::default())
-    }
-}
-
-/// The world in which there is nothing.
-#[derive(Clone, Debug)]
-pub struct Nowhere;
-
-impl World for Nowhere {
-    const DEFAULT: &'static str = "";
-
-    fn read(_: &str) -> Result<Nowhere, WorldError> {
-        Ok(Nowhere)
-    }
-
-    fn name(&self) -> &str {
-        "nowhere"
-    }
-
-    fn started_at(&self, _: Pose2) -> Result<Nowhere, String> {
-        Ok(Nowhere)
-    }
-
-    fn scene(&self) -> Vec<Shape> {
-        Vec::new()
-    }
-
-    fn drawing(&self) -> Drawing {
-        Drawing::default()
     }
 }
 

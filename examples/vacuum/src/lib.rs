@@ -5,7 +5,7 @@
 
 pub mod templates {
     //! What `vacuum.afp` declares, as Rust.
-    afp::toolbox!("vacuum.afp");
+    afp::toolbox!("vacuum.afp", robot: super::Wheels + super::Senses + super::Nozzle);
 }
 
 mod actors;

@@ -159,6 +159,12 @@ class Toolbox(_afp.Toolbox):
 
         return declare
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Toolbox) and (self.text, self.sources) == (other.text, other.sources)
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
     def __repr__(self) -> str:
         return f"<Toolbox {self.name}: {', '.join(self.templates)}>"
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import plots, tables
-from ._afp import Event, draw_log, read_log
+from ._afp import Event, Toolbox, draw_log, read_log, read_recipe
 from .picture import Picture
+from .plan import Plan
+from .simulation import Simulation
+from .units import seconds
 
 __all__ = ["Log"]
 
@@ -58,6 +62,22 @@ class Log(tables.Events):
             if value is not None and (not rows or rows[-1][1] != value):
                 rows.append((time, value))
         return np.array([time for time, _ in rows]), [value for _, value in rows]
+
+    def simulation(self, at: float = 0.0, *, toolboxes: Sequence[Toolbox] = ()) -> Simulation:
+        """The run again up to a moment, from the log alone; it goes on from there as it did, or otherwise if it is disturbed.
+
+        Whatever came from outside comes again, later than that moment, too. Components in Python come from `toolboxes`.
+        """
+        at = seconds("at", at)
+        files, name, world, seed = read_recipe(self.file)
+        path, text = files[0]
+        plan = Plan(text, path, name=name, toolboxes=list(toolboxes))
+        plan._set_others(dict(files[1:]))
+        simulation = Simulation(plan, world, seed=seed)
+        simulation._runner.repeat(self.file)
+        if at > 0:
+            simulation.run_to(at)
+        return simulation
 
     def picture(self) -> Picture:
         """The path of the run in its world, as `afpc log --svg` draws it."""

@@ -35,6 +35,12 @@ class Plan(_afp.Plan):
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), *self._state())
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Plan) and self._state() == other._state()
+
+    # It can be changed.
+    __hash__ = None  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         place = self.path or "<text>"
         count = len(self.diagnostics)
@@ -89,8 +95,12 @@ class Plan(_afp.Plan):
         self._change("reorder", {"item": item, "before": before})
 
     def bind(self, item: str, port: str, formula: str | float) -> None:
-        """Binds an input port to a formula such as `"2 * far"`, or a value such as `afp.cm(30)`."""
-        self._change("bind", {"item": item, "port": port, "formula": spelled(formula)})
+        """Binds an input port to a formula such as `"2 * far"`, or a value such as `afp.cm(30)`.
+
+        A formula may be wrong, which `diagnostics` tells; a value that does not fit the port is refused.
+        """
+        parts = {"item": item, "port": port, "formula": spelled(formula)}
+        self._change("bind", parts, not isinstance(formula, str))
 
     def bind_output(self, item: str, port: str, entry: str) -> None:
         """Binds an output port to an entry."""
@@ -125,8 +135,9 @@ class Plan(_afp.Plan):
         self._change("entry_type", {"item": entry, "type": type})
 
     def set_entry_value(self, entry: str, value: str | float | None) -> None:
-        """Sets or removes the initial value of an entry, a formula or a value such as `afp.cm(30)`."""
-        self._change("entry_value", {"item": entry, "value": None if value is None else spelled(value)})
+        """Sets or removes the initial value of an entry, a formula or a value such as `afp.cm(30)`, which must fit."""
+        parts = {"item": entry, "value": None if value is None else spelled(value)}
+        self._change("entry_value", parts, not isinstance(value, (str, type(None))))
 
     def set_doc(self, item: str, text: str) -> None:
         """Sets the help text above an item; an empty one removes it."""

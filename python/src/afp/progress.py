@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 import sys
 import time
 from collections.abc import Callable
 from typing import Any
+
+from . import notebook
 
 __all__ = ["Bar", "teller"]
 
@@ -16,8 +17,9 @@ def teller(progress: bool | Callable[[int, int], Any], total: int) -> Callable[[
     """What is told how many runs are done; -1 at the end."""
     if callable(progress):
         return lambda done, all: progress(done, all) if done >= 0 else None
-    if progress and "ipykernel" in sys.modules:
-        return Bar(_in_notebook())
+    if progress and notebook.is_here():
+        cell = notebook.Cell()
+        return Bar(lambda line, last: cell.show({"text/plain": line}))
     return Bar(_on_terminal) if progress and sys.stderr.isatty() else lambda done, all: None
 
 
@@ -44,18 +46,3 @@ class Bar:
 
 def _on_terminal(line: str, last: bool) -> None:
     print(f"\r{line}", end="\n" if last else "", file=sys.stderr, flush=True)
-
-
-def _in_notebook() -> Callable[[str, bool], None]:
-    """One output of the cell, which is replaced: lines on standard error would pile up in an executed notebook."""
-    display = importlib.import_module("IPython.display").display
-    shown: list[Any] = []
-
-    def show(line: str, last: bool) -> None:
-        bundle = {"text/plain": line}
-        if shown:
-            shown[0].update(bundle, raw=True)
-        else:
-            shown.append(display(bundle, raw=True, display_id=True))
-
-    return show

@@ -139,6 +139,16 @@ class Result(tables.Events):
     def _title(self) -> str:
         return f"{self.plan} in {self.world}, seed {self.seed}"
 
+    def _key(self) -> tuple[Any, ...]:
+        """What is the same for two results of the same run."""
+        return self.plan, self._world, self.seed, self.ending, self.stopped_by, self.time, self.trace_hash
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Result) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
     def __repr__(self) -> str:
         why = f" ({self.fault})" if self.fault else ""
         return f"<Result {self.ending}{why} after {self.time:.3f} s, {len(self.events)} events>"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import operator
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, overload
 
@@ -104,11 +105,12 @@ class Runs:
 
     # The runs themselves
 
-    def simulation(self, row: int) -> Simulation:
-        """The run of a row about to begin again, to be watched, drawn or driven otherwise."""
+    def simulation(self, row: int, *, log: str | os.PathLike[str] | None = None, camera: bool = False) -> Simulation:
+        """The run of a row about to begin again, to be watched, logged, drawn or driven otherwise."""
         if self._again is None:
             raise RuntimeError("runs that were pickled are a table only: sweep again, or make the simulation from the row")
-        return self._again.simulation(self.columns["run"][operator.index(row)], self.columns["seed"][row])
+        row = operator.index(row)
+        return self._again.simulation(self.columns["run"][row], self.columns["seed"][row], log, camera)
 
     def result(self, row: int) -> Result:
         """The run of a row done again: its path, events and entries, which a table has no place for."""
@@ -172,6 +174,15 @@ class Runs:
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_again": None}
 
+    def __eq__(self, other: object) -> bool:
+        """Whether they are the same runs with the same outcomes, however long each took."""
+        return isinstance(other, Runs) and self.plan == other.plan and self._outcomes() == other._outcomes()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _outcomes(self) -> dict[str, list[Any]]:
+        return {name: cells for name, cells in self.columns.items() if name != "took_s"}
+
     def __repr__(self) -> str:
         endings = ", ".join(f"{count} {ending}" for ending, count in self.endings.items())
         return f"<Runs of {self.plan}: {endings or 'none'}>"
@@ -195,6 +206,6 @@ class _Again:
         self._plan = plan
         self._sweeper = sweeper
 
-    def simulation(self, run: int, seed: int) -> Simulation:
-        runner, world = self._sweeper.runner(run)
+    def simulation(self, run: int, seed: int, log: str | os.PathLike[str] | None, camera: bool) -> Simulation:
+        runner, world = self._sweeper.runner(run, log, camera)
         return Simulation._of(runner, self._plan, world, seed)

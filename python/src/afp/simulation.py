@@ -12,10 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._afp import Event, Plan, Runner, World
+from .picture import Picture
 from .result import ComponentError, Result
 from .seeds import seed_of
 from .snapshot import Snapshot
 from .units import moment, seconds
+from .watch import watch
 
 __all__ = ["Simulation"]
 
@@ -82,6 +84,16 @@ class Simulation:
     def step(self) -> bool:
         """Makes the next step of the plan, which may be a while later; whether the plan still runs."""
         return self._runner.step()
+
+    def watch(self, until: float = 60.0, *, speed: float = 1.0) -> Result:
+        """Runs the plan as `run` does and shows it meanwhile in the cell of a notebook: robot, plan and entries.
+
+        It goes on `speed` times as fast as the clock on the wall. Interrupting the kernel interrupts it; it can be
+        driven on then.
+        """
+        until = seconds("until", until)
+        watch(self, until, speed)
+        return self.run(until)
 
     def stream(self, until: float | None = None) -> Iterator[Event]:
         """Drives the plan and yields its events as they happen, up to `until` (seconds since the start)."""
@@ -184,6 +196,10 @@ class Simulation:
     def trace_hash(self) -> str:
         """The hash of the trace so far; `afpc run` tells the same one for the same run."""
         return self._runner.trace_hash
+
+    def picture(self) -> Picture:
+        """The path so far in its world, as `afpc run --svg` draws it."""
+        return Picture(self._runner.draw(self.plan.name, self.world, self.seed))
 
     def sense(self, sensor: str) -> Any:
         """What a sensor says: see `afp.Robot`. Arrays are copies."""

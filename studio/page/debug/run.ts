@@ -11,7 +11,7 @@ import * as arranged from "./arranged";
 import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
 import type { Ended, Phase, Said, State } from "./told";
-import { extended, type Record } from "./trace";
+import { extended, packed, type Record } from "./trace";
 
 export const phase = signal<Phase>("idle");
 export const state = signal<State | null>(null);
@@ -27,6 +27,8 @@ export const speed = signal<number | null>(1);
 export const world = signal<string | null>(null);
 /** The seed of all noise of the next run. */
 export const seed = signal(0);
+/** What inputs have in the next runs, as people write it; the others have what the plan says. */
+export const given = signal<{ readonly [input: string]: string }>({});
 /** What has happened, as records. */
 export const records = signal<readonly Record[]>([]);
 /** The log that is shown in place of a run; empty for a run. */
@@ -64,7 +66,7 @@ export async function start(hold = false): Promise<void> {
   const plan = trail.value[0] ?? wanted.value ?? shownPlan.value ?? "";
   program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
   const world = wantedWorld();
-  await launch({ program, ...world, ...{ stopOnEntry: hold, seed: seed.value } }, plan);
+  await launch({ program, ...world, ...{ stopOnEntry: hold, seed: seed.value, set: given.value } }, plan);
 }
 
 const wantedWorld = (): object => ({
@@ -106,7 +108,7 @@ function hear(own: Dap): void {
   own.on("initialized", () => void configure(own).catch(failed));
   own.on("afp/state", (now: State) => dap === own && take(own, now));
   own.on("afp/trace", (now: { records: Record[] }) => {
-    if (dap === own) records.value = extended(records.peek(), now.records);
+    if (dap === own) records.value = extended(records.peek(), now.records.map(packed));
   });
   own.on("afp/ended", (now: Ended) => dap === own && finish(now));
   own.on("stopped", ({ description }) => {
@@ -239,6 +241,15 @@ export async function stop(): Promise<void> {
 export async function again(): Promise<void> {
   await stop();
   dismiss();
+  await start();
+}
+
+/** Makes a run of a sweep once more, where it can be watched. */
+export async function repeat(run: { seed: number; values: { readonly [input: string]: { text: string } } }, where: string | null): Promise<void> {
+  dismiss();
+  arranged.putBack();
+  const values = Object.entries(run.values).map(([name, { text }]) => [name, text]);
+  [seed.value, world.value, given.value] = [run.seed, where, Object.fromEntries(values)];
   await start();
 }
 

@@ -46,6 +46,27 @@ export function extended(before: readonly Record[], more: readonly Record[]): re
   return [...before.slice(0, known), ...more].slice(-MOST);
 }
 
+const words = new Map<string, string>();
+/** Different words that are kept. */
+const MOST_WORDS = 5000;
+
+function kept(text: string): string {
+  const known = words.get(text);
+  if (known !== undefined) return known;
+  if (words.size >= MOST_WORDS) words.clear();
+  words.set(text, text);
+  return text;
+}
+
+/** A record as it is kept: the same words come again and again in a long run, and are there once. */
+export const packed = (record: Record): Record => ({
+  ...record,
+  kind: kept(record.kind),
+  path: kept(record.path),
+  text: kept(record.text),
+  ...(record.entry === undefined ? {} : { entry: kept(record.entry) }),
+});
+
 const same = (one: Record, other: Record): boolean => one.step === other.step && one.kind === other.kind && one.path === other.path && one.text === other.text;
 
 /** What ends what was active. */

@@ -34,7 +34,7 @@ import { planOf, type Drawing, type Part, type Point } from "./shapes";
 import { several, toggle } from "./several";
 import { size, stage, view } from "./stage";
 import { editing } from "./value";
-import { first, STEP, zoomed, type View } from "./view";
+import { first, STEP, toPane, zoomed, type View } from "./view";
 import { words } from "./words";
 import { ValuePopup } from "../panes/value";
 
@@ -169,7 +169,9 @@ function focuses(pane: HTMLElement): () => void {
 function Over() {
   return (
     <>
+      {drawing.value === null && <p class="board-empty late" role="status">{words.comes}</p>}
       {drawing.value !== null && plan.value === null && <p class="board-empty">{words.noPlan}</p>}
+      <FirstPlace />
       <Chooser key="chooser" />
       <Rename />
       <ContextMenu />
@@ -189,6 +191,15 @@ function Over() {
       <p class="hidden" role="status">{said.value}</p>
     </>
   );
+}
+
+/** Where the first element of an empty plan would be put, below its start. */
+function FirstPlace() {
+  const [start, more] = drawing.value?.elements.values() ?? [];
+  if (!start || more || start.kind !== null || plan.value === null) return null;
+  const [left, top, width, height] = start.outer;
+  const [x, y] = toPane(view.value, [left + width / 2, top + height]);
+  return <p class="first-place" style={{ left: `${x}px`, top: `${y}px` }}>{words.firstPlace}</p>;
 }
 
 const grow = (factor: number): void => void (view.value = zoomed(view.peek(), factor, [size.peek().width / 2, size.peek().height / 2]));

@@ -30,11 +30,12 @@ export async function show(uri: string): Promise<void> {
   }
 }
 
-/** Opens what was asked for, else what was open before, else the only plan or the first one. */
+/** Opens what the address asks for, else what was open before, else what the server was started with, else the first plan. */
 export async function showFirst(): Promise<void> {
-  const before = sessionStorage.getItem(KEY);
-  const known = plans().some(({ uri }) => uri === before) ? before : null;
-  const first = hello.value?.open ?? known ?? plans()[0]?.uri;
+  const known = (uri: string | null): string | null => plans().find((file) => file.uri === uri)?.uri ?? null;
+  const first = known(location.hash.slice(1)) ?? known(sessionStorage.getItem(KEY)) ?? hello.value?.open ?? plans()[0]?.uri;
+  // What was shown once is asked for no more: a reload shows what is open then.
+  if (location.hash) history.replaceState(null, "", location.pathname);
   if (first) await show(first);
 }
 
@@ -59,7 +60,8 @@ async function make(name: string, what: { text: string } | { example: string }, 
 }
 
 export const makeFirst = (): Promise<void> => make(free("plan", ".afp"), { text: planText("Plan") }, guide);
-export const makeExample = (name: string): Promise<void> => make(free(name, ".afp"), { example: name });
+/** In a folder of plans, since the world of a plan lies in the folder beside that. */
+export const makeExample = (name: string): Promise<void> => make(free(`plans/${name.replace(/\.afp$/, "")}`, ".afp"), { example: name });
 
 export async function makeNew(): Promise<void> {
   const wrong = (name: string) =>
@@ -127,9 +129,9 @@ export function Files({ done }: { done: () => void }) {
       ))}
       <p class="group" role="presentation">{words.examples}</p>
       {hello.value?.examples.map(({ name, title }) => (
-        <button role="menuitem" onClick={pick(() => makeExample(name))} key={name}>
+        <button role="menuitem" title={title} onClick={pick(() => makeExample(name))} key={name}>
           <Sign name="drawing" />
-          {title}
+          {words.exampleOf(name)}
         </button>
       ))}
     </div>
@@ -159,7 +161,8 @@ export function Welcome() {
       <div class="cards">
         {examples.map(({ name, title }) => (
           <button class="card" onClick={() => makeExample(name)} key={name}>
-            <strong>{title}</strong>
+            <strong>{words.exampleOf(name)}</strong>
+            <span>{title}</span>
           </button>
         ))}
       </div>

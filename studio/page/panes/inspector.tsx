@@ -23,7 +23,7 @@ import { Value } from "./value";
 export function Inspector() {
   const drawn = drawing.value;
   const part = selected.value.at(-1);
-  if (!drawn || drawn.plan === null) return <p class="empty">{words.noPlan}</p>;
+  if (!drawn || drawn.plan === null) return <p class="empty">{drawn ? words.noPlan : words.comes}</p>;
   if (selected.value.length > 1) return <p class="empty">{words.manySelected(selected.value.length)}</p>;
   const entry = part && drawn.entries.find((entry) => entry.item === part.item);
   const plan = !part || part.item === drawn.plan || part.item === `${drawn.plan}.start`;

@@ -2,35 +2,38 @@
 import { signal } from "@preact/signals";
 import { Code } from "../book";
 import { nameOf } from "../documents";
+import { drawing } from "../drawing/model";
 import { Severity } from "../icons";
 import { said } from "../jobs";
 import { reveal } from "../places";
-import { build, built, busy, placeOf, plain, swept, sweep, type Row, type Wrong } from "../results";
+import { build, built, busy, placeOf, plain, sweep, type Wrong } from "../results";
 import { words } from "../words";
 import { report } from "./files";
 import { Busy } from "./scenarios";
+import { Sweep } from "./sweep";
 
 const seeds = signal("0..20");
-const vary = signal("");
+/** What is varied: one thing for the columns of the map, another one for its rows. */
+const vary = signal<readonly [string, string]>(["", ""]);
 const until = signal("60s");
-/** Runs of a sweep that are shown. */
-const SHOWN = 200;
 
 export function Jobs() {
   const idle = busy.value === "";
   return (
     <div class="jobs-pane">
-      <form class="do" onSubmit={(event) => { event.preventDefault(); void sweep(seeds.value, vary.value, until.value); }}>
+      <form class="do" onSubmit={(event) => { event.preventDefault(); void sweep(seeds.value, vary.value.filter((each) => each.trim()), until.value); }}>
         <button type="button" disabled={!idle} onClick={() => void build()}>{words.build}</button>
         <label>{words.seeds}<input value={seeds.value} size={7} onInput={(event) => (seeds.value = event.currentTarget.value)} /></label>
-        <label>{words.vary}<input value={vary.value} size={22} placeholder="walldist=20cm..60cm:10cm" onInput={(event) => (vary.value = event.currentTarget.value)} /></label>
+        <label>{words.vary}<input value={vary.value[0]} size={24} list="ranges" placeholder={words.varyHint} onInput={(event) => (vary.value = [event.currentTarget.value, vary.value[1]])} /></label>
+        {vary.value[0] && <label>{words.varyToo}<input value={vary.value[1]} size={24} list="ranges" onInput={(event) => (vary.value = [vary.value[0], event.currentTarget.value])} /></label>}
+        <datalist id="ranges">{suggested().map((range) => <option value={range} key={range} />)}</datalist>
         <label>{words.until}<input value={until.value} size={5} onInput={(event) => (until.value = event.currentTarget.value)} /></label>
         <button type="submit" disabled={!idle}>{words.sweep}</button>
         <Busy />
       </form>
       {built.value && <p class="sum" role="status">{built.value.ok ? words.buildDone : words.buildFailed}</p>}
       {built.value && built.value.wrong.length > 0 && <ul class="results" aria-label={words.buildErrors}>{built.value.wrong.map((one, at) => <Failed of={one} key={at} />)}</ul>}
-      {swept.value.length > 0 && <Table rows={swept.value} />}
+      <Sweep />
       <pre class="output" tabIndex={0} aria-label={words.output}>{said.value.slice(-300).map(plain).join("\n")}</pre>
     </div>
   );
@@ -60,16 +63,13 @@ function Failed({ of }: { of: Wrong }) {
   );
 }
 
-/** The outcomes of a sweep, a row each. */
-function Table({ rows }: { rows: readonly Row[] }) {
-  const runs = rows.filter((row) => "run" in row || "seed" in row);
-  const names = [...new Set(runs.flatMap((row) => Object.keys(row).filter((name) => typeof row[name] !== "object")))];
-  return (
-    <div class="table" tabIndex={0} role="region" aria-label={words.sweep}>
-      <table>
-        <thead><tr>{names.map((name) => <th scope="col" key={name}>{name}</th>)}</tr></thead>
-        <tbody>{runs.slice(0, SHOWN).map((row, at) => <tr key={at}>{names.map((name) => <td key={name}>{String(row[name] ?? "")}</td>)}</tr>)}</tbody>
-      </table>
-    </div>
-  );
+/** Ranges that inputs of the plan could be varied in: around what they have. */
+function suggested(): string[] {
+  return (drawing.value?.entries ?? []).flatMap(({ kind, name, value }) => {
+    const found = /^(-?\d+(?:\.\d+)?) ?([A-Za-z%\u00b0/]*)$/.exec(value ?? "");
+    const number = Number(found?.[1]);
+    if (kind !== "in" || !name || !found || !number) return [];
+    const [low, high, step] = [number / 2, number * 1.5, Math.abs(number) / 4].map((each) => `${each}${found[2]}`);
+    return [number > 0 ? `${name}=${low}..${high}:${step}` : `${name}=${high}..${low}:${step}`];
+  });
 }

@@ -4,7 +4,7 @@ import { useRef } from "preact/hooks";
 import { active, log, order } from "../debug/run";
 import { Sign } from "../icons";
 import { press, tap } from "../world/press";
-import { points } from "../world/geometry";
+import { points, type Point } from "../world/geometry";
 import { placeOn } from "../world/grab";
 import { drop, robotAt } from "../world/hand";
 import { devices, type Fault, type Stimulus, type Surroundings } from "../world/surroundings";
@@ -79,12 +79,18 @@ export function Drops({ world }: { world: Surroundings }) {
     <span class="drops" role="group" aria-label={words.drop}>
       {world.drops.map(({ shape, outline }) => (
         <button title={words.dropOf(shape)} onPointerDown={(event) => down(event, shape)} onClick={() => click(shape)} key={shape}>
-          <svg viewBox="-0.55 -0.55 1.1 1.1" width="16" height="16" aria-hidden="true"><polygon points={points(outline)} /></svg>
+          <svg viewBox={whole(outline)} width="16" height="16" aria-hidden="true"><polygon points={points(outline)} /></svg>
           {shape}
         </button>
       ))}
     </span>
   );
+}
+
+/** An outline around its middle fills a picture. */
+function whole(outline: readonly Point[]): string {
+  const reach = 1.2 * Math.max(...outline.flat().map(Math.abs), 0.01);
+  return `${-reach} ${-reach} ${2 * reach} ${2 * reach}`;
 }
 
 /** What fails next, how much (null: as the robot says), and for how many seconds (null: until the end). */

@@ -13,11 +13,13 @@ export function RunPane() {
   const [forcing, setForcing] = useState("");
   const list = useRef<HTMLOListElement>(null);
   const lines = said.value.slice(-SHOWN);
+  const [reads, setReads] = useState(false);
   // Who has scrolled up to read something is left there.
   useEffect(() => {
     const host = list.current;
-    if (host && host.scrollHeight - host.scrollTop - host.clientHeight < 80) host.scrollTop = host.scrollHeight;
+    if (host && !reads) host.scrollTop = host.scrollHeight;
   }, [lines.at(-1)]);
+  const scrolled = ({ currentTarget: { scrollHeight, scrollTop, clientHeight } }: { currentTarget: HTMLElement }): void => setReads(scrollHeight - scrollTop - clientHeight > 40);
   const entries = Object.entries(state.value?.entries ?? {});
   return (
     <div class="run-pane">
@@ -42,7 +44,7 @@ export function RunPane() {
       <section aria-label={words.happened}>
         {phase.value === "idle" && !lines.length && <p class="none">{words.noRun}</p>}
         <h3>{words.happened}{phase.value === "held" && why.value ? `: ${why.value}` : ""}</h3>
-        <ol ref={list} tabIndex={0} aria-label={words.happened}>
+        <ol ref={list} tabIndex={0} aria-label={words.happened} onScroll={scrolled}>
           {lines.map((each, at) => (
             <li key={at} class={each.kind}>
               {each.path ? <button onClick={() => revealSaid(each)}>{each.text}</button> : <span>{each.text}</span>}

@@ -1,6 +1,7 @@
 // The world of a run: where it takes place, the floor from above, what a hand can do in it.
 import { useEffect, useRef } from "preact/hooks";
-import { active, seed, world as chosen } from "../debug/run";
+import { Tool } from "../bar";
+import { active, given, seed, world as chosen } from "../debug/run";
 import { putBack } from "../debug/arranged";
 import { arranged } from "../world/hand";
 import { show, watched } from "../world/camera";
@@ -46,9 +47,18 @@ function Where({ world }: { world: Surroundings }) {
         {words.seed}
         <input type="number" min="0" step="1" value={seed.value} disabled={active.value} onChange={(event) => sow(event.currentTarget.value)} />
       </label>
+      {Object.entries(given.value).map(([name, text]) => <Given name={name} text={text} key={name} />)}
     </div>
   );
 }
+
+/** An input that has another value in the next runs than the plan says. */
+const Given = ({ name, text }: { name: string; text: string }) => (
+  <span class="given">
+    {words.givenTo(name, text)}
+    <Tool icon="close" label={words.takeBack(name)} disabled={active.value} run={() => (given.value = Object.fromEntries(Object.entries(given.value).filter(([other]) => other !== name)))} />
+  </span>
+);
 
 /** What can be dropped, everything back, the camera. */
 const Hand = ({ world }: { world: Surroundings }) => (

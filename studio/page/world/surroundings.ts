@@ -2,7 +2,7 @@
 import { batch, effect, signal } from "@preact/signals";
 import { connect } from "../dap";
 import { putBack } from "../debug/arranged";
-import { active, address, log, pathOf, seed, state, world } from "../debug/run";
+import { active, address, given, log, pathOf, seed, state, world } from "../debug/run";
 import { current } from "../documents";
 import { trouble } from "../panes/files";
 import { files, lsp } from "../session";
@@ -88,7 +88,7 @@ export function begin(): () => void {
     if (!connected || runs || shown) return;
     const other = before !== uri;
     before = uri;
-    if (other) world.value = null;
+    if (other) [world.value, given.value] = [null, {}];
     if (other) putBack();
     if (!other || chosen === null) void askWorld(uri, other ? null : chosen);
   });

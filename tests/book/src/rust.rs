@@ -57,7 +57,11 @@ fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
     // What is the crate's root for readers is the page's module here.
     rust = rust.replace("=> crate ", &format!("=> crate::{HOME}::{name} "));
     let runs = match rust.contains("\nfn main()") {
-        true => "#[test]\nfn main_runs() {\n    let _ = main();\n}\n",
+        // An error that 'main' ends with fails the test as it fails the program.
+        true => {
+            "#[test]\nfn main_runs() {\n    use std::process::{ExitCode, Termination};\n    \
+                 assert_eq!(main().report(), ExitCode::SUCCESS);\n}\n"
+        }
         false => "",
     };
     Ok(format!(

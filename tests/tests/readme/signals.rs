@@ -2,7 +2,7 @@ use afp::{Actor, Fault, Instant, Poll};
 use templates::blink::{Inputs, Live, State};
 
 pub mod templates {
-    afp::toolbox!("tests/readme/signals.afp");
+    afp::toolbox!("tests/readme/signals.afp", robot: super::Lamp);
 }
 
 /// What a platform must have for it.

@@ -13,7 +13,7 @@ use crate::sensor::Sensor;
 
 /// Something that happens to the robot from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Deed {
+pub enum Stimulus {
     /// Something breaks for a while; [`Duration::MAX`] is for good.
     Break(Fault, Duration),
     /// The escape button is pressed or let go.
@@ -24,7 +24,7 @@ pub enum Deed {
 
 /// What happens when, in order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Chance(pub Vec<(Instant, Deed)>);
+pub struct Chance(pub Vec<(Instant, Stimulus)>);
 
 /// A stream of chances.
 pub(crate) struct Dice(Pcg32);
@@ -56,37 +56,37 @@ impl Dice {
 impl Chance {
     /// Up to four faults, up to three bumps, and sometimes the escape button, within `seconds`.
     pub(crate) fn random(dice: &mut Dice, seconds: f64) -> Chance {
-        let mut deeds = Vec::new();
+        let mut stimuli = Vec::new();
         for _ in 0..dice.below(5) {
             let from = Instant::ZERO + dice.millis(0.0, seconds);
             let fault = fault(dice);
             let during = dice.millis(0.02, 5.0);
             let during = if dice.percent(15) { Duration::MAX } else { during };
-            deeds.push((from, Deed::Break(fault, during)));
+            stimuli.push((from, Stimulus::Break(fault, during)));
         }
         for _ in 0..dice.below(4) {
-            hold(dice, &mut deeds, seconds, Deed::Bump);
+            hold(dice, &mut stimuli, seconds, Stimulus::Bump);
         }
         if dice.percent(30) {
-            hold(dice, &mut deeds, seconds, Deed::Escape);
+            hold(dice, &mut stimuli, seconds, Stimulus::Escape);
         }
         // The sort is stable: of two at the same time the one thrown first comes first.
-        deeds.sort_by_key(|(at, _)| *at);
-        Chance(deeds)
+        stimuli.sort_by_key(|(at, _)| *at);
+        Chance(stimuli)
     }
 
     /// Lets happen what is due, to the robot.
     pub(crate) fn happen(&self, next: &mut usize, sim: &mut Simulation) {
-        while let Some((at, deed)) = self.0.get(*next)
+        while let Some((at, stimulus)) = self.0.get(*next)
             && *at <= sim.now()
         {
             *next += 1;
-            match *deed {
-                Deed::Break(fault, during) => sim.inject(fault, *at, during),
-                Deed::Escape(true) => sim.press_escape(),
-                Deed::Escape(false) => sim.release_escape(),
-                Deed::Bump(true) => sim.press_bumper(),
-                Deed::Bump(false) => sim.release_bumper(),
+            match *stimulus {
+                Stimulus::Break(fault, during) => sim.inject(fault, *at, during),
+                Stimulus::Escape(true) => sim.press_escape(),
+                Stimulus::Escape(false) => sim.release_escape(),
+                Stimulus::Bump(true) => sim.press_bumper(),
+                Stimulus::Bump(false) => sim.release_bumper(),
             }
         }
     }
@@ -109,20 +109,25 @@ fn fault(dice: &mut Dice) -> Fault {
 }
 
 /// Holds something down for a while.
-fn hold(dice: &mut Dice, deeds: &mut Vec<(Instant, Deed)>, seconds: f64, deed: fn(bool) -> Deed) {
+fn hold(
+    dice: &mut Dice,
+    stimuli: &mut Vec<(Instant, Stimulus)>,
+    seconds: f64,
+    stimulus: fn(bool) -> Stimulus,
+) {
     let at = Instant::ZERO + dice.millis(0.0, seconds);
-    deeds.push((at, deed(true)));
-    deeds.push((at + dice.millis(0.01, 0.5), deed(false)));
+    stimuli.push((at, stimulus(true)));
+    stimuli.push((at + dice.millis(0.01, 0.5), stimulus(false)));
 }
 
 impl fmt::Display for Chance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (at, deed) in &self.0 {
-            match deed {
-                Deed::Break(fault, Duration::MAX) => writeln!(f, "{at}: {fault:?} for good")?,
-                Deed::Break(fault, during) => writeln!(f, "{at}: {fault:?} for {during}")?,
-                Deed::Escape(down) => writeln!(f, "{at}: escape {}", word(*down))?,
-                Deed::Bump(down) => writeln!(f, "{at}: bumper {}", word(*down))?,
+        for (at, stimulus) in &self.0 {
+            match stimulus {
+                Stimulus::Break(fault, Duration::MAX) => writeln!(f, "{at}: {fault:?} for good")?,
+                Stimulus::Break(fault, during) => writeln!(f, "{at}: {fault:?} for {during}")?,
+                Stimulus::Escape(down) => writeln!(f, "{at}: escape {}", word(*down))?,
+                Stimulus::Bump(down) => writeln!(f, "{at}: bumper {}", word(*down))?,
             }
         }
         Ok(())

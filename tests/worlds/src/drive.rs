@@ -80,8 +80,8 @@ pub fn run(case: &Case) -> Outcome {
             Wake::At(due) => due.max(clock.free()),
             Wake::Ended(_) | Wake::NotStarted => Instant::MAX,
         };
-        let deed = case.chance.0.get(next).map_or(Instant::MAX, |(at, _)| *at);
-        robot.sim.advance_to(due.min(look).min(deed).min(end));
+        let stimulus = case.chance.0.get(next).map_or(Instant::MAX, |(at, _)| *at);
+        robot.sim.advance_to(due.min(look).min(stimulus).min(end));
         let now = robot.sim.now();
         if now == look {
             watch.borrow_mut().look(&robot.sim);

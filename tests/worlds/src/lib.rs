@@ -17,7 +17,7 @@ mod watch;
 mod witness;
 
 pub use case::Case;
-pub use chance::{Chance, Deed};
+pub use chance::{Chance, Stimulus};
 pub use drive::{Outcome, run};
 pub use errand::Errand;
 pub use plans::{Plan, plan, plans};

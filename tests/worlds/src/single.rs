@@ -10,7 +10,7 @@ use afp_core::{Duration, Instant};
 use afp_sim::{Fault, World};
 
 use crate::case::Case;
-use crate::chance::{Chance, Deed};
+use crate::chance::{Chance, Stimulus};
 use crate::drive::Outcome;
 use crate::plans::{Plan, plans};
 
@@ -58,7 +58,7 @@ impl Single {
         name: (&'static str, &'static str),
         fault: Option<Fault>,
     ) -> Single {
-        let breaks = fault.map(|fault| (FROM, Deed::Break(fault, Duration::MAX)));
+        let breaks = fault.map(|fault| (FROM, Stimulus::Break(fault, Duration::MAX)));
         let chance = Chance(breaks.into_iter().collect());
         let case = Case { chance, until: UNTIL, ..Case::quiet(plan, world.clone(), room) };
         Single { case, fault: name }

@@ -1,11 +1,11 @@
 //! What must hold in any world, watched while a plan runs.
 
 use afp_carbot::guard::{LATE_ECHO, PATIENCE};
-use afp_core::trace::{Kind, Names, Record};
+use afp_core::trace::{ComponentKind, Names, Record};
 use afp_core::{Duration, Instant};
 use afp_sim::{Fault, Simulation};
 
-use crate::chance::{Chance, Deed};
+use crate::chance::{Chance, Stimulus};
 use crate::sensor::Sensor;
 
 mod stand;
@@ -141,14 +141,17 @@ impl Watch {
 
     /// Something happened in the plan.
     pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
-        let actor = |id| matches!(names.component(id).kind, Kind::Actor | Kind::SubPlan);
+        let actor =
+            |id| matches!(names.component(id).kind, ComponentKind::Actor | ComponentKind::SubPlan);
         match *record {
             Record::Interrupted { element } if actor(element) => {
                 self.must_stand(at, "is interrupted");
             }
             Record::Finished { element, .. } if actor(element) => self.must_stand(at, "is ready"),
             Record::Faulted { component, .. } if actor(component) => self.failed = true,
-            Record::Started { component } if names.component(component).kind == Kind::Actor => {
+            Record::Started { component }
+                if names.component(component).kind == ComponentKind::Actor =>
+            {
                 if self.failed {
                     self.must_stand(at, "failed");
                 }
@@ -178,12 +181,14 @@ impl Watch {
 
     /// Something happens from outside.
     pub(crate) fn happened(&mut self, chance: &Chance) {
-        for (at, deed) in &chance.0 {
-            match *deed {
-                Deed::Break(Fault::WheelsSlip { share: grip }, during) => {
+        for (at, stimulus) in &chance.0 {
+            match *stimulus {
+                Stimulus::Break(Fault::WheelsSlip { share: grip }, during) => {
                     self.stand.slippery(*at, *at + during, grip);
                 }
-                Deed::Break(Fault::ControllerDead, during) => self.stand.deaf(*at, *at + during),
+                Stimulus::Break(Fault::ControllerDead, during) => {
+                    self.stand.deaf(*at, *at + during)
+                }
                 _ => {}
             }
         }

@@ -1,6 +1,7 @@
 //! Motion as counted at the wheels.
 
 use super::Reading;
+use afp_core::Instant;
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 
 /// How the robot has moved since its start, as far as the wheels can tell.
@@ -32,8 +33,23 @@ impl Motion {
     }
 }
 
+/// Where the robot was when its bumper was pressed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bump {
+    /// By the odometry.
+    pub at: Motion,
+    /// When it was last pressed there.
+    pub time: Instant,
+}
+
 /// Dead reckoning. It drifts with time and way; nothing corrects it.
 pub trait Odometry {
     /// The motion counted so far.
     fn motion(&self) -> Reading<Motion>;
+
+    /// Where the bumper was last pressed; none before, or where nobody keeps it. Templates last for an element of a plan,
+    /// what was met stays where it is: so the platform keeps it.
+    fn last_bump(&self) -> Option<Bump> {
+        None
+    }
 }

@@ -92,6 +92,14 @@ fn a_wall_that_steps_back_is_lost_too() {
 }
 
 #[test]
+fn a_wall_that_was_never_there_is_not_waited_for() {
+    let mut robot = Fake::new(&[beside(1.175)]);
+    assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::WallLost)));
+    let way = robot.motion.x.si();
+    assert!((ABSENT - 0.02..ABSENT + 0.1).contains(&way), "{way}");
+}
+
+#[test]
 fn a_sensor_that_dies_on_the_way_stops_the_robot_at_once_and_is_a_fault_later() {
     let mut robot = Fake::new(&[beside(0.475)]);
     robot.range_dies = 3000;

@@ -6,7 +6,7 @@ use quote::quote;
 use super::context::Context;
 use super::state::{entry_doc, is_open};
 use crate::layout::{at, doc};
-use crate::names::{Names, ident, shout, snake};
+use crate::names::{UniqueNames, ident, shout, snake};
 use crate::rust_type::float;
 use afp_dsl::graph::{Entry, EntryKind};
 use afp_dsl::types::Type;
@@ -15,8 +15,8 @@ use afp_dsl::types::Type;
 pub fn accessors(context: &Context<'_>) -> TokenStream {
     let ty = &context.ty;
     let new = doc("", "The plan, not yet started.");
-    let mut names = Names::taken(&["new", "default", "from", "into"]);
-    let mut constants = Names::taken(&[]);
+    let mut names = UniqueNames::taken(&["new", "default", "from", "into"]);
+    let mut constants = UniqueNames::taken(&[]);
     let typed: Vec<_> = (0..)
         .zip(&context.plan.entries)
         .filter(|(_, entry)| is_open(entry))

@@ -73,8 +73,8 @@ impl Bound<'_> {
         let generic = ports.iter().any(|(_, (port, _))| is_generic(&port.ty));
         let borrowed = |ty: &Type| matches!(ty, Type::Text | Type::Object(_));
         let borrows = ports.iter().any(|(_, (port, _))| borrowed(&port.ty));
-        let (fields, scratch) = self.context.with_type_paths(|home| {
-            let mut formulas = Formulas::new(home, &self.context.entries);
+        let (fields, scratch) = self.context.with_type_paths(|type_paths| {
+            let mut formulas = Formulas::new(type_paths, &self.context.entries);
             let fields: Vec<_> = ports
                 .iter()
                 .map(|(number, (port, formula))| {
@@ -208,7 +208,9 @@ impl Bound<'_> {
             let value = match (generic, ty) {
                 // It is an entry's object already.
                 (true, Type::Object(_)) => quote!(#name),
-                _ => self.context.with_type_paths(|home| staged_value(home, output, ty, &name)),
+                _ => self
+                    .context
+                    .with_type_paths(|type_paths| staged_value(type_paths, output, ty, &name)),
             };
             let value = limited(&self.context.plan.entries[output.entry.index()], value);
             let value = tried("output", number, value);
@@ -221,12 +223,17 @@ impl Bound<'_> {
 }
 
 /// The value of an output port as its entry takes it.
-fn staged_value(home: &TypePaths<'_>, output: &Output, ty: &Type, value: &Ident) -> TokenStream {
+fn staged_value(
+    type_paths: &TypePaths<'_>,
+    output: &Output,
+    ty: &Type,
+    value: &Ident,
+) -> TokenStream {
     match (&output.conversion, ty) {
         (None, Type::Quantity(_)) => quote!(finite(#value)?),
         (None, Type::Object(_)) => quote!(Object::new(#value)),
         (None, _) => quote!(#value),
-        (Some(conversion), ty) => converted(home, conversion, ty, quote!(#value)),
+        (Some(conversion), ty) => converted(type_paths, conversion, ty, quote!(#value)),
     }
 }
 
@@ -275,15 +282,17 @@ fn can_fail(value: &TokenStream) -> bool {
 
 /// A value converted for its entry; numbers that come out of a text or an `int` are finite.
 pub fn converted(
-    home: &TypePaths<'_>,
+    type_paths: &TypePaths<'_>,
     conversion: &Conversion,
     ty: &Type,
     value: TokenStream,
 ) -> TokenStream {
     match (conversion, ty) {
         (Conversion::ToText(Type::Text), _) => value,
-        (Conversion::FromText(_), Type::Text) => convert(home, conversion, quote!(#value.as_str())),
-        _ => convert(home, conversion, value),
+        (Conversion::FromText(_), Type::Text) => {
+            convert(type_paths, conversion, quote!(#value.as_str()))
+        }
+        _ => convert(type_paths, conversion, value),
     }
 }
 

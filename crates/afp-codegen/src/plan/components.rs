@@ -103,10 +103,10 @@ fn start_supervisor(context: &Context<'_>) -> TokenStream {
         quote!(match supervisor { #(#arms)* _ => return Err(Fault::INTERNAL) } Ok(()))
     };
     quote! {
-        fn start_supervisor<S: Sink, C: Clock>(
+        fn start_supervisor<R: Run<Env = E>>(
             &mut self,
             #number: u16,
-            #cx: &mut Cx<'_, E, S, C>,
+            #cx: &mut Cx<'_, R>,
         ) -> Result<(), Fault> {
             #body
         }
@@ -137,11 +137,11 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
     let body = select(quote!(supervisor), &arms, quote!(Fired::fault(Fault::INTERNAL)));
     quote! {
         #[inline]
-        fn poll_supervisor<S: Sink, C: Clock>(
+        fn poll_supervisor<R: Run<Env = E>>(
             &mut self,
             #number: u16,
             #wanted: Events,
-            #cx: &mut Cx<'_, E, S, C>,
+            #cx: &mut Cx<'_, R>,
         ) -> Fired {
             #body
         }
@@ -155,10 +155,10 @@ fn start_element(context: &Context<'_>) -> TokenStream {
     let body = select(quote!(element), &arms, quote!(Err(Fault::INTERNAL)));
     let [number, cx] = [quote!(element), quote!(cx)].map(|name| used(name, !arms.is_empty()));
     quote! {
-        fn start_element<S: Sink, C: Clock>(
+        fn start_element<R: Run<Env = E>>(
             &mut self,
             #number: u16,
-            #cx: &mut Cx<'_, E, S, C>,
+            #cx: &mut Cx<'_, R>,
         ) -> Started {
             let started: Result<Active, Fault> = #body;
             match started {
@@ -316,10 +316,10 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
     let cx = used(quote!(cx), !arms.is_empty());
     quote! {
         #[inline]
-        fn poll_element<S: Sink, C: Clock>(
+        fn poll_element<R: Run<Env = E>>(
             &mut self,
             _: u16,
-            #cx: &mut Cx<'_, E, S, C>,
+            #cx: &mut Cx<'_, R>,
         ) -> Polled {
             match &mut self.active {
                 Active::None => Polled::Failed(Fault::INTERNAL),
@@ -350,10 +350,10 @@ fn interrupt_element(context: &Context<'_>) -> TokenStream {
     let arms: Vec<_> = arms.collect();
     let cx = used(quote!(cx), !arms.is_empty());
     quote! {
-        fn interrupt_element<S: Sink, C: Clock>(
+        fn interrupt_element<R: Run<Env = E>>(
             &mut self,
             _: u16,
-            #cx: &mut Cx<'_, E, S, C>,
+            #cx: &mut Cx<'_, R>,
         ) -> Result<(), Fault> {
             match &mut self.active {
                 Active::None => Err(Fault::INTERNAL),

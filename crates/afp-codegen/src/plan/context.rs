@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::formula::reads;
-use crate::names::{Names, camel, ident, shout, snake};
+use crate::names::{UniqueNames, camel, ident, shout, snake};
 use crate::rust_type::TypePaths;
 use afp_dsl::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
 use afp_dsl::rows::Rows;
@@ -19,6 +19,8 @@ use super::tables::FileTable;
 
 /// Types of the module itself, and names that are always there.
 const OWN: &[&str] = &[
+    "E",
+    "R",
     "Active",
     "Config",
     "Rules",
@@ -95,7 +97,7 @@ pub fn module_name(plan: &str) -> Ident {
 
 /// The type of a plan, by a name that nothing else in its module has.
 pub fn type_name(name: &str) -> Ident {
-    let mut taken = Names::taken(OWN);
+    let mut taken = UniqueNames::taken(OWN);
     for name in [CORE, RT, QUANTITY].into_iter().flatten() {
         taken.unique((*name).to_owned());
     }
@@ -157,7 +159,7 @@ impl<'a> Context<'a> {
             return paths;
         }
         let toolbox = self.toolbox(id);
-        let (home, alias) = (path(&toolbox.rust_path), alias(self.graph, &toolbox.name));
+        let (module, alias) = (path(&toolbox.rust_path), alias(self.graph, &toolbox.name));
         let name = &self.template(id).name;
         let (camel, snake) = (ident(&camel(name)), ident(&snake(name)));
         let generic = generic.map(|ty| {
@@ -167,7 +169,7 @@ impl<'a> Context<'a> {
         Paths {
             marker: quote!(#alias::#camel #generic),
             module: quote!(#alias::#snake),
-            implementation: quote!(#home::#camel #generic),
+            implementation: quote!(#module::#camel #generic),
         }
     }
 
@@ -187,9 +189,9 @@ impl<'a> Context<'a> {
         let choice = &|choices: &Enum| self.enum_path(choices);
         let object = &|object: &Object| {
             let toolbox = self.graph.toolboxes.iter().find(|t| t.name == object.toolbox);
-            let (home, name) =
+            let (module, name) =
                 (path(toolbox.map_or("crate", |t| &t.rust_path)), ident(&camel(&object.name)));
-            quote!(#home::#name)
+            quote!(#module::#name)
         };
         run(&TypePaths { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
     }
@@ -202,14 +204,14 @@ impl<'a> Context<'a> {
             let name = named.map_or_else(camel, |(_, name)| name.clone());
             return quote!(super::enums::#name);
         };
-        let home = self.graph.toolboxes.iter().find(|known| known.name == *toolbox);
-        let (home, name) = (path(home.map_or("crate", |home| &home.rust_path)), camel());
-        quote!(#home::templates::#name)
+        let found = self.graph.toolboxes.iter().find(|known| known.name == *toolbox);
+        let (module, name) = (path(found.map_or("crate", |toolbox| &toolbox.rust_path)), camel());
+        quote!(#module::templates::#name)
     }
 
     /// The Rust type of a value.
     pub fn value_type(&self, ty: &Type) -> TokenStream {
-        self.with_type_paths(|home| home.value(ty))
+        self.with_type_paths(|type_paths| type_paths.value(ty))
     }
 
     /// What an entry of a type holds.
@@ -226,13 +228,13 @@ impl<'a> Context<'a> {
 
     /// The entries of another plan of the graph, with the names of its module and type.
     pub fn child(&self, id: PlanId) -> (Ident, Ident) {
-        super::home(self.graph, id)
+        super::module_and_type(self.graph, id)
     }
 }
 
 /// Fields and getters of a plan's entries.
 pub fn entry_names(plan: &Plan) -> Vec<Ident> {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     plan.entries.iter().map(|entry| ident(&names.unique(snake(&entry.name)))).collect()
 }
 
@@ -267,18 +269,22 @@ pub fn alias(graph: &Graph, toolbox: &str) -> Ident {
 
 /// Names components so that nothing collides.
 struct Namer {
-    variants: Names,
-    functions: Names,
-    numbers: Names,
+    variants: UniqueNames,
+    functions: UniqueNames,
+    numbers: UniqueNames,
 }
 
 impl Namer {
     fn new() -> Self {
-        let mut functions = Names::taken(VALUES);
+        let mut functions = UniqueNames::taken(VALUES);
         for name in RT {
             functions.unique((*name).to_owned());
         }
-        Namer { variants: Names::taken(&["None"]), functions, numbers: Names::taken(STATICS) }
+        Namer {
+            variants: UniqueNames::taken(&["None"]),
+            functions,
+            numbers: UniqueNames::taken(STATICS),
+        }
     }
 
     fn name(&mut self, name: &str, text: &str) -> ComponentNames {

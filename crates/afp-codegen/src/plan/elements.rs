@@ -203,8 +203,8 @@ fn live_item(
 
 /// What an `in` entry of a sub-plan is given.
 fn passed(context: &Context<'_>, port: u16, entry: &Entry, formula: &Formula) -> TokenStream {
-    let value =
-        context.with_type_paths(|home| Formulas::new(home, &context.entries).value(formula));
+    let value = context
+        .with_type_paths(|type_paths| Formulas::new(type_paths, &context.entries).value(formula));
     let value = match (is_literal(formula), entry.range, &formula.ty) {
         (true, ..) => value,
         (false, None, Type::Quantity(_)) => quote!(finite(#value)?),
@@ -239,18 +239,20 @@ fn result(
 ) -> Option<TokenStream> {
     let output = element.outputs.iter().find(|output| output.port == port)?;
     let to = &context.entries[output.entry.index()];
-    let value = context.with_type_paths(|home| match (&output.conversion, &entry.ty) {
+    let value = context.with_type_paths(|type_paths| match (&output.conversion, &entry.ty) {
         (None, Type::Text | Type::Object(_)) => quote!(value.clone()),
         (None, Type::Quantity(_)) => quote!(finite(*value)?),
         (None, _) => quote!(*value),
-        (Some(conversion), Type::Text) => converted(home, conversion, &Type::Text, quote!(value)),
+        (Some(conversion), Type::Text) => {
+            converted(type_paths, conversion, &Type::Text, quote!(value))
+        }
         // A method call finds its way through the reference by itself.
         (Some(conversion @ Conversion::ToText(_)), Type::Quantity(dimension))
             if *dimension != Dimension::NONE =>
         {
-            converted(home, conversion, &entry.ty, quote!(value))
+            converted(type_paths, conversion, &entry.ty, quote!(value))
         }
-        (Some(conversion), ty) => converted(home, conversion, ty, quote!(*value)),
+        (Some(conversion), ty) => converted(type_paths, conversion, ty, quote!(*value)),
     });
     let value = limited(&context.plan.entries[output.entry.index()], value);
     let value = tried("output", port, value);

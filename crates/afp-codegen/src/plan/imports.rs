@@ -10,7 +10,6 @@ use crate::names::ident;
 
 /// What lives at the root of `afp_core`.
 pub const CORE: &[&str] = &[
-    "Clock",
     "Duration",
     "Environment",
     "Events",
@@ -46,6 +45,7 @@ pub const RT: &[&str] = &[
     "Polled",
     "PortRow",
     "Range",
+    "Run",
     "Scale",
     "Slot",
     "Started",
@@ -112,11 +112,11 @@ pub const QUANTITY: &[&str] = &[
 /// What lives in `afp_core::trace`.
 const TRACE: &[&str] = &[
     "ComponentId",
+    "ComponentKind",
     "ComponentName",
     "DEADLINE_MISSED",
     "EntryKind",
     "EntryName",
-    "Kind",
     "Reaction",
     "Sink",
 ];
@@ -137,18 +137,18 @@ pub fn imports(
         (quote!(#core::rt), RT),
         (quote!(#core::trace), TRACE),
     ];
-    let items = groups.into_iter().filter_map(|(home, names)| {
+    let items = groups.into_iter().filter_map(|(module, names)| {
         let names: Vec<Ident> =
             names.iter().filter(|name| used.contains(**name)).map(|name| ident(name)).collect();
         match names.as_slice() {
             [] => None,
-            [name] => Some(quote!(use #home::#name;)),
-            names => Some(quote!(use #home::{#(#names),*};)),
+            [name] => Some(quote!(use #module::#name;)),
+            names => Some(quote!(use #module::{#(#names),*};)),
         }
     });
     let toolboxes = context.graph.toolboxes.iter().filter_map(|toolbox| {
-        let (home, alias) = (path(&toolbox.rust_path), alias(context.graph, &toolbox.name));
-        let item = quote!(use #home::templates as #alias;);
+        let (module, alias) = (path(&toolbox.rust_path), alias(context.graph, &toolbox.name));
+        let item = quote!(use #module::templates as #alias;);
         used.contains(&alias.to_string()).then_some(item)
     });
     quote! {

@@ -10,7 +10,7 @@ use crate::rust_type::float;
 use afp_dsl::graph::{EntryKind, Graph, PlanId};
 use afp_dsl::types::{Dimension, Type};
 use afp_dsl::unfold::{
-    ComponentNames, EntryNames, Kind, PlanTexts, PortNames, Reaction, TextPlace, unfold,
+    ComponentKind, ComponentNames, EntryNames, PlanTexts, PortNames, Reaction, TextPlace, unfold,
 };
 
 /// The table of names, and access by name.
@@ -66,11 +66,11 @@ fn access(context: &Context<'_>) -> TokenStream {
 fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
     let ComponentNames { path, kind, template, outcomes, special, .. } = names;
     let kind = match kind {
-        Kind::Plan => quote!(Plan),
-        Kind::Actor => quote!(Actor),
-        Kind::Computation => quote!(Computation),
-        Kind::SubPlan => quote!(SubPlan),
-        Kind::Supervisor => quote!(Supervisor),
+        ComponentKind::Plan => quote!(Plan),
+        ComponentKind::Actor => quote!(Actor),
+        ComponentKind::Computation => quote!(Computation),
+        ComponentKind::SubPlan => quote!(SubPlan),
+        ComponentKind::Supervisor => quote!(Supervisor),
     };
     let outcomes = outcomes.iter().map(|(name, target)| quote!((#name, #target)));
     let inputs = names.inputs.iter().map(|names| port(names, texts));
@@ -88,7 +88,7 @@ fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
     });
     quote! {
         ComponentRow::new(
-            #path, Kind::#kind, #template, &[#(#outcomes),*], #special, &[#(#inputs),*],
+            #path, ComponentKind::#kind, #template, &[#(#outcomes),*], #special, &[#(#inputs),*],
         ) #writing #reactions
     }
 }

@@ -10,7 +10,7 @@ use super::Module;
 use crate::Options;
 use crate::enums;
 use crate::layout::doc;
-use crate::names::{Names, camel, ident};
+use crate::names::{UniqueNames, camel, ident};
 use crate::rust_type::int;
 use afp_dsl::graph::{EntryKind, Formula, FormulaKind, Graph};
 use afp_dsl::types::readable::{ReadableUnit, readable};
@@ -85,7 +85,7 @@ pub type FileEnum = (Arc<Enum>, Ident);
 /// The enums of the plan files that any entry or formula has, in the order of first use.
 pub fn enums_of(graph: &Graph) -> Vec<FileEnum> {
     let mut enums: Vec<FileEnum> = Vec::new();
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     types(graph, &mut |ty| {
         if let Type::Enum(choices) = ty
             && choices.toolbox.is_none()

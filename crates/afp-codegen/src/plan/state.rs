@@ -59,12 +59,7 @@ pub fn structure(context: &Context<'_>) -> TokenStream {
 
 /// The help of an entry with its kind and type.
 pub fn entry_doc(entry: &Entry) -> TokenStream {
-    let kind = match entry.kind {
-        EntryKind::In => "in",
-        EntryKind::Out => "out",
-        EntryKind::Var => "var",
-        EntryKind::Const => "const",
-    };
+    let kind = entry.kind.word();
     let facts = format!("`{kind} {}: {}`", entry.name, entry.ty);
     if entry.doc.is_empty() {
         doc("", &facts)
@@ -223,8 +218,9 @@ fn initialise(context: &Context<'_>) -> TokenStream {
     let set: Vec<_> = set
         .filter_map(|(number, (entry, name))| {
             let formula = entry.init.as_ref()?;
-            let value = context
-                .with_type_paths(|home| Formulas::new(home, &context.entries).value(formula));
+            let value = context.with_type_paths(|type_paths| {
+                Formulas::new(type_paths, &context.entries).value(formula)
+            });
             let set = match (&entry.ty, is_literal(formula)) {
                 (_, true) => quote!(config.#name.set(#value);),
                 (ty, false) => {

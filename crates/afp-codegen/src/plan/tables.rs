@@ -12,7 +12,7 @@ use super::Module;
 use super::shared::FileEnum;
 use crate::Options;
 use crate::layout::doc;
-use crate::names::{Names, camel, ident, snake};
+use crate::names::{UniqueNames, camel, ident, snake};
 use crate::plan::context::path;
 use crate::rust_type::{TypePaths, int, variant};
 use afp_dsl::graph::{Component, Graph};
@@ -36,7 +36,7 @@ fn readers(graph: &Graph) -> impl Iterator<Item = (&Template, &Arc<Table>)> {
 /// The tables that some plan reads, in the order of first use.
 pub fn tables_of(graph: &Graph) -> Vec<FileTable> {
     let mut tables: Vec<FileTable> = Vec::new();
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     for (_, table) in readers(graph) {
         if !tables.iter().any(|(known, _)| Arc::ptr_eq(known, table)) {
             tables.push((table.clone(), ident(&names.unique(snake(&table.name)))));
@@ -61,10 +61,10 @@ pub fn module(
     // No column holds an object.
     let object = &|_: &Object| TokenStream::new();
     let quantity = quote!(#core::quantity::);
-    let home = TypePaths { core: quote!(#core::), quantity, choice, object };
+    let type_paths = TypePaths { core: quote!(#core::), quantity, choice, object };
     let items = tables.iter().filter_map(|(table, name)| {
         let (template, _) = readers(graph).find(|(_, read)| Arc::ptr_eq(read, table))?;
-        Some(reader(core, &home, (table, name), template))
+        Some(reader(core, &type_paths, (table, name), template))
     });
     let items: Vec<_> = items.collect();
     (!items.is_empty()).then(|| Module {
@@ -84,29 +84,29 @@ fn enum_path(graph: &Graph, enums: &[FileEnum], choices: &Enum) -> TokenStream {
         let name = named.map_or_else(camel, |(_, name)| name.clone());
         return quote!(super::super::enums::#name);
     };
-    let home = graph.toolboxes.iter().find(|known| known.name == *toolbox);
-    let (home, name) = (path(home.map_or("crate", |home| &home.rust_path)), camel());
-    quote!(#home::templates::#name)
+    let found = graph.toolboxes.iter().find(|known| known.name == *toolbox);
+    let (module, name) = (path(found.map_or("crate", |toolbox| &toolbox.rust_path)), camel());
+    quote!(#module::templates::#name)
 }
 
 /// What reads one table, in a module of its own.
 fn reader(
     core: &TokenStream,
-    home: &TypePaths<'_>,
+    type_paths: &TypePaths<'_>,
     (table, name): (&Table, &Ident),
     template: &Template,
 ) -> TokenStream {
     let about = doc("", &format!("The table `{}`.", table.name));
     let fields: Vec<_> = template.outputs.iter().map(|port| ident(&snake(&port.name))).collect();
     let types: Vec<_> = template.outputs.iter().map(|port| &port.ty).collect();
-    let owned = types.iter().map(|ty| home.value(ty));
-    let stored = types.iter().map(|ty| stored(home, ty));
+    let owned = types.iter().map(|ty| type_paths.value(ty));
+    let stored = types.iter().map(|ty| stored(type_paths, ty));
     let given = types.iter().zip(&fields).map(|(ty, field)| match ty {
         Type::Text => quote!(#field: #core::Text::try_from(*#field)?),
         _ => quote!(#field: *#field),
     });
     let rows = table.rows.iter().map(|row| {
-        let values = row.iter().zip(&types).map(|(cell, ty)| value(home, ty, cell));
+        let values = row.iter().zip(&types).map(|(cell, ty)| value(type_paths, ty, cell));
         quote!((#(#values,)*))
     });
     let count = Literal::usize_unsuffixed(table.rows.len());
@@ -167,22 +167,24 @@ fn implemented(core: &TokenStream) -> TokenStream {
 }
 
 /// The type of a value in a static.
-fn stored(home: &TypePaths<'_>, ty: &Type) -> TokenStream {
+fn stored(type_paths: &TypePaths<'_>, ty: &Type) -> TokenStream {
     match ty {
         Type::Text => quote!(&str),
-        ty => home.value(ty),
+        ty => type_paths.value(ty),
     }
 }
 
-fn value(home: &TypePaths<'_>, ty: &Type, cell: &Cell) -> TokenStream {
+fn value(type_paths: &TypePaths<'_>, ty: &Type, cell: &Cell) -> TokenStream {
     match (&cell.value, ty) {
         (Constant::Bool(value), _) => quote!(#value),
         (Constant::Int(value), _) => int(*value),
-        (Constant::Float(value), Type::Quantity(dimension)) => home.constant(*dimension, *value),
-        (Constant::Float(value), _) => home.constant(Dimension::NONE, *value),
+        (Constant::Float(value), Type::Quantity(dimension)) => {
+            type_paths.constant(*dimension, *value)
+        }
+        (Constant::Float(value), _) => type_paths.constant(Dimension::NONE, *value),
         (Constant::Text(text), _) => quote!(#text),
         (Constant::Choice(place), Type::Enum(choices)) => {
-            let (path, variant) = (home.value(ty), variant(choices, *place));
+            let (path, variant) = (type_paths.value(ty), variant(choices, *place));
             quote!(#path::#variant)
         }
         (Constant::Choice(place), _) => int(*place),

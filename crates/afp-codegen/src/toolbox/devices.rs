@@ -3,9 +3,10 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
+use super::type_paths;
 use crate::layout::doc;
-use crate::names::{Names, camel, ident, shout, snake};
-use crate::rust_type::{TypePaths, float};
+use crate::names::{UniqueNames, camel, ident, shout, snake};
+use crate::rust_type::float;
 use afp_dsl::toolbox::{
     Amount, Control, Device, Fault, Signal, SignalType, Toolbox, device::ROBOT,
 };
@@ -48,17 +49,17 @@ pub fn devices(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
 /// The name of something of a device: of the robot as a whole its own, else that of the device before it, once
 /// where both are the same.
 fn joined(device: &Device, name: &str) -> String {
-    let (home, own) = (snake(&device.name), snake(name));
-    if device.name == ROBOT || home == own { own } else { format!("{home}_{own}") }
+    let (device_name, own) = (snake(&device.name), snake(name));
+    if device.name == ROBOT || device_name == own { own } else { format!("{device_name}_{own}") }
 }
 
 /// Names that differ from one another.
-fn unique(names: &mut Names, name: String, spell: fn(&str) -> String) -> Ident {
+fn unique(names: &mut UniqueNames, name: String, spell: fn(&str) -> String) -> Ident {
     ident(&spell(&names.unique(name)))
 }
 
 fn controls(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream) {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     let all = devices.iter().flat_map(|device| device.controls.iter().map(move |it| (device, it)));
     let all: Vec<_> = all
         .map(|(device, control)| {
@@ -87,7 +88,7 @@ fn controls(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream
 
 /// The enum of faults, and how it is found by a number.
 fn faults(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream) {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     let mut code = Code::default();
     for device in devices {
         // What every sensor has is one kind of fault of it.
@@ -168,7 +169,7 @@ impl Code {
             Some(amount) => {
                 let (field, ty) = (ident(&snake(&amount.name)), quantity(core, amount));
                 let about = doc("", &bounds(amount));
-                let from = home(core).quantity_from(amount.dimension, quote!(amount));
+                let from = type_paths(core).quantity_from(amount.dimension, quote!(amount));
                 let fields = Some(quote!({ #about #field: #ty }));
                 let (pattern, made) = (quote!({ #field }), quote!({ #field: #from }));
                 (fields, Some(pattern), ty, quote!(#field), Some(made))
@@ -196,11 +197,7 @@ fn defect(fault: &Fault) -> Option<Ident> {
 }
 
 fn quantity(core: &TokenStream, amount: &Amount) -> TokenStream {
-    home(core).quantity(amount.dimension)
-}
-
-fn home(core: &TokenStream) -> TypePaths<'_> {
-    super::home(core)
+    type_paths(core).quantity(amount.dimension)
 }
 
 /// The range of an amount, for people.
@@ -220,7 +217,7 @@ fn numbers(count: usize) -> Vec<Literal> {
 
 /// The numbers of the signals.
 fn signals(core: &TokenStream, devices: &[Device]) -> TokenStream {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     let all = devices.iter().flat_map(|device| device.signals.iter().map(move |it| (device, it)));
     let all = all.zip(0_u16..).map(|((device, signal), number)| {
         let name = unique(&mut names, joined(device, &signal.name), shout);
@@ -239,14 +236,14 @@ fn signals(core: &TokenStream, devices: &[Device]) -> TokenStream {
 
 /// A device as a row of the table.
 fn row(core: &TokenStream, device: &Device) -> TokenStream {
-    let home = quote!(#core::devices);
+    let devices = quote!(#core::devices);
     let Device { name, controls, faults, signals, .. } = device;
     let help = help(&device.doc);
-    let controls = controls.iter().map(|it| control_row(&home, it));
-    let faults = faults.iter().map(|it| fault_row(&home, it));
-    let signals = signals.iter().map(|it| signal_row(&home, it));
+    let controls = controls.iter().map(|it| control_row(&devices, it));
+    let faults = faults.iter().map(|it| fault_row(&devices, it));
+    let signals = signals.iter().map(|it| signal_row(&devices, it));
     quote! {
-        #home::DeviceRow {
+        #devices::DeviceRow {
             name: #name,
             help: #help,
             controls: &[#(#controls),*],
@@ -256,12 +253,12 @@ fn row(core: &TokenStream, device: &Device) -> TokenStream {
     }
 }
 
-fn control_row(home: &TokenStream, control: &Control) -> TokenStream {
+fn control_row(devices: &TokenStream, control: &Control) -> TokenStream {
     let (name, help, stops) = (&control.name, help(&control.doc), control.stops);
-    quote!(#home::ControlRow { name: #name, help: #help, stops: #stops })
+    quote!(#devices::ControlRow { name: #name, help: #help, stops: #stops })
 }
 
-fn fault_row(home: &TokenStream, fault: &Fault) -> TokenStream {
+fn fault_row(devices: &TokenStream, fault: &Fault) -> TokenStream {
     let (name, help) = (&fault.name, help(&fault.doc));
     let amount = match &fault.amount {
         None => quote!(::core::option::Option::None),
@@ -269,16 +266,16 @@ fn fault_row(home: &TokenStream, fault: &Fault) -> TokenStream {
             let (name, unit) = (&amount.name, amount.dimension.si_unit());
             let [default, from, to] = [amount.default, amount.from, amount.to].map(number);
             quote! {
-                ::core::option::Option::Some(#home::AmountRow {
+                ::core::option::Option::Some(#devices::AmountRow {
                     name: #name, unit: #unit, default: #default, from: #from, to: #to,
                 })
             }
         }
     };
-    quote!(#home::FaultRow { name: #name, amount: #amount, help: #help })
+    quote!(#devices::FaultRow { name: #name, amount: #amount, help: #help })
 }
 
-fn signal_row(home: &TokenStream, signal: &Signal) -> TokenStream {
+fn signal_row(devices: &TokenStream, signal: &Signal) -> TokenStream {
     let (name, help, truth) = (&signal.name, help(&signal.doc), signal.truth);
     let ty = match signal.ty {
         SignalType::Bool => quote!(Bool),
@@ -293,7 +290,7 @@ fn signal_row(home: &TokenStream, signal: &Signal) -> TokenStream {
         SignalType::Image => quote!(Image),
         SignalType::Outline => quote!(Outline),
     };
-    quote!(#home::SignalRow { name: #name, ty: #home::SignalType::#ty, truth: #truth, help: #help })
+    quote!(#devices::SignalRow { name: #name, ty: #devices::SignalType::#ty, truth: #truth, help: #help })
 }
 
 fn number(value: f64) -> TokenStream {

@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::{Parameters, bound, home, words};
+use super::{Parameters, bound, type_paths, words};
 use crate::layout::doc;
 use crate::names::{camel, ident, snake};
 use afp_dsl::toolbox::{OutPort, Template};
@@ -73,7 +73,7 @@ pub fn outputs(template: &Template, outcome: u16) -> impl Iterator<Item = (u16, 
 }
 
 fn field(core: &TokenStream, port: &OutPort) -> TokenStream {
-    let (name, ty) = (ident(&snake(&port.name)), home(core).value(&port.ty));
+    let (name, ty) = (ident(&snake(&port.name)), type_paths(core).value(&port.ty));
     let facts = format!("`{}`", port.ty);
     let help = if port.doc.is_empty() { facts } else { format!("{}\n\n{facts}", port.doc) };
     let help = doc(&help, "");

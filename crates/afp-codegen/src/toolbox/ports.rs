@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::{Parameters, bound, home, inputs as read_once, live as read_live};
+use super::{Parameters, bound, inputs as read_once, live as read_live, type_paths};
 use crate::layout::doc;
 use crate::names::{ident, snake};
 use crate::rust_type::{degrees, int};
@@ -52,10 +52,10 @@ fn field(core: &TokenStream, port: &InPort) -> TokenStream {
     let ty = match &port.ty {
         Type::Text => quote!(&'a str),
         Type::Object(_) => {
-            let object = home(core).value(&port.ty);
+            let object = type_paths(core).value(&port.ty);
             quote!(&'a #object)
         }
-        ty => home(core).value(ty),
+        ty => type_paths(core).value(ty),
     };
     let help = doc(&help(port), "");
     quote!(#help pub #name: #ty,)
@@ -144,9 +144,9 @@ fn check(core: &TokenStream, index: u16, port: &InPort) -> Option<TokenStream> {
         }
         (Type::Quantity(dimension), Some((least, greatest))) => {
             let si = (*dimension != Dimension::NONE).then(|| quote!(.si()));
-            let home = home(core);
+            let type_paths = type_paths(core);
             let (least, greatest) =
-                (home.constant(*dimension, least), home.constant(*dimension, greatest));
+                (type_paths.constant(*dimension, least), type_paths.constant(*dimension, greatest));
             Some(quote!(#core::rt::within(#index, self.#name #si, #least #si, #greatest #si)?;))
         }
         (Type::Quantity(_) | Type::Any | Type::Number | Type::Discrete, _) => {
@@ -200,7 +200,7 @@ fn pull(core: &TokenStream, index: u16, ty: &Type) -> TokenStream {
         Type::Bool => quote!(args.bool(#index)?),
         Type::Int => quote!(args.int(#index)?),
         Type::Quantity(dimension) => {
-            home(core).quantity_from(*dimension, quote!(args.float(#index)?))
+            type_paths(core).quantity_from(*dimension, quote!(args.float(#index)?))
         }
         Type::Text => quote!(args.text(#index)?),
         Type::Enum(_) => quote! {

@@ -1,7 +1,10 @@
 //! Names the implementations of a toolbox to those who load plans: all of them, or those that a platform supports.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{ToTokens, quote};
+use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
+use syn::{Expr, LitStr, Path, Token, Type, bracketed};
 
 use super::{bound, implemented, words};
 use crate::layout::doc;
@@ -20,12 +23,12 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, &quote!(super), template);
         let method = ident(&snake(&words(template.kind).component.to_string()));
-        let (home, name) = (&toolbox.name, &template.name);
-        quote!(registry.#method::<#marker, #implementation>(#home, #name);)
+        let (toolbox, name) = (&toolbox.name, &template.name);
+        quote!(registry.#method::<#marker, #implementation>(#toolbox, #name);)
     });
     let objects = toolbox.objects.iter().map(|object| {
-        let (home, name, ty) = (&toolbox.name, &object.name, ident(&camel(&object.name)));
-        quote!(registry.object::<super::#ty>(#home, #name);)
+        let (toolbox, name, ty) = (&toolbox.name, &object.name, ident(&camel(&object.name)));
+        quote!(registry.object::<super::#ty>(#toolbox, #name);)
     });
     quote! {
         #about
@@ -41,12 +44,15 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     }
 }
 
-/// A platform, and what a toolbox is to be registered with for it.
+/// A platform, and what a toolbox is to be registered with for it. Written as `path of core, "file", path of the
+/// implementation, registry, platform, [traits]`.
 pub struct Support {
     /// The path of `afp_core`.
     pub core: TokenStream,
+    /// The file of the toolbox, as written.
+    pub file: String,
     /// The module that holds `templates` beside the types that implement them.
-    pub home: TokenStream,
+    pub module: TokenStream,
     /// The expression of the registry, a `&mut`.
     pub registry: TokenStream,
     /// The type of the platform.
@@ -55,16 +61,43 @@ pub struct Support {
     pub traits: Vec<TokenStream>,
 }
 
+impl Parse for Support {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let core = next(input, Path::parse_mod_style)?;
+        let file = input.parse::<LitStr>()?.value();
+        input.parse::<Token![,]>()?;
+        let module = next(input, Path::parse_mod_style)?;
+        let registry = next(input, Expr::parse)?;
+        let platform = next(input, Type::parse)?;
+        let list;
+        bracketed!(list in input);
+        let traits =
+            Punctuated::<_, Token![,]>::parse_terminated_with(&list, Path::parse_mod_style)?;
+        let traits = traits.into_iter().map(ToTokens::into_token_stream).collect();
+        Ok(Support { core, file, module, registry, platform, traits })
+    }
+}
+
+/// What stands before the next comma.
+fn next<T: ToTokens>(
+    input: ParseStream<'_>,
+    parse: fn(ParseStream<'_>) -> syn::Result<T>,
+) -> syn::Result<TokenStream> {
+    let tokens = parse(input)?.into_token_stream();
+    input.parse::<Token![,]>()?;
+    Ok(tokens)
+}
+
 /// Statements that register every template that a platform supports, and note the others with the traits that it
 /// does not implement.
 pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
-    let Support { core, home, registry, platform, traits } = support;
+    let Support { core, module, registry, platform, traits, .. } = support;
     let missing = traits.iter().map(|path| missing(platform, path));
     let templates = implemented(toolbox).map(|template| {
-        let (marker, implementation) = types(core, home, template);
+        let (marker, implementation) = types(core, module, template);
         let method = ident(&snake(&words(template.kind).component.to_string()));
         let (toolbox, name) = (&toolbox.name, &template.name);
-        let types = quote!(#home::templates::#marker, #implementation);
+        let types = quote!(#module::templates::#marker, #implementation);
         match template.kind {
             TemplateKind::Computation => quote! {
                 #core::rt::Registry::<#platform>::#method::<#types>(registry, #toolbox, #name);
@@ -78,7 +111,7 @@ pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
     let objects = toolbox.objects.iter().map(|object| {
         let (toolbox, name, ty) = (&toolbox.name, &object.name, ident(&camel(&object.name)));
         quote! {
-            #core::rt::Registry::<#platform>::object::<#home::#ty>(registry, #toolbox, #name);
+            #core::rt::Registry::<#platform>::object::<#module::#ty>(registry, #toolbox, #name);
         }
     });
     quote! {{
@@ -115,10 +148,10 @@ fn missing(platform: &TokenStream, path: &TokenStream) -> TokenStream {
 /// The marker of a template and the type that implements it in a module, for plans loaded at run time.
 fn types(
     core: &TokenStream,
-    home: &TokenStream,
+    module: &TokenStream,
     template: &Template,
 ) -> (TokenStream, TokenStream) {
     let name = ident(&camel(&template.name));
     let generic = bound(template).map(|_| quote!(<#core::Value>));
-    (quote!(#name #generic), quote!(#home::#name #generic))
+    (quote!(#name #generic), quote!(#module::#name #generic))
 }

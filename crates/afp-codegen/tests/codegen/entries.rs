@@ -289,10 +289,10 @@ where
     >: Supervisor<std_templates::CheckValue<Quantity<2, 0, 0, 0, 0, 0>>, E>,
     afp_std::CheckValue<i64>: Supervisor<std_templates::CheckValue<i64>, E>,
 {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match supervisor {
             WAIT_MORE => {
@@ -309,11 +309,11 @@ where
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
         wanted: Events,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Fired {
         match supervisor {
             WAIT_MORE => {
@@ -338,10 +338,10 @@ where
         }
     }
 
-    fn start_element<S: Sink, C: Clock>(
+    fn start_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             WAIT => cx.start_actor(wait(&self.config)).map(Active::Wait),
@@ -365,11 +365,7 @@ where
     }
 
     #[inline]
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        _: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
@@ -379,10 +375,10 @@ where
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),

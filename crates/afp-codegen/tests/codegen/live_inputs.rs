@@ -269,28 +269,28 @@ where
     E: Environment + ?Sized,
     afp_std::Wait: Actor<std_templates::Wait, E>,
 {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
         _: Events,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)
     }
 
-    fn start_element<S: Sink, C: Clock>(
+    fn start_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             WAIT => cx.start_actor(wait(&self.config)).map(Active::Wait),
@@ -314,11 +314,7 @@ where
     }
 
     #[inline]
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        _: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
@@ -328,10 +324,10 @@ where
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
@@ -541,28 +537,28 @@ where
     E: Environment + ?Sized,
     super::inner::Inner: Plan<E>,
 {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
         _: Events,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)
     }
 
-    fn start_element<S: Sink, C: Clock>(
+    fn start_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             INNER => {
@@ -588,11 +584,7 @@ where
     }
 
     #[inline]
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        _: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Inner(machine) => {
@@ -616,10 +608,10 @@ where
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),

@@ -57,10 +57,10 @@ fn self_() -> Result<std_templates::wait::Inputs, BadValue> {
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("Config", Kind::Plan, "Config", &[], "", &[]),
+        ComponentRow::new("Config", ComponentKind::Plan, "Config", &[], "", &[]),
         ComponentRow::new(
                 "loop",
-                Kind::Computation,
+                ComponentKind::Computation,
                 "Assign",
                 &[("Done", "active")],
                 "",
@@ -71,7 +71,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
                 "active",
-                Kind::Computation,
+                ComponentKind::Computation,
                 "Assign",
                 &[("Done", "self_")],
                 "",
@@ -82,7 +82,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
             "self_",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Wait",
             &[("Elapsed", "terminate")],
             "",

@@ -97,10 +97,10 @@ static SWEEPS: [u16; 2] = [
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("P", Kind::Plan, "P", &[], "", &[]),
+        ComponentRow::new("P", ComponentKind::Plan, "P", &[], "", &[]),
         ComponentRow::new(
                 "wait",
-                Kind::Actor,
+                ComponentKind::Actor,
                 "Wait",
                 &[("Elapsed", "terminate")],
                 "",
@@ -122,7 +122,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
             "rest",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Wait",
             &[("Elapsed", "wait")],
             "",
@@ -130,7 +130,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "tick",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "Every",
             &[("Due", "ignore")],
             "",

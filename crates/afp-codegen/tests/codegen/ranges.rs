@@ -177,28 +177,28 @@ where
     E: Environment + ?Sized,
     afp_std::Wait: Actor<std_templates::Wait, E>,
 {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
         _: Events,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)
     }
 
-    fn start_element<S: Sink, C: Clock>(
+    fn start_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             WAIT => cx.start_actor(wait(&self.config)).map(Active::Wait),
@@ -214,11 +214,7 @@ where
     }
 
     #[inline]
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        _: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
@@ -228,10 +224,10 @@ where
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
@@ -252,10 +248,10 @@ where
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("Inner", Kind::Plan, "Inner", &[], "", &[]),
+        ComponentRow::new("Inner", ComponentKind::Plan, "Inner", &[], "", &[]),
         ComponentRow::new(
             "wait",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Wait",
             &[("Elapsed", "terminate")],
             "",
@@ -594,28 +590,28 @@ where
     E: Environment + ?Sized,
     super::inner::Inner: Plan<E>,
 {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         _: u16,
         _: Events,
-        _: &mut Cx<'_, E, S, C>,
+        _: &mut Cx<'_, R>,
     ) -> Fired {
         Fired::fault(Fault::INTERNAL)
     }
 
-    fn start_element<S: Sink, C: Clock>(
+    fn start_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             COUNT => {
@@ -657,11 +653,7 @@ where
     }
 
     #[inline]
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        _: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Inner(machine) => {
@@ -675,10 +667,10 @@ where
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
@@ -699,10 +691,10 @@ where
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("P", Kind::Plan, "P", &[], "", &[]),
+        ComponentRow::new("P", ComponentKind::Plan, "P", &[], "", &[]),
         ComponentRow::new(
                 "count",
-                Kind::Computation,
+                ComponentKind::Computation,
                 "Count",
                 &[("Again", "inner"), ("Done", "terminate")],
                 "",
@@ -721,7 +713,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
                 "inner",
-                Kind::SubPlan,
+                ComponentKind::SubPlan,
                 "Inner",
                 &[("OK", "count"), ("Interrupted", "")],
                 "",
@@ -741,7 +733,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
             "inner.wait",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Wait",
             &[("Elapsed", "terminate")],
             "",

@@ -51,16 +51,16 @@ pub static ANGLE: [Unit<'static>; 3] = [
 //! The plan `WallFollowing`: Find the next wall, then drive parallel to it until the escape button is pressed.
 
 use ::afp_core::{
-    Clock, Duration, Environment, Events, Fault, TypedEntry, Value, ValueRef, WriteError,
+    Duration, Environment, Events, Fault, TypedEntry, Value, ValueRef, WriteError,
 };
 use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use ::afp_core::rt::{
     Actor, AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementKind,
     ElementRow, Entry, EntryRow, Fired, NameTable, NamedPlan, Plan, PlanState, PlanTable,
-    Polled, PortRow, Range, Slot, Started, Supervisor, SupervisorRow, Tables, Target,
-    Unit, finite, output, set_input, stage_outside,
+    Polled, PortRow, Range, Run, Slot, Started, Supervisor, SupervisorRow, Tables,
+    Target, Unit, finite, output, set_input, stage_outside,
 };
-use ::afp_core::trace::{EntryKind, Kind, Sink};
+use ::afp_core::trace::{ComponentKind, EntryKind, Sink};
 use afp_carbot::templates as carbot;
 
 // **** Actors ****
@@ -379,10 +379,10 @@ where
     afp_carbot::CheckTouchSensor: Supervisor<carbot::CheckTouchSensor, E>,
     afp_carbot::CheckDrivingLane: Supervisor<carbot::CheckDrivingLane, E>,
 {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match supervisor {
             ESCAPE => {
@@ -408,11 +408,11 @@ where
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
         wanted: Events,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Fired {
         match supervisor {
             ESCAPE => {
@@ -455,10 +455,10 @@ where
         }
     }
 
-    fn start_element<S: Sink, C: Clock>(
+    fn start_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             SEARCH_FIRST_WALL => {
@@ -493,11 +493,7 @@ where
     }
 
     #[inline]
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        _: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::SearchFirstWall(actor) => {
@@ -531,10 +527,10 @@ where
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         _: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
             Active::None => Err(Fault::INTERNAL),
@@ -765,10 +761,17 @@ static SWEEPS: [u16; 9] = [
 /// The names behind the ids of a trace.
 pub static NAMES: NameTable = NameTable {
     components: &[
-        ComponentRow::new("WallFollowing", Kind::Plan, "WallFollowing", &[], "", &[]),
+        ComponentRow::new(
+            "WallFollowing",
+            ComponentKind::Plan,
+            "WallFollowing",
+            &[],
+            "",
+            &[],
+        ),
         ComponentRow::new(
             "searchFirstWall",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Forward",
             &[("ForwardSuccessful", "searchFirstWall")],
             "",
@@ -781,7 +784,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "backupCollision",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Forward",
             &[("ForwardSuccessful", "findWallAngle")],
             "",
@@ -794,7 +797,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
                 "findWallAngle",
-                Kind::Actor,
+                ComponentKind::Actor,
                 "SearchWall",
                 &[("WallFound", "parallelToWall"), ("NoWallFound", "turnAfterWallLost")],
                 "",
@@ -813,7 +816,7 @@ pub static NAMES: NameTable = NameTable {
             ),
         ComponentRow::new(
             "parallelToWall",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Turn",
             &[("TurnSuccessful", "followWall")],
             "",
@@ -826,7 +829,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "followWall",
-            Kind::Actor,
+            ComponentKind::Actor,
             "WallForward",
             &[
                 ("ForwardSuccessful", "followWall"),
@@ -855,7 +858,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "turnAfterWallLost",
-            Kind::Actor,
+            ComponentKind::Actor,
             "Turn",
             &[("TurnSuccessful", "searchFirstWall")],
             "",
@@ -868,7 +871,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "escape",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckEscapeButton",
             &[("EscapeButtonPressed", "terminate")],
             "",
@@ -876,7 +879,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "searchFirstWall.touch",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckTouchSensor",
             &[("TouchSensorPressed", "backupCollision")],
             "",
@@ -884,7 +887,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "searchFirstWall.checkLane",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckDrivingLane",
             &[("LaneNotFree", "findWallAngle")],
             "",
@@ -905,7 +908,7 @@ pub static NAMES: NameTable = NameTable {
         ),
         ComponentRow::new(
             "followWall.wallTouch",
-            Kind::Supervisor,
+            ComponentKind::Supervisor,
             "CheckTouchSensor",
             &[("TouchSensorPressed", "backupCollision")],
             "",

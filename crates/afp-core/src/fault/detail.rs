@@ -170,12 +170,12 @@ struct Shown<'a> {
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Shown { value, unit, range } = *self;
-        let told = Measured::new(value, unit);
-        let misleads = |bound: f64| bound != value && Measured::new(bound, unit) == told;
+        let shown = Measured::new(value, unit);
+        let misleads = |bound: f64| bound != value && Measured::new(bound, unit) == shown;
         if range.is_some_and(|(least, greatest)| misleads(least) || misleads(greatest)) {
             Quantity { value, unit }.fmt(f)
         } else {
-            told.fmt(f)
+            shown.fmt(f)
         }
     }
 }

@@ -4,26 +4,17 @@
 //! less time than one step that reads the rows of whichever element is active.
 
 use super::{Flow, Level};
-use crate::clock::Clock;
-use crate::component::Environment;
 use crate::fault::Fault;
-use crate::rt::{AtElement, Cx, Plan, PlanState};
-use crate::trace::Sink;
+use crate::rt::{AtElement, Cx, Plan, PlanState, Run};
 
 /// A step of one level, for an element still to be named.
-pub(super) struct StepAt<'a, 'c, 't, P: PlanState, E: ?Sized, S, C> {
+pub(super) struct StepAt<'a, 'c, 't, P: PlanState, R: Run> {
     pub level: &'a mut Level<P>,
     pub t: &'t P::Tables,
-    pub cx: &'a mut Cx<'c, E, S, C>,
+    pub cx: &'a mut Cx<'c, R>,
 }
 
-impl<P, E, S, C> AtElement for StepAt<'_, '_, '_, P, E, S, C>
-where
-    E: Environment + ?Sized,
-    S: Sink,
-    C: Clock,
-    P: Plan<E>,
-{
+impl<R: Run, P: Plan<R::Env>> AtElement for StepAt<'_, '_, '_, P, R> {
     type Out = Flow;
 
     #[inline(always)]

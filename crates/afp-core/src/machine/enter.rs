@@ -6,22 +6,19 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
 use crate::machine::Flow;
-use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Started, Tables};
-use crate::trace::{Record, Sink};
+use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables};
+use crate::trace::Record;
 
 impl<P: PlanState> Level<P> {
     /// Enters an element. `None` when it is active now, else the edge by which it was left.
-    pub(super) fn enter<E, S, C>(
+    pub(super) fn enter<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Option<Edge>, Stop>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let Some(row) = t.table().element(element) else { return Err(Stop::Run(Fault::INTERNAL)) };
         if row.kind != ElementKind::Computation {
@@ -38,17 +35,14 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Starts a supervisor; it is due at once.
-    pub(super) fn start_supervisor<E, S, C>(
+    pub(super) fn start_supervisor<R: Run>(
         &mut self,
         t: &P::Tables,
         supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let slot = t.table().supervisor(supervisor).map_or(usize::MAX, |row| usize::from(row.slot));
         if let Some(slot) = self.slots.as_mut().get_mut(slot) {
@@ -65,18 +59,15 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Looks before the start: due global supervisors first, then the element's own.
-    fn look<E, S, C>(
+    fn look<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Option<Found>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let moment = Moment { element, look: true };
         // Whatever ran since the last poll of a supervisor took its time too.
@@ -97,18 +88,16 @@ impl<P: PlanState> Level<P> {
     }
 
     /// The look found a reason not to start.
-    fn diverted<E, S, C>(
+    fn diverted<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
         found: Found,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Edge, Stop>
     where
-        E: ?Sized,
-        S: Sink,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let supervisor = supervisor_id(t, cx, found.supervisor);
         match found.what {
@@ -131,18 +120,15 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Reads the inputs and starts the element itself.
-    fn start_element<E, S, C>(
+    fn start_element<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Option<Edge>, Stop>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let id = component(cx, element);
         cx.place.component = id;
@@ -166,18 +152,15 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Nothing runs: the platform stops, the element's `Error` edge is taken.
-    fn start_failed<E, S, C>(
+    fn start_failed<R: Run>(
         &mut self,
         element: u16,
         row: &ElementRow,
         fault: Fault,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Edge, Stop>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         self.plan.discard();
         cx.failed(component(cx, element), fault);

@@ -8,8 +8,8 @@ use super::sweep::{Moment, What};
 use super::{Edge, Level, Stop, component, supervisor_id};
 use crate::clock::Clock;
 use crate::fault::Fault;
-use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Started, Tables, Target};
-use crate::trace::{Author, Ending, Record, Sink};
+use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables, Target};
+use crate::trace::{Author, Ending, Record};
 
 /// Whether an event with this target interrupts nothing yet.
 pub(super) fn is_held(t: &impl Tables, target: Target) -> bool {
@@ -21,29 +21,26 @@ pub(super) fn is_held(t: &impl Tables, target: Target) -> bool {
 }
 
 impl<P: PlanState> Level<P> {
-    /// Takes an event that is held, its outputs staged. The element goes on, or there is a way to leave
+    /// Takes an event that is held, its outputs staged. The element goes on, or there is an edge to leave
     /// it by.
-    pub(super) fn hold<E, S, C>(
+    pub(super) fn hold<R: Run>(
         &mut self,
         t: &P::Tables,
         supervisor: u16,
         (event, target): (u16, Target),
         moment: Moment,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), What>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let id = supervisor_id(t, cx, supervisor);
         let element = component(cx, moment.element);
         cx.trace(&Record::Event { supervisor: id, event, element });
         self.commit(Author::Component(id), cx);
-        let way = self.compute_until_resumed(t, target, cx);
+        let led = self.compute_until_resumed(t, target, cx);
         cx.step.clock = cx.clock.now(cx.now);
-        match way {
+        match led {
             Ok(None) => {
                 cx.trace(&Record::Resumed { element, supervisor: id });
                 Ok(())
@@ -54,17 +51,14 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Runs computations until one of their edges resumes, which is `None`, or leads elsewhere.
-    fn compute_until_resumed<E, S, C>(
+    fn compute_until_resumed<R: Run>(
         &mut self,
         t: &P::Tables,
         target: Target,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Option<Edge>, Stop>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let mut edge = Edge { target, ending: Ending::Interrupted };
         loop {
@@ -86,18 +80,15 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Runs one computation beside what is active.
-    fn compute<E, S, C>(
+    fn compute<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Edge, Stop>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let id = component(cx, element);
         cx.place.component = id;

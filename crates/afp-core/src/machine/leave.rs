@@ -1,27 +1,22 @@
 //! Leaving an element: it reached a state, it failed, or it is interrupted; then edges are followed.
 
 use super::{Edge, Flow, Level, Stop, component};
-use crate::clock::Clock;
-use crate::component::Environment;
 use crate::fault::Fault;
-use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Tables, Target};
-use crate::trace::{Author, Ending, Record, Sink};
+use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Run, Tables, Target};
+use crate::trace::{Author, Ending, Record};
 
 impl<P: PlanState> Level<P> {
     /// The active element has finished or failed.
-    pub(super) fn left<E, S, C>(
+    pub(super) fn left<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
         polled: Polled,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let edge = match polled {
             Polled::Done(state) => self.finished(t, element, row, state, cx),
@@ -51,17 +46,14 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Takes edges until an element is active or the plan ends.
-    pub(super) fn follow<E, S, C>(
+    pub(super) fn follow<R: Run>(
         &mut self,
         t: &P::Tables,
         mut edge: Edge,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         loop {
             match cx.step.edges_left.checked_sub(1) {
@@ -85,29 +77,25 @@ impl<P: PlanState> Level<P> {
     }
 
     /// The plan fails by an edge of its own.
-    fn fail<E, S, C>(&mut self, fault: Fault, cx: &mut Cx<'_, E, S, C>) -> Flow
+    fn fail<R: Run>(&mut self, fault: Fault, cx: &mut Cx<'_, R>) -> Flow
     where
-        E: ?Sized,
-        S: Sink,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         cx.note_failure(cx.place.plan, fault);
         self.end(Ending::Error(fault), cx)
     }
 
     /// An element reached a state: its outputs are staged.
-    pub(super) fn finished<E, S, C>(
+    pub(super) fn finished<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
         state: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Edge, Stop>
     where
-        E: ?Sized,
-        S: Sink,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         self.active = None;
         let edge = self.reached(t, element, row, state, cx);
@@ -116,13 +104,13 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Commits the outputs of an element that reached a state, and gives the state's edge.
-    pub(super) fn reached<E: ?Sized, S: Sink, C>(
+    pub(super) fn reached<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
         state: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Edge {
         let id = component(cx, element);
         cx.trace(&Record::Finished { element: id, state });
@@ -145,16 +133,13 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Interrupts the active element, if there is one, and drops it.
-    pub(super) fn interrupt_active<E, S, C>(
+    pub(super) fn interrupt_active<R: Run>(
         &mut self,
         t: &P::Tables,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let Some(element) = self.active.take() else { return Ok(()) };
         let result = self.interrupt_element(t, element, cx);
@@ -166,17 +151,14 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Interrupts an element; an actor that cannot be is traced.
-    pub(super) fn interrupt_element<E, S, C>(
+    pub(super) fn interrupt_element<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let id = component(cx, element);
         cx.place.component = id;

@@ -3,10 +3,9 @@
 use super::held::is_held;
 use super::{Edge, Level, Stop, component, supervisor_id};
 use crate::clock::Clock;
-use crate::component::Environment;
 use crate::fault::Fault;
 use crate::machine::Flow;
-use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, SupervisorRow, Tables, Target};
+use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, Run, SupervisorRow, Tables, Target};
 use crate::time::{Duration, Instant};
 use crate::trace::{Author, Cause, DEADLINE_MISSED, Ending, Record, Sink, Verdict};
 
@@ -30,7 +29,7 @@ pub(super) struct Found {
 pub(super) enum What {
     /// An event to take, outputs staged, and where it leads.
     Event(u16, Target),
-    /// An event that could have resumed, all of it committed, and the way that it leads instead.
+    /// An event that could have resumed, all of it committed, and the edge that it leads to instead.
     Leads(u16, Result<Edge, Stop>),
     /// It failed.
     Fault(Fault),
@@ -66,18 +65,15 @@ struct Poll {
 impl<P: PlanState> Level<P> {
     /// Polls all due supervisors in their order, up to the first one that stops the activity.
     #[inline(always)]
-    pub(super) fn sweep<E, S, C>(
+    pub(super) fn sweep<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Seen
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let moment = Moment { element, look: false };
         let mut seen = Seen::Nothing(Instant::MAX);
@@ -102,19 +98,16 @@ impl<P: PlanState> Level<P> {
 
     /// Polls one supervisor of a sweep; whether the sweep is over.
     #[inline(always)]
-    fn poll_in_sweep<E, S, C>(
+    fn poll_in_sweep<R: Run>(
         &mut self,
         t: &P::Tables,
         row: u16,
         moment: Moment,
         seen: &mut Seen,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> bool
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let Some(row) = t.table().supervisor(row) else { return false };
         match self.poll_if_due(t, row, moment, cx) {
@@ -133,18 +126,15 @@ impl<P: PlanState> Level<P> {
 
     /// Polls one supervisor, if due, and says when it is due again.
     #[inline(always)]
-    pub(super) fn poll_if_due<E, S, C>(
+    pub(super) fn poll_if_due<R: Run>(
         &mut self,
         t: &P::Tables,
         row: &SupervisorRow,
         moment: Moment,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Instant, What>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) else {
             return Err(What::Fault(Fault::INTERNAL));
@@ -162,7 +152,7 @@ impl<P: PlanState> Level<P> {
         let fired = cx.call(id, |cx| self.plan.poll_supervisor(supervisor, wanted, cx));
         let end = cx.clock.now(cx.now);
         cx.step.clock = end;
-        if S::ENABLED {
+        if R::Sink::ENABLED {
             cx.trace(&Record::Polled { supervisor: id, verdict: fired.verdict() });
         }
         let on_time = next > cx.now && end <= release + row.deadline;
@@ -175,19 +165,16 @@ impl<P: PlanState> Level<P> {
     /// Decides what a poll means that was late or brought something.
     #[cold]
     #[inline(never)]
-    fn judge<E, S, C>(
+    fn judge<R: Run>(
         &mut self,
         t: &P::Tables,
         row: &SupervisorRow,
         poll: Poll,
         moment: Moment,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Instant, What>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let supervisor = row.instance;
         let release = serve(poll.release, row.period, cx.now);
@@ -225,19 +212,16 @@ impl<P: PlanState> Level<P> {
     }
 
     /// Takes an event: the sweep goes on only where that resumes.
-    fn take<E, S, C>(
+    fn take<R: Run>(
         &mut self,
         t: &P::Tables,
         supervisor: u16,
         (event, target): (u16, Target),
         moment: Moment,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), What>
     where
-        E: ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         match is_held(t, target) {
             true => self.hold(t, supervisor, (event, target), moment, cx),
@@ -246,19 +230,16 @@ impl<P: PlanState> Level<P> {
     }
 
     /// A supervisor stopped the activity of a started element.
-    pub(super) fn interrupted<E, S, C>(
+    pub(super) fn interrupted<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
         found: Found,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Flow
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         let id = supervisor_id(t, cx, found.supervisor);
         match found.what {
@@ -284,18 +265,16 @@ impl<P: PlanState> Level<P> {
 
     /// The edge that a supervisor's finding leads to, its outputs committed. The element is not
     /// active any more.
-    pub(super) fn after_supervisor<E, S, C>(
+    pub(super) fn after_supervisor<R: Run>(
         &mut self,
         t: &P::Tables,
         element: u16,
         row: &ElementRow,
         found: Found,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<Edge, Stop>
     where
-        E: ?Sized,
-        S: Sink,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         match found.what {
             What::Event(_, target) => {
@@ -303,9 +282,9 @@ impl<P: PlanState> Level<P> {
                 self.plan.leave(element);
                 Ok(Edge { target, ending: Ending::Interrupted })
             }
-            What::Leads(_, way) => {
+            What::Leads(_, edge) => {
                 self.plan.leave(element);
-                way
+                edge
             }
             What::Fault(fault) if found.supervisor < t.table().globals => {
                 self.plan.leave(element);
@@ -343,13 +322,13 @@ fn serve(first: Instant, period: Duration, now: Instant) -> Release {
 }
 
 /// Whether an event is taken at this moment.
-fn takes<E: ?Sized, S: Sink, C>(
+fn takes<R: Run>(
     t: &impl Tables,
     supervisor: u16,
     event: u16,
     target: Target,
     moment: Moment,
-    cx: &mut Cx<'_, E, S, C>,
+    cx: &mut Cx<'_, R>,
 ) -> bool {
     match target {
         Target::Ignore | Target::None => false,
@@ -357,7 +336,7 @@ fn takes<E: ?Sized, S: Sink, C>(
         Target::Element(element) => {
             let global = supervisor < t.table().globals;
             let there = element == moment.element && (global || moment.look);
-            if there && S::ENABLED {
+            if there && R::Sink::ENABLED {
                 let supervisor = supervisor_id(t, cx, supervisor);
                 let element = component(cx, element);
                 cx.sink.record(cx.now, &Record::AlreadyThere { supervisor, event, element });
@@ -370,18 +349,18 @@ fn takes<E: ?Sized, S: Sink, C>(
 /// Counts and traces a missed deadline, with its cause: a poll that began too late for its
 /// declared budget is not itself to blame.
 #[cold]
-fn trace_miss<E: ?Sized, S: Sink, C>(
+fn trace_miss<R: Run>(
     t: &impl Tables,
     row: &SupervisorRow,
     release: &Release,
     begin: Instant,
     end: Instant,
-    cx: &mut Cx<'_, E, S, C>,
+    cx: &mut Cx<'_, R>,
 ) {
     let deadline = release.at + row.deadline;
     let missed = u64::from(end > deadline);
     cx.step.misses = cx.step.misses.saturating_add(missed).saturating_add(release.skipped);
-    if S::ENABLED {
+    if R::Sink::ENABLED {
         let late = release.skipped > 0 || begin + row.budget > deadline;
         let record = Record::Missed {
             supervisor: supervisor_id(t, cx, row.instance),

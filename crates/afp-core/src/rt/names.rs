@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 use crate::rt::state::PlanState;
 use crate::trace::{
-    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
+    ComponentId, ComponentKind, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Names,
     PortName, Reaction, TextPlace, TraceEntryId,
 };
 use crate::value::{Text, Value};
@@ -89,7 +89,7 @@ impl ComponentRow {
     /// A row.
     pub const fn new(
         path: &'static str,
-        kind: Kind,
+        kind: ComponentKind,
         template: &'static str,
         outcomes: &'static [(&'static str, &'static str)],
         special: &'static str,

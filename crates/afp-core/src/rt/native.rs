@@ -1,7 +1,6 @@
 //! What typed components and typed plans need of the scheduler: the steps of a component's life
 //! as one call each, so that generated code reads as a list of what is started and polled.
 
-use crate::clock::Clock;
 use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Events, Poll, Supervisor,
     SupervisorTemplate,
@@ -10,12 +9,12 @@ use crate::fault::{BadValue, Fault};
 use crate::rt::formula::parse_choice;
 use crate::rt::plan::{Cx, Fired, Polled, Started};
 use crate::rt::ports::{Outcome, Ports};
+use crate::rt::run::Run;
 use crate::rt::state::WriteError;
 use crate::rt::store::{Choice, Entry, Stored, Writable};
-use crate::trace::Sink;
 use crate::value::{Text, Value, ValueRef};
 
-impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
+impl<R: Run> Cx<'_, R> {
     /// Starts an actor with its inputs.
     ///
     /// # Errors
@@ -28,7 +27,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     where
         T: ActorTemplate,
         T::Inputs<'i>: Ports,
-        A: Actor<T, E>,
+        A: Actor<T, R::Env>,
     {
         let inputs = self.read(inputs)?;
         A::start(inputs, self.env, self.now)
@@ -47,7 +46,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     where
         T: ActorTemplate,
         T::Live<'i>: Ports,
-        A: Actor<T, E>,
+        A: Actor<T, R::Env>,
     {
         let live = self.checked(live)?;
         actor.poll(live, self.env, self.now)
@@ -60,7 +59,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     pub fn interrupt_actor<T, A>(&mut self, actor: &mut A) -> Result<(), Fault>
     where
         T: ActorTemplate,
-        A: Actor<T, E>,
+        A: Actor<T, R::Env>,
     {
         actor.interrupt(self.env, self.now)
     }
@@ -77,7 +76,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     where
         T: SupervisorTemplate,
         T::Inputs<'i>: Ports,
-        A: Supervisor<T, E>,
+        A: Supervisor<T, R::Env>,
     {
         let inputs = self.read(inputs)?;
         A::start(inputs, self.env, self.now).map(Some)
@@ -97,7 +96,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     where
         T: SupervisorTemplate,
         T::Live<'i>: Ports,
-        A: Supervisor<T, E>,
+        A: Supervisor<T, R::Env>,
     {
         let supervisor = supervisor.as_mut().ok_or(Fault::INTERNAL)?;
         let live = self.checked(live)?;
@@ -124,10 +123,10 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
 
 impl Started {
     /// What a computation brought; `stage` stages its outputs.
-    pub fn computed<O: Outcome, E: ?Sized, S, C>(
+    pub fn computed<O: Outcome, R: Run>(
         computed: Result<O, Fault>,
         stage: impl FnOnce(O) -> Result<(), BadValue>,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Self {
         let done = computed.and_then(|state| {
             let index = state.index();
@@ -140,10 +139,10 @@ impl Started {
 impl Polled {
     /// What an actor's poll brought; `stage` stages its outputs.
     #[inline]
-    pub fn actor<O: Outcome, E: ?Sized, S, C>(
+    pub fn actor<O: Outcome, R: Run>(
         polled: Result<Poll<O>, Fault>,
         stage: impl FnOnce(O) -> Result<(), BadValue>,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Self {
         match polled {
             Ok(Poll::Pending) => Polled::Pending,
@@ -159,10 +158,10 @@ impl Polled {
 impl Fired {
     /// What a supervisor's poll brought; `stage` stages its outputs.
     #[inline]
-    pub fn supervisor<O: Outcome, E: ?Sized, S, C>(
+    pub fn supervisor<O: Outcome, R: Run>(
         polled: Result<Option<O>, Fault>,
         stage: impl FnOnce(O) -> Result<(), BadValue>,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Self {
         match polled {
             Ok(None) => Fired::NOTHING,

@@ -2,11 +2,10 @@
 
 use core::num::NonZeroU32;
 
-use crate::clock::Clock;
-use crate::component::Environment;
 use crate::fault::{BadValue, Detail, Failure, Fault, Port, Subject};
 use crate::machine::{Flow, Machine};
 use crate::rt::ports::Ports;
+use crate::rt::run::Run;
 use crate::rt::state::{Plan, PlanState};
 use crate::rt::store::{Entry, Stored};
 use crate::rt::table::Child;
@@ -59,13 +58,13 @@ pub enum Polled {
 }
 
 /// What a step carries through all levels of a plan.
-pub struct Cx<'a, E: ?Sized, S, C> {
+pub struct Cx<'a, R: Run> {
     /// The platform.
-    pub env: &'a mut E,
+    pub env: &'a mut R::Env,
     /// The time of the step.
     pub now: Instant,
-    pub(crate) sink: &'a mut S,
-    pub(crate) clock: &'a C,
+    pub(crate) sink: &'a mut R::Sink,
+    pub(crate) clock: &'a R::Clock,
     pub(crate) step: &'a mut StepState,
     pub(crate) place: Place,
 }
@@ -141,14 +140,14 @@ impl Fired {
     }
 }
 
-impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
+impl<R: Run> Cx<'_, R> {
     /// Traces and checks the inputs of the component that is being started.
     ///
     /// # Errors
     /// A value that is not finite or out of range.
     pub fn read<I: Ports>(&mut self, inputs: Result<I, BadValue>) -> Result<I, Fault> {
         let inputs = self.noted(inputs)?;
-        if S::ENABLED {
+        if R::Sink::ENABLED {
             let (component, at) = (self.place.component, self.now);
             let sink = &mut *self.sink;
             inputs.each(&mut |port, value| {
@@ -170,16 +169,16 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
 
     /// For plans that keep their components in boxes: lends the platform, and what shows the
     /// inputs to the trace, if there is one.
-    pub fn show_inputs<R>(
+    pub fn show_inputs<T>(
         &mut self,
-        run: impl FnOnce(Option<&mut dyn FnMut(u16, ValueRef<'_>)>, &mut E, Instant) -> R,
-    ) -> R {
+        run: impl FnOnce(Option<&mut dyn FnMut(u16, ValueRef<'_>)>, &mut R::Env, Instant) -> T,
+    ) -> T {
         let (component, at) = (self.place.component, self.now);
         let sink = &mut *self.sink;
         let mut see = |port: u16, value: ValueRef<'_>| {
             sink.record(at, &Record::Input { component, port, value });
         };
-        run(if S::ENABLED { Some(&mut see) } else { None }, &mut *self.env, at)
+        run(if R::Sink::ENABLED { Some(&mut see) } else { None }, &mut *self.env, at)
     }
 
     /// Traces that a component reports what whoever tests the plan put there. `part` counts the
@@ -191,7 +190,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
 
     /// Runs a sub-plan's machine at its own place: its start, its step, its interruption.
     #[inline]
-    pub fn inside<R>(&mut self, child: Child, run: impl FnOnce(&mut Cx<'_, E, S, C>) -> R) -> R {
+    pub fn inside<T>(&mut self, child: Child, run: impl FnOnce(&mut Cx<'_, R>) -> T) -> T {
         run(&mut Cx {
             env: &mut *self.env,
             now: self.now,
@@ -213,7 +212,7 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
         &mut self,
         child: Child,
         machine: &mut Machine<P>,
-        write: impl FnOnce(&mut P, &mut Committer<'_, S>) -> bool,
+        write: impl FnOnce(&mut P, &mut Committer<'_, R::Sink>) -> bool,
     ) {
         let number = self.step.commits.wrapping_add(1);
         let mut to = Committer {
@@ -229,16 +228,17 @@ impl<E: ?Sized, S: Sink, C: Clock> Cx<'_, E, S, C> {
     }
 
     /// Starts a sub-plan whose `in` entries are set.
-    pub fn start_sub_plan<P: Plan<E>>(&mut self, child: Child, machine: &mut Machine<P>) -> Flow
-    where
-        E: Environment,
-    {
+    pub fn start_sub_plan<P: Plan<R::Env>>(
+        &mut self,
+        child: Child,
+        machine: &mut Machine<P>,
+    ) -> Flow {
         self.trace(&Record::Started { component: self.place.component });
         self.inside(child, |cx| machine.start(cx))
     }
 }
 
-impl<E: ?Sized, S, C> Cx<'_, E, S, C> {
+impl<R: Run> Cx<'_, R> {
     /// What became of values of the component that is called, as a fault; what it is about is noted.
     ///
     /// # Errors
@@ -291,22 +291,22 @@ impl<E: ?Sized, S, C> Cx<'_, E, S, C> {
     ///
     /// A guard that the unwinding drops would say so, too, and take back after the call what it says,
     /// but each poll would pay for it. Outside of components nothing of a step panics but a sink or a
-    /// clock, whose panic counts as one of the component called last.
+    /// clock, which the scheduler tells from components by itself.
     #[inline(always)]
-    pub(crate) fn call<R>(
+    pub(crate) fn call<T>(
         &mut self,
         component: ComponentId,
-        run: impl FnOnce(&mut Self) -> R,
-    ) -> R {
+        run: impl FnOnce(&mut Self) -> T,
+    ) -> T {
         self.step.called = component;
         run(self)
     }
 }
 
-impl<E: ?Sized, S: Sink, C> Cx<'_, E, S, C> {
+impl<R: Run> Cx<'_, R> {
     #[inline]
     pub(crate) fn trace(&mut self, record: &Record<'_>) {
-        if S::ENABLED {
+        if R::Sink::ENABLED {
             self.sink.record(self.now, record);
         }
     }
@@ -369,10 +369,10 @@ impl<S: Sink> Committer<'_, S> {
 
 impl Started {
     /// What a sub-plan's start brought; `stage` stages its results.
-    pub fn sub_plan<E: ?Sized, S, C>(
+    pub fn sub_plan<R: Run>(
         flow: Flow,
         stage: impl FnOnce() -> Result<(), BadValue>,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Self {
         match ended(flow, stage, cx) {
             None => Started::SubPlan(flow),
@@ -384,10 +384,10 @@ impl Started {
 
 impl Polled {
     /// What a sub-plan's step brought; `stage` stages its results.
-    pub fn sub_plan<E: ?Sized, S, C>(
+    pub fn sub_plan<R: Run>(
         flow: Flow,
         stage: impl FnOnce() -> Result<(), BadValue>,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Self {
         match ended(flow, stage, cx) {
             None => Polled::SubPlan(flow),
@@ -398,10 +398,10 @@ impl Polled {
 }
 
 /// The state that a sub-plan reached, if it ended: `OK` is 0, `Interrupted` 1.
-fn ended<E: ?Sized, S, C>(
+fn ended<R: Run>(
     flow: Flow,
     stage: impl FnOnce() -> Result<(), BadValue>,
-    cx: &mut Cx<'_, E, S, C>,
+    cx: &mut Cx<'_, R>,
 ) -> Option<Result<u16, Fault>> {
     match flow {
         Flow::Ended(Ending::Ok) => Some(cx.noted_outside(stage()).map(|()| 0)),

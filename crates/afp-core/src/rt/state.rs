@@ -1,9 +1,9 @@
 //! What the scheduler asks of a plan.
 
-use crate::clock::Clock;
 use crate::component::Events;
 use crate::fault::{BadValue, Fault};
 use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
+use crate::rt::run::Run;
 use crate::rt::table::Tables;
 use crate::trace::Sink;
 use crate::value::{Value, ValueRef};
@@ -105,43 +105,38 @@ pub trait Plan<E: ?Sized>: PlanState {
     /// # Errors
     /// The fault of an input or of the component.
     #[doc(hidden)]
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>;
 
     /// Polls a supervisor for the events that would be taken.
     #[doc(hidden)]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
         wanted: Events,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Fired;
 
     /// Starts an element: inputs, then the component; runs a computation.
     #[doc(hidden)]
-    fn start_element<S: Sink, C: Clock>(
-        &mut self,
-        element: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Started;
+    fn start_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Started;
 
     /// Polls the active element.
     #[doc(hidden)]
-    fn poll_element<S: Sink, C: Clock>(&mut self, element: u16, cx: &mut Cx<'_, E, S, C>)
-    -> Polled;
+    fn poll_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Polled;
 
     /// Interrupts the active element.
     ///
     /// # Errors
     /// A failed interrupt ends the whole run.
     #[doc(hidden)]
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>;
 
     /// Drops an element's instance and its supervisors.

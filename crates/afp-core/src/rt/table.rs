@@ -4,6 +4,8 @@ use crate::component::Events;
 use crate::fault::Fault;
 use crate::time::Duration;
 
+pub use afp_number::{Child, ElementKind, Range};
+
 /// Where an edge leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
@@ -19,35 +21,6 @@ pub enum Target {
     Resume,
     /// Nothing is connected.
     None,
-}
-
-/// A run of rows in another table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Range {
-    /// Index of the first.
-    pub first: u16,
-    /// How many.
-    pub len: u16,
-}
-
-/// What an element is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ElementKind {
-    /// An actor.
-    Actor,
-    /// A computation.
-    Computation,
-    /// A sub-plan.
-    SubPlan,
-}
-
-/// Where the ids of a sub-plan begin, counted from the first id of the plan that uses it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Child {
-    /// Offset of its component ids.
-    pub components: u32,
-    /// Offset of its entry ids.
-    pub entries: u32,
 }
 
 /// One element.
@@ -164,7 +137,6 @@ impl<'a> PlanTable<'a> {
     /// The supervisors polled while an element is active.
     #[inline]
     pub fn sweep(&self, row: &ElementRow) -> &'a [u16] {
-        let first = usize::from(row.sweep.first);
-        self.sweeps.get(first..first + usize::from(row.sweep.len)).unwrap_or(&[])
+        self.sweeps.get(row.sweep.indices()).unwrap_or(&[])
     }
 }

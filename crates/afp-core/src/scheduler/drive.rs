@@ -77,7 +77,9 @@ impl<P: PlanState> Scheduler<P> {
         let (clock, now) = (robot.clock(), robot.now());
         let mut wake = match self.state {
             State::Ready => self.start(robot, sink, &clock, now)?,
-            State::Running | State::Broken | State::Ended(_) => self.step(robot, sink, &clock, now),
+            State::Running | State::Broken { .. } | State::Ended(_) => {
+                self.step(robot, sink, &clock, now)
+            }
         };
         while let Wake::At(at) = wake {
             let due = at.max(robot.ready());
@@ -118,7 +120,7 @@ impl<P: PlanState> Scheduler<P> {
         if let Some(entry) = plan.missing_input() {
             return Err(StartError::InputMissing(entry));
         }
-        if matches!(self.state, State::Running | State::Broken) {
+        if matches!(self.state, State::Running | State::Broken { .. }) {
             self.request_stop();
             let wake = self.step(env, sink, clock, now);
             if matches!(wake, Wake::Ended(Ending::Error(_))) {

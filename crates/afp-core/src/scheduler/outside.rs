@@ -113,7 +113,7 @@ impl<P: PlanState> Scheduler<P> {
                 self.machine.plan().accepts(entry, &value)?;
                 self.writes.push_back((entry, value)).map_err(|_| WriteError::QueueFull)
             }
-            State::Broken | State::Ended(_) => Err(WriteError::Ended),
+            State::Broken { .. } | State::Ended(_) => Err(WriteError::Ended),
         }
     }
 

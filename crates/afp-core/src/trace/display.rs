@@ -5,7 +5,7 @@ use core::fmt;
 use afp_number::Quantity;
 
 use super::{
-    Author, Cause, ComponentId, ERROR, Ending, Kind, Names, Record, TraceEntryId, Verdict,
+    Author, Cause, ComponentId, ComponentKind, ERROR, Ending, Names, Record, TraceEntryId, Verdict,
 };
 use crate::fault::Fault;
 use crate::time::Instant;
@@ -81,7 +81,7 @@ impl<N: Names + ?Sized> Line<'_, N> {
 
     /// Where the `Error` edge of a failed element leads; a supervisor has none.
     fn error_target(&self, f: &mut fmt::Formatter<'_>, id: ComponentId) -> fmt::Result {
-        let supervisor = self.names.component(id).kind == Kind::Supervisor;
+        let supervisor = self.names.component(id).kind == ComponentKind::Supervisor;
         match self.names.target(id, ERROR) {
             target if !supervisor && !target.is_empty() => write!(f, " -> {target}"),
             _ => Ok(()),

@@ -1,11 +1,13 @@
 //! A component that panics: nothing of the plan is called again, and the platform is stopped.
 
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use afp_core::trace::Ending;
-use afp_core::{Fault, Wake, WriteError};
+use afp_core::trace::{Ending, Observe, Record};
+use afp_core::{Clock, Fault, Instant, StillClock, Wake, WriteError};
 
 use crate::support::build::{Builder, actor, computation, guard, plan, sub_plan};
+use crate::support::ms;
 use crate::support::run::{Run, assert_lines};
 use crate::support::world::{Phase, World};
 
@@ -100,4 +102,47 @@ fn a_panic_while_the_plan_is_stopped_breaks_it() {
     assert!(catch_unwind(AssertUnwindSafe(|| run.step(15))).is_err());
     assert_eq!(run.step(16), ENDED);
     assert_eq!(run.world.calls.last().map(String::as_str), Some("emergency stop"));
+}
+
+/// Breaks at its n-th reading from now on.
+struct BreakingClock(Cell<u32>);
+
+impl Clock for BreakingClock {
+    fn now(&self, step: Instant) -> Instant {
+        self.0.set(self.0.get().checked_sub(1).expect("the clock is broken"));
+        step
+    }
+}
+
+#[test]
+fn a_panic_of_the_sink_or_the_clock_is_nobodys_of_the_plan() {
+    let of_sink = |run: &mut Run| {
+        let mut sink = Observe(|_: Instant, record: &Record<'_>| {
+            assert!(!matches!(record, Record::Polled { .. }), "the disk is full");
+        });
+        run.scheduler.step(&mut run.world, &mut sink, &StillClock, ms(20));
+    };
+    // The first reading begins the step, the second comes after a poll.
+    let of_clock = |run: &mut Run, readings: u32| {
+        let clock = BreakingClock(Cell::new(readings));
+        let mut sink = Observe(|_: Instant, _: &Record<'_>| {});
+        run.scheduler.step(&mut run.world, &mut sink, &clock, ms(20));
+    };
+    let cases: [&dyn Fn(&mut Run); 3] =
+        [&of_sink, &|run| of_clock(run, 0), &|run| of_clock(run, 1)];
+    for (n, case) in cases.iter().enumerate() {
+        let mut run = Run::started(everything(), World::default());
+        run.until(10);
+        run.trace();
+        let caught = catch_unwind(AssertUnwindSafe(|| case(&mut run)));
+        assert!(caught.is_err(), "case {n}");
+        assert_eq!(run.step(300), Wake::Ended(Ending::Error(Fault::PANIC_OUTSIDE)), "case {n}");
+        assert_lines(
+            &run.trace(),
+            "0.020000 p fault panic-outside: what records or times the run panicked
+             0.020000 p ended Error(panic-outside)",
+        );
+        assert_eq!(run.failure().as_deref(), Some("p: what records or times the run panicked"));
+        assert_eq!(run.emergency_stops(), 1);
+    }
 }

@@ -2,7 +2,7 @@
 
 use afp_core::rt::ElementKind;
 use afp_core::trace::{
-    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
+    ComponentId, ComponentKind, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Names,
     Reaction, TraceEntryId,
 };
 
@@ -16,7 +16,7 @@ pub struct SpecNames {
 
 struct Component {
     path: String,
-    kind: Kind,
+    kind: ComponentKind,
     outcomes: Vec<(String, String)>,
     special: (&'static str, &'static str),
 }
@@ -26,7 +26,7 @@ impl SpecNames {
         let mut names = SpecNames::default();
         names.components.push(Component {
             path: spec.name.clone(),
-            kind: Kind::Plan,
+            kind: ComponentKind::Plan,
             outcomes: Vec::new(),
             special: ("", ""),
         });
@@ -40,9 +40,9 @@ impl SpecNames {
         }
         for (index, element) in spec.elements.iter().enumerate() {
             let kind = match element.kind {
-                ElementKind::Actor => Kind::Actor,
-                ElementKind::Computation => Kind::Computation,
-                ElementKind::SubPlan => Kind::SubPlan,
+                ElementKind::Actor => ComponentKind::Actor,
+                ElementKind::Computation => ComponentKind::Computation,
+                ElementKind::SubPlan => ComponentKind::SubPlan,
             };
             self.components.push(Component {
                 path: format!("{prefix}{}", element.name),
@@ -59,7 +59,7 @@ impl SpecNames {
             };
             self.components.push(Component {
                 path,
-                kind: Kind::Supervisor,
+                kind: ComponentKind::Supervisor,
                 outcomes: owned(&guard.events),
                 special: ("DeadlineMissed", spec.miss_target(index)),
             });

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use afp_core::rt::{
     BadValue, Committer, Cx, ElementKind, Events, Fired, Machine, Plan, PlanState, PlanTable,
-    Polled, Slot, Started, Tables,
+    Polled, Run, Slot, Started, Tables,
 };
 use afp_core::trace::{EntryKind, Sink};
-use afp_core::{Clock, Fault, Value, ValueRef, WriteError};
+use afp_core::{Fault, Value, ValueRef, WriteError};
 
 use super::build::{ElementSpec, Spec};
 use super::world::{Phase, World};
@@ -66,7 +66,7 @@ impl Scripted {
         }
     }
 
-    fn see<S, C>(&self, live: Option<&'static str>, who: &str, cx: &mut Cx<'_, World, S, C>) {
+    fn see<R: Run<Env = World>>(&self, live: Option<&'static str>, who: &str, cx: &mut Cx<'_, R>) {
         if let Some(entry) = live {
             let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].borrow());
             cx.env.saw(cx.now, who, &value);
@@ -187,10 +187,10 @@ impl PlanState for Scripted {
 }
 
 impl Plan<World> for Scripted {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = World>>(
         &mut self,
         supervisor: u16,
-        cx: &mut Cx<'_, World, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         let name = self.spec.supervisors[usize::from(supervisor)].name;
         let watching = &mut self.watching[usize::from(supervisor)];
@@ -200,11 +200,11 @@ impl Plan<World> for Scripted {
         Ok(())
     }
 
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = World>>(
         &mut self,
         supervisor: u16,
         wanted: Events,
-        cx: &mut Cx<'_, World, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Fired {
         let spec = self.spec.clone();
         let index = usize::from(supervisor);
@@ -221,11 +221,7 @@ impl Plan<World> for Scripted {
         Fired::event(event, cx.env.output(guard.name, cx.now))
     }
 
-    fn start_element<S: Sink, C: Clock>(
-        &mut self,
-        element: u16,
-        cx: &mut Cx<'_, World, S, C>,
-    ) -> Started {
+    fn start_element<R: Run<Env = World>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Started {
         let spec = self.spec.clone();
         let row = &spec.elements[usize::from(element)];
         let computes = row.kind == ElementKind::Computation;
@@ -265,11 +261,7 @@ impl Plan<World> for Scripted {
         }
     }
 
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        element: u16,
-        cx: &mut Cx<'_, World, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = World>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Polled {
         let spec = self.spec.clone();
         let row = &spec.elements[usize::from(element)];
         assert_eq!(self.running, Some(element), "{} is polled but does not run", row.name);
@@ -298,10 +290,10 @@ impl Plan<World> for Scripted {
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = World>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, World, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         let spec = self.spec.clone();
         let row = &spec.elements[usize::from(element)];

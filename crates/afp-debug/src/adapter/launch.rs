@@ -5,11 +5,13 @@ use std::time::Duration as Wall;
 
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use dapts::event;
+use dapts::{StoppedEventReason as Reason, event};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use super::clients::Counting;
 use super::steer::{Mode, Pace};
+use super::stop::stopped_event;
 use super::{Adapter, Answer, Refusal, Run};
 use crate::breakpoints::Filters;
 
@@ -52,12 +54,47 @@ pub struct Launch {
     pub token: Option<String>,
 }
 
+/// What joins a run of another client.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub(super) struct Attach {
+    /// What a client has to know that was not started by the same person.
+    #[serde(default)]
+    token: Option<String>,
+    /// `operator` takes over; without it the client watches.
+    #[serde(default)]
+    role: Option<String>,
+    /// Whether it answers for its role.
+    #[serde(default)]
+    lease: bool,
+}
+
+/// What a run begins with again, where the client says so.
+#[derive(Deserialize)]
+struct Restart {
+    arguments: Option<Launch>,
+}
+
 /// What can go wrong that a run may be held at.
-const FILTERS: [(&str, &str, bool); 3] = [
+const FILTERS: [(&str, &str, bool); 5] = [
     ("fault", "A component fails", true),
     ("deadlineMissed", "A deadline is missed", false),
     ("interruption", "An element is interrupted", false),
+    ("livelock", "Edges are taken without time passing", false),
+    ("collision", "The robot touches something, in the simulator", false),
 ];
+
+/// What a client can ask for: of a run that is over nothing changes, and who watches changes nothing.
+pub(super) fn capabilities(steers: bool, is_recorded: bool) -> dapts::Capabilities {
+    let (steers, changes) = (Some(steers), Some(steers && !is_recorded));
+    dapts::Capabilities {
+        supports_goto_targets_request: changes,
+        supports_restart_request: steers,
+        supports_set_expression: changes,
+        supports_set_variable: changes,
+        supports_step_back: steers,
+        ..dapts::Capabilities::default()
+    }
+}
 
 impl Adapter<'_> {
     pub(super) fn initialize(
@@ -65,8 +102,15 @@ impl Adapter<'_> {
         client: dapts::InitializeRequestArguments,
     ) -> Answer<dapts::Capabilities> {
         let first = |from_one: Option<bool>| u32::from(from_one.unwrap_or(true));
-        self.client.first_line = first(client.lines_start_at1);
-        self.client.first_column = first(client.columns_start_at1);
+        let counting = Counting {
+            first_line: first(client.lines_start_at1),
+            first_column: first(client.columns_start_at1),
+        };
+        let name = client.client_name.or(client.client_id);
+        if let Some(known) = self.clients.get_mut(&self.asker) {
+            known.counting = counting;
+            known.name = name.filter(|name| !name.is_empty()).unwrap_or(known.name.clone());
+        }
         let filter =
             |(filter, label, default): (&str, &str, bool)| dapts::ExceptionBreakpointsFilter {
                 filter: filter.to_owned(),
@@ -88,54 +132,86 @@ impl Adapter<'_> {
             supports_function_breakpoints: yes,
             supports_hit_conditional_breakpoints: yes,
             supports_log_points: yes,
-            supports_restart_request: yes,
-            supports_set_variable: yes,
-            supports_step_back: yes,
             supports_stepping_granularity: yes,
+            support_terminate_debuggee: yes,
             supports_terminate_request: yes,
-            ..dapts::Capabilities::default()
+            ..capabilities(true, false)
         })
     }
 
     pub(super) fn launch(&mut self, launch: Launch, now: Wall) -> Answer<Value> {
+        self.check_token(launch.token.as_deref())?;
         if self.run.is_some() {
-            return Err("a plan runs already: 'restart' begins it again".into());
+            return Err(
+                "a plan runs already: 'restart' begins it again, 'attach' joins those who watch it"
+                    .into(),
+            );
         }
-        let told = launch.token.as_deref().unwrap_or_default();
-        if self.token.as_ref().is_some_and(|token| !token.is(told)) {
-            return Err("'token' is the one that 'afpc dap' printed".into());
-        }
-        if launch.speed.is_some_and(|speed| !(speed > 0.0 && speed.is_finite())) {
-            return Err("'speed' is a number above 0; leave it out for as fast as can be".into());
-        }
-        if launch.until.is_some_and(|until| !(until > 0.0 && until < 1e9)) {
-            return Err("'until' is a number of seconds above 0; leave it out for no end".into());
-        }
-        let fresh = launch.world.is_some()
-            || launch.start.is_some()
-            || !launch.set.is_empty()
-            || launch.until.is_some();
-        match &launch.log {
-            None if launch.program.is_empty() => {
-                return Err(
-                    "'program' is the file of the plan; 'log' is that of a run that is over".into(),
-                );
-            }
-            Some(_) if fresh => {
-                return Err(
-                    "a log is run again as it was: leave 'world', 'start', 'set' and 'until' out"
-                        .into(),
-                );
-            }
-            _ => {}
-        }
+        check(&launch)?;
         self.begin(launch, now)?;
+        self.take_part();
+        self.operator = Some(self.asker);
         if self.run()?.target.is_recorded() {
-            let capabilities =
-                dapts::Capabilities { supports_set_variable: Some(false), ..Default::default() };
+            let capabilities = capabilities(true, true);
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
         }
-        self.event::<event::Initialized>(&None);
+        self.event_to::<event::Initialized>(self.asker, &None);
+        self.tell_roles();
+        self.begun()
+    }
+
+    /// Joins those who watch a run.
+    pub(super) fn attach(&mut self, attach: Attach, now: Wall) -> Answer<Value> {
+        self.check_token(attach.token.as_deref())?;
+        match attach.role.as_deref() {
+            None | Some("observer" | "operator") => {}
+            Some(other) => {
+                return Err(Refusal(format!(
+                    "'{other}' is no role: there are 'observer' and 'operator'"
+                )));
+            }
+        }
+        let recorded = self.run()?.target.is_recorded();
+        self.take_part();
+        match attach.role.as_deref() {
+            Some("operator") => self.take_role(attach.lease, now),
+            _ => {
+                let capabilities = capabilities(false, recorded);
+                let body = dapts::CapabilitiesEvent { capabilities };
+                self.event_to::<event::Capabilities>(self.asker, &body);
+            }
+        }
+        self.event_to::<event::Initialized>(self.asker, &None);
+        let program = self.run()?.target.program().clone();
+        let others = self.breakpoints.of_others(self.asker);
+        let others: Vec<_> = others.map(|(owner, each)| (owner, each.clone())).collect();
+        for (owner, each) in others {
+            self.tell_of(self.asker, owner, dapts::BreakpointEventReason::New, &each, &program);
+        }
+        self.tell_roles();
+        self.begun()
+    }
+
+    /// # Errors
+    /// It is not the one that clients have to know.
+    fn check_token(&self, told: Option<&str>) -> Answer<()> {
+        match &self.token {
+            Some(token) if !token.is(told.unwrap_or_default()) => {
+                Err("'token' is the one that 'afpc dap' printed".into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The client that asks is told what happens in the run from now on.
+    fn take_part(&mut self) {
+        if let Some(client) = self.clients.get_mut(&self.asker) {
+            client.attached = true;
+        }
+    }
+
+    /// What is run.
+    fn begun(&mut self) -> Answer<Value> {
         let program = self.run()?.target.program();
         let plan = program.units.first();
         let file = plan.and_then(|plan| program.files.get(plan.at.file));
@@ -154,48 +230,90 @@ impl Adapter<'_> {
             pace,
             transitions: Vec::new(),
             exception: None,
-            told: false,
             traced: None,
             told_at: now,
+            touched: None,
+            has_begun: false,
             end,
             forces: Vec::new(),
         });
         Ok(())
     }
 
+    /// A client has set what it wants to set: its run begins; one that has joined is told whether it stands still.
     pub(super) fn configured(&mut self, now: Wall) -> Answer<Value> {
+        let (asker, is_operator) = (self.asker, self.operator == Some(self.asker));
         let run = self.run()?;
-        match run.launch.stop_on_entry {
-            true => {
-                self.stopped(dapts::StoppedEventReason::Entry, "before the first step", Vec::new())
+        if run.has_begun {
+            if run.mode == Mode::Held {
+                let at = run.target.now();
+                let body = stopped_event(Reason::Pause, "held", at, Vec::new());
+                self.event_to::<event::Stopped>(asker, &body);
             }
-            false => self.go(Mode::On, now)?,
+            return Ok(Value::Null);
         }
+        if !is_operator {
+            return Ok(Value::Null);
+        }
+        self.start(now)?;
         Ok(Value::Null)
     }
 
-    pub(super) fn restart(&mut self, now: Wall) -> Answer<Value> {
-        let launch = self.run()?.launch.clone();
-        let (told, traced) = (self.run()?.told, self.run()?.traced.is_some());
-        self.begin(launch, now)?;
+    fn start(&mut self, now: Wall) -> Answer<()> {
         let run = self.run()?;
-        (run.told, run.traced) = (told, traced.then(Vec::new));
-        self.configured(now)
+        run.has_begun = true;
+        match run.launch.stop_on_entry {
+            true => self.stopped(Reason::Entry, "before the first step", Vec::new()),
+            false => self.go(Mode::On, now)?,
+        }
+        Ok(())
     }
 
-    /// Stops the robot; a client that only wants the plan to end is told how it ended.
-    pub(super) fn stop(&mut self, command: &str) -> Answer<Value> {
-        if let Some(mut run) = self.run.take() {
-            let mut said = Vec::new();
-            run.target.stop(&mut |happened, _| said.push(happened.clone()));
-            if command == "terminate" && run.mode != Mode::Over {
-                said.iter().for_each(|happened| self.say(&run, happened));
-                run.keep_trace(&said);
-                self.tell_trace(&mut run);
-                self.ended(&run);
-            }
+    /// Begins again, with the text as it is now; a client may say with what else.
+    pub(super) fn restart(&mut self, arguments: &Value, now: Wall) -> Answer<Value> {
+        let run = self.run()?;
+        let traced = run.traced.is_some();
+        // Clients send along what they launched with; what is no launch is nothing new.
+        let wanted = serde_json::from_value(arguments.clone()).ok();
+        let wanted = wanted.and_then(|it: Restart| it.arguments);
+        let wanted = wanted.filter(|it| !it.program.is_empty() || it.log.is_some());
+        let launch = wanted.unwrap_or_else(|| run.launch.clone());
+        check(&launch)?;
+        self.begin(launch, now)?;
+        let run = self.run()?;
+        run.traced = traced.then(Vec::new);
+        let program = run.target.program().clone();
+        self.find_breakpoints(&program);
+        self.start(now)?;
+        Ok(Value::Null)
+    }
+
+    /// Ends the plan, the robot stops, and everybody is told how it ended.
+    pub(super) fn terminate(&mut self) -> Answer<Value> {
+        let Some(mut run) = self.run.take() else { return Ok(Value::Null) };
+        let mut said = Vec::new();
+        run.target.stop(&mut |happened, _| said.push(happened.clone()));
+        if run.mode != Mode::Over {
+            said.iter().for_each(|happened| self.say(&run, happened));
+            run.keep_trace(&said);
+            self.tell_trace(&mut run);
+            self.ended(&run);
         }
-        self.over = command == "disconnect";
+        self.operator = None;
+        self.clients.values_mut().for_each(|client| client.attached = false);
+        Ok(Value::Null)
+    }
+
+    /// A client says goodbye; the run goes on for the others, unless it wants it to end.
+    pub(super) fn disconnect(&mut self, asked: &dapts::DisconnectArguments) -> Answer<Value> {
+        let asker = self.asker;
+        if let Some(client) = self.clients.get_mut(&asker) {
+            client.over = true;
+        }
+        self.let_go(asker);
+        if asked.terminate_debuggee == Some(true) {
+            self.terminate()?;
+        }
         Ok(Value::Null)
     }
 
@@ -209,15 +327,47 @@ impl Adapter<'_> {
                 "fault" => filters.fault = true,
                 "deadlineMissed" => filters.deadline_missed = true,
                 "interruption" => filters.interruption = true,
+                "livelock" => filters.livelock = true,
+                "collision" => filters.collision = true,
                 other => {
                     let known = FILTERS.map(|(name, ..)| name).join(", ");
                     return Err(Refusal(format!("nothing is called '{other}'; there are {known}")));
                 }
             }
         }
-        self.breakpoints.filters = filters;
+        self.breakpoints.set_filters(self.asker, filters);
         Ok(Value::Null)
     }
+}
+
+/// # Errors
+/// What is to be run cannot be: why.
+fn check(launch: &Launch) -> Answer<()> {
+    if launch.speed.is_some_and(|speed| !(speed > 0.0 && speed.is_finite())) {
+        return Err("'speed' is a number above 0; leave it out for as fast as can be".into());
+    }
+    if launch.until.is_some_and(|until| !(until > 0.0 && until < 1e9)) {
+        return Err("'until' is a number of seconds above 0; leave it out for no end".into());
+    }
+    let fresh = launch.world.is_some()
+        || launch.start.is_some()
+        || !launch.set.is_empty()
+        || launch.until.is_some();
+    match &launch.log {
+        None if launch.program.is_empty() => {
+            return Err(
+                "'program' is the file of the plan; 'log' is that of a run that is over".into()
+            );
+        }
+        Some(_) if fresh => {
+            return Err(
+                "a log is run again as it was: leave 'world', 'start', 'set' and 'until' out"
+                    .into(),
+            );
+        }
+        _ => {}
+    }
+    Ok(())
 }
 
 /// The number of the thread that is the flow of action.

@@ -1,8 +1,12 @@
 //! What a client can look at while a run stands still: threads, stacks, values.
 
+use std::time::Duration as Wall;
+
 use afp_core::trace::{ComponentId, TraceEntryId};
 use afp_dsl::graph::EntryKind;
-use afp_dsl::unfold::Kind;
+use afp_dsl::types::text::duration;
+use afp_dsl::unfold::ComponentKind;
+use dapts::{IRequest, request};
 use serde_json::Value;
 
 use super::launch::FLOW;
@@ -57,7 +61,7 @@ impl Adapter<'_> {
         &mut self,
         asked: dapts::StackTraceArguments,
     ) -> Answer<dapts::StackTraceResponse> {
-        let client = self.client;
+        let client = self.counting();
         let run = self.run()?;
         let program = run.target.program();
         let thread = u32::try_from(asked.thread_id.saturating_sub(1)).unwrap_or(u32::MAX);
@@ -114,13 +118,13 @@ impl Adapter<'_> {
         let program = self.run()?.target.program().clone();
         let unit = program.unit(id).ok_or("there is no such frame")?;
         let groups = match unit.kind {
-            Kind::Plan => vec![("Entries", Group::Entries, FLOW)],
-            Kind::Supervisor => vec![
+            ComponentKind::Plan => vec![("Entries", Group::Entries, FLOW)],
+            ComponentKind::Supervisor => vec![
                 ("Timing", Group::Timing, id),
                 ("Inputs", Group::Inputs, id),
                 ("Entries", Group::Entries, unit.plan),
             ],
-            Kind::Actor | Kind::SubPlan | Kind::Computation => vec![
+            ComponentKind::Actor | ComponentKind::SubPlan | ComponentKind::Computation => vec![
                 ("Inputs", Group::Inputs, id),
                 ("Entries", Group::Entries, unit.plan),
                 ("Supervisors", Group::Supervisors, id),
@@ -215,7 +219,8 @@ impl Adapter<'_> {
     }
 
     fn timing_of(&mut self, supervisor: ComponentId) -> Answer<Vec<dapts::Variable>> {
-        let state = self.run()?.target.state();
+        let target = &self.run()?.target;
+        let (program, state, now) = (target.program(), target.state(), target.now());
         let report = state.report(supervisor);
         let said = report.map_or("nothing yet".to_owned(), |(at, event)| {
             format!("{event} at {:.3} s", at.as_secs_f64())
@@ -229,6 +234,15 @@ impl Adapter<'_> {
                 all.push(variable("last lateness", late));
             }
         }
+        let Some(times) = program.unit(supervisor).and_then(|unit| unit.times.as_ref()) else {
+            return Ok(all);
+        };
+        if let Some(next) = state.next_release(supervisor, times.every, now) {
+            all.push(variable("next release", format!("{:.3} s", next.as_secs_f64())));
+        }
+        all.push(variable("every", duration(times.every.as_nanos())));
+        all.push(variable("deadline", duration(times.deadline.as_nanos())));
+        all.extend(times.bound.iter().map(|bound| variable("stops within", bound.clone())));
         Ok(all)
     }
 
@@ -246,20 +260,39 @@ impl Adapter<'_> {
         Ok(dapts::SetVariableResponse { value, ..dapts::SetVariableResponse::default() })
     }
 
+    /// Writes an entry that a formula is.
+    pub(super) fn set_expression(
+        &mut self,
+        asked: dapts::SetExpressionArguments,
+    ) -> Answer<dapts::SetExpressionResponse> {
+        let value = self.assign(asked.frame_id, asked.expression.trim(), asked.value.trim())?;
+        Ok(dapts::SetExpressionResponse { value, ..dapts::SetExpressionResponse::default() })
+    }
+
+    /// Writes an entry by its name in the plan of a frame; gives the value.
+    fn assign(&mut self, frame: Option<u64>, name: &str, value: &str) -> Answer<String> {
+        let plan = self.plan_of(None, frame)?;
+        let run = self.run()?;
+        let program = run.target.program().clone();
+        let entry = program.entry(plan, name).and_then(|id| program.entries.get(id.0 as usize));
+        let path = entry.map_or(name, |entry| &*entry.path);
+        Ok(run.target.set(path, value)?)
+    }
+
     /// The value of a formula; `name = value` writes an entry.
     pub(super) fn evaluate(
         &mut self,
         asked: dapts::EvaluateArguments,
+        now: Wall,
     ) -> Answer<dapts::EvaluateResponse> {
+        if let Some((name, value)) = assigned(&asked.expression) {
+            self.may(request::SetExpression::COMMAND, now)?;
+            let result = self.assign(asked.frame_id, name, value)?;
+            return Ok(dapts::EvaluateResponse { result, ..dapts::EvaluateResponse::default() });
+        }
         let plan = self.plan_of(None, asked.frame_id)?;
         let run = self.run()?;
         let program = run.target.program().clone();
-        if let Some((name, value)) = assigned(&asked.expression) {
-            let entry = program.entry(plan, name).and_then(|id| program.entries.get(id.0 as usize));
-            let path = entry.map_or(name, |entry| &*entry.path);
-            let result = run.target.set(path, value)?;
-            return Ok(dapts::EvaluateResponse { result, ..dapts::EvaluateResponse::default() });
-        }
         let watched = Watched::new(&program, plan, &asked.expression)?;
         let result = watched.shown(&program, run.target.state())?;
         let ty = Some(watched.ty());
@@ -296,7 +329,7 @@ fn component(frame: u64) -> ComponentId {
 
 fn frame_name(unit: &Unit) -> String {
     match unit.kind {
-        Kind::Plan => unit.path.clone(),
+        ComponentKind::Plan => unit.path.clone(),
         _ => format!("{}: {}", unit.path, unit.template),
     }
 }

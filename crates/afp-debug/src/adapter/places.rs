@@ -2,31 +2,80 @@
 
 use afp_core::trace::ComponentId;
 use afp_dsl::graph::EntryKind;
+use dapts::{BreakpointEventReason as Changed, event};
 
 use super::stop::source;
-use super::{Adapter, Answer};
-use crate::breakpoints::{Breakpoint, Kind};
+use super::{Adapter, Answer, ClientId};
+use crate::breakpoints::{Breakpoint, Set};
 use crate::program::{Program, Spot};
 use crate::watched::Watched;
 
 /// A breakpoint that a client wants.
-struct Wanted {
-    /// Where, or why it is nowhere.
-    spots: Result<Vec<Spot>, String>,
+#[derive(Clone, Debug)]
+pub(crate) struct Wanted {
+    at: At,
     condition: Option<String>,
     hits: Option<String>,
-    log: Option<String>,
+    /// Says this in place of standing still.
+    pub log: Option<String>,
+}
+
+/// Where a client wants a breakpoint.
+#[derive(Clone, Debug)]
+enum At {
+    /// At a line of a file, from 0.
+    Line(String, u32),
+    /// At what a path means.
+    Path(String),
+    /// Where an entry is written.
+    Entry(String),
+}
+
+impl At {
+    /// What happens there, and at which line where it is one; or why it is nowhere.
+    fn spots(&self, program: &Program) -> Result<(Vec<Spot>, Option<u32>), String> {
+        match self {
+            At::Line(path, line) => {
+                let file = program.file(path).ok_or("the plan that runs does not use this file")?;
+                let found = program.at_line(file, *line);
+                let (line, spots) = found.ok_or("nothing happens at this line or below it")?;
+                Ok((spots.to_vec(), Some(line)))
+            }
+            At::Path(path) => {
+                let like = "write a path such as 'patrol.avoid' or 'patrol.avoid.touch.Pressed'";
+                let nothing = || format!("the plan has nothing called '{path}': {like}");
+                let spot = program.find(path.trim()).ok_or_else(nothing)?;
+                Ok((vec![spot], None))
+            }
+            At::Entry(path) => {
+                let found = program.entry(ComponentId(0), path).map(Spot::Commit);
+                let spot = found.ok_or_else(|| format!("the plan has no entry '{path}'"))?;
+                Ok((vec![spot], None))
+            }
+        }
+    }
 }
 
 impl Wanted {
-    /// The breakpoint of that number.
-    fn made(self, id: u64, program: &Program) -> Result<Breakpoint, String> {
-        let spots = self.spots?;
+    /// The breakpoint of that number in a program.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub(crate) fn made(self, id: u64, program: &Program) -> Result<Breakpoint, String> {
+        let (spots, line) = self.at.spots(program)?;
         let plan = spots.first().map_or(ComponentId(0), |spot| program.plan_at(*spot));
-        let text = self.condition.filter(|text| !text.trim().is_empty());
-        let condition = text.map(|text| Watched::condition(program, plan, &text)).transpose()?;
+        let text = self.condition.as_deref().filter(|text| !text.trim().is_empty());
+        let condition = text.map(|text| Watched::condition(program, plan, text)).transpose()?;
         let from_hit = hit(self.hits.as_deref())?;
-        Ok(Breakpoint { id, spots, condition, from_hit, log: self.log, hits: 0 })
+        Ok(Breakpoint { id, spots, line, condition, from_hit, hits: 0, wanted: self })
+    }
+
+    /// The file that it is in, where it was set in one.
+    fn file(&self) -> Option<&str> {
+        match &self.at {
+            At::Line(path, _) => Some(path),
+            At::Path(_) | At::Entry(_) => None,
+        }
     }
 }
 
@@ -36,50 +85,28 @@ impl Adapter<'_> {
         asked: dapts::SetBreakpointsArguments,
     ) -> Answer<dapts::SetBreakpointsResponse> {
         let path = self.host.path(asked.source.path.as_deref().unwrap_or_default());
-        let first = self.client.first_line;
-        let program = self.run()?.target.program().clone();
-        let file = program.file(&path);
-        let wanted = asked.breakpoints.unwrap_or_default().into_iter().map(|it| {
-            let found = file.map(|file| program.at_line(file, it.line.saturating_sub(first)));
-            let spots = match found {
-                None => Err("the plan that runs does not use this file".to_owned()),
-                Some(None) => Err("nothing happens at this line or below it".to_owned()),
-                Some(Some((_, spots))) => Ok(spots.to_vec()),
-            };
-            let line = found.flatten().map(|(line, _)| line + first);
-            let (condition, hits, log) = (it.condition, it.hit_condition, it.log_message);
-            (Wanted { spots, condition, hits, log }, line)
+        let first = self.counting().first_line;
+        let wanted = asked.breakpoints.unwrap_or_default().into_iter().map(|it| Wanted {
+            at: At::Line(path.clone(), it.line.saturating_sub(first)),
+            condition: it.condition,
+            hits: it.hit_condition,
+            log: it.log_message,
         });
-        let (wanted, lines): (Vec<_>, Vec<_>) = wanted.unzip();
-        let (all, mut told) = self.made(wanted, &program);
-        for (answer, line) in told.iter_mut().zip(lines).filter(|(answer, _)| answer.verified) {
-            answer.line = line;
-            answer.source = file.and_then(|file| source(&program, file));
-        }
-        self.breakpoints.set_lines(path, all);
-        Ok(dapts::SetBreakpointsResponse { breakpoints: told })
+        let breakpoints = self.set_all(Set::Lines(path.clone()), wanted.collect())?;
+        Ok(dapts::SetBreakpointsResponse { breakpoints })
     }
 
     pub(super) fn set_functions(
         &mut self,
         asked: dapts::SetFunctionBreakpointsArguments,
     ) -> Answer<dapts::SetFunctionBreakpointsResponse> {
-        let program = self.run()?.target.program().clone();
-        let find = |name: &str| {
-            let found = program.find(name.trim()).map(|spot| vec![spot]);
-            found.ok_or_else(|| {
-                let like = "write a path such as 'patrol.avoid' or 'patrol.avoid.touch.Pressed'";
-                format!("the plan has nothing called '{name}': {like}")
-            })
-        };
         let wanted = asked.breakpoints.into_iter().map(|it| Wanted {
-            spots: find(&it.name),
+            at: At::Path(it.name),
             condition: it.condition,
             hits: it.hit_condition,
             log: None,
         });
-        let (all, breakpoints) = self.made(wanted.collect(), &program);
-        self.breakpoints.set(Kind::Function, all);
+        let breakpoints = self.set_all(Set::Functions, wanted.collect())?;
         Ok(dapts::SetFunctionBreakpointsResponse { breakpoints })
     }
 
@@ -87,42 +114,83 @@ impl Adapter<'_> {
         &mut self,
         asked: dapts::SetDataBreakpointsArguments,
     ) -> Answer<dapts::SetDataBreakpointsResponse> {
-        let program = self.run()?.target.program().clone();
-        let find = |path: &str| {
-            let found = program.entry(ComponentId(0), path).map(|id| vec![Spot::Commit(id)]);
-            found.ok_or_else(|| format!("the plan has no entry '{path}'"))
-        };
         let wanted = asked.breakpoints.into_iter().map(|it| Wanted {
-            spots: find(&it.data_id),
+            at: At::Entry(it.data_id),
             condition: it.condition,
             hits: it.hit_condition,
             log: None,
         });
-        let (all, breakpoints) = self.made(wanted.collect(), &program);
-        self.breakpoints.set(Kind::Data, all);
+        let breakpoints = self.set_all(Set::Data, wanted.collect())?;
         Ok(dapts::SetDataBreakpointsResponse { breakpoints })
     }
 
-    /// The breakpoints that can be, and an answer for each that is wanted.
-    fn made(
-        &mut self,
-        wanted: Vec<Wanted>,
-        program: &Program,
-    ) -> (Vec<Breakpoint>, Vec<dapts::Breakpoint>) {
+    /// Sets all breakpoints of a kind; an answer for each that is wanted. Others are told of them.
+    fn set_all(&mut self, set: Set, wanted: Vec<Wanted>) -> Answer<Vec<dapts::Breakpoint>> {
+        let program = self.run()?.target.program().clone();
         let (mut all, mut told) = (Vec::new(), Vec::new());
+        let counting = self.counting();
         for wanted in wanted {
             let id = self.breakpoints.number();
-            let mut answer = dapts::Breakpoint { id: Some(id), ..dapts::Breakpoint::default() };
-            match wanted.made(id, program) {
-                Ok(breakpoint) => {
-                    answer.verified = true;
-                    all.push(breakpoint);
+            match wanted.made(id, &program) {
+                Ok(made) => {
+                    told.push(shown(&made, &program, counting.first_line));
+                    all.push(made);
                 }
-                Err(why) => answer.message = Some(why),
+                Err(why) => {
+                    let (id, message) = (Some(id), Some(why));
+                    told.push(dapts::Breakpoint { id, message, ..dapts::Breakpoint::default() });
+                }
             }
-            told.push(answer);
         }
-        (all, told)
+        let owner = self.asker;
+        let before = self.breakpoints.set(owner, set, all.clone());
+        self.tell_others(owner, Changed::Removed, &before, &program);
+        self.tell_others(owner, Changed::New, &all, &program);
+        Ok(told)
+    }
+
+    /// Tells all but their owner of breakpoints.
+    pub(super) fn tell_others(
+        &mut self,
+        owner: ClientId,
+        reason: Changed,
+        all: &[Breakpoint],
+        program: &Program,
+    ) {
+        let others: Vec<_> = self.attached().filter(|id| *id != owner).collect();
+        for other in others {
+            for each in all {
+                self.tell_of(other, owner, reason.clone(), each, program);
+            }
+        }
+    }
+
+    /// Tells a client of a breakpoint of another one.
+    pub(super) fn tell_of(
+        &mut self,
+        other: ClientId,
+        owner: ClientId,
+        reason: Changed,
+        breakpoint: &Breakpoint,
+        program: &Program,
+    ) {
+        let first = self.counting_of(other).first_line;
+        let message = Some(format!("set by {}", self.name_of(owner)));
+        let breakpoint = dapts::Breakpoint { message, ..shown(breakpoint, program, first) };
+        self.event_to::<event::Breakpoint>(other, &dapts::BreakpointEvent { breakpoint, reason });
+    }
+
+    /// Finds all breakpoints anew in a program that has taken the place of another one.
+    pub(super) fn find_breakpoints(&mut self, program: &Program) {
+        for (lost, why) in self.breakpoints.find_in(program) {
+            let breakpoint = dapts::Breakpoint {
+                id: Some(lost.id),
+                message: Some(why),
+                ..dapts::Breakpoint::default()
+            };
+            let reason = Changed::Changed;
+            self.event::<event::Breakpoint>(&dapts::BreakpointEvent { breakpoint, reason });
+        }
     }
 
     pub(super) fn data_info(
@@ -152,7 +220,7 @@ impl Adapter<'_> {
         asked: dapts::BreakpointLocationsArguments,
     ) -> Answer<dapts::BreakpointLocationsResponse> {
         let path = self.host.path(asked.source.path.as_deref().unwrap_or_default());
-        let first = self.client.first_line;
+        let first = self.counting().first_line;
         let program = self.run()?.target.program().clone();
         let (from, to) = (asked.line, asked.end_line.unwrap_or(asked.line));
         let (from, to) = (from.saturating_sub(first), to.saturating_sub(first));
@@ -165,6 +233,18 @@ impl Adapter<'_> {
             end_line: None,
         };
         Ok(dapts::BreakpointLocationsResponse { breakpoints: lines.map(at).collect() })
+    }
+}
+
+/// A breakpoint that is somewhere, as the protocol has it.
+fn shown(breakpoint: &Breakpoint, program: &Program, first_line: u32) -> dapts::Breakpoint {
+    let file = breakpoint.wanted.file().and_then(|path| program.file(path));
+    dapts::Breakpoint {
+        id: Some(breakpoint.id),
+        verified: true,
+        line: breakpoint.line.map(|line| line + first_line),
+        source: file.and_then(|file| source(program, file)),
+        ..dapts::Breakpoint::default()
     }
 }
 

@@ -9,6 +9,7 @@ use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use super::goto::is_there;
 use super::{Adapter, Answer, Refusal, Run, parse};
 use crate::breakpoints::Hits;
 use crate::program::Program;
@@ -35,6 +36,8 @@ pub(super) enum Mode {
     Out(ComponentId),
     /// One step of the scheduler.
     One,
+    /// Until an element is active, along edges that are brought about.
+    Goto(ComponentId),
     /// Up to an instant, whatever happens.
     Seek(Instant),
     /// The plan has ended.
@@ -108,15 +111,21 @@ impl Adapter<'_> {
                 self.tell_state();
                 Ok(forced)
             }
+            "goto" => self.goto(&parse(arguments)?, now),
+            "afp/role" => self.role(&parse(arguments)?, now),
             "afp/why" => self.why(&parse(arguments)?),
             "afp/speed" => self.speed(&parse(arguments)?, now),
             "afp/seek" => self.seek(&parse(arguments)?),
             "afp/world" => self.world(parse(arguments)?),
             "afp/subscribe" => {
                 let Subscribe { state, trace } = parse(arguments)?;
-                self.run()?.told = state;
+                self.run()?;
+                if let Some(client) = self.clients.get_mut(&self.asker) {
+                    client.state = state;
+                }
                 self.trace(trace)?;
                 self.tell_state();
+                self.tell_roles();
                 Ok(Value::Null)
             }
             other => Err(Refusal(format!("this release does not know the request '{other}'"))),
@@ -126,12 +135,13 @@ impl Adapter<'_> {
     /// How long the run can wait until time has to pass again; none where it waits for the client.
     pub fn due(&self) -> Option<Wall> {
         let run = self.run.as_ref()?;
-        match run.mode {
+        let due = match run.mode {
             Mode::Held | Mode::Over => None,
             Mode::Seek(_) => Some(Wall::ZERO),
             _ if run.pace.factor.is_none() => Some(Wall::ZERO),
             _ => Some(Wall::from_millis(10)),
-        }
+        };
+        due.into_iter().chain(self.lease_due()).min()
     }
 
     pub(super) fn go(&mut self, mode: Mode, now: Wall) -> Answer<()> {
@@ -143,6 +153,7 @@ impl Adapter<'_> {
         }
         run.mode = mode;
         run.exception = None;
+        run.touched = run.target.contact();
         run.pace = Pace::new(run.pace.factor, run.target.now(), now);
         Ok(())
     }
@@ -203,8 +214,12 @@ impl Adapter<'_> {
                 Err(why) => return self.failed(run, &why),
             };
             run.keep_trace(&happened);
-            let held = self.look_at(run, &happened, hits.drain(..), before);
+            let held = self.look_at(run, &happened, hits.drain(..), before)
+                || self.look_for_collision(run);
             run.keep_forces(&happened);
+            if let Err(why) = run.lead_on(&happened) {
+                return self.stopped_at(run, Reason::Goto, &why, Vec::new());
+            }
             happened.clear();
             match advance {
                 _ if held => return,
@@ -239,7 +254,8 @@ impl Adapter<'_> {
                 continue;
             }
             all.stop.extend(hits.stop);
-            if let Some(name) = hits.exception {
+            // What follows from it goes wrong, too.
+            if let Some(name) = hits.exception.filter(|_| all.exception.is_none()) {
                 all.exception = Some(name);
                 run.exception = Some((name, what.text.clone()));
             }
@@ -253,6 +269,23 @@ impl Adapter<'_> {
         self.hold(run, &all, happened, steps > before)
     }
 
+    /// Holds the run where the robot has come to touch something, and somebody wants to see that.
+    fn look_for_collision(&mut self, run: &mut Run<'_>) -> bool {
+        if !self.breakpoints.looks_for_collisions() || run.launch.no_debug {
+            return false;
+        }
+        let now = run.target.contact();
+        let before = std::mem::replace(&mut run.touched, now.clone());
+        let Some(thing) = now.filter(|_| before.is_none()) else { return false };
+        let why = match &*thing {
+            "" => "the robot touches something".to_owned(),
+            thing => format!("the robot touches '{thing}'"),
+        };
+        run.exception = Some(("collision", why.clone()));
+        self.stopped_at(run, Reason::Exception, &why, Vec::new());
+        true
+    }
+
     fn hold(
         &mut self,
         run: &mut Run<'_>,
@@ -263,11 +296,16 @@ impl Adapter<'_> {
         let ids = hits.stop.iter().map(|(id, _)| *id).collect();
         let why =
             happened.iter().rev().find(|what| is_transition(what, run.target.program(), None));
-        let why = why.or(happened.last()).map_or("one step", |what| &*what.text).to_owned();
+        let why = why.or(happened.last()).map_or("one step", |what| &*what.text);
+        let wrong = run.exception.as_ref().filter(|_| hits.exception.is_some());
+        let why = wrong.map_or(why, |(_, text)| text).to_owned();
         let reason = match (hits.exception, hits.stop.first()) {
             (Some(_), _) => Reason::Exception,
             (None, Some((_, kind))) => kind.reason(),
-            (None, None) if run.is_through(happened, stepped) => Reason::Step,
+            (None, None) if run.is_through(happened, stepped) => match run.mode {
+                Mode::Goto(_) => Reason::Goto,
+                _ => Reason::Step,
+            },
             _ => return false,
         };
         self.stopped_at(run, reason, &why, ids);
@@ -302,6 +340,7 @@ impl Run<'_> {
             Mode::Into => any(None),
             Mode::Out(plan) => ended(plan),
             Mode::One => stepped,
+            Mode::Goto(to) => is_there(happened, to),
             Mode::On | Mode::Seek(_) | Mode::Held | Mode::Over => false,
         }
     }
@@ -309,10 +348,13 @@ impl Run<'_> {
 
 /// Whether an element of a plan, of any without one, became active or stopped being so.
 pub(super) fn is_transition(what: &Happened, program: &Program, plan: Option<ComponentId>) -> bool {
-    use afp_dsl::unfold::Kind;
+    use afp_dsl::unfold::ComponentKind;
     let event = &what.event;
     let Some(unit) = program.unit(event.component_id) else { return false };
-    let element = matches!(unit.kind, Kind::Actor | Kind::SubPlan | Kind::Computation);
+    let element = matches!(
+        unit.kind,
+        ComponentKind::Actor | ComponentKind::SubPlan | ComponentKind::Computation
+    );
     let kind = matches!(
         event.kind,
         EventKind::Started | EventKind::Finished | EventKind::Interrupted | EventKind::Diverted

@@ -1,6 +1,7 @@
 //! What a client is told while a run goes on, and when it stands still.
 
-use afp_session::{Done, EndingKind, EventKind, Requested};
+use afp_core::Instant;
+use afp_session::{Done, EndingKind, EventKind, Figure, FigureValue, Requested};
 use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
 
@@ -9,6 +10,9 @@ use super::{Adapter, Answer, Run};
 use crate::breakpoints::Kind;
 use crate::program::Program;
 use crate::target::Happened;
+
+/// So many stretches of time are told one by one.
+const SPANS: usize = 4;
 
 impl Kind {
     /// Why a run stands still at such a breakpoint.
@@ -37,17 +41,15 @@ impl Adapter<'_> {
         };
         let program = run.target.program();
         let place = program.unit(what.event.component_id).map(|unit| unit.at);
-        let mut said = dapts::OutputEvent { output: text, ..dapts::OutputEvent::default() };
         let refused = matches!(&what.event.request, Some(Requested { done: Done::Refused(_), .. }));
-        said.category = Some(match refused {
-            true => dapts::OutputEventCategory::Stderr,
-            false => dapts::OutputEventCategory::Console,
-        });
-        if let Some(place) = place.filter(|_| !what.text.is_empty()) {
-            said.line = Some(place.line + self.client.first_line);
-            said.source = source(program, place.file);
+        let mut said = super::output(if refused { "stderr" } else { "console" }, &text);
+        let place = place.filter(|_| !what.text.is_empty());
+        said.source = place.and_then(|place| source(program, place.file));
+        for client in self.attached().collect::<Vec<_>>() {
+            let first = self.counting_of(client).first_line;
+            said.line = place.map(|place| place.line + first);
+            self.event_to::<event::Output>(client, &said);
         }
-        self.event::<event::Output>(&said);
     }
 
     /// Says what a log point says.
@@ -71,17 +73,7 @@ impl Adapter<'_> {
         hits: Vec<u64>,
     ) {
         run.mode = Mode::Held;
-        let text = (reason == Reason::Exception).then(|| why.to_owned());
-        let at = run.target.now().as_secs_f64();
-        self.event::<event::Stopped>(&dapts::StoppedEvent {
-            all_threads_stopped: Some(true),
-            description: Some(format!("{why} at {at:.3} s")),
-            hit_breakpoint_ids: (!hits.is_empty()).then_some(hits),
-            reason,
-            text,
-            thread_id: Some(1),
-            ..dapts::StoppedEvent::default()
-        });
+        self.event::<event::Stopped>(&stopped_event(reason, why, run.target.now(), hits));
         self.tell_trace(run);
         self.tell_state_of(run);
     }
@@ -141,9 +133,17 @@ impl Adapter<'_> {
             }
         };
         let ending = ended.map_or(EndingKind::Interrupted, |(ending, _)| ending);
-        self.output("important", &format!("{sentence}\n"));
-        let ended = json!({"ending": ending.word(), "at": at, "sentences": [sentence]});
-        self.tell("afp/ended", ended);
+        let misses = run.target.misses();
+        let sentences: Vec<_> = std::iter::once(sentence)
+            .chain((misses > 0).then(|| format!("{misses} deadlines were missed")))
+            .chain(run.target.figures().0.iter().filter_map(in_words))
+            .collect();
+        for sentence in &sentences {
+            self.output("important", &format!("{sentence}\n"));
+        }
+        let ended =
+            json!({"ending": ending.word(), "at": at, "sentences": sentences, "misses": misses});
+        self.tell("afp/ended", &ended);
         let exit_code = if ending == EndingKind::Error { 3 } else { 0 };
         self.event::<event::Exited>(&dapts::ExitedEvent { exit_code });
         self.event::<event::Terminated>(&dapts::TerminatedEvent::default());
@@ -155,9 +155,9 @@ impl Adapter<'_> {
         self.run = Some(run);
     }
 
-    /// Tells a client that wants it what is the case.
+    /// Tells clients that want it what is the case.
     pub(super) fn tell_state_of(&mut self, run: &Run<'_>) {
-        if !run.told {
+        if !self.clients.values().any(|client| client.attached && client.state) {
             return;
         }
         let (program, state) = (run.target.program(), run.target.state());
@@ -185,7 +185,40 @@ impl Adapter<'_> {
         ] {
             body[name] = value;
         }
-        self.tell("afp/state", body);
+        self.tell_those(|client| client.attached && client.state, "afp/state", &body);
+    }
+}
+
+/// What a run came to, where there is something to say.
+fn in_words(figure: &Figure) -> Option<String> {
+    let name = figure.name.replace('_', " ");
+    if !figure.text.is_empty() {
+        return Some(format!("{name}: {}", figure.text));
+    }
+    let FigureValue::Spans { spans, .. } = &figure.value else { return None };
+    let shown = spans.iter().take(SPANS);
+    let shown = shown.map(|span| format!("{} at {:.2} s", span.name, span.begin.as_secs_f64()));
+    let more = spans.len().saturating_sub(SPANS);
+    let more = (more > 0).then(|| format!("{more} more"));
+    let all: Vec<_> = shown.chain(more).collect();
+    (!all.is_empty()).then(|| format!("{name}: {}", all.join(", ")))
+}
+
+/// That a run stands still.
+pub(super) fn stopped_event(
+    reason: Reason,
+    why: &str,
+    at: Instant,
+    hits: Vec<u64>,
+) -> dapts::StoppedEvent {
+    dapts::StoppedEvent {
+        all_threads_stopped: Some(true),
+        description: Some(format!("{why} at {:.3} s", at.as_secs_f64())),
+        hit_breakpoint_ids: (!hits.is_empty()).then_some(hits),
+        text: (reason == Reason::Exception).then(|| why.to_owned()),
+        reason,
+        thread_id: Some(1),
+        ..dapts::StoppedEvent::default()
     }
 }
 

@@ -1,7 +1,7 @@
 //! What happened as records, for timelines: in pieces, as it happens, or all of it at once for a run that is over.
 
 use afp_core::Instant;
-use afp_dsl::unfold::Kind;
+use afp_dsl::unfold::ComponentKind;
 use afp_session::EventKind;
 use serde_json::{Value, json};
 
@@ -13,15 +13,26 @@ use crate::target::{Advance, Happened, Position};
 const PIECE: usize = 2_000;
 
 impl Adapter<'_> {
-    /// Begins to tell a client what happens, or ends that. Of a run that is over it is told everything.
+    /// Begins to tell the client that asks what happens, or ends that. Of a run that is over it is told everything.
     pub(super) fn trace(&mut self, wanted: bool) -> Result<(), String> {
         let Some(mut run) = self.run.take() else { return Ok(()) };
-        run.traced = (wanted && !run.target.is_recorded()).then(Vec::new);
-        if wanted && run.target.is_recorded() {
-            let all = recorded(&mut run)?;
-            all.chunks(PIECE).for_each(|piece| self.tell("afp/trace", json!({"records": piece})));
+        // What has happened so far is for those who wanted it before.
+        self.tell_trace(&mut run);
+        if let Some(client) = self.clients.get_mut(&self.asker) {
+            client.trace = wanted;
         }
+        let told = if wanted && run.target.is_recorded() {
+            recorded(&mut run)
+        } else {
+            let anybody = self.clients.values().any(|client| client.attached && client.trace);
+            run.traced = (anybody && !run.target.is_recorded()).then(Vec::new);
+            Ok(Vec::new())
+        };
         self.run = Some(run);
+        let pieces = told?;
+        for piece in pieces.chunks(PIECE) {
+            self.tell_one(self.asker, "afp/trace", json!({"records": piece}));
+        }
         Ok(())
     }
 
@@ -31,7 +42,8 @@ impl Adapter<'_> {
             return;
         };
         let records = std::mem::take(records);
-        self.tell("afp/trace", json!({"records": records}));
+        let body = json!({"records": records});
+        self.tell_those(|client| client.attached && client.trace, "afp/trace", &body);
     }
 }
 
@@ -84,7 +96,7 @@ fn record(what: &Happened, step: u64, program: &Program) -> Option<Value> {
     let mut record = json!({
         "at": event.at.as_secs_f64(), "step": step, "kind": kind, "path": event.component, "text": what.text,
     });
-    if program.unit(event.component_id).is_some_and(|unit| unit.kind == Kind::Supervisor) {
+    if program.unit(event.component_id).is_some_and(|unit| unit.kind == ComponentKind::Supervisor) {
         record["supervisor"] = json!(true);
     }
     if let Some(request) = &event.request {

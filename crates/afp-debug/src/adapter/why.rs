@@ -1,11 +1,12 @@
 //! Why an element runs, or does not: the edge that led to it, and what all edges to it wait for.
 
+use afp_core::Instant;
 use afp_core::trace::{ComponentId, ERROR};
-use afp_dsl::unfold::Kind;
+use afp_dsl::unfold::ComponentKind;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
-use super::{Adapter, Answer, Refusal};
+use super::{Adapter, Answer, Refusal, Run};
 use crate::program::Program;
 use crate::state::State;
 
@@ -13,6 +14,8 @@ use crate::state::State;
 pub(super) struct Why {
     /// An element, or a supervisor: then it is about the element that it watches.
     path: String,
+    /// How it was at that time, in seconds; without it, how it is.
+    at: Option<f64>,
 }
 
 impl Adapter<'_> {
@@ -20,12 +23,14 @@ impl Adapter<'_> {
     /// whether its component looks now, and what that read.
     pub(super) fn why(&mut self, why: &Why) -> Answer<Value> {
         let run = self.run()?;
-        let (program, state) = (run.target.program(), run.target.state());
+        let past = why.at.map(|at| run.past(at)).transpose()?;
+        let (program, now) = (run.target.program(), run.target.state());
+        let state = past.as_ref().unwrap_or(now);
         let found = program.units.iter().skip(1).position(|unit| unit.path == why.path);
         let unknown = || Refusal(format!("the plan has no element '{}'", why.path));
         let found = ComponentId(found.ok_or_else(unknown)? as u32 + 1);
         let unit = program.unit(found).ok_or_else(unknown)?;
-        let id = unit.owner.filter(|_| unit.kind == Kind::Supervisor).unwrap_or(found);
+        let id = unit.owner.filter(|_| unit.kind == ComponentKind::Supervisor).unwrap_or(found);
         let unit = program.unit(id).ok_or_else(unknown)?;
         let mut answer = json!({
             "path": unit.path, "active": state.is_on(id), "values": values(program, state, id),
@@ -38,6 +43,23 @@ impl Adapter<'_> {
             answer["because"] = json!(led.map_or_else(began, |led| led.text.clone()));
         }
         Ok(answer)
+    }
+}
+
+impl Run<'_> {
+    /// What was the case at a time that is over.
+    fn past(&mut self, at: f64) -> Answer<State> {
+        if !(0.0..1e9).contains(&at) {
+            return Err("'at' is a time in seconds from the start".into());
+        }
+        let (at, now) = (Instant::from_nanos((at * 1e9) as u64), self.target.now());
+        if at > now {
+            let now = now.as_secs_f64();
+            return Err(Refusal(format!(
+                "the run is at {now:.3} s: what comes later is not known"
+            )));
+        }
+        Ok(self.target.past(at)?)
     }
 }
 

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use afp_debug::{Adapter, Host, Launch, Program, SessionTarget, Target};
+use afp_debug::{Adapter, ClientId, Host, Launch, Program, SessionTarget, Target, Told};
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
@@ -54,30 +54,53 @@ impl Host<'static> for Texted {
     }
 }
 
-/// A client that is told things.
-pub struct Client {
+/// Clients that share an adapter and are told things.
+pub struct Clients {
     adapter: Adapter<'static>,
+    all: Vec<ClientId>,
     said: i64,
     now: Duration,
-    /// What it was told, one line for each message.
+    /// What they were told, one line for each message: `<--`, from the second client on with its number, `<2-`.
     pub told: String,
 }
 
-impl Client {
-    pub fn new(host: Box<dyn Host<'static>>) -> Client {
+impl Clients {
+    pub fn new(host: Box<dyn Host<'static>>) -> Clients {
         let adapter = Adapter::new(host);
-        Client { adapter, said: 0, now: Duration::ZERO, told: String::new() }
+        Clients { adapter, all: Vec::new(), said: 0, now: Duration::ZERO, told: String::new() }
+    }
+
+    /// The client of that number, from 1; it joins when it speaks for the first time.
+    fn client(&mut self, number: usize) -> ClientId {
+        while self.all.len() < number {
+            self.all.push(self.adapter.join());
+        }
+        self.all[number - 1]
     }
 
     pub fn say(&mut self, line: &str) {
+        self.say_as(1, line);
+    }
+
+    /// A request; `answer` alone is the answer to a question of the adapter.
+    pub fn say_as(&mut self, number: usize, line: &str) {
         let (command, arguments) = line.split_once(' ').unwrap_or((line, "null"));
         let arguments: Value = serde_json::from_str(arguments).expect("arguments are JSON");
         self.said += 1;
+        let kind = if command == "answer" { "response" } else { "request" };
         let message = json!({
-            "seq": self.said, "type": "request", "command": command, "arguments": arguments,
+            "seq": self.said, "type": kind, "command": command, "arguments": arguments,
         });
-        let answers = self.adapter.handle(&message.to_string(), self.now);
+        let from = self.client(number);
+        let answers = self.adapter.handle(from, &message.to_string(), self.now);
         self.hear(answers);
+    }
+
+    /// A client's connection breaks.
+    pub fn lose(&mut self, number: usize) {
+        let gone = self.client(number);
+        let told = self.adapter.leave(gone);
+        self.hear(told);
     }
 
     pub fn tick(&mut self, wall: Option<u64>) {
@@ -95,25 +118,21 @@ impl Client {
         panic!("the run never stands still");
     }
 
-    fn hear(&mut self, messages: Vec<String>) {
-        for message in messages {
+    fn hear(&mut self, messages: Vec<Told>) {
+        for Told { to, message } in messages {
             let message: Value = serde_json::from_str(&message).expect("messages are JSON");
-            let line = match message["type"].as_str() {
-                Some("response") if message["success"] == true => {
-                    format!("{} {}", message["command"].as_str().unwrap_or(""), message["body"])
+            let word = |key: &str| message[key].as_str().unwrap_or("").to_owned();
+            let line = match (message["type"].as_str(), message["success"] == true) {
+                (Some("response"), true) => format!("{} {}", word("command"), message["body"]),
+                (Some("response"), false) => {
+                    format!("{} refused: {}", word("command"), message["message"])
                 }
-                Some("response") => {
-                    format!(
-                        "{} refused: {}",
-                        message["command"].as_str().unwrap_or(""),
-                        message["message"]
-                    )
-                }
-                _ => {
-                    format!("event {} {}", message["event"].as_str().unwrap_or(""), message["body"])
-                }
+                (Some("request"), _) => format!("asks {}", word("command")),
+                _ => format!("event {} {}", word("event"), message["body"]),
             };
-            self.told += &format!("<-- {}\n", line.trim_end_matches(" null"));
+            let number = self.all.iter().position(|id| *id == to).expect("it has joined") + 1;
+            let arrow = if number == 1 { "<--".to_owned() } else { format!("<{number}-") };
+            self.told += &format!("{arrow} {}\n", line.trim_end_matches(" null"));
         }
     }
 }

@@ -6,7 +6,7 @@ use super::super::sketch::{
     Anchor, Arrow, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch,
 };
 use super::super::usage::{Class, Use, times};
-use super::super::view::{To, View, entry_kind_name, entry_name, entry_type};
+use super::super::view::{To, View, entry_name, entry_type};
 use super::parts::{PORT_SIZE, ROW, pill_width};
 use super::supervisors::Stack;
 use super::{Card, Leaving};
@@ -150,7 +150,7 @@ fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
 
 /// How its declaration begins.
 fn keyword(entry: &Entry) -> &'static str {
-    if entry.live { "in live" } else { entry_kind_name(entry.kind) }
+    if entry.live { "in live" } else { entry.kind.word() }
 }
 
 /// Type, initial value and range.

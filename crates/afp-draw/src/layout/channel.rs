@@ -2,7 +2,7 @@
 
 /// A net with its ends at known places.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wire {
+pub(super) struct Segment {
     /// Abscissa of each end, and whether it lies above the channel.
     pub(super) ends: [(f64, bool); 2],
 }
@@ -13,7 +13,7 @@ pub(super) const TOUCHING: f64 = 5.0;
 /// What two vertical lines on top of each other cost, in crossings.
 const OVERLAP: f64 = 50.0;
 
-impl Wire {
+impl Segment {
     /// Left and right end of the horizontal part.
     pub(super) fn range(&self) -> (f64, f64) {
         let [(a, _), (b, _)] = self.ends;
@@ -21,7 +21,7 @@ impl Wire {
     }
 
     /// What it costs when the horizontal part of `self` lies above that of `below`.
-    fn cost_above(&self, below: &Wire) -> f64 {
+    fn cost_above(&self, below: &Segment) -> f64 {
         let mut cost = 0.0;
         let downward = self.ends.iter().filter(|(_, above)| !above);
         for (x, _) in downward {
@@ -40,14 +40,14 @@ fn crossing(x: f64, (left, right): (f64, f64)) -> f64 {
 }
 
 /// The fewest crossings of all pairs, each pair arranged at its best.
-pub(super) fn crossings(wires: &[Wire], work: &mut u64) -> f64 {
+pub(super) fn crossings(segments: &[Segment], work: &mut u64) -> f64 {
     let mut sum = 0.0;
-    for (place, wire) in wires.iter().enumerate() {
-        for other in &wires[..place] {
-            let (one, two) = (wire.range(), other.range());
+    for (place, segment) in segments.iter().enumerate() {
+        for other in &segments[..place] {
+            let (one, two) = (segment.range(), other.range());
             *work += 1;
             if one.0 <= two.1 && two.0 <= one.1 {
-                sum += wire.cost_above(other).min(other.cost_above(wire));
+                sum += segment.cost_above(other).min(other.cost_above(segment));
             }
         }
     }
@@ -56,16 +56,16 @@ pub(super) fn crossings(wires: &[Wire], work: &mut u64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Wire, crossings};
+    use super::{Segment, crossings};
 
-    fn down(from: f64, to: f64) -> Wire {
-        Wire { ends: [(from, true), (to, false)] }
+    fn down(from: f64, to: f64) -> Segment {
+        Segment { ends: [(from, true), (to, false)] }
     }
 
     #[test]
     fn parallel_wires_are_nested_without_crossing() {
-        let wires = [down(0.0, 100.0), down(20.0, 120.0), down(40.0, 140.0)];
-        assert_eq!(crossings(&wires, &mut 0), 0.0);
+        let segments = [down(0.0, 100.0), down(20.0, 120.0), down(40.0, 140.0)];
+        assert_eq!(crossings(&segments, &mut 0), 0.0);
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec
     Some(corners.iter().enumerate().map(moved).collect())
 }
 
-/// Where each layer reaches, with the ways that pass it.
+/// Where each layer reaches, with the dummy nodes that pass it.
 fn extents(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Vec<Extent> {
     let of = |item: &usize| {
         let item = &grid.items[*item];

@@ -1,8 +1,12 @@
-//! The layers with everything that takes room in them: nodes, and the ways of edges that pass by.
+//! The layers with everything that takes room in them: nodes, and the dummy nodes of edges that pass by.
 //!
 //! Channel `c` lies above layer `c`; the last one lies below all layers. An edge is a chain of
-//! *nets*, each crossing one channel, joined by *ways*, each crossing one layer.
+//! *nets*, each crossing one channel, joined by *dummy nodes*, each crossing one layer. Edges of a
+//! bundle share their dummy nodes: the chain of each ends at the first one that is there.
 
+use std::collections::BTreeMap;
+
+use super::super::router::bundles;
 use super::{Exit, Link, Node};
 
 /// Distance between parallel lines in pixels.
@@ -12,7 +16,7 @@ pub(super) const LINE: f64 = 12.0;
 #[derive(Clone, Debug)]
 pub(super) struct Item {
     pub(super) layer: usize,
-    /// The node; `None` for a way.
+    /// The node; `None` for a dummy node.
     pub(super) node: Option<usize>,
     pub(super) width: f64,
     /// Left border.
@@ -37,7 +41,7 @@ pub(super) struct Net {
     pub(super) ends: [Terminal; 2],
 }
 
-/// Layers, ways and nets.
+/// Layers, dummy nodes and nets.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
     pub(super) items: Vec<Item>,
@@ -52,8 +56,11 @@ pub(super) struct Grid {
     pub(super) turns: Vec<Option<f64>>,
 }
 
+/// The dummy nodes that edges share, by bundle, whether they lead down, and layer.
+type Shared = BTreeMap<(usize, bool, usize), usize>;
+
 impl Grid {
-    /// Items in the order of the nodes, every way beside the node it starts from.
+    /// Items in the order of the nodes, every dummy node beside the node it starts from.
     pub(super) fn new(nodes: &[Node], links: &[Link], layer_of: &[usize]) -> Grid {
         let layers = layer_of.iter().max().map_or(0, |last| last + 1);
         let (turns, widths) = turns(nodes, links, layer_of);
@@ -74,8 +81,16 @@ impl Grid {
         for (item, layer) in layer_of.iter().enumerate() {
             grid.layers[*layer].push(item);
         }
+        let bundles = bundles(links.iter().map(|link| (link.from, link.to, link.kind)));
+        let mut shared = Shared::new();
         for (index, link) in links.iter().enumerate() {
-            grid.add_chain(index, link, nodes, layer_of);
+            grid.add_chain(
+                index,
+                link,
+                nodes,
+                layer_of,
+                bundles[index].map(|of| (of, &mut shared)),
+            );
         }
         grid
     }
@@ -85,12 +100,19 @@ impl Grid {
         self.items[terminal.item].x + terminal.offset
     }
 
-    /// The ways of an edge from start to tip, given its nets.
-    pub(super) fn ways(&self, chain: &[usize]) -> Vec<usize> {
+    /// The dummy nodes of an edge from start to tip, given its nets.
+    pub(super) fn dummies(&self, chain: &[usize]) -> Vec<usize> {
         chain.iter().skip(1).map(|net| self.nets[*net].ends[0].item).collect()
     }
 
-    fn add_chain(&mut self, index: usize, link: &Link, nodes: &[Node], layer_of: &[usize]) {
+    fn add_chain(
+        &mut self,
+        index: usize,
+        link: &Link,
+        nodes: &[Node],
+        layer_of: &[usize],
+        mut bundle: Option<(usize, &mut Shared)>,
+    ) {
         let (from, to) = (layer_of[link.from], layer_of[link.to]);
         let down = to > from;
         let leaves_up = !down && self.turns[index].is_some();
@@ -107,11 +129,20 @@ impl Grid {
         };
         let mut chain = Vec::new();
         for layer in passed {
-            let item = self.add_way(layer);
-            let way = |above| Terminal { item, offset: 0.0, above, arrival: None };
-            chain.push(self.add_net(channel, end, way(!down)));
+            let place = bundle.as_ref().map(|(bundle, _)| (*bundle, down, layer));
+            let known = bundle.as_ref().and_then(|(_, shared)| shared.get(&place?).copied());
+            let item = known.unwrap_or_else(|| self.add_dummy(layer));
+            let dummy = |above| Terminal { item, offset: 0.0, above, arrival: None };
+            chain.push(self.add_net(channel, end, dummy(!down)));
+            if known.is_some() {
+                self.chains.push(chain);
+                return;
+            }
+            if let (Some(place), Some((_, shared))) = (place, &mut bundle) {
+                shared.insert(place, item);
+            }
             channel = if down { layer + 1 } else { layer };
-            end = way(down);
+            end = dummy(down);
         }
         let entry = nodes[link.to].entry;
         let middle = (entry.0 + entry.1) / 2.0;
@@ -120,7 +151,7 @@ impl Grid {
         self.chains.push(chain);
     }
 
-    fn add_way(&mut self, layer: usize) -> usize {
+    fn add_dummy(&mut self, layer: usize) -> usize {
         self.items.push(Item { layer, node: None, width: 0.0, x: 0.0 });
         self.layers[layer].push(self.items.len() - 1);
         self.items.len() - 1

@@ -3,7 +3,7 @@
 //! A few sweeps by mean position give a start; then single items move for as long as that helps.
 //! Crossings are counted where they will be seen: in the channels, each pair of edges at its best.
 
-use super::channel::{Wire, crossings};
+use super::channel::{Segment, crossings};
 use super::grid::Grid;
 
 /// Pairs of edges that are compared at most; large plans stop improving here.
@@ -85,12 +85,12 @@ fn total(grid: &Grid, work: &mut u64) -> f64 {
 }
 
 fn cost(grid: &Grid, channel: usize, work: &mut u64) -> f64 {
-    let wires: Vec<_> = grid.channels[channel]
+    let segments: Vec<_> = grid.channels[channel]
         .iter()
-        .map(|net| Wire { ends: grid.nets[*net].ends.map(|end| (grid.x(&end), end.above)) })
+        .map(|net| Segment { ends: grid.nets[*net].ends.map(|end| (grid.x(&end), end.above)) })
         .collect();
-    let lengths = wires.iter().map(|wire| wire.range().1 - wire.range().0);
-    crossings(&wires, work) + LENGTH * lengths.sum::<f64>()
+    let lengths = segments.iter().map(|segment| segment.range().1 - segment.range().0);
+    crossings(&segments, work) + LENGTH * lengths.sum::<f64>()
 }
 
 /// Moves each item of a layer to its best place; says whether anything improved.

@@ -2,16 +2,16 @@
 //!
 //! Every net pulls its two ends together. Layer after layer, the places that minimise the squared
 //! pull under the given order and gaps are found exactly (pooling adjacent violators), a number of
-//! times over. In later rounds the ways of one edge want to be on one line, and in the end they are
+//! times over. In later rounds the dummy nodes of one edge want to be on one line, and in the end they are
 //! put there where neighbours leave room.
 
 use super::grid::{Grid, LINE, Terminal};
 
-/// How often all layers are placed anew, first freely, then with the ways of an edge on a line.
+/// How often all layers are placed anew, first freely, then with the dummy nodes of an edge on a line.
 const ROUNDS: usize = 30;
 const ROUNDS_IN_LINE: usize = 30;
 
-/// How strongly a way is drawn to the line of its edge.
+/// How strongly a dummy node is drawn to the line of its edge.
 const IN_LINE: f64 = 12.0;
 
 /// A bend of fewer pixels looks like a mistake.
@@ -44,14 +44,14 @@ pub(super) fn place(grid: &mut Grid) {
     }
 }
 
-/// The mean of the ways of its edge, for each way.
+/// The mean of the dummy nodes of its edge, for each of them.
 fn lines(grid: &Grid) -> Vec<Option<f64>> {
     let mut lines = vec![None; grid.items.len()];
     for chain in &grid.chains {
-        let ways = grid.ways(chain);
-        let sum: f64 = ways.iter().map(|way| grid.items[*way].x).sum();
-        for way in &ways {
-            lines[*way] = Some(sum / ways.len() as f64);
+        let dummies = grid.dummies(chain);
+        let sum: f64 = dummies.iter().map(|dummy| grid.items[*dummy].x).sum();
+        for dummy in &dummies {
+            lines[*dummy] = Some(sum / dummies.len() as f64);
         }
     }
     lines
@@ -139,32 +139,32 @@ fn non_decreasing(wanted: &[(f64, f64)]) -> Vec<f64> {
     blocks.into_iter().flat_map(|(mean, _, length)| std::iter::repeat_n(mean, length)).collect()
 }
 
-/// Gives the ways of each edge one abscissa, as far as neighbours leave room for that.
+/// Gives the dummy nodes of each edge one abscissa, as far as neighbours leave room for that.
 fn straighten(grid: &mut Grid) {
     for chain in grid.chains.clone() {
         let ends = |net: &usize| grid.nets[*net].ends;
-        let ways = grid.ways(&chain);
+        let dummies = grid.dummies(&chain);
         let (Some(first), Some(last)) = (chain.first(), chain.last()) else { continue };
         let start = straight_end(grid, ends(first)[0], ends(first)[1]);
         let tip = straight_end(grid, ends(last)[1], ends(last)[0]);
-        align(grid, &ways, start.or(tip));
+        align(grid, &dummies, start.or(tip));
     }
 }
 
-/// Where a way would have to be for the net to the end of the edge to be straight.
-fn straight_end(grid: &Grid, end: Terminal, way: Terminal) -> Option<f64> {
-    let there = grid.items[end.item].x + offset(grid, &end, &way);
-    (end.above != way.above && (there - grid.x(&way)).abs() < 8.0 * LINE).then_some(there)
+/// Where a dummy node would have to be for the net to the end of the edge to be straight.
+fn straight_end(grid: &Grid, end: Terminal, dummy: Terminal) -> Option<f64> {
+    let there = grid.items[end.item].x + offset(grid, &end, &dummy);
+    (end.above != dummy.above && (there - grid.x(&dummy)).abs() < 8.0 * LINE).then_some(there)
 }
 
-/// Puts a row of ways on one line, near `wish`, else near their mean; breaks it where it must.
-fn align(grid: &mut Grid, ways: &[usize], wish: Option<f64>) {
-    let mut rest = ways;
+/// Puts a row of dummy nodes on one line, near `wish`, else near their mean; breaks it where it must.
+fn align(grid: &mut Grid, dummies: &[usize], wish: Option<f64>) {
+    let mut rest = dummies;
     while !rest.is_empty() {
         let mut bounds = (f64::NEG_INFINITY, f64::INFINITY);
         let mut length = 0;
-        for way in rest {
-            let (left, right) = room(grid, *way);
+        for dummy in rest {
+            let (left, right) = room(grid, *dummy);
             let next = (bounds.0.max(left), bounds.1.min(right));
             if next.0 > next.1 {
                 break;
@@ -178,10 +178,10 @@ fn align(grid: &mut Grid, ways: &[usize], wish: Option<f64>) {
             continue;
         }
         let (run, after) = rest.split_at(length);
-        let mean = run.iter().map(|way| grid.items[*way].x).sum::<f64>() / run.len() as f64;
+        let mean = run.iter().map(|dummy| grid.items[*dummy].x).sum::<f64>() / run.len() as f64;
         let x = wish.unwrap_or(mean).max(bounds.0).min(bounds.1);
-        for way in run {
-            grid.items[*way].x = x;
+        for dummy in run {
+            grid.items[*dummy].x = x;
         }
         rest = after;
     }

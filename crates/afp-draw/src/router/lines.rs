@@ -9,6 +9,27 @@ use super::{Axis, Bounds, Point, Wire};
 /// No neighbour.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// The sides of a node: above, below, left, right.
+pub(super) const UP: usize = 0;
+pub(super) const DOWN: usize = 1;
+pub(super) const LEFT: usize = 2;
+pub(super) const RIGHT: usize = 3;
+
+/// The side of one point on which another one is, above, below or beside it.
+pub(super) fn side_of(from: Point, to: Point) -> usize {
+    match Axis::of(from, to) {
+        Axis::Upright if to.1 < from.1 => UP,
+        Axis::Upright => DOWN,
+        Axis::Level if to.0 < from.0 => LEFT,
+        Axis::Level => RIGHT,
+    }
+}
+
+/// The direction of lines that lead to a side.
+pub(super) fn axis_of(side: usize) -> Axis {
+    if side <= DOWN { Axis::Upright } else { Axis::Level }
+}
+
 /// Part of a line that is free of boxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Line {
@@ -23,13 +44,18 @@ struct Line {
 pub(super) struct Lines {
     /// Where the nodes are, those of one upright line after another, each from top to bottom.
     pub(super) positions: Vec<Point>,
-    /// The nodes next to each node: above, below, left, right.
+    /// The nodes next to each node, by side.
     pub(super) next: Vec<[u32; 4]>,
 }
 
 impl Lines {
-    /// The lines between boxes for some of the edges.
-    pub(super) fn new(boxes: &[Bounds], wires: &[Wire], searched: &[usize]) -> Lines {
+    /// The lines between boxes for some of the edges, which may join others along the corners of those.
+    pub(super) fn new(
+        boxes: &[Bounds],
+        wires: &[Wire],
+        searched: &[usize],
+        joined: impl Iterator<Item = Point>,
+    ) -> Lines {
         let mut anchors: Vec<Point> = Vec::with_capacity(4 * boxes.len() + 2 * searched.len());
         for each in boxes {
             let corner = |x| [(x, each.top), (x, each.bottom)];
@@ -38,11 +64,24 @@ impl Lines {
         for wire in searched {
             anchors.extend([wires[*wire].escape(boxes), wires[*wire].gate()]);
         }
+        anchors.extend(joined);
         anchors.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         anchors.dedup();
         let ends = extent(boxes);
         let reach = |axis| free_lines(boxes, &anchors, ends, axis);
         crossings(&reach(Axis::Upright), &reach(Axis::Level))
+    }
+
+    /// The nodes from one place to another one above, below or beside it, in the order of their positions.
+    pub(super) fn along(&self, a: Point, b: Point) -> impl Iterator<Item = u32> {
+        let (start, end) = if (a.0, a.1) < (b.0, b.1) { (a, b) } else { (b, a) };
+        let side = side_of(start, end);
+        let holds = move |node: &u32| {
+            let at = self.positions.get(*node as usize);
+            at.is_some_and(|at| at.0 <= end.0 + 0.01 && at.1 <= end.1 + 0.01)
+        };
+        let next = move |node: &u32| Some(self.next[*node as usize][side]).filter(holds);
+        std::iter::successors(self.node(start).filter(holds), next)
     }
 
     /// The node nearest to a place on its upright line.
@@ -161,8 +200,8 @@ fn crossings(upright: &[Line], level: &[Line]) -> Lines {
             // Two lines at one height that touch have one node each; the second one is not needed.
             lines.positions.push((line.at, other.at));
             lines.next.push([above, NONE, left, NONE]);
-            link(&mut lines.next, above, 1, node);
-            link(&mut lines.next, left, 3, node);
+            link(&mut lines.next, above, DOWN, node);
+            link(&mut lines.next, left, RIGHT, node);
             above = node;
         }
     }

@@ -3,6 +3,7 @@
 //! Who comes from the side takes the way of the next edge of its kind for the last bit, so that several edges to one box end in
 //! one tip. Nothing of another kind lies between them, so that none is crossed for that.
 
+use super::bundle::Junction;
 use super::{PITCH, Point, TIP, Wire};
 
 /// What an edge does in front of its target.
@@ -14,6 +15,18 @@ pub(super) enum Join {
     Nearest,
     /// It joins this one.
     Edge(usize),
+    /// It ends on one of its bundle, before that comes to the target.
+    At(Junction),
+}
+
+impl Join {
+    /// Where it ends on one of its bundle.
+    pub(super) fn junction(&self) -> Option<Junction> {
+        match self {
+            Join::At(junction) => Some(*junction),
+            _ => None,
+        }
+    }
 }
 
 /// Lets the edges of one kind that arrive side by side from the side join one of them: one that comes from above where there is

@@ -1,9 +1,12 @@
 //! The cheapest path of one edge over the lines: A* with bends, crossings and full gaps.
 
+use super::bundle::{Junction, Tree};
 use super::gaps::Gaps;
-use super::lines::{Lines, NONE};
+use super::lines::{DOWN, LEFT, Lines, NONE, RIGHT, UP, axis_of};
 use super::queue::Queue;
-use super::{Axis, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_straight_corners};
+use super::{
+    Axis, BUDGET, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_straight_corners,
+};
 
 /// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
 const BEND: u64 = 600;
@@ -13,12 +16,12 @@ const TOO_MANY: u64 = 4000;
 /// As how many edges a gap counts that has turned out to be too narrow.
 const MANY: u32 = 20;
 
+/// How many times what is left to the goal counts once all searches have taken more than their budget: paths become a
+/// little dearer, and an edge across a crowd is found without looking at all of it.
+const HASTE: u64 = 4;
+
 /// A gap that was not looked for yet.
 const UNKNOWN: u32 = NONE - 1;
-
-/// The sides of a node: above, below, left, right.
-const DOWN: usize = 1;
-const RIGHT: usize = 3;
 
 /// What is known about going on from a node in a direction.
 #[derive(Clone, Copy, Debug)]
@@ -47,15 +50,19 @@ pub(super) struct Search<'a> {
     queue: Queue,
     /// How many states all searches have gone on from.
     effort: u64,
+    /// How many times what is left to the goal counts: 1 finds the cheapest path, more the first ones sooner.
+    haste: u64,
 }
 
 /// Where a path may end.
-struct Goal {
+struct Goal<'t> {
     left: f64,
     right: f64,
     y: f64,
     /// Whether as many edges arrive there as fit: another one comes from the side and joins them.
     full: bool,
+    /// What it may end on instead.
+    tree: Option<&'t Tree>,
 }
 
 impl<'a> Search<'a> {
@@ -73,29 +80,39 @@ impl<'a> Search<'a> {
             stamp: 0,
             queue: Queue::new(),
             effort: 0,
+            haste: 1,
         }
     }
 
     /// The corners of the best path, which is then taken; a plain one where boxes leave no gap. With
-    /// `joins` it comes from the side, next to edges that arrive from above.
-    pub(super) fn route(&mut self, wire: &Wire, boxes: &[Bounds], joins: bool) -> Vec<Point> {
+    /// `joins` it comes from the side, next to edges that arrive from above. It ends where it meets the tree of its bundle.
+    pub(super) fn route(
+        &mut self,
+        wire: &Wire,
+        boxes: &[Bounds],
+        joins: bool,
+        tree: Option<&Tree>,
+    ) -> (Vec<Point>, Option<Junction>) {
         let escape = wire.escape(boxes);
         let (left, right) = wire.arrival;
-        let goal = Goal { left, right, y: wire.tip - TIP, full: joins };
+        let goal = Goal { left, right, y: wire.tip - TIP, full: joins, tree };
         let side = if wire.heading == Heading::Down { DOWN } else { RIGHT };
         let start = self.lines.node(escape);
-        let path = start.and_then(|node| self.find(node, side, &goal));
+        let end = start.and_then(|node| self.find(node, side, &goal));
+        let junction = end.and_then(|end| self.junction(end, &goal));
         let mut points = vec![wire.start];
-        match path {
-            Some(path) => points.extend(path),
+        match end {
+            Some(end) => points.extend(self.path(end)),
             None => points.extend(plain(escape, wire)),
         }
-        let end = points.last().map_or(wire.start.0, |last| last.0);
-        points.push((end, wire.tip));
+        if junction.is_none() {
+            let end = points.last().map_or(wire.start.0, |last| last.0);
+            points.push((end, wire.tip));
+            self.arrived[wire.to] += u32::from(!joins);
+        }
         let points = without_straight_corners(points);
         self.occupy(&points);
-        self.arrived[wire.to] += u32::from(!joins);
-        points
+        (points, junction)
     }
 
     /// How many states all searches so far have gone on from.
@@ -112,7 +129,7 @@ impl<'a> Search<'a> {
     pub(super) fn occupy(&mut self, points: &[Point]) {
         for pair in points.windows(2) {
             let [a, b] = pair else { continue };
-            let upright = (a.0 - b.0).abs() < (a.1 - b.1).abs();
+            let upright = Axis::of(*a, *b) == Axis::Upright;
             let gaps = if upright { &mut self.upright } else { &mut self.level };
             let (at, one, two) =
                 (gaps.axis().across(*a), gaps.axis().along(*a), gaps.axis().along(*b));
@@ -129,22 +146,16 @@ impl<'a> Search<'a> {
 
     /// Counts an edge at the nodes of a straight part.
     fn pass(&mut self, a: Point, b: Point, upright: bool) {
-        let (start, end) = if (a.0, a.1) < (b.0, b.1) { (a, b) } else { (b, a) };
-        let side = if upright { DOWN } else { RIGHT };
-        let mut next = self.lines.node(start);
-        while let Some(node) = next.map(|node| node as usize) {
-            let Some(position) = self.lines.positions.get(node) else { break };
-            if position.0 > end.0 + 0.01 || position.1 > end.1 + 0.01 {
-                break;
-            }
-            let passing = &mut self.passing[node][usize::from(!upright)];
+        for node in self.lines.along(a, b) {
+            let passing = &mut self.passing[node as usize][usize::from(!upright)];
             *passing = passing.saturating_add(1);
-            next = Some(self.lines.next[node][side]);
         }
     }
 
-    fn find(&mut self, start: u32, side: usize, goal: &Goal) -> Option<Vec<Point>> {
+    /// The state at which the cheapest path ends.
+    fn find(&mut self, start: u32, side: usize, goal: &Goal) -> Option<u32> {
         self.stamp += 1;
+        self.haste = if self.effort > BUDGET { HASTE } else { 1 };
         self.queue.clear();
         self.reach(state(start, side), 0, NONE, goal);
         while let Some((cost, at)) = self.queue.pop() {
@@ -153,8 +164,9 @@ impl<'a> Search<'a> {
             }
             self.effort += 1;
             let (node, side) = ((at / 4) as usize, (at % 4) as usize);
-            if side == DOWN && goal.holds(self.lines.positions[node]) {
-                return Some(self.path(at));
+            let arrives = side == DOWN && goal.holds(self.lines.positions[node]);
+            if arrives || self.junction(at, goal).is_some() {
+                return Some(at);
             }
             for turned in turns(side) {
                 self.reach(state(at / 4, turned), cost + BEND, at, goal);
@@ -179,7 +191,7 @@ impl<'a> Search<'a> {
         }
         *visit = Visit { stamp, cost, from };
         let rest = goal.rest(self.lines.positions[(at / 4) as usize], (at % 4) as usize);
-        self.queue.push(cost, rest, at);
+        self.queue.push(cost, rest * self.haste, at);
     }
 
     /// The gap below a node, or to the right of it.
@@ -203,7 +215,7 @@ impl<'a> Search<'a> {
     /// The cost of going on to the next node.
     fn step(&mut self, node: usize, next: usize, side: usize) -> u64 {
         let (from, to) = (self.lines.positions[node], self.lines.positions[next]);
-        let upright = side <= DOWN;
+        let upright = axis_of(side) == Axis::Upright;
         let crossed = self.passing[next][usize::from(upright)];
         let first = if side == DOWN || side == RIGHT { node } else { next };
         let gap = self.gap(first, upright);
@@ -214,30 +226,52 @@ impl<'a> Search<'a> {
             + TOO_MANY * u64::from(excess)
     }
 
-    fn path(&self, end: u32) -> Vec<Point> {
+    /// Where a path that ends in a state has come to its tree: from the side, or in the same direction if it has not come
+    /// straight from its exit, which stays where it is.
+    fn junction(&self, end: u32, goal: &Goal) -> Option<Junction> {
+        let junction = goal.tree?.get(&(end / 4)).copied()?;
+        let side = (end % 4) as usize;
+        let before = self.visits[end as usize].from;
+        let turned_here = before != NONE && before / 4 == end / 4;
+        let along = axis_of(side) == junction.axis();
+        let has_turned = || self.states(end).any(|state| state % 4 != end % 4);
+        let joins = !along || side == junction.side && has_turned();
+        (joins && !turned_here).then_some(junction)
+    }
+
+    /// The states of the path that ends in one, from there on back.
+    fn states(&self, end: u32) -> impl Iterator<Item = u32> {
         let before = |at: &u32| Some(self.visits[*at as usize].from).filter(|from| *from != NONE);
-        let states = std::iter::successors(Some(end), before);
+        std::iter::successors(Some(end), before)
+    }
+
+    fn path(&self, end: u32) -> Vec<Point> {
+        let states = self.states(end);
         let mut points: Vec<_> = states.map(|at| self.lines.positions[(at / 4) as usize]).collect();
         points.reverse();
         points
     }
 }
 
-impl Goal {
+impl Goal<'_> {
     fn holds(&self, (x, y): Point) -> bool {
         (y - self.y).abs() < 0.01 && self.left <= x && x <= self.right
     }
 
     /// At least what is left to pay from a place in a direction.
     fn rest(&self, (x, y): Point, side: usize) -> u64 {
+        if self.tree.is_some() {
+            // The tree may be anywhere.
+            return 0;
+        }
         let across = (self.left - x).max(x - self.right).max(0.0);
         let below = y > self.y + 0.01;
         let bends = match side {
             DOWN if below => 4,
             DOWN if across > 0.0 => 2,
             DOWN => 0,
-            0 if below && across > 0.0 => 2,
-            0 => 4,
+            UP if below && across > 0.0 => 2,
+            UP => 4,
             _ if below => 3,
             _ => {
                 let towards = if side == RIGHT { x <= self.right } else { x >= self.left };
@@ -254,7 +288,7 @@ fn state(node: u32, side: usize) -> u32 {
 }
 
 fn turns(side: usize) -> [usize; 2] {
-    if side <= DOWN { [2, RIGHT] } else { [0, DOWN] }
+    if side <= DOWN { [LEFT, RIGHT] } else { [UP, DOWN] }
 }
 
 /// Positions fit into 32 bits, so no sum of lengths comes near the limit.

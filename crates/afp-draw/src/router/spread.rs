@@ -5,10 +5,13 @@
 //! the boxes beside it, in its place of the [`sequence`](super::sequence), [`PITCH`] away from its
 //! neighbours or, where a gap is too narrow for that, as far as it can be.
 
+use std::collections::BTreeMap;
+
+use super::bundle::Junction;
 use super::merge::Join;
 use super::sequence::{Part, REACH, sequence};
 use super::tree::Maxima;
-use super::{Axis, Bounds, Crowded, PITCH, Point, Wire, without_straight_corners};
+use super::{Axis, Bounds, Crowded, PITCH, Point, TIP, Wire, without_straight_corners};
 
 /// How often a too narrow gap is tried with less distance, and how much less each time.
 const ATTEMPTS: usize = 14;
@@ -31,6 +34,8 @@ pub(super) struct Spread<'a> {
     pub(super) fixed: &'a [bool],
     /// What edges do in front of their target.
     pub(super) joins: &'a [Join],
+    /// Those that do not stay, each behind those of its bundle that it ends on.
+    pub(super) order: &'a [usize],
 }
 
 impl Spread<'_> {
@@ -45,7 +50,7 @@ impl Spread<'_> {
                 let (positions, narrow) = positions(&parts, &order);
                 crowded.extend(narrow.iter().map(|(part, distance)| {
                     let Part { edge, first, span, .. } = parts[*part];
-                    let arrives = first + 2 == corners[edge].len();
+                    let arrives = self.arrives(edge, first, &corners[edge]);
                     Crowded { edge, axis, at: positions[*part], span, distance: *distance, arrives }
                 }));
                 for (part, position) in parts.iter().zip(&positions) {
@@ -54,8 +59,10 @@ impl Spread<'_> {
                 if axis == Axis::Upright {
                     self.join(corners);
                 }
+                self.attach(corners);
             }
         }
+        self.complete(corners);
         for (points, _) in corners.iter_mut().zip(self.fixed).filter(|(_, fixed)| !**fixed) {
             *points = without_straight_corners(std::mem::take(points));
         }
@@ -83,7 +90,8 @@ impl Spread<'_> {
             .filter(|edge| ends(*edge))
             .filter_map(|edge| Some((self.wires[edge].to, arrives_at(&corners[edge])?)))
             .collect();
-        for edge in (0..corners.len()).filter(|edge| !ends(*edge)) {
+        let joining = |edge: &usize| matches!(self.joins[*edge], Join::Nearest | Join::Edge(_));
+        for edge in (0..corners.len()).filter(joining) {
             let [.., before, turn, _] = corners[edge][..] else { continue };
             let own = trunks.iter().filter(|(to, _)| *to == self.wires[edge].to);
             let distance = |x: f64| (x - before.0).abs();
@@ -98,26 +106,96 @@ impl Spread<'_> {
         }
     }
 
+    /// Lets what ends on another edge end where that is now.
+    fn attach(&self, corners: &mut [Vec<Point>]) {
+        for (edge, on) in self.junctions() {
+            let (joined, axis) = (corners[on.edge][on.part], on.axis());
+            let points = &mut corners[edge];
+            let [.., before, end] = &mut points[..] else { continue };
+            let place = |corner: &mut Point| match axis {
+                Axis::Upright => corner.0 = joined.0,
+                Axis::Level => corner.1 = joined.1,
+            };
+            place(end);
+            if on.along {
+                place(before);
+            }
+        }
+    }
+
+    /// Leads what ends on another edge on to their target.
+    fn complete(&self, corners: &mut [Vec<Point>]) {
+        for (edge, on) in self.junctions() {
+            let rest = corners[on.edge][on.part + 1..].to_vec();
+            corners[edge].extend(rest);
+        }
+    }
+
+    /// The edges that end on others, with where.
+    fn junctions(&self) -> impl Iterator<Item = (usize, Junction)> {
+        self.order.iter().filter_map(|edge| Some((*edge, self.joins[*edge].junction()?)))
+    }
+
+    /// Whether a part, given by its first corner, is the one that ends at the target.
+    fn arrives(&self, edge: usize, first: usize, points: &[Point]) -> bool {
+        first + 2 == points.len() && self.joins[edge].junction().is_none()
+    }
+
+    /// From where to where parts go that others take in their direction, those of the others included.
+    fn longer(&self, corners: &[Vec<Point>]) -> BTreeMap<(usize, usize), (f64, f64)> {
+        let mut longer: BTreeMap<(usize, usize), (f64, f64)> = BTreeMap::new();
+        let junctions: Vec<_> = self.junctions().filter(|(_, on)| on.along).collect();
+        for (edge, on) in junctions.into_iter().rev() {
+            let of = |edge: usize, first: usize| {
+                span(on.axis(), corners[edge][first], corners[edge][first + 1])
+            };
+            let last = corners[edge].len() - 2;
+            let own = longer.get(&(edge, last)).copied().unwrap_or_else(|| of(edge, last));
+            let joined = longer.entry((on.edge, on.part)).or_insert_with(|| of(on.edge, on.part));
+            *joined = (joined.0.min(own.0), joined.1.max(own.1));
+        }
+        longer
+    }
+
+    /// From where to where the last part of an edge that ends on another one can be moved.
+    fn reach(&self, on: Junction, corners: &[Vec<Point>]) -> (f64, f64) {
+        let points = &corners[on.edge];
+        let ends = [points[on.part], points[on.part + 1]].map(|end| on.axis().along(end));
+        let tip = if self.arrives(on.edge, on.part, points) { TIP } else { 0.0 };
+        let exit = if on.part == 0 { TIP } else { 0.0 };
+        let inset = if ends[0] < ends[1] { [exit, -tip] } else { [-exit, tip] };
+        let (one, two) = (ends[0] + inset[0], ends[1] + inset[1]);
+        (one.min(two), one.max(two))
+    }
+
     /// The straight parts of all edges along an axis.
     fn parts(&self, axis: Axis, corners: &[Vec<Point>]) -> Vec<Part> {
         let mut parts = Vec::new();
+        let longer = self.longer(corners);
         for (edge, points) in corners.iter().enumerate() {
             for (first, pair) in points.windows(2).enumerate() {
                 let [a, b] = pair else { continue };
-                let upright = (a.0 - b.0).abs() < (a.1 - b.1).abs();
-                let arrives = first + 2 == points.len();
-                if upright != (axis == Axis::Upright) || arrives && self.joins[edge] != Join::None {
+                let arrives = self.arrives(edge, first, points);
+                let last = first + 2 == points.len();
+                let joins = self.joins[edge].junction().filter(|_| last);
+                let follows =
+                    joins.is_some_and(|on| on.along) || arrives && self.joins[edge] != Join::None;
+                if Axis::of(*a, *b) != axis || follows {
                     continue;
                 }
                 let at = axis.across(*a);
-                let (one, two) = (axis.along(*a), axis.along(*b));
-                let span = (one.min(two), one.max(two));
+                let known = longer.get(&(edge, first)).copied();
+                let span = known.unwrap_or_else(|| span(axis, *a, *b));
                 let mut room = (at, at);
                 if first > 0 && !self.fixed[edge] {
                     room = between(axis, self.boxes, at, span);
                     if arrives {
                         let (left, right) = self.wires[edge].arrival;
                         room = (room.0.max(left), room.1.min(right));
+                    }
+                    if let Some(on) = joins {
+                        let (from, to) = self.reach(on, corners);
+                        room = (room.0.max(from), room.1.min(to));
                     }
                     room = (room.0.min(at), room.1.max(at));
                 }
@@ -126,6 +204,12 @@ impl Spread<'_> {
         }
         parts
     }
+}
+
+/// From where to where a straight part goes.
+fn span(axis: Axis, a: Point, b: Point) -> (f64, f64) {
+    let (one, two) = (axis.along(a), axis.along(b));
+    (one.min(two), one.max(two))
 }
 
 /// The parts that can be moved, and those that stay beside them.

@@ -1,4 +1,4 @@
-use super::{Bounds, CLEAR, Heading, PITCH, Point, Routes, Wire, route};
+use super::{Bounds, CLEAR, Heading, PITCH, Point, Routes, Wire, bundles, route};
 
 fn bounds((left, top): Point, (width, height): Point) -> Bounds {
     Bounds { left, top, right: left + width, bottom: top + height }
@@ -89,6 +89,7 @@ fn edges_between_boxes_touch_neither_boxes_nor_each_other() {
     for seed in 1..=12 {
         let (boxes, edges) = sample(25, seed);
         let found = routed(&boxes, &edges);
+        let bundles = bundles(edges.iter().map(|(from, to)| (*from, *to, "")));
         for (edge, corners) in found.corners.iter().enumerate() {
             for (upright, at, from, to) in parts(corners) {
                 for each in &boxes {
@@ -101,7 +102,10 @@ fn edges_between_boxes_touch_neither_boxes_nor_each_other() {
                     assert!(!through, "{corners:?} runs through {each:?}");
                 }
             }
-            for (other, others) in found.corners.iter().enumerate().take(edge) {
+            // Those of one bundle run on each other as soon as they meet.
+            let apart = |other: &usize| bundles[edge].is_none() || bundles[edge] != bundles[*other];
+            for other in (0..edge).filter(apart) {
+                let others = &found.corners[other];
                 let near = if edges[edge].1 == edges[other].1 { 120.0 } else { 5.0 };
                 for a in parts(corners) {
                     for b in parts(others) {
@@ -113,6 +117,33 @@ fn edges_between_boxes_touch_neither_boxes_nor_each_other() {
             }
         }
     }
+}
+
+/// Nobody could tell forty parallel lines from one another, and each took a search across all of the others.
+#[test]
+fn many_edges_to_one_box_become_one_as_soon_as_they_meet() {
+    let column = |index: usize| bounds((index as f64 * 0.04, index as f64 * 100.0), (120.0, 60.0));
+    let boxes: Vec<_> = (0..41).map(column).collect();
+    let edges: Vec<_> = (0..40).map(|from| (from, 40)).collect();
+    let found = routed(&boxes, &edges);
+    let mut tips: Vec<_> = found.corners.iter().filter_map(|corners| corners.last()).collect();
+    tips.sort_by(|a, b| a.0.total_cmp(&b.0));
+    tips.dedup();
+    assert!(tips.len() <= 2, "{tips:?}");
+    let mut uprights = Vec::new();
+    for (edge, corners) in found.corners.iter().enumerate() {
+        assert_eq!(corners[0], wires(&boxes, &edges)[edge].start);
+        for pair in corners.windows(2) {
+            let (dx, dy) = ((pair[0].0 - pair[1].0).abs(), (pair[0].1 - pair[1].1).abs());
+            assert!(dx < 0.05 || dy < 0.05, "{corners:?} is not right-angled");
+            if dy > 150.0 {
+                uprights.push(pair[0].0);
+            }
+        }
+    }
+    uprights.sort_by(f64::total_cmp);
+    uprights.dedup_by(|a, b| (*a - *b).abs() < 0.5);
+    assert!(uprights.len() <= 3, "one trunk, not {uprights:?}");
 }
 
 #[test]

@@ -1,28 +1,56 @@
 //! What edges look like together: where several become one, and where one would look dashed.
 
-use std::collections::BTreeMap;
-
 use super::{DrawnEdge, Point};
 
 /// Gaps nearer to each other than that, in pixels, look like those of a dashed line.
 const CLOSE: f64 = 40.0;
 
-/// How long each edge is one with others in front of their target.
+/// How long each edge is one with another one in front of their target.
 pub(super) fn joined(edges: &[DrawnEdge]) -> Vec<f64> {
-    let arrival = |edge: &DrawnEdge| {
-        let [.., turn, tip] = edge.points[..] else { return None };
-        Some(((tip.0.round() as i64, tip.1.round() as i64), tip.1 - turn.1))
-    };
-    let mut at: BTreeMap<_, Vec<f64>> = BTreeMap::new();
-    for (tip, length) in edges.iter().filter_map(arrival) {
-        at.entry(tip).or_default().push(length);
+    // From their tips, those that have most in common stand side by side.
+    let backwards = |edge: &DrawnEdge| edge.points.iter().rev().copied().collect::<Vec<Point>>();
+    let mut sorted: Vec<(Vec<Point>, usize)> =
+        edges.iter().enumerate().map(|(index, edge)| (backwards(edge), index)).collect();
+    let compare = |a: &Point, b: &Point| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
+    sorted.sort_by(|(one, _), (two, _)| {
+        let differ = one.iter().zip(two).map(|(a, b)| compare(a, b)).find(|order| order.is_ne());
+        differ.unwrap_or(one.len().cmp(&two.len()))
+    });
+    let mut joined = vec![0.0; edges.len()];
+    for pair in sorted.windows(2) {
+        let [(one, first), (two, second)] = pair else { continue };
+        let common = common(one, two);
+        for edge in [*first, *second] {
+            joined[edge] = common.max(joined[edge]);
+        }
     }
-    for lengths in at.values_mut() {
-        lengths.sort_by(|a, b| b.total_cmp(a));
+    joined
+}
+
+/// How long two edges are the same from their tips on.
+fn common(one: &[Point], two: &[Point]) -> f64 {
+    let mut length = 0.0;
+    for (own, other) in one.windows(2).zip(two.windows(2)) {
+        if own[0] != other[0] {
+            return 0.0;
+        }
+        let (along, beside) = (leg(own), leg(other));
+        if along.0 != beside.0 {
+            return length;
+        }
+        length += along.1.min(beside.1);
+        if along.1 != beside.1 {
+            return length;
+        }
     }
-    // With whom it has most in common: the longest of the others.
-    let longest = |tip, own: f64| at[&tip].get(1).map_or(0.0, |second| second.min(own));
-    edges.iter().map(|edge| arrival(edge).map_or(0.0, |(tip, own)| longest(tip, own))).collect()
+    length
+}
+
+/// The direction of a straight piece, and how long it is.
+fn leg(ends: &[Point]) -> ((i8, i8), f64) {
+    let sign = |from: f64, to: f64| if from < to { 1 } else { -i8::from(to < from) };
+    let (from, to) = (ends[0], ends[1]);
+    ((sign(from.0, to.0), sign(from.1, to.1)), (from.0 - to.0).abs() + (from.1 - to.1).abs())
 }
 
 /// How often each edge is crossed twice in a short distance. One that lies above those that cross it has no gaps.

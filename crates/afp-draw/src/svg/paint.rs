@@ -13,6 +13,9 @@ use afp_syntax::item::Item;
 /// Radius of the corners of thick arrows.
 const BEND: f64 = 7.0;
 
+/// By how much of its radius a rounded corner is shorter than a sharp one.
+const CUT: f64 = 0.376_775;
+
 /// Length and half width of arrow tips, thick and thin.
 const THICK_TIP: (f64, f64) = (10.0, 5.5);
 const THIN_TIP: (f64, f64) = (7.0, 3.2);
@@ -234,7 +237,12 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
         line(out, &format!("<path class=\"halo\" d=\"{crosses}\"/>"));
     }
     let kind = if arrow.is_flow() { "flow" } else { "thin" };
-    line(out, &format!("<path class=\"{kind} {class}\" d=\"{path}\"/>"));
+    // Dashes are counted from the tip, so that those of edges that become one lie on each other.
+    let dashes = match arrow.joined {
+        0.0 => String::new(),
+        _ => format!(" stroke-dashoffset=\"{}\"", number(-length_of(&points))),
+    };
+    line(out, &format!("<path class=\"{kind} {class}\"{dashes} d=\"{path}\"/>"));
     let corner = |side: f64| {
         format!("{} {}", number(neck.0 - dy * half * side), number(neck.1 + dx * half * side))
     };
@@ -272,7 +280,7 @@ fn bent_path(points: &[(f64, f64)]) -> String {
     let mut path = format!("M{}", text(*first));
     for corner in points.windows(3) {
         let [before, at, after] = corner else { continue };
-        let radius = BEND.min(distance(*before, *at) / 2.0).min(distance(*at, *after) / 2.0);
+        let radius = radius(*before, *at, *after);
         let (into, out) = (direction(*before, *at), direction(*at, *after));
         let from = (at.0 - into.0 * radius, at.1 - into.1 * radius);
         let to = (at.0 + out.0 * radius, at.1 + out.1 * radius);
@@ -282,6 +290,18 @@ fn bent_path(points: &[(f64, f64)]) -> String {
         let _ = write!(path, "L{}", text(*last));
     }
     path
+}
+
+/// How long a polyline with rounded corners is.
+fn length_of(points: &[(f64, f64)]) -> f64 {
+    let straight: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
+    let cut = points.windows(3).map(|corner| radius(corner[0], corner[1], corner[2]) * CUT);
+    straight - cut.sum::<f64>()
+}
+
+/// How round the corner of a polyline is.
+fn radius(before: (f64, f64), at: (f64, f64), after: (f64, f64)) -> f64 {
+    BEND.min(distance(before, at) / 2.0).min(distance(at, after) / 2.0)
 }
 
 /// Along right-angled lines.

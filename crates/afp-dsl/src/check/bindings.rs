@@ -160,7 +160,7 @@ fn find_ports<'a>(
                 ports.complete = false;
                 diags.push(alone::without_port(scope, signature, binds, port));
             }
-            (_, input, _) if alone && scope.places.find(&port.text).is_none() => {
+            (_, input, _) if alone && scope.indices.find(&port.text).is_none() => {
                 bound_names(scope, bind);
                 ports.complete = false;
                 diags.push(alone::without_entry(bind));

@@ -6,7 +6,7 @@ use std::collections::hash_map::Entry;
 
 use crate::check::formula::too_long;
 use crate::check::meant;
-use crate::check::names::{Places, unknown};
+use crate::check::names::{Indices, unknown};
 use crate::check::resume;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
@@ -74,7 +74,7 @@ const NO_REASON: &str = "the plan failed";
 /// What edges can lead to: the elements of a plan by name, and the reasons behind `fail`.
 pub(crate) struct Elements<'a> {
     names: Vec<Option<Name>>,
-    places: Places,
+    indices: Indices,
     reasons: RefCell<Reasons>,
     record: &'a Recorder,
 }
@@ -104,7 +104,7 @@ impl<'a> Elements<'a> {
     pub fn new(names: Vec<Option<Name>>, record: &'a Recorder) -> Elements<'a> {
         let texts = names.iter().map(|name| name.as_ref().map(|name| name.text.as_str()));
         let reasons = RefCell::default();
-        Elements { places: Places::of(texts), names, reasons, record }
+        Elements { indices: Indices::of(texts), names, reasons, record }
     }
 
     /// The name of an element.
@@ -137,8 +137,8 @@ impl<'a> Elements<'a> {
     }
 
     /// Where which element stands.
-    pub fn into_places(self) -> Places {
-        self.places
+    pub fn into_indices(self) -> Indices {
+        self.indices
     }
 
     /// Whether a target is a word of the language.
@@ -180,14 +180,16 @@ impl WrittenEdge {
     }
 
     fn each(edge: &Edge) -> impl Iterator<Item = WrittenEdge> {
-        let (names, target, reason) = (edge.names(), edge.target(), edge.reason());
+        let (names, (mut target, mut reason)) = (edge.names(), edge.target_and_reason());
         let end = reason.as_ref().or(target.as_ref()).map(|last| last.span);
         let end = end.or_else(|| edge.arrow());
         let last = names.len().saturating_sub(1);
         names.into_iter().enumerate().map(move |(place, name)| {
-            let end = end.filter(|_| place == last).unwrap_or(name.span);
-            let (target, reason) = (target.clone(), reason.clone());
-            WrittenEdge { span: name.span.to(end), name, target, reason }
+            let (end, target, reason) = match place == last {
+                true => (end, target.take(), reason.take()),
+                false => (None, target.clone(), reason.clone()),
+            };
+            WrittenEdge { span: name.span.to(end.unwrap_or(name.span)), name, target, reason }
         })
     }
 }
@@ -366,10 +368,10 @@ pub(crate) fn find(
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<ElementId> {
-    let Some(place) = elements.places.find(&to.text) else {
+    let Some(place) = elements.indices.find(&to.text) else {
         elements.record.unknown(to.span);
         let words = [TERMINATE, FAIL].into_iter();
-        let words = words.filter(|word| is_edge && elements.places.find(word).is_none());
+        let words = words.filter(|word| is_edge && elements.indices.find(word).is_none());
         let names = elements.names().chain(words);
         let message = format!("the plan has no element '{}'", to.text);
         let none = "add an element of that name";

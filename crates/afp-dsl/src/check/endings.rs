@@ -1,7 +1,7 @@
 //! Whether a plan can end as `Interrupted`: some event of an element that can be reached leads to
 //! `terminate`.
 
-use crate::check::names::Places;
+use crate::check::names::Indices;
 use afp_syntax::ast::{Edge, Element, ElementKind, Guard, Plan, Reactions};
 use afp_syntax::source::Span;
 
@@ -90,7 +90,8 @@ fn leads_to(edge: &Edge) -> String {
 fn reached(plan: &Plan, events: &Events) -> Vec<bool> {
     let elements = plan.elements();
     let names: Vec<_> = elements.iter().map(Element::name).collect();
-    let places = Places::of(names.iter().map(|name| name.as_ref().map(|name| name.text.as_str())));
+    let indices =
+        Indices::of(names.iter().map(|name| name.as_ref().map(|name| name.text.as_str())));
     let mut open: Vec<String> =
         plan.starts().iter().filter_map(|start| Some(start.target()?.text)).collect();
     if open.is_empty() {
@@ -99,7 +100,7 @@ fn reached(plan: &Plan, events: &Events) -> Vec<bool> {
     let mut reached = vec![false; elements.len()];
     let mut waiting: Vec<_> = events.globals.iter().collect();
     while let Some(next) = open.pop() {
-        let Some(place) = places.find(&next) else { continue };
+        let Some(place) = indices.find(&next) else { continue };
         if std::mem::replace(&mut reached[place], true) {
             continue;
         }

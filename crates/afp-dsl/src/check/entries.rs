@@ -2,7 +2,7 @@
 //! known: `const`, then `in`, then the others.
 
 use crate::check::formula::Scope;
-use crate::check::names::Places;
+use crate::check::names::Indices;
 use crate::check::range;
 use crate::check::types::Types;
 use crate::flow::view::each_entry;
@@ -46,7 +46,7 @@ pub(crate) fn read(
     text: &str,
     record: &Recorder,
     diags: &mut Diagnostics,
-) -> (Vec<EntryDraft>, Places) {
+) -> (Vec<EntryDraft>, Indices) {
     let (written, nameless): (Vec<_>, Vec<_>) =
         plan.entries().into_iter().partition(|entry| entry.name().is_some());
     let written: Vec<_> =
@@ -66,8 +66,8 @@ pub(crate) fn read(
             ranged_by: Vec::new(),
         })
         .collect();
-    let places = Places::of(written.iter().map(|(name, _)| Some(name.text.as_str())));
-    let site = Site { places: &places, types, text, record };
+    let indices = Indices::of(written.iter().map(|(name, _)| Some(name.text.as_str())));
+    let site = Site { indices: &indices, types, text, record };
     for kinds in [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]] {
         for place in 0..drafts.len() {
             if kinds.contains(&drafts[place].kind) {
@@ -79,12 +79,12 @@ pub(crate) fn read(
     for entry in nameless {
         site.names_only(&entry, &drafts);
     }
-    (drafts, places)
+    (drafts, indices)
 }
 
 /// What initial values can name.
 struct Site<'a> {
-    places: &'a Places,
+    indices: &'a Indices,
     types: &'a Types,
     text: &'a str,
     record: &'a Recorder,
@@ -108,8 +108,8 @@ impl Site<'_> {
         readable: &'s dyn Fn(usize) -> bool,
         unreadable: &'s str,
     ) -> Scope<'s> {
-        let Site { places, types, text, record } = *self;
-        Scope { types, tables: &[], entries, places, readable, unreadable, text, record }
+        let Site { indices, types, text, record } = *self;
+        Scope { types, tables: &[], entries, indices, readable, unreadable, text, record }
     }
 }
 

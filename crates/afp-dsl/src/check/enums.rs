@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::check::names::Names;
+use crate::check::names::DeclaredNames;
 use crate::check::size;
 use crate::rows::MAX_ROWS;
 use crate::types::Enum;
@@ -17,7 +17,7 @@ pub(crate) fn read(
 ) -> Option<Arc<Enum>> {
     let name = node.name()?;
     let variants = node.variants();
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     for variant in &variants {
         names.declare(variant, diags);
     }

@@ -12,7 +12,7 @@ use afp_number::{Error, MAX_TEXT};
 use crate::check::constant;
 use crate::check::convert::coerce;
 use crate::check::entries::EntryDraft;
-use crate::check::names::{Places, ambiguous, unknown};
+use crate::check::names::{Indices, ambiguous, unknown};
 use crate::check::types::Types;
 use crate::graph::{EntryId, EntryKind, Formula, FormulaKind};
 use crate::index::{Recorder, Word};
@@ -35,7 +35,7 @@ pub(crate) struct Scope<'a> {
     /// Entries of the plan.
     pub entries: &'a [EntryDraft],
     /// Where they stand.
-    pub places: &'a Places,
+    pub indices: &'a Indices,
     /// Which of them can be read here, by place.
     pub readable: &'a dyn Fn(usize) -> bool,
     /// Why the others cannot.
@@ -66,7 +66,7 @@ impl Scope<'_> {
 
     /// The entry of that name, by its place.
     pub fn entry(&self, name: &ast::Name) -> Option<usize> {
-        let place = self.places.find(&name.text);
+        let place = self.indices.find(&name.text);
         match place {
             Some(place) => self.record.definition(name.span, self.entries[place].name.span),
             None => match self.table(name) {
@@ -82,7 +82,7 @@ impl Scope<'_> {
         let ast::FormulaKind::Ref(reference) = formula.kind() else { return false };
         let name = reference.name().filter(|_| reference.home().is_none());
         name.is_some_and(|name| {
-            self.places.find(&name.text).is_none() && self.table(&name).is_some()
+            self.indices.find(&name.text).is_none() && self.table(&name).is_some()
         })
     }
 

@@ -14,11 +14,11 @@ const REFUSED: &[&str] = &["self", "Self", "super", "crate", "true", "false"];
 
 /// The names declared in one scope so far.
 #[derive(Default)]
-pub(crate) struct Names {
+pub(crate) struct DeclaredNames {
     declared: FxHashMap<String, Name>,
 }
 
-impl Names {
+impl DeclaredNames {
     /// Takes a name into the scope and reports what is wrong with it.
     ///
     /// Returns whether the name is new.
@@ -45,23 +45,23 @@ impl Names {
     }
 }
 
-/// Where names stand in a list. Of names that occur twice the first counts.
+/// The indices of names in a list. Of names that occur twice the first counts.
 #[derive(Default)]
-pub(crate) struct Places(FxHashMap<String, usize>);
+pub(crate) struct Indices(FxHashMap<String, usize>);
 
-impl Places {
-    /// The places in a list, in which there may be holes.
-    pub fn of<'a>(names: impl IntoIterator<Item = Option<&'a str>>) -> Places {
-        let mut places = FxHashMap::default();
-        for (place, name) in names.into_iter().enumerate() {
+impl Indices {
+    /// The indices in a list, in which there may be holes.
+    pub fn of<'a>(names: impl IntoIterator<Item = Option<&'a str>>) -> Indices {
+        let mut indices = FxHashMap::default();
+        for (index, name) in names.into_iter().enumerate() {
             if let Some(name) = name {
-                places.entry(name.to_owned()).or_insert(place);
+                indices.entry(name.to_owned()).or_insert(index);
             }
         }
-        Places(places)
+        Indices(indices)
     }
 
-    /// The place of a name.
+    /// The index of a name.
     pub fn find(&self, name: &str) -> Option<usize> {
         self.0.get(name).copied()
     }

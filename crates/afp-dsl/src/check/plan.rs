@@ -4,7 +4,7 @@ mod component;
 
 use crate::check::edges::Elements;
 use crate::check::formula::Scope;
-use crate::check::names::{self, Names, Places};
+use crate::check::names::{self, DeclaredNames, Indices};
 use crate::check::places::Ranges;
 use crate::check::reactions::Watchers;
 use crate::check::resources::Users;
@@ -40,7 +40,7 @@ pub(crate) struct Members {
     /// The elements.
     pub elements: Vec<Member>,
     /// Where which element stands.
-    pub places: Places,
+    pub indices: Indices,
 }
 
 /// An element or supervisor.
@@ -82,7 +82,7 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         types: &context.file.types,
         tables: &context.file.tables,
         entries: &head.entries,
-        places: &head.places,
+        indices: &head.indices,
         readable: &|_| true,
         unreadable: "",
         text: context.file.text,
@@ -131,7 +131,7 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     size::too_many_rows(head.name.as_ref(), written, diags);
     let reasons = names.reasons();
     let plan = finish(context, head, (drawn, supervisors, reasons), globals, start);
-    members.places = names.into_places();
+    members.indices = names.into_indices();
     CheckedPlan { plan, users, members }
 }
 
@@ -194,7 +194,7 @@ fn declare<'a>(
     record: &'a Recorder,
     diags: &mut Diagnostics,
 ) -> Elements<'a> {
-    let mut scope = Names::default();
+    let mut scope = DeclaredNames::default();
     for entry in &head.entries {
         scope.declare(&entry.name, diags);
         names::entry(&entry.name, diags);
@@ -209,7 +209,7 @@ fn declare<'a>(
             scope.declare(&name, diags);
             names::element(&name, diags);
         }
-        let mut local = Names::default();
+        let mut local = DeclaredNames::default();
         for guard in element.guards() {
             if let Some(name) = guard.name() {
                 local.declare(&name, diags);

@@ -32,51 +32,56 @@ pub(crate) struct Users {
 /// Greatest number of other places that one diagnostic shows.
 const MAX_NOTES: usize = 3;
 
+/// A resource and the place of a component that commands it.
+type Command<'a> = (&'a str, Span);
+
 /// Reports every pair once, at the later supervisor; `order` has sub-plans before their users.
 pub(crate) fn check(plans: &[PlanHead], users: &[Users], order: &[usize], diags: &mut Diagnostics) {
-    let mut inside: Vec<Vec<(String, Span)>> = vec![Vec::new(); plans.len()];
+    let mut inside: Vec<Vec<Command<'_>>> = vec![Vec::new(); plans.len()];
     for plan in order {
         let all = &users[*plan];
+        let of = |user| own(user, &inside);
         let mut commands = Vec::new();
         for (place, global) in all.globals.iter().enumerate() {
-            let mut others = flat(&all.globals[..place], &inside);
-            others.extend(all.elements.iter().flat_map(|(element, _)| own(element, &inside)));
-            report(global, &others, diags);
-            commands.extend(own(global, &inside));
+            let elements = all.elements.iter().map(|(element, _)| element);
+            report(global, all.globals[..place].iter().chain(elements).flat_map(of), diags);
+            commands.extend(of(global));
         }
         for (element, guards) in &all.elements {
-            let inner = own(element, &inside);
             for (place, guard) in guards.iter().enumerate() {
-                let mut others = inner.clone();
-                others.extend(flat(&guards[..place], &inside));
-                others.extend(flat(&all.globals, &inside));
-                report(guard, &others, diags);
-                commands.extend(own(guard, &inside));
+                let others = [element].into_iter().chain(&guards[..place]).chain(&all.globals);
+                report(guard, others.flat_map(of), diags);
+                commands.extend(of(guard));
             }
-            commands.extend(inner);
+            commands.extend(of(element));
         }
-        commands.sort();
-        commands.dedup_by(|a, b| a.0 == b.0);
+        commands.sort_unstable();
+        commands.dedup_by_key(|(resource, _)| *resource);
         inside[*plan] = commands;
     }
 }
 
 /// What a component commands, with a place for each.
-fn own(user: &User, inside: &[Vec<(String, Span)>]) -> Vec<(String, Span)> {
-    match user.plan {
-        Some(plan) => inside[plan].clone(),
-        None => user.uses.iter().map(|resource| (resource.clone(), user.span)).collect(),
-    }
+fn own<'a>(
+    user: &'a User,
+    inside: &[Vec<Command<'a>>],
+) -> impl Iterator<Item = Command<'a>> + Clone {
+    let (uses, within) = match user.plan {
+        Some(plan) => (&[][..], &inside[plan][..]),
+        None => (&user.uses[..], &[][..]),
+    };
+    let uses = uses.iter().map(|resource| (resource.as_str(), user.span));
+    uses.chain(within.iter().copied())
 }
 
-fn flat(users: &[User], inside: &[Vec<(String, Span)>]) -> Vec<(String, Span)> {
-    users.iter().flat_map(|user| own(user, inside)).collect()
-}
-
-fn report(supervisor: &User, others: &[(String, Span)], diags: &mut Diagnostics) {
+fn report<'a>(
+    supervisor: &User,
+    others: impl Iterator<Item = Command<'a>> + Clone,
+    diags: &mut Diagnostics,
+) {
     for resource in &supervisor.uses {
-        let same = others.iter().filter(|(name, _)| name == resource);
-        let mut places: Vec<Span> = same.map(|(_, place)| *place).collect();
+        let same = others.clone().filter(|(name, _)| name == resource);
+        let mut places: Vec<Span> = same.map(|(_, place)| place).collect();
         places.sort();
         places.dedup();
         if places.is_empty() {

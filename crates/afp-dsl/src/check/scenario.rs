@@ -235,7 +235,7 @@ impl Checker<'_> {
             types: &self.context.file.types,
             tables: &[],
             entries,
-            places: &self.head.places,
+            indices: &self.head.indices,
             readable: &known,
             unreadable: "write a value; a scenario knows those of 'const' entries alone",
             text: self.context.file.text,

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::check::imports::{self, Import};
-use crate::check::names::Names;
+use crate::check::names::DeclaredNames;
 use crate::check::signature::Signatures;
 use crate::check::types::Types;
 use crate::check::{
@@ -121,7 +121,7 @@ fn scope<'a>(
 /// The enums that a file declares.
 fn own_enums(file: &PlanFile, diags: &mut Diagnostics) -> Vec<Arc<Enum>> {
     let mut found = Vec::new();
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     for item in file.tree.items() {
         let Item::Enum(node) = item else { continue };
         let Some(home) = enums::read(&node, None, diags) else { continue };
@@ -149,12 +149,12 @@ fn heads(
     });
     let heads: Vec<_> = nodes
         .map(|node| {
-            let (entries, places) = entries::read(&node, types, &file.source.text, record, diags);
+            let (entries, indices) = entries::read(&node, types, &file.source.text, record, diags);
             let interrupting = endings::interrupting(&node);
-            PlanHead { name: node.name(), file: place, entries, places, interrupting, node }
+            PlanHead { name: node.name(), file: place, entries, indices, interrupting, node }
         })
         .collect();
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     for name in heads.iter().filter_map(|head| head.name.as_ref()) {
         names.declare(name, diags);
     }

@@ -8,7 +8,7 @@ mod bound;
 use std::sync::Arc;
 
 use crate::check::formula::Scope;
-use crate::check::names::{Names, Places};
+use crate::check::names::{DeclaredNames, Indices};
 use crate::check::scope::FileScope;
 use crate::check::types::Types;
 use crate::check::{shadows, size};
@@ -36,7 +36,7 @@ pub(super) fn own(
     diags: &mut Diagnostics,
 ) -> Vec<Arc<Table>> {
     let items = file.tree.items();
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     for item in &items {
         let other = match item {
             Item::Plan(node) => node.name(),
@@ -48,12 +48,12 @@ pub(super) fn own(
             names.declare(&name, &mut Diagnostics::default());
         }
     }
-    let places = Places::default();
+    let indices = Indices::default();
     let scope = Scope {
         types,
         tables: &[],
         entries: &[],
-        places: &places,
+        indices: &indices,
         readable: &|_| false,
         unreadable: "write a value: a table has constants alone",
         text: &file.source.text,
@@ -99,7 +99,7 @@ fn read(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Option
 }
 
 fn columns(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Vec<Column> {
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     let mut found = Vec::new();
     for column in node.columns() {
         let ty = column.ty().and_then(|ty| {

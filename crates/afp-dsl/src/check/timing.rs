@@ -17,8 +17,13 @@ const LONGEST: u64 = 3_600_000_000_000;
 
 /// The written time in nanoseconds, 1 ns to 1 h; reports what is none.
 pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u64> {
-    match time(&timing.value()?, "ms", diags)? {
-        0 => refuse(&timing.value()?, "a time is longer than nothing", diags),
+    let value = timing.value()?;
+    above_zero(&value, value.kind(), diags)
+}
+
+fn above_zero(value: &Formula, kind: FormulaKind, diags: &mut Diagnostics) -> Option<u64> {
+    match time_of(value, kind, "ms", diags)? {
+        0 => refuse(value, "a time is longer than nothing", diags),
         time => Some(time),
     }
 }
@@ -30,7 +35,10 @@ pub(crate) fn of_supervisor(
     diags: &mut Diagnostics,
 ) -> Option<u64> {
     let value = timing.value()?;
-    let FormulaKind::Ref(_) = value.kind() else { return nanoseconds(timing, diags) };
+    match value.kind() {
+        FormulaKind::Ref(_) => {}
+        kind => return above_zero(&value, kind, diags),
+    }
     let duration = Type::Quantity(Dimension::named("duration")?);
     let (_, constant) = scope.check(&value, Some(&duration), diags)?;
     let Some(Constant::Float(seconds)) = constant else {
@@ -49,8 +57,17 @@ pub(crate) fn of_supervisor(
 
 /// The written time in nanoseconds, 0 to 1 h; reports what is none. People write such times in the `usual` unit.
 pub(crate) fn time(value: &Formula, usual: &str, diags: &mut Diagnostics) -> Option<u64> {
+    time_of(value, value.kind(), usual, diags)
+}
+
+fn time_of(
+    value: &Formula,
+    kind: FormulaKind,
+    usual: &str,
+    diags: &mut Diagnostics,
+) -> Option<u64> {
     let span = value.span();
-    let FormulaKind::Number { number, unit, broken, .. } = value.kind() else {
+    let FormulaKind::Number { number, unit, broken, .. } = kind else {
         return refuse(value, "a time is a positive number with a unit", diags);
     };
     if broken {

@@ -6,7 +6,7 @@ mod template;
 
 use std::sync::Arc;
 
-use crate::check::names::Names;
+use crate::check::names::DeclaredNames;
 use crate::check::types::Types;
 use crate::check::{enums, imports, shadows, size};
 use crate::index::{self, Declared, Meanings, Recorder};
@@ -125,7 +125,7 @@ fn read(
     no_uses(&items, diags);
     let name = head.and_then(|head| head.name());
     if let Some(name) = &name {
-        Names::default().declare(name, diags);
+        DeclaredNames::default().declare(name, diags);
     }
     let version = head.and_then(|head| head.version());
     let mut toolbox = Toolbox {
@@ -170,7 +170,7 @@ fn no_uses(items: &[Item], diags: &mut Diagnostics) {
 /// Enums and object types, and the names of everything that the toolbox declares.
 fn declare(items: &[Item], toolbox: &mut Toolbox, diags: &mut Diagnostics) -> Types {
     let mut types = Types { generic: true, ..Types::default() };
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     let mut is_new = |name: &Name, is_type: bool, diags: &mut Diagnostics| {
         if is_type && is_built_in(&name.text) {
             shadows(name, diags);

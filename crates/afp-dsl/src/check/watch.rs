@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::check::constant;
 use crate::check::entries::EntryDraft;
 use crate::check::formula::Scope;
-use crate::check::names::Places;
+use crate::check::names::Indices;
 use crate::check::types::Types;
 use crate::graph::{EntryId, Formula, Graph, Plan, PlanId};
 use crate::index::Recorder;
@@ -92,7 +92,7 @@ impl Watch {
 /// What formulas in a plan can name.
 struct Inside {
     entries: Vec<EntryDraft>,
-    places: Places,
+    indices: Indices,
     types: Types,
 }
 
@@ -118,7 +118,7 @@ impl Inside {
             types.enums.extend(known.map(|each| (Some(toolbox.name.clone()), each.clone())));
         }
         types.enums.extend(own_enums(graph).into_iter().map(|each| (None, each)));
-        Inside { entries: entries.collect(), places: Places::of(names), types }
+        Inside { entries: entries.collect(), indices: Indices::of(names), types }
     }
 
     fn formula(&self, text: &str, want: Option<&Type>) -> Result<Formula, WatchError> {
@@ -130,7 +130,7 @@ impl Inside {
             types: &self.types,
             tables: &[],
             entries: &self.entries,
-            places: &self.places,
+            indices: &self.indices,
             readable: &|_| true,
             unreadable: "",
             text: &whole,

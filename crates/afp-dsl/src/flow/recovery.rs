@@ -14,37 +14,37 @@ use crate::graph::SupervisorId;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// An event of a global supervisor, and where it leads.
-type Way = (SupervisorId, u16, Node);
+type Recovery = (SupervisorId, u16, Node);
 
 /// Warns of each such event, at its edge.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
-    let ways = ways(view);
-    let ways: Vec<_> = ways.into_iter().collect();
-    for group in ways.chunks(WIDTH) {
+    let recoveries = recoveries(view);
+    let recoveries: Vec<_> = recoveries.into_iter().collect();
+    for group in recoveries.chunks(WIDTH) {
         let mut stops = vec![0u64; view.edges.len()];
         for (bit, (_, edges)) in group.iter().enumerate() {
             edges.iter().for_each(|at| stops[*at] = 1 << bit);
         }
         let without = propagate(view, u64::MAX, &stops);
-        for (bit, (way, edges)) in group.iter().enumerate() {
+        for (bit, (recovery, edges)) in group.iter().enumerate() {
             let edge = edges.last().map(|at| view.edges[*at]);
-            report(view, *way, edge, |node| without[node] >> bit & 1 == 0, diags);
+            report(view, *recovery, edge, |node| without[node] >> bit & 1 == 0, diags);
         }
     }
 }
 
-/// The edges of each way; those that hold for most elements come last.
-fn ways(view: &View<'_>) -> BTreeMap<Way, Vec<usize>> {
-    let mut ways: BTreeMap<Way, Vec<usize>> = BTreeMap::new();
+/// The edges of each recovery; those that hold for most elements come last.
+fn recoveries(view: &View<'_>) -> BTreeMap<Recovery, Vec<usize>> {
+    let mut recoveries: BTreeMap<Recovery, Vec<usize>> = BTreeMap::new();
     for (at, edge) in view.edges.iter().enumerate().filter(|(_, edge)| view.reached[edge.from]) {
-        if let Some(way) = way(view, edge) {
-            ways.entry(way).or_default().push(at);
+        if let Some(recovery) = recovery_of(view, edge) {
+            recoveries.entry(recovery).or_default().push(at);
         }
     }
-    ways
+    recoveries
 }
 
-fn way(view: &View<'_>, edge: &Edge) -> Option<Way> {
+fn recovery_of(view: &View<'_>, edge: &Edge) -> Option<Recovery> {
     let (id, event) = match edge.cause {
         Cause::Event(id, event) if view.is_shared(edge.from) => (id, event),
         Cause::On(_, id, Some(event)) => (id, event),
@@ -57,7 +57,7 @@ fn way(view: &View<'_>, edge: &Edge) -> Option<Way> {
 /// `only` tells which nodes can be reached by the event alone.
 fn report(
     view: &View<'_>,
-    wanted: Way,
+    wanted: Recovery,
     edge: Option<Edge>,
     only: impl Fn(usize) -> bool,
     diags: &mut Diagnostics,
@@ -66,7 +66,7 @@ fn report(
     let Some(target) = view.element(edge.to).filter(|_| only(edge.to)) else { return };
     let again = |node: usize| {
         let mut edges = view.of_globals(node);
-        node != edge.to && only(node) && edges.any(|other| way(view, other) == Some(wanted))
+        node != edge.to && only(node) && edges.any(|other| recovery_of(view, other) == Some(wanted))
     };
     let mut recovery = view.elements().filter(|(node, other)| takes_time(other) && again(*node));
     let Some((_, other)) = recovery.next() else { return };

@@ -71,10 +71,7 @@ impl Dump<'_> {
     fn entry(&mut self, entry: &Entry) {
         let kind = match entry.kind {
             EntryKind::In if entry.live => "in live",
-            EntryKind::In => "in",
-            EntryKind::Out => "out",
-            EntryKind::Var => "var",
-            EntryKind::Const => "const",
+            kind => kind.word(),
         };
         let mut line = format!("{kind} {}: {}", entry.name, entry.ty);
         if let Some(init) = &entry.init {

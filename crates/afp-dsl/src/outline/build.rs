@@ -293,15 +293,19 @@ impl Places<'_> {
     pub fn value(&self, formula: &ast::Formula) -> Value {
         let span = formula.span();
         let text = self.in_one_line(span).unwrap_or_else(|| formula.in_one_line());
-        Value { text, span, entry: self.entry(span) }
+        let entry = if formula.is_name() { self.entry(span) } else { None };
+        Value { text, span, entry }
     }
 
     /// The text at a place, where it stands in one line without comments and spare blanks.
     pub fn in_one_line(&self, span: Span) -> Option<String> {
         let text = self.text.get(span.start as usize..span.end as usize)?;
-        let broken = text.bytes().any(|byte| matches!(byte, b'\n' | b'\r' | b'\t'));
-        let apart = |two: &[u8]| matches!(two, b"  " | b"//" | b"/*");
-        (!broken && !text.as_bytes().windows(2).any(apart)).then(|| text.to_owned())
+        let mut before = b'\0';
+        let fits = text.bytes().all(|byte| {
+            let two = [std::mem::replace(&mut before, byte), byte];
+            !matches!(byte, b'\n' | b'\r' | b'\t') && !matches!(&two, b"  " | b"//" | b"/*")
+        });
+        fits.then(|| text.to_owned())
     }
 
     fn start(&self, start: &ast::Start) -> Start {

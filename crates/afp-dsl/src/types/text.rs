@@ -55,7 +55,7 @@ fn in_unit(value: f64, dimension: Dimension, unit_text: &str) -> Option<String> 
     // Fifteen digits undo the rounding of the division; whether they do is checked.
     let rounded: f64 = format!("{:.14e}", value / factor).parse().ok()?;
     let text = format!("{} {unit_text}", number(rounded));
-    let back = Literal::parse(&text).ok()?.quantity(dimension).ok()?;
+    let back = Literal::parse(&text).filter(|it| it.dimension() == dimension)?.value()?;
     (back == value).then_some(text)
 }
 
@@ -95,7 +95,7 @@ pub(crate) fn value(value: f64, ty: &Type) -> String {
     }
     let symbol = dimension.usual_unit();
     let one = Literal::parse(&format!("1 {symbol}"));
-    let factor = one.ok().and_then(|literal| literal.value()).unwrap_or(1.0);
+    let factor = one.and_then(|literal| literal.value()).unwrap_or(1.0);
     format!("{} {symbol}", Rounded(value / factor, DECIMALS)).trim_end().to_owned()
 }
 

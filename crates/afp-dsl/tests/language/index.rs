@@ -237,7 +237,7 @@ fn an_editor_asks_the_index() {
     assert_eq!(members, ["side", "gap", "go", "turn"]);
     // Completion: inside of the plan also what it is made of.
     let names = |offset: u32| {
-        let all = index.visible(compiled.plan_files.start as u16, offset).into_iter();
+        let all = index.visible(compiled.plan_files.start as u16, offset, |_| true).into_iter();
         let all = all.map(|id| compiled.sources.text(index.definition(id).name));
         all.collect::<Vec<_>>()
     };
@@ -249,6 +249,10 @@ fn an_editor_asks_the_index() {
     );
     assert!(!names(0).contains(&"gap") && names(0).contains(&"Patrol"));
     assert!(!names(inside).contains(&"Count"), "the toolbox 'std' is not used");
+    let plans = |kind| kind == DefinitionKind::Plan;
+    let plans = index.visible(compiled.plan_files.start as u16, inside, plans).into_iter();
+    let plans: Vec<_> = plans.map(|id| compiled.sources.text(index.definition(id).name)).collect();
+    assert_eq!(plans, ["Patrol"]);
     // Nothing stands between the names.
     let (file, offset) = find(&compiled, "{ left", 1);
     assert_eq!(index.at(file, offset), None);

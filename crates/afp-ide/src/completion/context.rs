@@ -263,17 +263,14 @@ fn named(view: &View, name: &Token) -> Option<DefinitionId> {
     use DefinitionKind::{Alias, Component, Device, Enum, Toolbox};
 
     let index = view.index();
-    let fits = |id: &DefinitionId| {
-        let kind = index.definition(*id).kind;
-        let has_members = matches!(kind, Alias | Component(_) | Device | Enum | Toolbox);
-        has_members && view.name_of(*id) == name.text()
-    };
-    let aliases = index.definitions_in(view.file).map(|(id, _)| id);
-    let aliases = aliases.filter(|id| index.definition(*id).kind == Alias);
-    let visible = index.visible(view.file, view.token_span(name).start).into_iter();
-    let toolboxes = index.definitions().map(|(id, _)| id);
-    let toolboxes = toolboxes.filter(|id| matches!(index.definition(*id).kind, Toolbox | Device));
-    aliases.chain(visible).chain(toolboxes).find(fits)
+    let aliases = index.definitions_in(view.file).filter(|(_, known)| known.kind == Alias);
+    let aliases = aliases.map(|(id, _)| id);
+    let has_members = |kind| matches!(kind, Component(_) | Device | Enum);
+    let visible = index.visible(view.file, view.token_span(name).start, has_members);
+    let toolboxes = index.definitions();
+    let toolboxes = toolboxes.filter(|(_, known)| matches!(known.kind, Toolbox | Device));
+    let toolboxes = toolboxes.map(|(id, _)| id);
+    aliases.chain(visible).chain(toolboxes).find(|id| view.name_of(*id) == name.text())
 }
 
 /// The ports of the component whose brackets a token stands in.

@@ -99,7 +99,8 @@ struct Made {
 /// All templates of all toolboxes, and the plans in view.
 fn all_made(list: &List, offset: u32) -> Vec<Made> {
     let view = list.view;
-    let visible = view.index().visible(view.file, offset);
+    let is_made = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
+    let visible = view.index().visible(view.file, offset, is_made);
     let mut all = Vec::new();
     for (toolbox, template) in templates_of(list) {
         let Some(id) = view.index().declared_at(template.span) else { continue };
@@ -154,12 +155,13 @@ fn add_made(list: &mut List, made: &Made, insert: Vec<Piece>, rank: u8) {
     let far = u8::from(made.missing.is_some()) * 4;
     list.definition_as(made.id, &label, insert, rank + far);
     if let (Some(toolbox), Some(last)) = (&made.missing, list.all.last_mut()) {
-        last.with = line_of_use(list.view, toolbox);
+        let line = list.uses.entry(toolbox.clone());
+        last.with.clone_from(line.or_insert_with(|| line_of_use(list.view, toolbox)));
     }
 }
 
 /// The edit that brings a toolbox into view.
-pub(super) fn line_of_use(view: &crate::View, toolbox: &str) -> Vec<TextEdit> {
+fn line_of_use(view: &crate::View, toolbox: &str) -> Vec<TextEdit> {
     let change = Change::AddUse { toolbox: toolbox.to_owned(), alias: None };
     let files = [Source::new("", view.text())];
     let mut edits = edit(&files, view.toolboxes, 0, &change).unwrap_or_default();
@@ -261,19 +263,16 @@ pub(super) fn elements(list: &mut List, offset: u32) {
 
 /// The plans in view.
 pub(super) fn plan_names(list: &mut List) {
-    let visible = list.view.index().visible(list.view.file, 0);
-    for id in visible {
-        if list.view.index().definition(id).kind == DefinitionKind::Plan {
-            list.definition(id, 0);
-        }
-    }
+    visible(list, 0, DefinitionKind::Plan);
 }
 
 /// The tables in view.
 pub(super) fn tables(list: &mut List, offset: u32) {
-    for id in list.view.index().visible(list.view.file, offset) {
-        if list.view.index().definition(id).kind == DefinitionKind::Table {
-            list.definition(id, 0);
-        }
-    }
+    visible(list, offset, DefinitionKind::Table);
+}
+
+fn visible(list: &mut List, offset: u32, kind: DefinitionKind) {
+    let view = list.view;
+    let ids = view.index().visible(view.file, offset, |known| known == kind);
+    ids.into_iter().for_each(|id| list.definition(id, 0));
 }

@@ -55,9 +55,8 @@ pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
 /// What the plan of the scenario at a place is made of.
 fn of_plan(list: &mut List, offset: u32, fits: fn(DefinitionKind) -> bool) {
     let view = list.view;
-    for id in view.index().visible(view.file, offset) {
-        let definition = view.index().definition(id);
-        if definition.owner.is_some() && fits(definition.kind) {
+    for id in view.index().visible(view.file, offset, fits) {
+        if view.index().definition(id).owner.is_some() {
             list.definition(id, 0);
         }
     }

@@ -199,17 +199,13 @@ pub(super) fn types(list: &mut List, offset: u32) {
         list.add(name, CompletionKind::Type, plain(name), 1);
     }
     let view = list.view;
-    let of_file = view.index().definitions_in(view.file).map(|(id, _)| id);
+    let is_type = |kind| matches!(kind, DefinitionKind::Enum | DefinitionKind::Object);
+    let of_file = view.index().definitions_in(view.file).filter(|(_, known)| is_type(known.kind));
     let visible = match view.is_plan_file() {
-        true => view.index().visible(view.file, offset),
-        false => of_file.collect(),
+        true => view.index().visible(view.file, offset, is_type),
+        false => of_file.map(|(id, _)| id).collect(),
     };
-    for id in visible {
-        if matches!(view.index().definition(id).kind, DefinitionKind::Enum | DefinitionKind::Object)
-        {
-            list.definition(id, 0);
-        }
-    }
+    visible.into_iter().for_each(|id| list.definition(id, 0));
     if !view.is_plan_file() {
         for name in ["any", "number"] {
             list.add(name, CompletionKind::Type, plain(name), 2);

@@ -233,7 +233,7 @@ fn bind(bind: &Bind, words: &Words) -> (String, Text, Place) {
 }
 
 fn edge(edge: &ast::Edge) -> Vec<(String, String, Place)> {
-    let reason = edge.reason().map(|reason| format!(" {}", reason.text));
+    let reason = edge.target_and_reason().1.map(|reason| format!(" {}", reason.text));
     let target = edge.target().unwrap().text + &reason.unwrap_or_default();
     let each = |name: ast::Name| (name.text, target.clone(), place(edge.span()));
     edge.names().into_iter().map(each).collect()

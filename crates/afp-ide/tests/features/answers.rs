@@ -193,6 +193,7 @@ pub fn hints(case: &Case) -> String {
 pub fn lenses(case: &Case) -> String {
     let all = lenses::lenses(&case.view());
     lines(
-        all.iter().map(|lens| format!("{} {:?} '{}'", case.place(lens.span), lens.deed, lens.name)),
+        all.iter()
+            .map(|lens| format!("{} {:?} '{}'", case.place(lens.span), lens.action, lens.name)),
     )
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use afp_draw::{EdgeScene, ElementScene, PieceScene, PlanScene, Rect};
-use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{Component, Entry, Outline, Part, Plan};
 use afp_ide::edit::path;
 use afp_syntax::diagnostics::Severity;
@@ -214,12 +213,7 @@ fn entry(entry: &Entry) -> Value {
     json!({
         "item": path(&entry.item),
         "name": entry.name.as_ref().map(|name| &name.text),
-        "kind": match entry.kind {
-            EntryKind::In => "in",
-            EntryKind::Out => "out",
-            EntryKind::Var => "var",
-            EntryKind::Const => "const",
-        },
+        "kind": entry.kind.word(),
         "type": entry.ty.as_ref().map(ToString::to_string),
         "value": entry.init.as_ref().map(|init| &init.text),
         "range": entry.range.as_ref().map(|ends| ends.each_ref().map(|end| &end.text)),

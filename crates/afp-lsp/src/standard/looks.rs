@@ -1,7 +1,7 @@
 //! How a text looks: hover, colours, folds, selections, hints and lenses.
 
 use afp_ide::folding::{FoldKind, folds};
-use afp_ide::lenses::{Deed, Lens};
+use afp_ide::lenses::{Lens, LensAction};
 use afp_ide::tokens::{Colour, ColourKind, colours};
 use gen_lsp_types as lsp;
 use serde_json::{Value, json};
@@ -125,11 +125,11 @@ fn shown(
     places: &Places<'_>,
     uri: &lsp::Uri,
 ) -> Option<lsp::CodeLens> {
-    let (title, command) = match lens.deed {
-        Deed::Run => ("run", "afp.run"),
-        Deed::Debug => ("debug", "afp.debug"),
-        Deed::Draw => ("drawing", "afp.drawing"),
-        Deed::Test => ("test", "afp.test"),
+    let (title, command) = match lens.action {
+        LensAction::Run => ("run", "afp.run"),
+        LensAction::Debug => ("debug", "afp.debug"),
+        LensAction::Draw => ("drawing", "afp.drawing"),
+        LensAction::Test => ("test", "afp.test"),
     };
     server.client.commands.iter().any(|known| known == command).then(|| lsp::CodeLens {
         range: places.range(lens.span),

@@ -62,7 +62,27 @@ fn conversation(written: &str) -> String {
     text
 }
 
-fn say(client: &mut Client, files: &Files, said: &str) -> Vec<Value> {
+/// The files of a case, and what is said in it.
+pub fn steps(written: &str) -> (Files, Vec<String>) {
+    let (mut files, mut said) = (Files::default(), Vec::<String>::new());
+    let mut lines = written.lines();
+    while let Some(line) = lines.next() {
+        if let Some(path) = line.strip_prefix("file ") {
+            let body = lines.by_ref().take_while(|line| *line != "end");
+            files.0.insert(path.to_owned(), body.map(|line| format!("{line}\n")).collect());
+        } else if let Some(first) = line.strip_prefix("--> ") {
+            said.push(first.to_owned());
+        } else if line.starts_with("    ")
+            && let Some(last) = said.last_mut()
+        {
+            *last += line;
+        }
+    }
+    (files, said)
+}
+
+/// What the server says to a step.
+pub fn say(client: &mut Client, files: &Files, said: &str) -> Vec<Value> {
     let mut words = said.splitn(3, ' ');
     let (what, name) = (words.next().unwrap(), words.next().unwrap());
     let params = words.next().unwrap_or("null").replace('@', "file:///w/");

@@ -2,5 +2,7 @@
 
 mod cases;
 mod client;
+mod errors;
 mod export;
+mod killed;
 mod random;

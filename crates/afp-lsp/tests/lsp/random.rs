@@ -8,6 +8,11 @@ use crate::client::{Client, Files};
 const URI: &str = "file:///w/plan.afp";
 const PLAN: &str = "use carbot\n\n// ä𝄞\nplan P {\n    start go\n    actor go: Forward {\n        ForwardSuccessful -> go\n    }\n}\n";
 
+/// So many conversations by day; `AFP_BY_NIGHT` holds forty times as many.
+fn cases(by_day: u32) -> u32 {
+    if std::env::var_os("AFP_BY_NIGHT").is_some() { by_day * 40 } else { by_day }
+}
+
 /// Texts that are typed.
 const WORDS: &[&str] = &[
     "",
@@ -121,7 +126,7 @@ fn last(said: &[Value]) -> Option<Value> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(cases(48)))]
 
     /// However a text came about: the server says what one says that has just been started on it.
     #[test]
@@ -248,7 +253,7 @@ const METHODS: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(192))]
+    #![proptest_config(ProptestConfig::with_cases(cases(192)))]
 
     /// Every request has exactly one response, whatever it says.
     #[test]

@@ -4,7 +4,7 @@
 
 pub mod templates {
     //! What `{{name}}.afp` declares, as Rust.
-    afp::toolbox!("{{name}}.afp");
+    afp::toolbox!("{{name}}.afp", robot: super::Wheels + super::Bumper);
 }
 
 mod sim;

@@ -2,7 +2,7 @@
 
 pub mod templates {
     //! What the toolbox declares, as Rust.
-    afp::toolbox!("{{name}}.afp");
+    afp::toolbox!("{{name}}.afp", robot: super::Navigator);
 }
 
 use afp::quantity::{AngularSpeed, Speed};

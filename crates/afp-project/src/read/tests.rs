@@ -114,6 +114,38 @@ fn a_robot_is_read_with_its_toolbox_above_or_below() {
 }
 
 #[test]
+fn the_robot_itself_is_read_in_one_line_or_in_a_table() {
+    let of = |text: &str| {
+        let (project, mistakes) = read(text);
+        assert_eq!(mistakes, []);
+        project
+            .robot
+            .and_then(|robot| robot.hardware)
+            .map(|itself| (itself.ty, itself.krate.and_then(|krate| krate.origin), itself.settings))
+    };
+    let board = Some(Origin::Path("board".to_owned()));
+    let line = "[robot]\nsim = 'V'\nhardware = { type = 'Board', crate = { path = 'board' } }";
+    assert_eq!(of(line), Some(("Board".to_owned(), board, Vec::new())));
+    let table = "[robot]\nsim = 'V'\n[robot.hardware]\ntype = 'b::Board'\n[robot.hardware.settings]\n\
+                 port = '/dev/ttyUSB0'\nbaud = 9600\nscale = 0.5\necho = true";
+    let settings = [("port", "/dev/ttyUSB0"), ("baud", "9600"), ("scale", "0.5"), ("echo", "true")];
+    let settings = settings.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec();
+    assert_eq!(of(table), Some(("b::Board".to_owned(), None, settings)));
+    assert_eq!(of("[robot]\nsim = 'V'"), None);
+}
+
+#[test]
+fn what_is_wrong_with_the_robot_itself_is_named_at_its_place() {
+    let hardware = |text: &str| format!("[robot]\nsim = 'V'\nhardware = {text}");
+    let wrong_in = |text: &str| wrong(hardware(text).leak()).join(" ");
+    assert_eq!(wrong_in("3"), "3");
+    assert_eq!(wrong_in("{ crate = 'b' }"), "hardware");
+    assert_eq!(wrong_in("{ type = 'a b' }"), "'a b'");
+    assert_eq!(wrong_in("{ type = 'B', port = 3 }"), "port");
+    assert_eq!(wrong_in("{ type = 'B', settings = { port = [1] } }"), "[1]");
+}
+
+#[test]
 fn what_is_wrong_with_a_robot_is_named_at_its_place() {
     assert_eq!(wrong("[robot]\ntoolbox = 'v'\nsim = 'V'"), ["'v'"]);
     assert_eq!(wrong("[robot]\ncrate = 'v'"), ["robot"]);

@@ -10,21 +10,22 @@ use crate::pause::attached;
 use crate::toolbox::Toolbox;
 
 /// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
-pub struct Components<'a> {
-    toolboxes: &'a [Py<Toolbox>],
+pub struct Components {
+    toolboxes: Vec<Py<Toolbox>>,
     hosts: Mutex<Vec<Arc<Host>>>,
     broken: Mutex<Option<PyErr>>,
 }
 
-impl<'a> Components<'a> {
+impl Components {
     /// For the plans of these toolboxes.
     ///
     /// # Errors
     /// A toolbox that can no longer be read.
-    pub fn new(py: Python<'_>, toolboxes: &'a [Py<Toolbox>]) -> PyResult<Self> {
+    pub fn new(py: Python<'_>, toolboxes: &[Py<Toolbox>]) -> PyResult<Self> {
         for toolbox in toolboxes {
             toolbox.bind(py).get().declared()?;
         }
+        let toolboxes = toolboxes.iter().map(|toolbox| toolbox.clone_ref(py)).collect();
         Ok(Components { toolboxes, hosts: Mutex::default(), broken: Mutex::default() })
     }
 
@@ -35,7 +36,7 @@ impl<'a> Components<'a> {
         }
         let registered = attached(|py| {
             let host = Arc::new(Host::new(link().robot(py)?));
-            for toolbox in self.toolboxes {
+            for toolbox in &self.toolboxes {
                 register(py, toolbox.get(), &host, registry)?;
             }
             Ok(host)

@@ -1,11 +1,12 @@
 //! Changes of meaning as Python names them: a kind, and its parts by name.
 
-use afp_ide::edit::{Binding, Change};
+use afp_ide::edit::{Binding, Change, TextEdit};
 use afp_syntax::ast::Item as Node;
-use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::item::Item;
 use afp_syntax::parse;
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use afp_syntax::source::Span;
+use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -140,4 +141,39 @@ pub fn read(kind: &str, parts: &Bound<'_, PyDict>, text: &str) -> PyResult<Chang
         "inline" => Change::Inline { plan: of.plan()?, element: of.part("element")? },
         other => return Err(PyValueError::new_err(format!("no change '{other}'"))),
     })
+}
+
+/// Where the new texts of edits of one file are once all of them are made.
+pub fn written(edits: &[TextEdit]) -> Vec<Span> {
+    let mut moved = 0_i64;
+    let at = |place: i64| u32::try_from(place).unwrap_or(u32::MAX);
+    let one = |edit: &TextEdit| {
+        let start = i64::from(edit.span.start) + moved;
+        let length = i64::try_from(edit.text.len()).unwrap_or(i64::MAX);
+        moved += length - i64::from(edit.span.end - edit.span.start);
+        Span { file: edit.span.file, start: at(start), end: at(start + length) }
+    };
+    edits.iter().map(one).collect()
+}
+
+/// Whether two spans of one file share a place: edits are as small as can be, and may be less than a word.
+pub fn meet(one: Span, other: Span) -> bool {
+    one.start <= other.end && other.start <= one.end
+}
+
+/// The exception of a value that does not fit where it was put.
+pub fn misfit(wrong: &Diagnostic) -> PyErr {
+    // The unit that would be written in a plan is not the one that is meant here.
+    let help = match wrong.code {
+        Code::E0203 => "give it its unit, as in afp.cm(30) or afp.deg(90)",
+        _ => &wrong.help,
+    };
+    let text = match help {
+        "" => wrong.message.clone(),
+        help => format!("{}; {help}", wrong.message),
+    };
+    match wrong.code {
+        Code::E0203 | Code::E0204 | Code::E0205 | Code::E0206 => PyTypeError::new_err(text),
+        _ => PyValueError::new_err(text),
+    }
 }

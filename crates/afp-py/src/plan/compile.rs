@@ -19,7 +19,7 @@ use crate::toolbox::Toolbox;
 const NAMELESS: &str = "plan.afp";
 
 /// A plan's texts, and the toolboxes that are known to it.
-pub struct Desk {
+pub struct Workspace {
     text: String,
     path: Option<PathBuf>,
     /// Which plan of the file runs.
@@ -30,7 +30,7 @@ pub struct Desk {
     compiled: Option<Arc<Compiled>>,
 }
 
-impl Desk {
+impl Workspace {
     /// The toolboxes that it can use.
     pub fn known(&self) -> &Toolboxes {
         &self.known
@@ -42,7 +42,7 @@ impl Desk {
         path: Option<PathBuf>,
         name: Option<String>,
         toolboxes: &[Py<Toolbox>],
-    ) -> Result<Desk, RunError> {
+    ) -> Result<Workspace, RunError> {
         let mut known: Toolboxes = afp_toolboxes::sources().collect();
         if let Some(path) = &path {
             let project = ProjectFile::of_plan(path)?;
@@ -60,7 +60,7 @@ impl Desk {
             known.add(source, "python");
         }
         let others = BTreeMap::new();
-        Ok(Desk { text, path, name, known, others, compiled: None })
+        Ok(Workspace { text, path, name, known, others, compiled: None })
     }
 
     pub fn text(&self) -> &str {

@@ -11,6 +11,7 @@ use super::Runner;
 use super::glance::Glance;
 use super::session::Run;
 use crate::component::{Host, may_run};
+use crate::forks;
 use crate::pause::Pause;
 
 impl Runner {
@@ -19,13 +20,13 @@ impl Runner {
         let stop = Arc::new(AtomicBool::new(false));
         run.pause = Pause::new(host.clone(), Arc::clone(&stop));
         let seen = Arc::clone(&run.seen);
-        let (session, process) = (Mutex::new(run), std::process::id());
+        let (session, process) = (Mutex::new(run), forks::process());
         Runner { session, host, stop, seen, process, compiled: Arc::clone(compiled) }
     }
 
     /// The session, unless it is in use.
     pub(super) fn lock(&self) -> PyResult<MutexGuard<'_, Run>> {
-        if self.process != std::process::id() {
+        if self.process != forks::process() {
             let text =
                 "this simulation belongs to the process that was forked; make a new one here";
             return Err(PyRuntimeError::new_err(text));
@@ -55,9 +56,7 @@ impl Runner {
     ) -> PyResult<T> {
         match self.lock() {
             Ok(run) => now(&run),
-            Err(why) if self.session.is_poisoned() || self.process != std::process::id() => {
-                Err(why)
-            }
+            Err(why) if self.session.is_poisoned() || self.process != forks::process() => Err(why),
             Err(why) => self.seen.glance().map_or(Err(why), before),
         }
     }

@@ -1,5 +1,7 @@
 //! `Event`: one thing that happened.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use crate::value::Pickled;
 use afp::load::PlanNames;
 use afp_log::{pack, unpack};
@@ -10,7 +12,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 /// One thing that happened in a run.
-#[pyclass(module = "afp", frozen)]
+#[pyclass(module = "afp", frozen, eq)]
+#[derive(PartialEq)]
 pub struct Event {
     event: RunEvent,
     line: Option<String>,
@@ -167,6 +170,13 @@ impl Event {
                 text.trim_end().to_owned()
             }
         }
+    }
+
+    fn __hash__(&self) -> u64 {
+        let RunEvent { at, component, outcome, .. } = &self.event;
+        let mut hasher = DefaultHasher::new();
+        (at.as_nanos(), component, outcome).hash(&mut hasher);
+        hasher.finish()
     }
 
     fn __repr__(&self) -> String {

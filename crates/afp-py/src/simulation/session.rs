@@ -9,7 +9,7 @@ use std::thread;
 
 use afp::load::{Injection, PlanNames};
 use afp_core::devices::find_signal;
-use afp_core::trace::{ComponentId, Ending, Kind, Names, Record, TraceEntryId};
+use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, Record, TraceEntryId};
 use afp_core::{Fault, Instant, Value};
 use afp_dsl::graph::Graph;
 use afp_log::{About, OwnedNames, SessionLog};
@@ -265,7 +265,7 @@ impl Run {
         self.keeper.records.iter().filter_map(|record| match record.get() {
             Record::Faulted { component, fault, .. } if fault == RAISED => {
                 let name = names.component(component);
-                let inner = !matches!(name.kind, Kind::Plan | Kind::SubPlan);
+                let inner = !matches!(name.kind, ComponentKind::Plan | ComponentKind::SubPlan);
                 inner.then_some((record.at, name.path))
             }
             _ => None,
@@ -293,9 +293,10 @@ impl Run {
     /// What lets a component report an outcome.
     pub fn injection(&self, path: &str, outcome: &str) -> PyResult<Injection> {
         let names = &self.names;
-        let component = self.find(path, &[Kind::Actor, Kind::Supervisor]).ok_or_else(|| {
-            PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'"))
-        })?;
+        let component =
+            self.find(path, &[ComponentKind::Actor, ComponentKind::Supervisor]).ok_or_else(
+                || PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'")),
+            )?;
         let known = (0..u16::MAX).map(|number| names.outcome(component, number));
         let known: Vec<_> = known.take_while(|name| !name.is_empty()).collect();
         let found = (0..).zip(&known).find(|(_, name)| **name == outcome);
@@ -308,12 +309,12 @@ impl Run {
 
     /// An actor or sub-plan by its path.
     pub fn element(&self, path: &str) -> PyResult<ComponentId> {
-        self.find(path, &[Kind::Actor, Kind::SubPlan]).ok_or_else(|| {
+        self.find(path, &[ComponentKind::Actor, ComponentKind::SubPlan]).ok_or_else(|| {
             PyValueError::new_err(format!("the plan has no actor or sub-plan '{path}'"))
         })
     }
 
-    fn find(&self, path: &str, kinds: &[Kind]) -> Option<ComponentId> {
+    fn find(&self, path: &str, kinds: &[ComponentKind]) -> Option<ComponentId> {
         let names: &PlanNames = &self.names;
         (0..names.components()).map(ComponentId).find(|id| {
             let about = names.component(*id);

@@ -14,20 +14,24 @@ use crate::errors::run_error;
 use crate::simulation::{Keeper, Run, Runner};
 use crate::world::World;
 
-/// Keeps what has been run.
-pub struct Watching<'a> {
-    pub sweep: &'a Sweep,
-    pub setting: &'a Setting<'a>,
-    pub graph: &'a Graph,
-    pub compiled: &'a Arc<Compiled>,
-    /// What is called with a run, and gives its figures.
-    pub judge: &'a Py<PyAny>,
-    /// The columns that every sweep has.
-    pub columns: Vec<String>,
-    pub kept: Mutex<BTreeMap<u64, Run>>,
+/// Runs by their numbers, until their figures have been taken.
+#[derive(Default)]
+pub struct Kept(Mutex<BTreeMap<u64, Run>>);
+
+impl Kept {
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<u64, Run>> {
+        // Runs come and go as a whole.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
-impl Watch for Watching<'_> {
+/// Keeps what has been run.
+pub struct Keeping<'a> {
+    pub graph: &'a Graph,
+    pub kept: &'a Kept,
+}
+
+impl Watch for Keeping<'_> {
     fn run(
         &self,
         row: &Row<'_>,
@@ -39,23 +43,30 @@ impl Watch for Watching<'_> {
         let mut run = Run::new(session, self.graph);
         (run.keeper, run.track) = (keeper, track);
         run.stopped_by = (outcome.ending == Ending::TimeLimit).then_some("until");
-        self.lock().insert(row.run, run);
+        self.kept.lock().insert(row.run, run);
         Some(outcome)
     }
 }
 
-impl Watching<'_> {
-    fn lock(&self) -> MutexGuard<'_, BTreeMap<u64, Run>> {
-        // Runs come and go as a whole.
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// Takes the figures of what has been run.
+pub struct Judging<'a> {
+    pub sweep: &'a Sweep,
+    pub setting: &'a Setting<'a>,
+    pub compiled: &'a Arc<Compiled>,
+    /// What is called with a run, and gives its figures.
+    pub judge: &'a Py<PyAny>,
+    /// The columns that every sweep has.
+    pub columns: Vec<String>,
+    pub kept: &'a Kept,
+}
 
+impl Judging<'_> {
     /// Adds a run's own figures to its outcome; a run that could not begin has none.
     ///
     /// # Errors
     /// What the judge raises; a figure of a name that there is already.
     pub fn judge(&self, py: Python<'_>, outcome: &mut Outcome) -> PyResult<()> {
-        let Some(run) = self.lock().remove(&outcome.run) else { return Ok(()) };
+        let Some(run) = self.kept.lock().remove(&outcome.run) else { return Ok(()) };
         let row = self.sweep.row(outcome.run);
         let loaded = self.setting.world(&row).map_err(|why| run_error(&why))?;
         let runner = Runner::new(run, None, self.compiled);

@@ -1,24 +1,33 @@
 //! Does runs in threads, and hands their outcomes to the thread that asked for them.
+//!
+//! What the threads need is their own: a component that hangs, in Python or below it, does not hold up who called.
 
-use std::sync::Mutex;
+use std::panic::resume_unwind;
+use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
-use std::thread;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use afp_sweep::{Engine, Outcome, Setting, Watch, columns};
+use afp_dsl::Compiled;
+use afp_run::RunError;
+use afp_sweep::{Engine, Outcome, Setting, Sweep, Watch, columns};
 use pyo3::prelude::*;
 
-use super::watch::Watching;
+use super::watch::{Judging, Keeping, Kept};
 use super::{Sweeper, graph, with_setting};
-use crate::component::{Components, may_sweep};
+use crate::component::{AnyRegistry, Components, may_sweep};
 use crate::errors::run_error;
+use crate::link::link;
 use crate::pause::attached;
 
 /// How often signals are looked at while no outcome comes.
-const EVERY: Duration = Duration::from_millis(30);
-/// For so many looks a component may go on when its run is called off; then it is interrupted.
-const PATIENCE: u32 = 10;
+const EVERY: Duration = Duration::from_millis(15);
+/// For so many looks a run may go on when it is called off; then its component is interrupted.
+const PATIENCE: u32 = 2;
+/// After so many a component that does not hear of that is left to itself.
+const LEFT: u32 = 5;
 /// Outcomes that may wait until this thread has told of them: those with runs of which figures are taken are large.
 const WAITING: usize = 64;
 
@@ -36,66 +45,105 @@ impl Sweeper {
     ) -> PyResult<()> {
         runs.iter().try_for_each(|run| self.row(*run).map(drop))?;
         may_sweep()?;
-        with_setting(py, &self.toolboxes, |robot, components| {
+        let graph = graph(&self.compiled)?;
+        let mut job = Job {
+            compiled: Arc::clone(&self.compiled),
+            components: Arc::new(Components::new(py, &self.toolboxes)?),
+            sweep: self.sweep.clone(),
+            file: self.file.clone(),
+            runs: runs.to_vec(),
+            jobs,
+            stop: Arc::default(),
+            kept: None,
+        };
+        let Some(judge) = judge else { return drive(py, job, each) };
+        let kept = Arc::new(Kept::default());
+        job.kept = Some(Arc::clone(&kept));
+        with_setting(py, &self.toolboxes, |robot| {
             let mut sweep = self.sweep.clone();
-            let graph = graph(&self.compiled)?;
             let setting = Setting::new(&mut sweep, graph, &self.file, robot);
-            let setting = setting.map_err(|why| run_error(&why))?;
-            let stop = AtomicBool::new(false);
-            let (sweep, setting, compiled) = (&sweep, &setting, &self.compiled);
-            let watching = judge.map(|judge| Watching {
-                sweep,
-                setting,
-                graph,
-                compiled,
-                judge,
-                columns: columns(sweep, &[]).into_iter().map(|it| it.name).collect(),
-                kept: Mutex::default(),
-            });
-            let watch = watching.as_ref().map(|it| it as &dyn Watch);
-            let engine =
-                Engine { sweep, maker: &|row| setting.make(row), jobs, stop: &stop, watch };
-            let each = |py: Python<'_>, mut news: Vec<Outcome>| {
-                for outcome in &mut news {
-                    watching.as_ref().map_or(Ok(()), |it| it.judge(py, outcome))?;
-                }
+            let setting = &setting.map_err(|why| run_error(&why))?;
+            let columns = columns(&sweep, &[]).into_iter().map(|it| it.name).collect();
+            let (sweep, compiled) = (&sweep, &self.compiled);
+            let judging = Judging { sweep, setting, compiled, judge, columns, kept: &kept };
+            drive(py, job, |py: Python<'_>, mut news: Vec<Outcome>| {
+                news.iter_mut().try_for_each(|outcome| judging.judge(py, outcome))?;
                 each(py, news)
-            };
-            py.detach(|| drive(&engine, runs, components, each))
+            })
         })
     }
 }
 
-/// Runs the engine beside this thread, which attends to Python.
+/// Runs to be done, with all that they need.
+struct Job {
+    compiled: Arc<Compiled>,
+    components: Arc<Components>,
+    sweep: Sweep,
+    file: PathBuf,
+    runs: Vec<u64>,
+    jobs: usize,
+    /// Calls everything off once it is true.
+    stop: Arc<AtomicBool>,
+    /// Where runs are kept of which figures are taken.
+    kept: Option<Arc<Kept>>,
+}
+
+impl Job {
+    /// Does the runs, as long as their outcomes are wanted.
+    fn run(mut self, send: &SyncSender<Outcome>) -> Result<(), RunError> {
+        let Some(graph) = &self.compiled.graph else { return Ok(()) };
+        let more = |registry: &mut dyn AnyRegistry| self.components.register(registry);
+        let robot = link().loader(&more);
+        let setting = Setting::new(&mut self.sweep, graph, &self.file, &*robot)?;
+        let keeping = self.kept.as_deref().map(|kept| Keeping { graph, kept });
+        let watch = keeping.as_ref().map(|keeping| keeping as &dyn Watch);
+        let (sweep, jobs, stop) = (&self.sweep, self.jobs, &*self.stop);
+        let engine = Engine { sweep, maker: &|row| setting.make(row), jobs, stop, watch };
+        engine.run(&self.runs, |outcome| send.send(outcome).is_ok());
+        Ok(())
+    }
+}
+
+/// Lets a job be done beside this thread, which attends to Python.
 fn drive(
-    engine: &Engine<'_>,
-    runs: &[u64],
-    components: &Components<'_>,
-    each: impl FnMut(Python<'_>, Vec<Outcome>) -> PyResult<()>,
+    py: Python<'_>,
+    job: Job,
+    each: impl FnMut(Python<'_>, Vec<Outcome>) -> PyResult<()> + Send,
 ) -> PyResult<()> {
-    thread::scope(|scope| {
+    let (stop, components) = (Arc::clone(&job.stop), Arc::clone(&job.components));
+    py.detach(|| {
         let (send, outcomes) = sync_channel(WAITING);
-        let working = scope.spawn(move || engine.run(runs, |outcome| send.send(outcome).is_ok()));
-        let attended = attend(&outcomes, components, each);
-        // Whatever still runs is called off.
-        engine.stop.store(attended.is_err(), Ordering::Relaxed);
+        let working = thread::spawn(move || job.run(&send));
+        let attended = attend(&outcomes, &components, each);
         drop(outcomes);
-        // A component that hangs does not look at that.
-        let mut waited = 0;
-        while attended.is_err() && !working.is_finished() {
-            thread::sleep(EVERY);
-            waited += 1;
-            if waited >= PATIENCE {
-                attached(|py| components.interrupt(py))?;
-            }
+        if let Err(why) = attended {
+            stop.store(true, Ordering::Relaxed);
+            leave(&working, &components)?;
+            return Err(why);
         }
-        attended
+        let done = working.join().unwrap_or_else(|panic| resume_unwind(panic));
+        done.map_err(|why| run_error(&why))?;
+        attached(|py| components.raised(py))
     })
+}
+
+/// Waits a moment for what was called off; a component that hangs does not look at that, and is interrupted.
+fn leave<T>(working: &JoinHandle<T>, components: &Components) -> PyResult<()> {
+    for waited in 0..LEFT {
+        if working.is_finished() {
+            break;
+        }
+        if waited >= PATIENCE {
+            attached(|py| components.interrupt(py))?;
+        }
+        thread::sleep(EVERY);
+    }
+    Ok(())
 }
 
 fn attend(
     outcomes: &Receiver<Outcome>,
-    components: &Components<'_>,
+    components: &Components,
     mut each: impl FnMut(Python<'_>, Vec<Outcome>) -> PyResult<()>,
 ) -> PyResult<()> {
     loop {

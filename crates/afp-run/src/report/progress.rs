@@ -19,9 +19,10 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    pub(crate) fn new(end: Instant) -> Self {
+    /// Without `shown` there is no line: a terminal that does not take it would hold up whoever writes.
+    pub(crate) fn new(end: Instant, shown: bool) -> Self {
         let begun = Wall::now();
-        let terminal = io::stderr().is_terminal();
+        let terminal = shown && io::stderr().is_terminal();
         Progress { end, begun, next: begun + FIRST, shows: false, terminal }
     }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, Ending, Kind, Names, TraceHash};
+use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, TraceHash};
 use afp_session::{
     AnySession, Applied, Counts, Done, Figure, FigureValue, Figures, Observer, Requested, Span,
     Stimulus, Usage,
@@ -124,7 +124,7 @@ impl Ran<'_> {
             Some(Ending::Interrupted) => ("interrupted", None),
             Some(Ending::Error(fault)) => ("error", Some(fault.code())),
         };
-        let is_element = |kind| !matches!(kind, Kind::Plan | Kind::Supervisor);
+        let is_element = |kind| !matches!(kind, ComponentKind::Plan | ComponentKind::Supervisor);
         RunFigures {
             plan: self.plan.to_owned(),
             world: self.world.to_owned(),
@@ -139,7 +139,7 @@ impl Ran<'_> {
             }),
             outcomes: outcomes(counts, names),
             faults: counted(counts, names, |kind, usage| {
-                (kind != Kind::Plan && usage.faults > 0).then_some(usage.faults)
+                (kind != ComponentKind::Plan && usage.faults > 0).then_some(usage.faults)
             }),
             interruptions: counts.interruptions,
             deadline_misses: self.misses,
@@ -184,7 +184,7 @@ fn spaced(figure: &Figure) -> String {
 fn counted(
     counts: &Counts,
     names: &dyn Names,
-    count: impl Fn(Kind, &Usage) -> Option<u64>,
+    count: impl Fn(ComponentKind, &Usage) -> Option<u64>,
 ) -> Vec<(String, u64)> {
     let all = (0..).map(ComponentId).zip(&counts.components);
     let told = all.filter_map(|(id, usage)| {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Program;
 use crate::error::RunError;
-use crate::options::{Destination, RunOptions};
+use crate::options::{Destination, OnRobot, RunOptions};
 use crate::output::{check_apart, check_writable, is_same_file};
 use crate::picture::{PictureFormat, Rasterizer};
 
@@ -47,7 +47,12 @@ impl Paths {
         if options.log.is_none() && log.as_ref().is_some_and(is_repeated) {
             log = path(&options.log, ".again.mcap")?;
         }
-        let paths = Paths { log, svg: path(&options.svg, ".svg")? };
+        // Nobody knows where the robot itself is, unless it says so: a picture of that is asked for.
+        let svg = match (&options.svg, options.robot) {
+            (None, OnRobot::Hardware) => None,
+            (asked, _) => path(asked, ".svg")?,
+        };
+        let paths = Paths { log, svg };
         let outputs = [&paths.log, &paths.svg].into_iter().flatten().map(PathBuf::as_path);
         let inputs = [Some(Path::new(program.file)), world, options.again.as_deref()];
         check_apart(outputs, inputs.into_iter().flatten())?;

@@ -1,13 +1,13 @@
 //! The picture of a run from its log alone.
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, Kind, Names};
+use afp_core::trace::{ComponentId, ComponentKind, Names};
 use afp_log::{LogData, OwnedNames, WORLD};
 use std::sync::Arc;
 
 use afp_session::{AnyRobot, AnyWorld, EventKind, Mark, Pose2, RunEvent, Waypoint};
 
-use super::{Picture, draw};
+use super::{SoFar, draw_run};
 use crate::error::RunError;
 
 /// Draws the path of a logged run over its world.
@@ -18,24 +18,16 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
     let world = world_of(log, robot)?;
     let names = &log.names;
     let (path, marks) = follow(log, names);
-    let way = path.windows(2).map(|pair| {
-        let (from, to) = (pair[0].pose, pair[1].pose);
-        libm::hypot(to.x - from.x, to.y - from.y)
-    });
-    let time = log.span.map_or(0.0, |(_, last)| last.as_secs_f64());
-    let fact = |key: &str| log.facts.get(key).cloned().unwrap_or_default();
-    let picture = Picture {
-        world: &world.drawing(),
-        title: fact("plan"),
-        subtitle: subtitle(&*world, log),
-        figures: vec![
-            ("time".to_owned(), format!("{time:.1} s")),
-            ("distance".to_owned(), format!("{:.2} m", way.sum::<f64>())),
-        ],
+    let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
+    let run = SoFar {
+        plan: fact("plan"),
+        world: &*world,
+        seed: fact("seed"),
+        time: log.span.map_or(Instant::ZERO, |(_, last)| last),
         path: &path,
         marks: &marks,
     };
-    Ok(draw(&picture, names))
+    Ok(draw_run(&run, names))
 }
 
 /// The world of a logged run.
@@ -59,11 +51,6 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
     }
 }
 
-/// The line below the title.
-pub(super) fn subtitle(world: &dyn AnyWorld, log: &LogData) -> String {
-    format!("{}, seed {}", world.name(), log.facts.get("seed").map_or("", String::as_str))
-}
-
 /// The path with the actor at each point, and the events on it.
 pub(super) fn follow(log: &LogData, names: &OwnedNames) -> (Vec<Waypoint>, Vec<Mark>) {
     let (mut path, mut marks) = (Vec::new(), Vec::new());
@@ -76,7 +63,7 @@ pub(super) fn follow(log: &LogData, names: &OwnedNames) -> (Vec<Waypoint>, Vec<M
         while let Some(event) = events.next_if(before) {
             if event.kind == EventKind::Event {
                 marks.push(mark(event, last));
-            } else if names.component(event.component_id).kind == Kind::Actor {
+            } else if names.component(event.component_id).kind == ComponentKind::Actor {
                 actor = active(event).unwrap_or(actor);
             }
         }

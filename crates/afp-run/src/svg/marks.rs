@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use afp_core::trace::{ComponentId, ERROR, Kind, Names};
+use afp_core::trace::{ComponentId, ComponentKind, ERROR, Names};
 use afp_session::Mark;
 
 use super::canvas::Canvas;
@@ -14,7 +14,8 @@ const SYMBOLS: usize = 12;
 /// symbol in every run; in a plan with more of them than symbols those that came.
 pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, u16)> {
     let supervisors = (0..names.components()).map(ComponentId);
-    let supervisors = supervisors.filter(|id| names.component(*id).kind == Kind::Supervisor);
+    let supervisors =
+        supervisors.filter(|id| names.component(*id).kind == ComponentKind::Supervisor);
     let events = |id: ComponentId| {
         let known = (0..ERROR).take_while(move |event| !names.outcome(id, *event).is_empty());
         known.filter(move |event| !matches!(names.target(id, *event), "" | "ignore"))

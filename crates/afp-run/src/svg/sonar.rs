@@ -10,9 +10,9 @@ use afp_log::{Heard, LogData};
 use afp_session::AnyRobot;
 
 use super::canvas::View;
-use super::from_log::{follow, subtitle, world_of};
+use super::from_log::{follow, world_of};
 use super::legend::Legend;
-use super::{bounds, marks, room};
+use super::{bounds, marks, room, subtitle};
 use crate::error::RunError;
 
 /// An echo in the world: where it seems to come from, and the ends of the arc that the cone leaves open.
@@ -57,7 +57,8 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
     marks::draw(&mut canvas, &marks, &kinds);
     canvas.scale_bar();
     let mut legend = Legend::new(view);
-    legend.head(log.facts.get("plan").map_or("", String::as_str), &subtitle(&*world, log));
+    let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
+    legend.head(fact("plan"), &subtitle(&*world, fact("seed")));
     legend.sonar();
     legend.events(marks::counted(&marks, &kinds, names));
     legend.figures(&figures(log, heard));

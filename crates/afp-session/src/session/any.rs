@@ -7,7 +7,7 @@ use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
 use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
-use super::{Session, told};
+use super::{Session, report};
 use crate::any::{AnySession, SetError};
 use crate::figures::Figures;
 use crate::observer::{Gate, Go, Observer};
@@ -43,7 +43,7 @@ where
     }
 
     fn active(&self) -> Option<ComponentId> {
-        told::active(&self.scheduler)
+        report::active(&self.scheduler)
     }
 
     fn ending(&self) -> Option<Ending> {

@@ -21,7 +21,7 @@ use afp_syntax::source::Source;
 
 mod templates {
     #![allow(missing_docs)]
-    afp_macros::toolbox!("tests/toy.afp");
+    afp_macros::toolbox!("tests/toy.afp", robot: super::Rolls);
 }
 
 /// What breaks.

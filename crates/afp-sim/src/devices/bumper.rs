@@ -1,6 +1,6 @@
 //! The bumper's switch: it bounces, as contacts do.
 
-use crate::noise::{Noise, Source};
+use crate::noise::Noise;
 
 /// After a change the contact is uncertain for so many steps.
 const BOUNCING: u32 = 2;
@@ -9,7 +9,7 @@ const WRONG: f64 = 0.3;
 
 /// The switch behind the bumper.
 #[derive(Clone, Debug)]
-pub(crate) struct Switch {
+pub struct Switch {
     noise: Noise,
     pressed: bool,
     bouncing: u32,
@@ -17,14 +17,14 @@ pub(crate) struct Switch {
 }
 
 impl Switch {
-    pub(crate) fn new(seed: u64) -> Self {
-        let noise = Source::Bumper.of(seed);
+    /// One that is not pressed, with a stream of noise.
+    pub fn new(noise: Noise) -> Self {
         Switch { noise, pressed: false, bouncing: 0, says: false }
     }
 
     /// One step in which the bumper is pressed or not. A change is felt at once; then the contact
     /// bounces for 10 ms.
-    pub(crate) fn step(&mut self, pressed: bool) {
+    pub fn step(&mut self, pressed: bool) {
         self.says = pressed;
         if pressed != self.pressed {
             self.pressed = pressed;
@@ -36,7 +36,7 @@ impl Switch {
     }
 
     /// What the switch says.
-    pub(crate) fn says(&self) -> bool {
+    pub fn says(&self) -> bool {
         self.says
     }
 }
@@ -44,12 +44,13 @@ impl Switch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::noise::Source;
 
     #[test]
     fn a_press_is_felt_at_once_bounces_and_settles() {
         let mut bounced = 0;
         for seed in 0..50 {
-            let mut switch = Switch::new(seed);
+            let mut switch = Switch::new(Source::Bumper.of(seed));
             switch.step(false);
             assert!(!switch.says());
             switch.step(true);

@@ -1,7 +1,8 @@
 //! The engine alone: what a benchmark measures the simulation against.
 
-use super::build::{Built, HIGH, ROBOT, build};
+use crate::chassis::Chassis;
 use crate::devices::sonar;
+use crate::stage::{Built, HIGH, ROBOT, build};
 use crate::truth::Pose;
 use crate::world::{World, WorldError};
 use rapier2d::geometry::{InteractionGroups, InteractionTestMode};
@@ -19,7 +20,7 @@ impl Bare {
     /// # Errors
     /// As for [`crate::Simulation::new`].
     pub fn new(world: &World) -> Result<Self, WorldError> {
-        let Built { mut physics, body, .. } = build(world)?;
+        let Built { mut physics, body, .. } = build(world, &Chassis::CARBOT)?;
         physics.bodies[body].set_linvel(Vector::new(0.01, 0.0), true);
         Ok(Bare { physics })
     }

@@ -6,8 +6,8 @@ use crate::vehicle::drive::reduced;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use afp_carbot::Path;
 use afp_carbot::devices::{
-    Battery, Beam, Belief, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
-    FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
+    Battery, Beam, Belief, Body, Bump, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo,
+    Flow, FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
     PathPlanner, Reading, RotatingTelemetry, Rotator, Signals, TouchSensor, Trip, Ultrasonic,
 };
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed};
@@ -103,6 +103,10 @@ impl Navigator for Simulation {
 impl Odometry for Simulation {
     fn motion(&self) -> Reading<Motion> {
         self.deliver(&self.lines.odometry, self.raw_motion())
+    }
+
+    fn last_bump(&self) -> Option<Bump> {
+        self.bump
     }
 }
 

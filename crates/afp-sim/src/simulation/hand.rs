@@ -1,17 +1,15 @@
 //! A hand that reaches into the world: it carries the robot and what can be pushed elsewhere, and drops what was not there.
 
 use super::Simulation;
-use super::build::collider;
-use super::movers::Mover;
+use crate::stage::{Mover, collider};
 use crate::truth::Pose;
-use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use crate::world::{
     FARTHEST, Look, Mobility, Obstacle, Outline, Texture, is_beyond, isometry, shape,
 };
 use afp_session::{Droppable, Put, RequestError};
 use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::query;
-use rapier2d::parry::shape::{Cuboid, Shape};
+use rapier2d::parry::shape::{Shape, SharedShape};
 use rapier2d::prelude::RigidBodyHandle;
 
 /// What can be dropped.
@@ -41,14 +39,14 @@ impl Simulation {
         }
         match what {
             Put::Robot => {
-                self.look_for_room(&robot(), &isometry(at), None)?;
+                self.look_for_room(&*self.robot(), &isometry(at), None)?;
                 self.carry_to(at);
             }
             Put::Thing(name) => self.carry(name, at)?,
             Put::New(shape) => self.drop_new(shape, at)?,
         }
         // Rays and pictures of this instant see it there.
-        self.physics.detect_collisions(&(), &());
+        self.stage.physics.detect_collisions(&(), &());
         self.note_obstacles();
         Ok(())
     }
@@ -61,13 +59,13 @@ impl Simulation {
             let named = it.name == name || shape(index, it).id == name;
             named && matches!(it.mobility, Mobility::Movable { .. })
         };
-        let found = self.movers.iter().find(|mover| {
-            let obstacle = self.obstacles.get(mover.obstacle());
+        let found = self.stage.movers.iter().find(|mover| {
+            let obstacle = self.stage.obstacles.get(mover.obstacle());
             obstacle.is_some_and(|it| is_it(mover.obstacle(), it))
         });
         let mover = found.ok_or_else(unknown)?;
         let (index, body) = (mover.obstacle(), mover.handle());
-        let (_, shape) = self.shapes.get(index).cloned().ok_or_else(unknown)?;
+        let (_, shape) = self.stage.shapes.get(index).cloned().ok_or_else(unknown)?;
         let to = isometry(at) * isometry(self.middle(index)).inverse() * mover.start();
         self.look_for_room(&*shape, &to, Some(index))?;
         self.look_for_robot(&*shape, &to)?;
@@ -77,7 +75,8 @@ impl Simulation {
 
     /// The middle of an obstacle at the start.
     fn middle(&self, index: usize) -> Pose {
-        let corners = self.obstacles.get(index).map_or_else(Vec::new, |it| it.outline.corners());
+        let corners =
+            self.stage.obstacles.get(index).map_or_else(Vec::new, |it| it.outline.corners());
         let count = corners.len().max(1) as f64;
         let sum = corners.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
         Pose { x: sum[0] / count, y: sum[1] / count, heading: 0.0 }
@@ -92,7 +91,7 @@ impl Simulation {
             .ok_or_else(unknown)?;
         let half = known.outline.first().copied().ok_or_else(unknown)?;
         let mut names = (1..=MOST).map(|number| format!("{shape} {number}"));
-        let name = names.find(|name| self.obstacles.iter().all(|it| it.name != *name));
+        let name = names.find(|name| self.stage.obstacles.iter().all(|it| it.name != *name));
         let obstacle = Obstacle {
             name: name
                 .ok_or_else(|| RequestError::NoShape(format!("{shape}: {MOST} are enough")))?,
@@ -106,13 +105,16 @@ impl Simulation {
         let (start, body) = obstacle.outline.shape().ok_or_else(unknown)?;
         self.look_for_room(&*body, &start, None)?;
         self.look_for_robot(&*body, &start)?;
-        let index = self.obstacles.len();
+        let index = self.stage.obstacles.len();
         let built = Mover::body(&obstacle, start).ok_or_else(unknown)?;
-        let (handle, _) = self.physics.insert(built, collider(&obstacle, body.clone(), index));
-        self.movers.push(Mover::new(index, handle, (start, &body), &obstacle));
+        let (handle, _) = self
+            .stage
+            .physics
+            .insert(built, collider(&obstacle, body.clone(), index, &self.stage.chassis));
+        self.stage.movers.push(Mover::new(index, handle, (start, &body), &obstacle));
         self.scene.add(&obstacle);
-        self.shapes.push((start, body));
-        self.obstacles.push(obstacle);
+        self.stage.shapes.push((start, body));
+        self.stage.obstacles.push(obstacle);
         Ok(())
     }
 
@@ -126,7 +128,7 @@ impl Simulation {
         let meets = |other: &Isometry, of: &dyn Shape| {
             query::intersection_test(at, shape, other, of).is_ok_and(|test| test.intersecting)
         };
-        let others = self.shapes.iter().zip(&self.obstacles).enumerate();
+        let others = self.stage.shapes.iter().zip(&self.stage.obstacles).enumerate();
         let mut others = others.filter(|(index, _)| Some(*index) != own);
         if let Some((_, (_, obstacle))) = others.find(|(_, ((other, of), _))| meets(other, &**of)) {
             return Err(RequestError::Occupied(obstacle.name.clone()));
@@ -136,24 +138,24 @@ impl Simulation {
 
     /// Whether the robot does not stand where a shape is to stand.
     fn look_for_robot(&self, shape: &dyn Shape, at: &Isometry) -> Result<(), RequestError> {
-        let meets = query::intersection_test(at, shape, self.position(), &robot());
+        let meets = query::intersection_test(at, shape, self.position(), &*self.robot());
         match meets.is_ok_and(|test| test.intersecting) {
             true => Err(RequestError::Occupied("the robot".to_owned())),
             false => Ok(()),
         }
     }
 
+    fn robot(&self) -> SharedShape {
+        self.stage.chassis.shared()
+    }
+
     /// Lets a body stand somewhere, at rest.
     pub(super) fn set_down(&mut self, body: RigidBodyHandle, at: Isometry) {
-        let body = &mut self.physics.bodies[body];
+        let body = &mut self.stage.physics.bodies[body];
         body.set_position(at, true);
         body.set_linvel(Vector::ZERO, true);
         body.set_angvel(0.0, true);
     }
-}
-
-fn robot() -> Cuboid {
-    Cuboid::new(Vector::new(HALF_LENGTH as f32, HALF_WIDTH as f32))
 }
 
 #[cfg(test)]

@@ -1,7 +1,5 @@
 //! A copy of the simulation that goes on by itself: a keyframe to come back to.
 
-use rapier2d::prelude::{CCDSolver, CollisionPipeline, PhysicsPipeline, PhysicsWorld};
-
 use super::Simulation;
 
 impl Simulation {
@@ -9,11 +7,7 @@ impl Simulation {
     /// on alike.
     pub(super) fn split(&self) -> Simulation {
         Simulation {
-            physics: physics(&self.physics),
-            body: self.body,
-            collider: self.collider,
-            obstacles: self.obstacles.clone(),
-            shapes: self.shapes.clone(),
+            stage: self.stage.split(),
             start: self.start,
             now: self.now,
             steps: self.steps,
@@ -24,10 +18,10 @@ impl Simulation {
             ping: self.ping,
             echo: self.echo,
             switch: self.switch.clone(),
+            bump: self.bump,
             battery: self.battery.clone(),
             scene: self.scene.clone(),
             lights: self.lights.clone(),
-            movers: self.movers.clone(),
             infrared: self.infrared.clone(),
             glow: self.glow,
             color_sensor: self.color_sensor.clone(),
@@ -47,28 +41,8 @@ impl Simulation {
             lines: self.lines.clone(),
             delayed: self.delayed,
             clock: self.clock.split(),
-            collisions: self.collisions.clone(),
             map: self.map.clone(),
             left_map: self.left_map,
         }
-    }
-}
-
-/// The state of the engine. Its pipelines are room to compute in and begin empty.
-fn physics(of: &PhysicsWorld) -> PhysicsWorld {
-    PhysicsWorld {
-        gravity: of.gravity,
-        integration_parameters: of.integration_parameters,
-        physics_pipeline: PhysicsPipeline::new(),
-        collision_pipeline: CollisionPipeline::new(),
-        islands: of.islands.clone(),
-        broad_phase: of.broad_phase.clone(),
-        narrow_phase: of.narrow_phase.clone(),
-        bodies: of.bodies.clone(),
-        colliders: of.colliders.clone(),
-        impulse_joints: of.impulse_joints.clone(),
-        multibody_joints: of.multibody_joints.clone(),
-        soft_bodies: of.soft_bodies.clone(),
-        ccd_solver: CCDSolver::new(),
     }
 }

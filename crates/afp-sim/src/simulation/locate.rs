@@ -31,7 +31,8 @@ impl Simulation {
     /// What looks for the robot; it is made for whoever asks first. It is told the map and the start, as somebody who
     /// puts a robot down tells it, and nothing else that is true.
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
-        let Simulation { locator, obstacles, start, seed, .. } = self;
+        let Simulation { locator, stage, start, seed, .. } = self;
+        let obstacles = &stage.obstacles;
         locator.get_or_insert_with(|| {
             let (map, beam) = (map(obstacles), sonar::beam());
             let filter = Filter::new(EchoField::new(map, &beam), &beam, *start, *seed);
@@ -41,7 +42,8 @@ impl Simulation {
 
     /// What searches for ways; it is made for whoever asks first, of the same map.
     pub(super) fn planner(&mut self) -> &mut SimulatedPlanner {
-        let Simulation { planner, obstacles, .. } = self;
+        let Simulation { planner, stage, .. } = self;
+        let obstacles = &stage.obstacles;
         planner.get_or_insert_with(|| {
             let beam = sonar::beam();
             let field = EchoField::new(map(obstacles), &beam);
@@ -56,7 +58,7 @@ impl Simulation {
 
     /// Puts the robot down at another place, as somebody does who carries it. No wheel turns meanwhile.
     pub fn carry_to(&mut self, place: Pose) {
-        self.set_down(self.body, isometry(place));
+        self.set_down(self.stage.body, isometry(place));
     }
 
     pub(super) fn sample_localisation(&self, to: &mut Samples<'_, '_>) {

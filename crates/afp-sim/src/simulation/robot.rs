@@ -114,7 +114,7 @@ impl Robot for Simulation {
 
     fn figures(&self) -> Vec<Figure> {
         let spans = self.truth().collisions().iter().map(|collision| Span {
-            name: self.obstacles.get(collision.obstacle).map_or("", |it| &it.name).to_owned(),
+            name: self.stage.obstacles.get(collision.obstacle).map_or("", |it| &it.name).to_owned(),
             begin: collision.begin,
             end: collision.end,
         });
@@ -139,7 +139,7 @@ impl Simulation {
         to.put(signal::STANDING, SampleRef::Bool(truth.is_standing()));
         let touched = truth.touching().last();
         to.put(signal::COLLISION, SampleRef::Bool(touched.is_some()));
-        let contact = touched.and_then(|last| self.obstacles.get(last.obstacle));
+        let contact = touched.and_then(|last| self.stage.obstacles.get(last.obstacle));
         to.put(signal::CONTACT, SampleRef::Text(contact.map_or("", |it| &it.name)));
     }
 
@@ -173,7 +173,7 @@ impl Simulation {
 
     /// An obstacle where it is now, as a scene shows it.
     fn shape(&self, index: usize) -> Option<Shape> {
-        let obstacle = self.obstacles.get(index)?;
+        let obstacle = self.stage.obstacles.get(index)?;
         Some(Shape { outline: self.outline(index), ..shape(index, obstacle) })
     }
 }

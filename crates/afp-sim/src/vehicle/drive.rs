@@ -4,9 +4,9 @@
 //! controller turns a command (speed, turn rate) into the direction and speed of each wheel, and
 //! stops by itself when commands cease.
 
-use super::MASS;
 use super::floor::{Demand, Footing};
 use super::wheel::{WHEEL_X, WHEEL_Y, Wheel};
+use super::{INERTIA, MASS};
 use super::{Push, Twist};
 use afp_core::{Duration, Instant};
 
@@ -51,12 +51,16 @@ impl Drive {
     pub(crate) fn new() -> Self {
         Drive {
             wheels: [Wheel::new(WHEEL_Y), Wheel::new(-WHEEL_Y)],
-            footing: Footing::new([
-                (WHEEL_X, WHEEL_Y),
-                (WHEEL_X, -WHEEL_Y),
-                (-WHEEL_X, WHEEL_Y),
-                (-WHEEL_X, -WHEEL_Y),
-            ]),
+            footing: Footing::new(
+                MASS,
+                INERTIA,
+                [
+                    (WHEEL_X, WHEEL_Y),
+                    (WHEEL_X, -WHEEL_Y),
+                    (-WHEEL_X, WHEEL_Y),
+                    (-WHEEL_X, -WHEEL_Y),
+                ],
+            ),
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
             asked: (0.0, 0.0),

@@ -6,30 +6,39 @@
 //! with the step before (E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005). What else pushes the
 //! body, boxes and walls, shows only afterwards in how it moves; the wheels hold against what it was last.
 
-use super::{INERTIA, MASS};
-
 /// At most so many rounds over the contacts in a step; with what they remember, most steps take half of them.
 const ROUNDS: usize = 12;
 /// No contact has changed its mind by more than this in the last round, newton seconds: 2 um/s of the body.
 const SETTLED: f64 = 1e-5;
-/// The body's motion for an impulse: per kilogram, and per kilogram square metre. Rounds do not divide.
-const PER_MASS: f64 = 1.0 / MASS;
-const PER_INERTIA: f64 = 1.0 / INERTIA;
+/// What moves a body: it yields per kilogram, and per kilogram square metre. Rounds do not divide.
+#[derive(Clone, Copy, Debug)]
+struct Yielding {
+    mass: f64,
+    inertia: f64,
+    per_mass: f64,
+    per_inertia: f64,
+}
 
 /// How the body moves, in its own frame: ahead, to the left, turning.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Twist {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) turn: f64,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Twist {
+    /// Ahead, metres a second.
+    pub x: f64,
+    /// To the left, metres a second.
+    pub y: f64,
+    /// Counter-clockwise, radians a second.
+    pub turn: f64,
 }
 
 /// What pushes the body, in its own frame: newtons and newton metres about the centre.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Push {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) turn: f64,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Push {
+    /// Ahead, newtons.
+    pub x: f64,
+    /// To the left, newtons.
+    pub y: f64,
+    /// Counter-clockwise, newton metres.
+    pub turn: f64,
 }
 
 /// A place of the body that touches the floor.
@@ -49,28 +58,29 @@ struct Contact {
 
 /// What a contact wants and what it can do in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Demand {
+pub struct Demand {
     /// The velocity at which nothing slips, in the body's frame: that of the wheel's rim.
-    pub(super) rim: (f64, f64),
+    pub rim: (f64, f64),
     /// The most that friction holds, newtons.
-    pub(super) most: f64,
+    pub most: f64,
     /// What drives it; none for what rolls along or is blocked.
-    pub(super) motor: Option<Motor>,
+    pub motor: Option<Motor>,
 }
 
 /// What drives a wheel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motor {
+pub struct Motor {
     /// The direction in which the wheel rolls, in the body's frame.
-    pub(super) direction: (f64, f64),
+    pub direction: (f64, f64),
     /// The most that it pushes, forwards and backwards, newtons at the rim.
-    pub(super) force: f64,
+    pub force: f64,
 }
 
 /// Where the body stands on the floor.
 #[derive(Clone, Debug)]
-pub(super) struct Footing<const N: usize> {
+pub struct Footing<const N: usize> {
     contacts: [Contact; N],
+    body: Yielding,
     /// How the body moves after the step before unless something else pushed it.
     expected: Twist,
     /// How it moves if what else pushed it goes on.
@@ -78,34 +88,37 @@ pub(super) struct Footing<const N: usize> {
 }
 
 impl<const N: usize> Footing<N> {
-    /// On those places, ahead and to the left of the body's centre, metres.
-    pub(super) fn new(places: [(f64, f64); N]) -> Self {
+    /// A body of a mass, kilograms, and an inertia about its centre, kilogram square metres, on those places, ahead and to
+    /// the left of the centre, metres.
+    pub fn new(mass: f64, inertia: f64, places: [(f64, f64); N]) -> Self {
         let still = Twist::default();
-        Footing { contacts: places.map(Contact::new), expected: still, motion: still }
+        let body = Yielding { mass, inertia, per_mass: 1.0 / mass, per_inertia: 1.0 / inertia };
+        let contacts = places.map(|at| Contact::new(at, &body));
+        Footing { contacts, body, expected: still, motion: still }
     }
 
     /// How fast the floor passes below a contact along a direction, where a motor could not do what it should in
     /// the last step: so fast its wheel turns.
-    pub(super) fn yielding(&self, contact: usize, (x, y): (f64, f64)) -> Option<f64> {
+    pub fn yielding(&self, contact: usize, (x, y): (f64, f64)) -> Option<f64> {
         let contact = self.contacts.get(contact).filter(|contact| contact.yields)?;
         let (across, along) = contact.velocity(&self.motion);
         Some(across * x + along * y)
     }
 
     /// What the contacts do together to a body that moves like this, within a step of `dt` seconds.
-    pub(super) fn push(&mut self, demands: [Demand; N], body: Twist, dt: f64) -> Push {
+    pub fn push(&mut self, demands: [Demand; N], body: Twist, dt: f64) -> Push {
         let others = body.less(self.expected);
         let mut after =
             Twist { x: body.x + others.x, y: body.y + others.y, turn: body.turn + others.turn };
         for contact in &self.contacts {
-            contact.act(contact.impulse, &mut after);
+            contact.act(contact.impulse, &mut after, &self.body);
         }
         for round in 0..ROUNDS {
             let mut change = 0.0_f64;
             for (contact, demand) in self.contacts.iter_mut().zip(demands) {
                 // What slides gives all it has, wherever the others settle.
                 if round == 0 || !contact.slides {
-                    change = change.max(contact.settle(demand, &mut after, dt));
+                    change = change.max(contact.settle(demand, &mut after, &self.body, dt));
                 }
             }
             if change < SETTLED {
@@ -115,7 +128,8 @@ impl<const N: usize> Footing<N> {
         self.motion = after;
         self.expected = after.less(others);
         let gained = self.expected.less(body);
-        Push { x: gained.x * MASS / dt, y: gained.y * MASS / dt, turn: gained.turn * INERTIA / dt }
+        let Yielding { mass, inertia, .. } = self.body;
+        Push { x: gained.x * mass / dt, y: gained.y * mass / dt, turn: gained.turn * inertia / dt }
     }
 }
 
@@ -127,8 +141,8 @@ impl Twist {
 }
 
 impl Contact {
-    fn new((x, y): (f64, f64)) -> Self {
-        let mass = 1.0 / (PER_MASS + (x * x + y * y) * PER_INERTIA);
+    fn new((x, y): (f64, f64), body: &Yielding) -> Self {
+        let mass = 1.0 / (body.per_mass + (x * x + y * y) * body.per_inertia);
         Contact { at: (x, y), mass, impulse: (0.0, 0.0), slides: false, yields: false }
     }
 
@@ -139,7 +153,7 @@ impl Contact {
     }
 
     /// Changes the impulse so that less slips, and the body's motion by it; by how much.
-    fn settle(&mut self, demand: Demand, body: &mut Twist, dt: f64) -> f64 {
+    fn settle(&mut self, demand: Demand, body: &mut Twist, of: &Yielding, dt: f64) -> f64 {
         let (vx, vy) = self.velocity(body);
         let (px, py) = self.impulse;
         // The same share in every direction: so what slips is braked against the way it slips.
@@ -150,16 +164,16 @@ impl Contact {
         self.yields = yields;
         (self.impulse, self.slides) = limited(wanted, demand.most * dt);
         let (dx, dy) = (self.impulse.0 - px, self.impulse.1 - py);
-        self.act((dx, dy), body);
+        self.act((dx, dy), body, of);
         dx.abs().max(dy.abs())
     }
 
     /// Lets an impulse act on the body.
-    fn act(&self, (px, py): (f64, f64), body: &mut Twist) {
+    fn act(&self, (px, py): (f64, f64), body: &mut Twist, of: &Yielding) {
         let (x, y) = self.at;
-        body.x += px * PER_MASS;
-        body.y += py * PER_MASS;
-        body.turn += (x * py - y * px) * PER_INERTIA;
+        body.x += px * of.per_mass;
+        body.y += py * of.per_mass;
+        body.turn += (x * py - y * px) * of.per_inertia;
     }
 }
 
@@ -191,6 +205,7 @@ fn limited((x, y): (f64, f64), most: f64) -> ((f64, f64), bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vehicle::{INERTIA, MASS};
 
     const DT: f64 = 0.005;
 
@@ -198,7 +213,7 @@ mod tests {
 
     /// What the floor does in a step to a body that moved like this before, too.
     fn push(body: Twist, demand: Demand) -> Push {
-        let mut footing = Footing::new(CORNERS);
+        let mut footing = Footing::new(MASS, INERTIA, CORNERS);
         footing.expected = body;
         footing.push([demand; 4], body, DT)
     }
@@ -246,7 +261,7 @@ mod tests {
             most: 50.0,
             motor: None,
         });
-        let mut footing = Footing::new(CORNERS);
+        let mut footing = Footing::new(MASS, INERTIA, CORNERS);
         let mut body = Twist::default();
         for _ in 0..4 {
             body = after(body, footing.push(demands, body, DT));
@@ -258,7 +273,7 @@ mod tests {
     #[test]
     fn wheels_that_hold_do_not_give_way_to_a_steady_push() {
         let hold = Demand { rim: (0.0, 0.0), most: 5.0, motor: None };
-        let mut footing = Footing::new(CORNERS);
+        let mut footing = Footing::new(MASS, INERTIA, CORNERS);
         let (mut body, mut way) = (Twist::default(), 0.0);
         for _ in 0..200 {
             body = after(body, footing.push([hold; 4], body, DT));

@@ -1,16 +1,13 @@
 //! The Carbot's worlds as those of a simulated robot: what sessions, pictures and logs know of them.
 
 use super::{Mobility, Obstacle, Outline, World, WorldError};
+use crate::chassis::Chassis;
 use crate::truth::Pose;
 use afp_session::{Drawing, Patch, Shape, Thing};
 
 const WORLD: &str = "world";
 const BASE: &str = "base_link";
 
-/// How high the robot's body is, metres.
-const BODY_HEIGHT: f64 = 0.22;
-/// What the range sensor looks over is lower than this, metres.
-const LOW: f64 = 0.15;
 /// A box has room for its name from this width on, metres.
 const ROOM_FOR_NAME: f64 = 0.2;
 
@@ -38,7 +35,22 @@ impl afp_session::World for World {
     }
 
     fn started_at(&self, start: Pose) -> Result<Self, String> {
-        match self.obstacle_at(start) {
+        self.started_with(&Chassis::CARBOT, start)
+    }
+
+    fn scene(&self) -> Vec<Shape> {
+        self.scene_with(&Chassis::CARBOT)
+    }
+
+    fn drawing(&self) -> Drawing {
+        self.drawing_with(&Chassis::CARBOT)
+    }
+}
+
+impl World {
+    /// The same world with a robot of some body at another start.
+    pub(super) fn started_with(&self, robot: &Chassis, start: Pose) -> Result<World, String> {
+        match self.obstacle_in_way_of(robot, start) {
             Some(obstacle) => Err(format!("the robot starts inside of '{}'", obstacle.name)),
             None if self.is_beyond([start.x, start.y]) => {
                 Err("the robot starts beyond the edge of the map".to_owned())
@@ -47,25 +59,29 @@ impl afp_session::World for World {
         }
     }
 
-    fn scene(&self) -> Vec<Shape> {
+    /// What stands in it, and a robot's body.
+    pub(super) fn scene_with(&self, robot: &Chassis) -> Vec<Shape> {
         let obstacles = self.obstacles.iter().enumerate();
         let body = Shape {
             id: "robot".to_owned(),
             frame: BASE,
-            outline: World::robot_outline(Pose::default()).to_vec(),
-            height: BODY_HEIGHT,
+            outline: robot.outline(Pose::default()),
+            height: robot.height,
             color: [0.15, 0.45, 0.75, 0.9],
         };
         obstacles.map(|(index, obstacle)| shape(index, obstacle)).chain([body]).collect()
     }
 
-    fn drawing(&self) -> Drawing {
+    /// What a picture shows of it, with a robot's body.
+    pub(super) fn drawing_with(&self, robot: &Chassis) -> Drawing {
         let patch =
             |patch: &super::Patch| Patch { corners: patch.corners.clone(), color: patch.color };
+        let low = robot.ranging_height;
+        let things = self.obstacles.iter().enumerate();
         Drawing {
             start: self.start,
-            body: World::robot_outline(Pose::default()).to_vec(),
-            things: self.obstacles.iter().enumerate().map(|(index, it)| thing(index, it)).collect(),
+            body: robot.outline(Pose::default()),
+            things: things.map(|(index, it)| thing(index, it, low)).collect(),
             patches: self.patches.iter().map(patch).collect(),
             lights: self.lights.iter().map(|light| light.position).collect(),
         }
@@ -84,7 +100,8 @@ pub(crate) fn shape(index: usize, obstacle: &Obstacle) -> Shape {
     }
 }
 
-fn thing(index: usize, obstacle: &Obstacle) -> Thing {
+/// What of an obstacle a picture shows; range sensors look over what is lower than `low`.
+fn thing(index: usize, obstacle: &Obstacle, low: f64) -> Thing {
     let Shape { id, outline, .. } = shape(index, obstacle);
     let count = outline.len() as f64;
     let sum = outline.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
@@ -103,7 +120,7 @@ fn thing(index: usize, obstacle: &Obstacle) -> Thing {
         id,
         name: obstacle.name.clone(),
         outline,
-        low: obstacle.height < LOW,
+        low: obstacle.height < low,
         movable: matches!(obstacle.mobility, Mobility::Movable { .. }),
         labelled: least > ROOM_FOR_NAME,
         path,

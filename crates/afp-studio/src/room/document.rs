@@ -33,6 +33,8 @@ pub(super) enum Look {
     Changed,
     /// Somebody else has written this very text.
     Saved,
+    /// Somebody else has removed the file.
+    Removed,
     /// Theirs, which does not go together with this text.
     Conflict(String),
 }
@@ -85,10 +87,10 @@ impl Document {
         if found.etag == self.kept.etag {
             return Look::Same;
         }
-        // Somebody has removed it: the text is all that is left, and stays.
+        // The text is all that is left, and stays; the next change writes it anew.
         if found.etag.is_none() {
             self.kept.etag = None;
-            return Look::Same;
+            return if self.due.is_none() { Look::Removed } else { Look::Same };
         }
         if self.text == found.text {
             (self.due, self.theirs, self.kept) = (None, None, found);

@@ -13,6 +13,8 @@ use super::{ClientId, Out, Room, notification};
 const MOST: usize = 4;
 /// Lines of what a job says that are kept for its end.
 const MOST_LINES: usize = 2_000;
+/// Results of a job that are kept for its end; those of a run are some 600 bytes.
+const MOST_RESULTS: usize = 20_000;
 
 /// Tells jobs apart.
 pub(crate) type JobId = u32;
@@ -85,7 +87,7 @@ impl Room {
     pub(crate) fn job_said(&mut self, id: JobId, line: &str) -> Out {
         let Some(job) = self.jobs.running.get_mut(&id) else { return Out::new() };
         if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
-            if job.results.len() < MOST_LINES {
+            if job.results.len() < MOST_RESULTS {
                 job.results.push(result);
             }
             return Out::new();
@@ -113,15 +115,7 @@ fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, Str
         let path = room.folder.inside(&path_of(uri))?;
         Ok(path.to_string_lossy().into_owned())
     };
-    let word = |name: &str, fits: &dyn Fn(char) -> bool| -> Result<Option<String>, String> {
-        let Some(word) = params[name].as_str().filter(|word| !word.is_empty()) else {
-            return Ok(None);
-        };
-        match word.chars().all(fits) && !word.starts_with('-') {
-            true => Ok(Some(word.to_owned())),
-            false => Err(format!("'{word}' cannot be {name}")),
-        }
-    };
+    let word = |name: &str, fits: &dyn Fn(char) -> bool| checked(&params[name], name, fits);
     let plan = |file: String| -> Result<String, String> {
         let name = word("plan", &|letter| letter.is_alphanumeric() || letter == '_')?;
         Ok(name.map_or_else(|| file.clone(), |name| format!("{file}:{name}")))
@@ -137,13 +131,20 @@ fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, Str
         }
         "generate" => [texts(&["test", "--generate"]), vec![file()?]].concat(),
         "sweep" => {
-            let seeds = word("seeds", &|letter| letter.is_ascii_digit() || letter == '.')?;
+            let seeds = word("seeds", &|letter| letter.is_ascii_digit() || ".,".contains(letter))?;
             let until = word("until", &|letter| letter.is_ascii_alphanumeric() || letter == '.')?;
-            let vary =
-                word("vary", &|letter| letter.is_alphanumeric() || "_.=:,- %/°".contains(letter))?;
             let mut all = [texts(&["sweep", "--json"]), vec![plan(file()?)?]].concat();
-            for (option, value) in [("--seeds", seeds), ("--until", until), ("--vary", vary)] {
-                all.extend(value.into_iter().flat_map(|value| [option.to_owned(), value]));
+            let mut add = |option: &str, value: String| all.extend([option.to_owned(), value]);
+            seeds.into_iter().for_each(|value| add("--seeds", value));
+            until.into_iter().for_each(|value| add("--until", value));
+            for value in params["vary"].as_array().into_iter().flatten() {
+                let fits = |letter: char| letter.is_alphanumeric() || "_.=:,- %/°".contains(letter);
+                if let Some(value) = checked(value, "vary", &fits)? {
+                    add("--vary", value);
+                }
+            }
+            if let Some(world) = params["world"].as_str() {
+                add("--world", world_of(room, world)?);
             }
             all
         }
@@ -161,4 +162,26 @@ fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, Str
         }
         other => return Err(format!("there is no job '{other}'")),
     })
+}
+
+/// A word for the command line that has the form of its kind and is no option; none where nothing was said.
+fn checked(
+    value: &Value,
+    name: &str,
+    fits: &dyn Fn(char) -> bool,
+) -> Result<Option<String>, String> {
+    let Some(word) = value.as_str().filter(|word| !word.is_empty()) else { return Ok(None) };
+    match word.chars().all(fits) && !word.starts_with('-') {
+        true => Ok(Some(word.to_owned())),
+        false => Err(format!("'{word}' cannot be {name}")),
+    }
+}
+
+/// A world of the folder, or one that is made up from a seed.
+fn world_of(room: &Room, world: &str) -> Result<String, String> {
+    let seed = world.strip_prefix("random:");
+    if seed.is_some_and(|seed| seed.chars().all(|letter| letter.is_ascii_digit())) {
+        return Ok(world.to_owned());
+    }
+    Ok(room.folder.inside(world)?.to_string_lossy().into_owned())
 }

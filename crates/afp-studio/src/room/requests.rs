@@ -1,9 +1,12 @@
 //! What a client asks of the room.
 
+use std::path::Path;
 use std::time::Duration;
 
 use afp_lsp::{path_of, uri_of};
 use serde_json::{Value, json};
+
+use crate::examples::{self, Example};
 
 use super::document::Keep;
 use super::{ClientId, Out, Room};
@@ -72,8 +75,7 @@ fn hello(room: &Room, client: ClientId) -> Value {
     let documents = room.documents.iter().map(|(path, document)| {
         json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() })
     });
-    let examples =
-        room.examples.iter().map(|(name, text)| json!({ "name": name, "title": title(text) }));
+    let examples = room.examples.iter().map(Example::listed);
     json!({
         "client": client,
         "root": uri_of(&room.folder.root().to_string_lossy()),
@@ -95,11 +97,6 @@ fn trust(room: &mut Room, params: &Value) -> Result<Value, String> {
     Ok(json!({ "trusted": room.trust.is_given(), "folder": folder, "code": room.trust.code() }))
 }
 
-/// The first line of the help of a plan.
-fn title(text: &str) -> &str {
-    text.lines().find_map(|line| line.trim_start().strip_prefix("///")).unwrap_or_default().trim()
-}
-
 fn path(params: &Value, name: &str) -> Result<String, String> {
     let uri = params[name].as_str().ok_or_else(|| format!("'{name}' is missing"))?;
     Ok(path_of(uri))
@@ -110,23 +107,21 @@ fn read(room: &mut Room, path: &str) -> Result<Value, String> {
     Ok(json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() }))
 }
 
-/// A new file with a text or an example, never over one that is there.
+/// A new file with a text, or an example with what belongs to it; never over one that is there.
 fn create(room: &mut Room, params: &Value) -> Result<Value, String> {
     let path = path(params, "uri")?;
-    let text = match (params["text"].as_str(), params["example"].as_str()) {
-        (Some(text), _) => text.to_owned(),
-        (None, Some(name)) => {
-            let found = room.examples.iter().find(|(known, _)| known == name);
-            found.ok_or_else(|| format!("there is no example '{name}'"))?.1.clone()
-        }
-        (None, None) => String::new(),
-    };
-    let file = room.folder.inside(&path)?;
-    if file.exists() {
+    if Path::new(&path).exists() {
         return Err(format!("there is a file '{}' already", room.folder.name(&path)));
     }
-    afp_output::write_whole(&file, text.as_bytes())
-        .map_err(|why| format!("cannot write '{}': {why}", file.display()))?;
+    match params["example"].as_str() {
+        Some(name) => examples::copy(&room.examples, name, &room.folder, Path::new(&path))?,
+        None => {
+            let file = room.folder.inside(&path)?;
+            let text = params["text"].as_str().unwrap_or_default();
+            afp_output::write_whole(&file, text.as_bytes())
+                .map_err(|why| format!("cannot write '{}': {why}", file.display()))?;
+        }
+    }
     room.documents.remove(&path);
     read(room, &path)
 }

@@ -86,6 +86,13 @@ impl Room {
         match look {
             Look::Same => Vec::new(),
             Look::Saved => self.tell_saved(path, Ok(())),
+            Look::Removed => {
+                let name = self.folder.name(path);
+                let why = format!(
+                    "another program has removed '{name}'; your next change writes it anew"
+                );
+                self.tell_saved(path, Err(why))
+            }
             Look::Changed => self.tell_all(&uri, &text, true, None),
             Look::Conflict(theirs) => self.tell_all(&uri, &theirs, false, None),
         }

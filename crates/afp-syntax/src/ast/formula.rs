@@ -85,6 +85,11 @@ impl Formula {
         node.children().by_kind(is_formula).map(|node| Formula::new(node, file)).collect()
     }
 
+    /// Whether it is a name alone: an entry or a value of an enum.
+    pub fn is_name(&self) -> bool {
+        self.node.kind() == Kind::Ref
+    }
+
     /// What it is.
     pub fn kind(&self) -> FormulaKind {
         let only = || Formula::child_of(&self.node, self.file);

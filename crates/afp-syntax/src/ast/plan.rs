@@ -305,10 +305,11 @@ impl Edge {
         token(&target, Kind::Name, self.file)
     }
 
-    /// The text behind `fail`, quotes included.
-    pub fn reason(&self) -> Option<Name> {
-        let target = child(&self.node, Kind::Target)?;
-        token(&target, Kind::Text, self.file)
+    /// Where it leads, and the text behind `fail`, quotes included.
+    pub fn target_and_reason(&self) -> (Option<Name>, Option<Name>) {
+        let target = child(&self.node, Kind::Target);
+        let part = |kind| token(target.as_ref()?, kind, self.file);
+        (part(Kind::Name), part(Kind::Text))
     }
 }
 

@@ -91,23 +91,24 @@ struct Line {
 
 /// What is known of a file before it is parsed.
 pub(super) struct Mended {
-    /// Places on lines of which something is said already, each with the place of that.
-    pub told: Vec<(u32, u32)>,
+    /// Places on lines of which something is reported already, each with the place of that.
+    pub reported: Vec<(u32, u32)>,
     /// Whether every brace has its other one now.
     pub balanced: bool,
 }
 
 /// Reports braces that are missing or too much. A missing one is added, without any text; one too much is passed over.
 pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> Mended {
-    let is_told = |each: &&Diagnostic| each.span.file == file && each.severity == Severity::Error;
-    let starts = diags.iter().filter(is_told).map(|each| each.span.start);
-    let mut told: Vec<_> = starts.map(|start| (start, start)).collect();
+    let is_reported =
+        |each: &&Diagnostic| each.span.file == file && each.severity == Severity::Error;
+    let starts = diags.iter().filter(is_reported).map(|each| each.span.start);
+    let mut reported: Vec<_> = starts.map(|start| (start, start)).collect();
     for _ in 0..MOST {
         let Some(wrong) = find(tokens) else { break };
         let (behind, error, brace) = match wrong {
             Wrong::Stray(at) => {
                 diags.push(stray(tokens[at], file));
-                told.push((tokens[at].start, tokens[at].start));
+                reported.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::Unknown;
                 continue;
             }
@@ -115,7 +116,7 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
                 let error =
                     Diagnostic::new(Code::E0102, span(tokens[at], file), "expected '{', found '}'");
                 diags.push(error.help("write '{'").replace("{"));
-                told.push((tokens[at].start, tokens[at].start));
+                reported.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::OpenBrace;
                 continue;
             }
@@ -142,11 +143,11 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         // Who finds it is the line behind.
         let finder = tokens[behind + 1..].iter().find(|token| !token.kind.is_trivia());
         let lines = finder.map(|token| token.start).into_iter().chain([start]);
-        told.extend(lines.map(|line| (line, start)));
+        reported.extend(lines.map(|line| (line, start)));
         tokens.insert(behind + 1, Token { kind: brace, text: "", start });
     }
     let (opened, closed) = count(tokens);
-    Mended { told, balanced: opened == closed }
+    Mended { reported, balanced: opened == closed }
 }
 
 fn stray(token: Token<'_>, file: u16) -> Diagnostic {

@@ -22,7 +22,10 @@ impl Marks {
     /// Finds them; `solid` are the places of the tokens that are read.
     pub(super) fn new(tokens: &[Token<'_>], solid: &[u32]) -> Marks {
         let mut marks = Marks::default();
-        for token in tokens {
+        // Every other token ends on its line.
+        let may_break =
+            |token: &&Token<'_>| matches!(token.kind, Kind::Whitespace | Kind::BlockComment);
+        for token in tokens.iter().filter(may_break) {
             let bytes = token.text.bytes().zip(token.start..);
             marks.newlines.extend(bytes.filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at));
         }

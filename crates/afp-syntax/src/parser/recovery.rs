@@ -24,7 +24,7 @@ impl Parser<'_, '_> {
     /// Reports what is wrong, unless something before it on the same line is.
     pub(super) fn error(&mut self, diagnostic: Diagnostic) {
         let place = diagnostic.span.start;
-        if let Some(cause) = self.told(place) {
+        if let Some(cause) = self.reported_before(place) {
             self.hidden.insert(self.next_line(cause));
             return;
         }
@@ -68,16 +68,16 @@ impl Parser<'_, '_> {
         self.quiet = self.quiet.max(self.next_line(place));
     }
 
-    /// Notes lines of which something is said already, each with the place of that.
-    pub(super) fn tell(&mut self, told: &[(u32, u32)]) {
-        for (place, cause) in told {
-            self.told.entry(self.next_line(*place)).or_insert(*cause);
+    /// Notes lines of which something is reported already, each with the place of that.
+    pub(super) fn note_reported(&mut self, reported: &[(u32, u32)]) {
+        for (place, cause) in reported {
+            self.reported.entry(self.next_line(*place)).or_insert(*cause);
         }
     }
 
-    /// The place of what is said already of the line of a place.
-    pub(super) fn told(&self, place: u32) -> Option<u32> {
-        self.told.get(&self.next_line(place)).copied()
+    /// The place of what is reported already on the line of a place.
+    pub(super) fn reported_before(&self, place: u32) -> Option<u32> {
+        self.reported.get(&self.next_line(place)).copied()
     }
 
     /// Where the line behind that of a place begins.

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use afp_core::rt::{BadValue, Child, Cx, Flow, Machine, Plan, PlanState, Polled, Started, input};
-use afp_core::trace::{ERROR, Sink};
-use afp_core::{Clock, Environment, Fault};
+use afp_core::rt::{
+    BadValue, Child, Cx, Flow, Machine, Plan, PlanState, Polled, Run, Started, input,
+};
+use afp_core::trace::ERROR;
+use afp_core::{Environment, Fault};
 use afp_dsl::graph;
 
 use super::config::Config;
@@ -76,11 +78,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     }
 
     /// Starts it: inputs, then the component.
-    pub fn start<S: Sink, C: Clock>(
-        &mut self,
-        config: &mut Config,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Started {
+    pub fn start<R: Run<Env = E>>(&mut self, config: &mut Config, cx: &mut Cx<'_, R>) -> Started {
         self.idle.now = self.idle.next;
         let started = match &mut self.running {
             Running::Actor(_) if self.idle.now => Ok(Started::Running),
@@ -110,11 +108,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
 
     /// Polls it.
     #[inline]
-    pub fn poll<S: Sink, C: Clock>(
-        &mut self,
-        config: &mut Config,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    pub fn poll<R: Run<Env = E>>(&mut self, config: &mut Config, cx: &mut Cx<'_, R>) -> Polled {
         match &mut self.running {
             Running::Actor(_) if self.idle.now => Polled::Pending,
             Running::Actor(actor) => {
@@ -152,11 +146,11 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     /// Reaches a state that was put there, or fails; the scheduler then interrupts what runs.
     #[cold]
     #[inline(never)]
-    pub fn finish<S: Sink, C: Clock>(
+    pub fn finish<R: Run<Env = E>>(
         &mut self,
         element: u16,
         config: &mut Config,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Polled {
         let Some(injected) = self.injected.take() else { return Polled::Pending };
         cx.show_injected(element.into(), injected.outcome);
@@ -209,7 +203,7 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     }
 
     /// Interrupts it, innermost first.
-    pub fn interrupt<S: Sink, C: Clock>(&mut self, cx: &mut Cx<'_, E, S, C>) -> Result<(), Fault> {
+    pub fn interrupt<R: Run<Env = E>>(&mut self, cx: &mut Cx<'_, R>) -> Result<(), Fault> {
         match &mut self.running {
             Running::Actor(_) if self.idle.now => Ok(()),
             Running::Actor(actor) => actor.interrupt(cx.env, cx.now),

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use afp_core::trace::{
-    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Kind, Names,
-    PortName, Reaction, TextPlace, TraceEntryId,
+    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryName, Names, PortName, Reaction,
+    TextPlace, TraceEntryId,
 };
-use afp_dsl::graph::{self, Graph};
+use afp_dsl::graph::Graph;
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{self, ComponentNames, EntryNames, PortNames, Unfolded};
 use afp_syntax::source::Span;
@@ -84,11 +84,9 @@ impl Names for PlanNames {
 
     fn component(&self, id: ComponentId) -> ComponentName<'_> {
         match self.get(id) {
-            Some(names) => ComponentName {
-                path: &names.path,
-                kind: kind(names.kind),
-                template: &names.template,
-            },
+            Some(names) => {
+                ComponentName { path: &names.path, kind: names.kind, template: &names.template }
+            }
             None => ComponentName::NONE,
         }
     }
@@ -154,7 +152,7 @@ impl Names for PlanNames {
     fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
         match self.get_entry(id) {
             Some((names, (ty, unit))) => {
-                let (kind, range) = (entry_kind(names.kind), names.range);
+                let (kind, range) = (names.kind, names.range);
                 EntryName { path: &names.path, kind, ty, unit, range }
             }
             None => EntryName::NONE,
@@ -168,24 +166,5 @@ impl Names for PlanNames {
             }
             _ => "",
         }
-    }
-}
-
-fn kind(kind: unfold::Kind) -> Kind {
-    match kind {
-        unfold::Kind::Plan => Kind::Plan,
-        unfold::Kind::Actor => Kind::Actor,
-        unfold::Kind::Computation => Kind::Computation,
-        unfold::Kind::SubPlan => Kind::SubPlan,
-        unfold::Kind::Supervisor => Kind::Supervisor,
-    }
-}
-
-fn entry_kind(kind: graph::EntryKind) -> EntryKind {
-    match kind {
-        graph::EntryKind::In => EntryKind::In,
-        graph::EntryKind::Out => EntryKind::Out,
-        graph::EntryKind::Var => EntryKind::Var,
-        graph::EntryKind::Const => EntryKind::Const,
     }
 }

@@ -7,11 +7,11 @@ mod testing;
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Scale, Slot, Started, Tables,
-    Unit, initial, int_to_float,
+    BadValue, Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Run, Scale, Slot, Started,
+    Tables, Unit, initial, int_to_float,
 };
 use afp_core::trace::{DEADLINE_MISSED, Sink};
-use afp_core::{Clock, Environment, Fault, PlanState, Value, ValueRef, WriteError};
+use afp_core::{Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
 
@@ -178,11 +178,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// A supervisor reports what was put there. Apart from the poll, which is done in every step.
     #[cold]
     #[inline(never)]
-    fn report_injected<S: Sink, C: Clock>(
-        &mut self,
-        supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Fired {
+    fn report_injected<R: Run<Env = E>>(&mut self, supervisor: u16, cx: &mut Cx<'_, R>) -> Fired {
         let part = self.elements.len() as u32 + u32::from(supervisor);
         let watch = self.supervisors.get_mut(usize::from(supervisor));
         let Some((watch, injected)) = watch.and_then(|watch| {
@@ -346,10 +342,10 @@ impl<E: ?Sized + 'static> NamedPlan for LoadedPlan<E> {
 }
 
 impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
-    fn start_supervisor<S: Sink, C: Clock>(
+    fn start_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         let watch = self.supervisors.get_mut(usize::from(supervisor)).ok_or(Fault::INTERNAL)?;
         let args = watch.inputs.pull(&self.config.values);
@@ -358,11 +354,11 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
     }
 
     #[inline]
-    fn poll_supervisor<S: Sink, C: Clock>(
+    fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
         supervisor: u16,
         wanted: Events,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Fired {
         let Some(watch) = self.supervisors.get_mut(usize::from(supervisor)) else {
             return Fired::fault(Fault::INTERNAL);
@@ -379,22 +375,14 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         }
     }
 
-    fn start_element<S: Sink, C: Clock>(
-        &mut self,
-        element: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Started {
+    fn start_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Started {
         let Some(slot) = self.elements.get_mut(usize::from(element)) else {
             return Started::Failed(Fault::INTERNAL);
         };
         slot.start(&mut self.config, cx)
     }
 
-    fn poll_element<S: Sink, C: Clock>(
-        &mut self,
-        element: u16,
-        cx: &mut Cx<'_, E, S, C>,
-    ) -> Polled {
+    fn poll_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Polled {
         let Some(slot) = self.elements.get_mut(usize::from(element)) else {
             return Polled::Failed(Fault::INTERNAL);
         };
@@ -404,10 +392,10 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         }
     }
 
-    fn interrupt_element<S: Sink, C: Clock>(
+    fn interrupt_element<R: Run<Env = E>>(
         &mut self,
         element: u16,
-        cx: &mut Cx<'_, E, S, C>,
+        cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         let slot = self.elements.get_mut(usize::from(element)).ok_or(Fault::INTERNAL)?;
         slot.interrupt(cx)

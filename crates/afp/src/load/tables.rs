@@ -3,9 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use afp_core::rt::{
-    Child, ElementKind, ElementRow, Events, PlanTable, Range, SupervisorRow, Tables,
-};
+use afp_core::rt::{ElementRow, Events, PlanTable, SupervisorRow, Tables};
 use afp_core::{Duration, Fault, Reason, rt};
 use afp_dsl::graph::Target;
 use afp_dsl::rows;
@@ -61,18 +59,14 @@ impl LoadedTables {
 
 fn element(row: &rows::ElementRow) -> ElementRow {
     ElementRow {
-        kind: match row.kind {
-            rows::ElementKind::Actor => ElementKind::Actor,
-            rows::ElementKind::Computation => ElementKind::Computation,
-            rows::ElementKind::SubPlan => ElementKind::SubPlan,
-        },
+        kind: row.kind,
         period: Duration::from_nanos(row.period),
-        states: range(row.states),
+        states: row.states,
         on_error: target(row.on_error),
         resumes: row.resumes,
-        locals: range(row.locals),
-        sweep: range(row.sweep),
-        child: Child { components: row.child.components, entries: row.child.entries },
+        locals: row.locals,
+        sweep: row.sweep,
+        child: row.child,
     }
 }
 
@@ -83,15 +77,11 @@ fn supervisor(row: &rows::SupervisorRow) -> SupervisorRow {
         deadline: Duration::from_nanos(row.deadline),
         budget: Duration::from_nanos(row.budget),
         slot: row.slot,
-        events: range(row.events),
+        events: row.events,
         on_miss: target(row.on_miss),
         wanted: Events::from_bits(row.wanted),
         wanted_in_look: Events::from_bits(row.wanted_in_look),
     }
-}
-
-fn range(range: rows::Range) -> Range {
-    Range { first: range.first, len: range.len }
 }
 
 fn target(target: Option<Target>) -> rt::Target {

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use afp_build::cargo::{self, Artifact, Blame, Generated, Job};
-use afp_build::{OwnToolbox, crate_folder, origin};
-use afp_codegen::{CrateFile, CrateOptions, crate_files};
+use afp_build::{OwnToolbox, crate_folder, no_hardware, origin};
+use afp_codegen::{CrateFile, CrateOptions, Hardware, crate_files};
 use afp_dsl::graph::Graph;
-use afp_project::RobotLink;
+use afp_project::{HardwareLink, RobotLink};
 use afp_run::{EXIT_OK, RunError, say};
 use clap::Args;
 use serde_json::{Value, json};
@@ -36,6 +36,14 @@ pub struct Arguments {
     #[arg(long)]
     lib: bool,
 
+    /// Links the robot itself, too: the program then has '--robot hardware'. Always so for the Raspberry Pi, where the project
+    /// has '[robot.hardware]'
+    #[arg(long, conflicts_with = "lib")]
+    hardware: bool,
+    /// Gives the program '--live': others may watch while it runs
+    #[arg(long, conflicts_with = "lib")]
+    live: bool,
+
     /// Prints one JSON object for each error, warning and note on standard output, what was built last
     #[arg(long)]
     json: bool,
@@ -47,6 +55,7 @@ Examples:
   $(afpc build plans/wall_following.afp) --seed 7
   afpc build plans/wall_following.afp --target pi
   afpc build plans/wall_following.afp -o wall --lib
+  $(afpc build plans/wall_following.afp --live) --live
   afpc build plans/wall_following.afp --json
 
 The last line on standard output is the absolute path of the binary (with --lib, of the crate);
@@ -105,7 +114,7 @@ fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), N
     let toolboxes = file.own.used_by(&graph)?;
     let stem = file.path.file_stem().unwrap_or("plan".as_ref());
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new(BUILDS).join(stem));
-    let files = generate(&file, &graph, &toolboxes, arguments.lib, &folder)?;
+    let files = generate(&file, &graph, &toolboxes, arguments, &folder)?;
     made.folder = Some(whole(folder.clone()));
     let no_cargo = RunError::Missing {
         message: "there is no cargo to build the crate with".to_owned(),
@@ -138,26 +147,43 @@ fn generate(
     file: &PlanFile,
     graph: &Graph,
     toolboxes: &[OwnToolbox],
-    lib: bool,
+    arguments: &Arguments,
     folder: &Path,
 ) -> Result<Vec<CrateFile>, NoPlan> {
     let origin = origin::of_afp(&file.own.project)?;
+    let hardware = hardware(arguments, file)?;
     let robot = file.own.project.robot()?;
     let crates = toolboxes.iter().map(|own| &own.krate);
     let crates = crates.chain(robot.iter().map(|robot| &robot.krate));
+    let crates = crates.chain(hardware.iter().map(|itself| &itself.krate));
     let options = CrateOptions {
         file: file.path.display().to_string(),
         texts: file.compiled.plan_texts(),
         origin: origin.clone(),
         dependencies: crates.map(origin::dependency).collect(),
         robot: robot.as_ref().map(RobotLink::rust_type),
-        lib,
+        hardware: hardware
+            .as_ref()
+            .map(|it| Hardware { ty: it.rust_type(), settings: it.settings.clone() }),
+        features: arguments.live.then(|| "live".to_owned()).into_iter().collect(),
+        lib: arguments.lib,
     };
     let files = crate_files(graph, &options);
     let texts: Vec<_> = files.iter().map(|file| (&*file.path, &*file.text)).collect();
     crate_folder::write(folder, &texts, &origin)?;
     say(format_args!("generated {}", folder.display()));
     Ok(files)
+}
+
+/// The robot itself, where the program shall have it.
+fn hardware(arguments: &Arguments, file: &PlanFile) -> Result<Option<HardwareLink>, NoPlan> {
+    let project = &file.own.project;
+    let asked = arguments.hardware || (arguments.target.linux().is_some() && !arguments.lib);
+    let itself = if asked { project.hardware().map_err(RunError::from)? } else { None };
+    match itself {
+        None if arguments.hardware => Err(no_hardware(project).into()),
+        itself => Ok(itself),
+    }
 }
 
 /// Checks that a machine has the time that the plan needs.

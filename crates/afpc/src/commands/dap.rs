@@ -1,13 +1,11 @@
 //! `afpc dap`: the debug adapter on standard input and output, or for clients that connect.
 
+mod listen;
 mod simulator;
 mod talk;
 
-use std::net::{Ipv4Addr, TcpListener};
-
 use afp_debug::Adapter;
-use afp_run::{EXIT_OK, RunError, say};
-use afp_token::Token;
+use afp_run::{EXIT_OK, RunError};
 use clap::Args;
 
 use crate::plan_file::{NoPlan, PlanFile};
@@ -34,7 +32,7 @@ pub struct Arguments {
 pub const EXAMPLES: &str = "\
 Examples:
   afpc dap                         an editor starts this and talks on standard input and output
-  afpc dap --port 4711             waits for editors; 'launch' needs the token that is printed
+  afpc dap --port 4711             waits for editors; 'launch' and 'attach' need the token that is printed
 
 'launch' takes: program, world, seed, set (values by name), until (seconds), speed (a factor), stopOnEntry; or
 log, the log of a run that is over";
@@ -56,27 +54,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
                 RunError::file("cannot talk to the editor over", "standard input".as_ref());
             served.map_err(|why| failed(std::io::Error::other(why)))?;
         }
-        Some(port) => listen(port, linked)?,
+        Some(port) => listen::listen(port, linked)?,
     }
     Ok(EXIT_OK)
-}
-
-/// Serves one client after the other.
-fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
-    let wanted = format!("127.0.0.1:{port}");
-    let failed = RunError::file("cannot listen on", wanted.as_ref());
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(failed)?;
-    let token = Token::new().map_err(RunError::file("cannot make", "a token".as_ref()))?;
-    let port = listener.local_addr().map_or(port, |address| address.port());
-    say(format!("listening on 127.0.0.1:{port}, token {}\n", token.word()));
-    for stream in listener.incoming() {
-        let Ok(stream) = stream else { continue };
-        let Ok(back) = stream.try_clone() else { continue };
-        let _ = stream.set_nodelay(true);
-        let adapter = Adapter::guarded(Box::new(Simulator::new(linked)), &token);
-        if let Err(why) = serve(adapter, stream, back) {
-            say(format!("warning: a client was sent away: {why}\n"));
-        }
-    }
-    Ok(())
 }

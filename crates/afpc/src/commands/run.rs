@@ -1,8 +1,9 @@
-//! `afpc run`: compiles a plan in memory and drives the robot of the project, simulated, with it.
+//! `afpc run`: compiles a plan in memory and drives the robot of the project with it, simulated or itself.
 
-use afp_run::options::RunOptions;
+use afp_build::no_hardware;
+use afp_run::options::{OnRobot, RunOptions};
 use afp_run::{Program, RunError};
-use afp_session::AnyWorld;
+use afp_session::{AnyWorld, Settings};
 use clap::Args;
 
 use crate::picture;
@@ -30,11 +31,12 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         (None, Some(log)) => PlanFile::of_log(&afp_log::read(log).map_err(RunError::from)?)?,
         (None, None) => return Err(RunError::usage("no plan is named", "name its file").into()),
     };
-    runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
+    let itself = arguments.options.robot == OnRobot::Hardware;
+    match &file.compiled.graph {
+        Some(graph) if itself => runner::become_one_with_hardware((&file.own, graph), linked)?,
+        graph => runner::become_one_for(graph.iter().map(|graph| (&file.own, graph)), linked)?,
+    }
     let (file, graph) = file.checked()?;
-    let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
-        linked.robot.session(&graph, world, seed, measures)
-    };
     let path = file.path.display().to_string();
     let mut texts = file.compiled.plan_texts();
     texts.extend(
@@ -43,13 +45,21 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
             .map(|(name, text)| (format!("{}{name}", Program::TOOLBOX), text.to_owned())),
     );
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
-    let program = Program { name: &graph.main().name, file: &path, texts: &texts };
+    let hardware = if itself { file.own.project.hardware().map_err(RunError::from)? } else { None };
+    let settings = hardware.map(|hardware| hardware.settings).unwrap_or_default();
+    let settings: Vec<_> =
+        settings.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+    let name = &graph.main().name;
+    let program = Program { name, file: &path, texts: &texts, hardware: &settings };
     let pixels = |svg: &str| picture::pixels(svg, picture::DEFAULT_SCALE);
-    Ok(afp_run::run(
-        &program,
-        linked.robot.kind(),
-        Box::new(make),
-        &arguments.options,
-        Some(&pixels),
-    )?)
+    let (options, pixels) = (&arguments.options, Some(&pixels as _));
+    if itself {
+        let (_, opener) = linked.hardware.ok_or_else(|| no_hardware(&file.own.project))?;
+        let open = |settings: &Settings| opener.open(&graph, settings);
+        return Ok(afp_run::run_on_hardware(&program, Box::new(open), options, pixels)?);
+    }
+    let make = |world: &dyn AnyWorld, seed: u64, measures: &[&str]| {
+        linked.robot.session(&graph, world, seed, measures)
+    };
+    Ok(afp_run::run(&program, linked.robot.kind(), Box::new(make), options, pixels)?)
 }

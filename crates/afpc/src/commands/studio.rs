@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use afp_debug::Adapter;
 use afp_run::{EXIT_OK, RunError, say};
-use afp_studio::{Debugging, Options, Studio};
+use afp_studio::{Debugging, Example, Opened, Options, Studio};
 use clap::Args;
 
 use super::dap::{Arrived, Simulator, converse};
@@ -43,16 +43,44 @@ Examples:
 
 It listens on this machine alone, and its address works once: whoever does not know it is not let in.";
 
-/// Plans to begin with: the shipped ones.
-const PLANS: [(&str, &str); 7] = [
-    ("wall_following.afp", include_str!("../../../../plans/wall_following.afp")),
-    ("patterns.afp", include_str!("../../../../plans/patterns.afp")),
-    ("find_infrared.afp", include_str!("../../../../plans/find_infrared.afp")),
-    ("avoid_obstacle.afp", include_str!("../../../../plans/avoid_obstacle.afp")),
-    ("find_object.afp", include_str!("../../../../plans/find_object.afp")),
-    ("navigate_room.afp", include_str!("../../../../plans/navigate_room.afp")),
-    ("patrol.afp", include_str!("../../../../plans/patrol.afp")),
+/// A shipped plan with its world, and those that it uses.
+macro_rules! example {
+    ($name:literal $(, $uses:literal)*) => {
+        (
+            concat!($name, ".afp"),
+            include_str!(concat!("../../../../plans/", $name, ".afp")),
+            include_str!(concat!("../../../../worlds/", $name, ".toml")),
+            &[$(concat!($uses, ".afp")),*],
+        )
+    };
+}
+
+/// Plans to begin with.
+const EXAMPLES_TO_COPY: [(&str, &str, &str, &[&str]); 7] = [
+    example!("wall_following"),
+    example!("patterns"),
+    example!("find_infrared"),
+    example!("avoid_obstacle"),
+    example!("find_object", "avoid_obstacle"),
+    example!("navigate_room"),
+    example!("patrol", "avoid_obstacle", "navigate_room"),
 ];
+
+/// The examples as the studio copies them.
+fn examples() -> Vec<Example> {
+    let made = EXAMPLES_TO_COPY.into_iter().map(|(name, plan, world, uses)| Example {
+        name: name.to_owned(),
+        plan: plan.to_owned(),
+        // The schema lies in the checkout alone.
+        world: Some(world.lines().filter(|line| !line.starts_with("#:")).map(with_end).collect()),
+        uses: uses.iter().map(|&name| name.to_owned()).collect(),
+    });
+    made.collect()
+}
+
+fn with_end(line: &str) -> String {
+    format!("{line}\n")
+}
 
 /// Serves until Ctrl-C; gives the exit code.
 ///
@@ -67,23 +95,22 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         program: env::current_exe()
             .map_err(RunError::file("cannot find", "this program".as_ref()))?,
         origins: arguments.allow_origin.clone(),
-        examples: PLANS.map(|(name, text)| (name.to_owned(), text.to_owned())).into(),
+        examples: examples(),
+        own: afp_studio::own_folder(),
     };
     let failed = |port: u16| format!("127.0.0.1:{port}");
     let name = failed(arguments.port);
-    let studio = Studio::new(&options, || Box::new(Disk));
-    let studio = studio.map_err(RunError::file("cannot listen on", name.as_ref()))?;
-    let address = studio.address();
-    print(&format!("{address}\n"))?;
-    if arguments.no_open {
-        say("open this address in a browser within a minute; Ctrl-C ends the studio\n");
-    } else if open::that_detached(&address).is_err() {
-        say(
-            "no browser could be started: open this address within a minute; Ctrl-C ends the studio\n",
-        );
-    } else {
-        say("the studio opens in your browser; Ctrl-C ends it\n");
-    }
+    let opened = Studio::open(&options, || Box::new(Disk));
+    let studio = match opened.map_err(RunError::file("cannot listen on", name.as_ref()))? {
+        Opened::Here(studio) => studio,
+        Opened::Elsewhere(address) => {
+            say("a studio serves this folder already, and shows its page once more\n");
+            show(&address, arguments.no_open)?;
+            return Ok(EXIT_OK);
+        }
+    };
+    show(&studio.address(), arguments.no_open)?;
+    say("Ctrl-C ends the studio\n");
     let folder = studio.folder();
     let served = thread::scope(|scope| {
         let (debuggers, arrived) = channel();
@@ -96,6 +123,19 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     });
     served.map_err(RunError::file("cannot serve on", name.as_ref()))?;
     Ok(EXIT_OK)
+}
+
+/// Says an address, and opens it unless that is left to people.
+fn show(address: &str, no_open: bool) -> Result<(), NoPlan> {
+    print(&format!("{address}\n"))?;
+    if no_open {
+        say("open this address in a browser within a minute\n");
+    } else if open::that_detached(address).is_err() {
+        say("no browser could be started: open this address within a minute\n");
+    } else {
+        say("the studio opens in your browser\n");
+    }
+    Ok(())
 }
 
 /// Runs and debugs plans for a client until it is gone.
@@ -127,4 +167,27 @@ fn folder(path: &Path) -> Result<(PathBuf, Option<PathBuf>), RunError> {
     let project = real.ancestors().skip(1).find(|folder| folder.join("afp.toml").is_file());
     let folder = project.or(real.parent()).unwrap_or(&real).to_owned();
     Ok((folder, Some(real)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_example_is_a_plan_without_mistakes_that_has_its_world() {
+        for (name, _, _, uses) in EXAMPLES_TO_COPY {
+            let place = tempfile::tempdir().unwrap();
+            let all = examples();
+            let of = |wanted: &str| all.iter().find(|example| example.name == wanted).unwrap();
+            let plans = place.path().join("plans");
+            std::fs::create_dir(&plans).unwrap();
+            for name in [&name].into_iter().chain(uses) {
+                std::fs::write(plans.join(name), &of(name).plan).unwrap();
+            }
+            let file = crate::plan_file::PlanFile::read(plans.join(name).to_str().unwrap());
+            assert!(file.unwrap().compiled.graph.is_some(), "{name}");
+            let world = of(name).world.clone().unwrap();
+            assert!(world.contains("version = ") && !world.contains("#:schema"), "{name}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! `afpc sweep`: many runs of a plan, all cores at once, and what they came to.
 
-mod tell;
+mod reporter;
 
 use std::num::NonZero;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ use crate::commands::EXIT_STOPPED;
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, runner};
 
-use tell::Teller;
+use reporter::Reporter;
 
 /// Arguments of `afpc sweep`.
 #[derive(Args, Debug)]
@@ -116,13 +116,13 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         stop: stop.flag(),
         watch: None,
     };
-    let teller = Teller::new(&sweep, arguments.json);
-    teller.head(&place, outcomes.len());
-    go_on(&engine, &teller, &mut journal, &mut outcomes)?;
+    let reporter = Reporter::new(&sweep, arguments.json);
+    reporter.head(&place, outcomes.len());
+    go_on(&engine, &reporter, &mut journal, &mut outcomes)?;
     outcomes.sort_by_key(|outcome| outcome.run);
     place.write(&sweep, &outcomes)?;
     let findings = Findings::new(&outcomes);
-    teller.end(&outcomes, &findings, &place)?;
+    reporter.end(&outcomes, &findings, &place)?;
     Ok(match (outcomes.len() as u64 == sweep.len(), findings.has_failures()) {
         (false, _) => EXIT_STOPPED,
         (true, true) => EXIT_PLAN_ERROR,
@@ -160,7 +160,7 @@ impl Arguments {
 /// Does the runs that are not done, and keeps each before the next one is taken.
 fn go_on(
     engine: &Engine<'_>,
-    teller: &Teller<'_>,
+    reporter: &Reporter<'_>,
     journal: &mut Journal,
     outcomes: &mut Vec<Outcome>,
 ) -> Result<(), RunError> {
@@ -168,7 +168,7 @@ fn go_on(
     done.sort_unstable();
     let left: Vec<u64> =
         (0..engine.sweep.len()).filter(|run| done.binary_search(run).is_err()).collect();
-    let bar = teller.bar(left.len() as u64);
+    let bar = reporter.bar(left.len() as u64);
     let mut broken = None;
     engine.run(&left, |outcome| {
         bar.done(&outcome);

@@ -4,7 +4,7 @@ mod cover;
 mod find;
 mod generate;
 mod mutate;
-mod tell;
+mod reporter;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant as Wall;
@@ -20,7 +20,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, runner};
 
-use tell::Teller;
+use reporter::Reporter;
 
 /// Arguments of `afpc test`.
 #[derive(Args, Debug)]
@@ -213,20 +213,20 @@ fn matches(case: &Case<'_>, filters: &[String]) -> bool {
 /// Runs the cases on all cores; whether one of them failed.
 fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &Linked<'_>) -> Result<bool, NoPlan> {
     let begun = Wall::now();
-    let teller = Teller::new(cases.len(), arguments.json);
+    let reporter = Reporter::new(cases.len(), arguments.json);
     let done: Vec<Done> = cases
         .par_iter()
         .with_max_len(1)
         .map(|case| {
             let done = run_one(case, linked.robot);
-            teller.done(case, &done);
+            reporter.done(case, &done);
             done
         })
         .collect();
-    teller.end(cases, &done, begun.elapsed().as_secs_f64())?;
+    reporter.end(cases, &done, begun.elapsed().as_secs_f64())?;
     if arguments.coverage {
         let plans = coverage(cases, &done, &arguments.add_log)?;
-        tell::coverage(&plans, arguments.json)?;
+        reporter::coverage(&plans, arguments.json)?;
         if let Some(output) = &arguments.output {
             cover::draw_all(&plans, output)?;
         }

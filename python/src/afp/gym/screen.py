@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-import sys
 import time
 import zlib
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import notebook
 from .setting import gymnasium
 
 __all__ = ["Screen", "png"]
@@ -34,7 +34,7 @@ class Screen:
             time.sleep(left)
         self._next = time.monotonic() + self._seconds
         if self._output is None:
-            self._output = _Cell() if _in_notebook() else _Window()
+            self._output = _Cell() if notebook.is_here() else _Window()
         self._output.show(picture)
 
     def close(self) -> None:
@@ -48,18 +48,17 @@ class _Cell:
     """The output of a notebook's cell."""
 
     def __init__(self) -> None:
-        display: Any = sys.modules["IPython"].display
-        self._handle: Any = display.display({"image/png": png(np.zeros((1, 1, 3), np.uint8))}, raw=True, display_id=True)
+        self._cell = notebook.Cell()
 
     def show(self, picture: NDArray[np.uint8]) -> None:
-        self._handle.update({"image/png": png(picture)}, raw=True)
+        self._cell.show({"image/png": png(picture)})
 
     def close(self) -> None:
         """It stays."""
 
 
 class _Window:
-    """A window of the system's."""
+    """A window of the system's; whoever closes it sees no more, and the episode goes on."""
 
     def __init__(self) -> None:
         try:
@@ -71,11 +70,14 @@ class _Window:
             raise gymnasium.error.DependencyNotInstalled(text) from why
         self._tkinter: Any = tkinter
         self._window.title("Carbot")
+        self._window.protocol("WM_DELETE_WINDOW", self.close)
         self._label: Any = tkinter.Label(self._window)
         self._label.pack()
         self._image: Any = None
 
     def show(self, picture: NDArray[np.uint8]) -> None:
+        if self._window is None:
+            return
         rows, columns, _ = picture.shape
         image = self._tkinter.PhotoImage(data=b"P6 %d %d 255\n" % (columns, rows) + picture.tobytes(), format="PPM")
         self._image = image.zoom(ENLARGED)
@@ -83,12 +85,9 @@ class _Window:
         self._window.update()
 
     def close(self) -> None:
-        self._window.destroy()
-
-
-def _in_notebook() -> bool:
-    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
-    return hasattr(shell, "kernel")
+        if self._window is not None:
+            self._window.destroy()
+        self._window = None
 
 
 def png(picture: NDArray[np.uint8]) -> bytes:

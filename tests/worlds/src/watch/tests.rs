@@ -17,7 +17,7 @@ impl Names for One {
         2
     }
     fn component(&self, id: ComponentId) -> ComponentName<'_> {
-        let kind = if id.0 == 0 { Kind::Plan } else { Kind::Actor };
+        let kind = if id.0 == 0 { ComponentKind::Plan } else { ComponentKind::Actor };
         ComponentName { path: "one", kind, template: "One" }
     }
     fn outcome(&self, _: ComponentId, _: u16) -> &str {
@@ -170,11 +170,11 @@ fn a_robot_that_rolls_past_its_stop_time_breaks_a_rule() {
 
 #[test]
 fn on_a_slippery_floor_or_with_a_deaf_controller_it_may_take_longer_but_not_for_ever() {
-    let slip = Deed::Break(Fault::WheelsSlip { share: 0.1 }, Duration::MAX);
+    let slip = Stimulus::Break(Fault::WheelsSlip { share: 0.1 }, Duration::MAX);
     let slip = Chance(vec![(at(500), slip)]);
     assert_eq!(rolls(&slip, 1000).broken(), []);
     breaks(rolls(&slip, 1900), "after the command to stand");
-    let deaf = Deed::Break(Fault::ControllerDead, Duration::from_millis(400));
+    let deaf = Stimulus::Break(Fault::ControllerDead, Duration::from_millis(400));
     let deaf = Chance(vec![(at(950), deaf)]);
     assert_eq!(rolls(&deaf, 1000).broken(), []);
     breaks(rolls(&deaf, 1500), "after the command to stand");

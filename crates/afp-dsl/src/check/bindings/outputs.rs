@@ -77,12 +77,8 @@ fn output(
         return None;
     };
     let target = &scope.entries[place];
-    let word = match target.kind {
-        EntryKind::In => Some("in"),
-        EntryKind::Const => Some("const"),
-        EntryKind::Var | EntryKind::Out => None,
-    };
-    if let Some(word) = word {
+    if matches!(target.kind, EntryKind::In | EntryKind::Const) {
+        let word = target.kind.word();
         let message = format!("'{}' is an entry that the plan does not write", entry.text);
         diags.push(
             Diagnostic::new(Code::E0219, entry.span, message)

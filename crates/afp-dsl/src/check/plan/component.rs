@@ -250,7 +250,7 @@ impl Components<'_> {
             ast::FormulaKind::Ref(reference) => reference.name(),
             _ => None,
         });
-        let entries = names.filter_map(|name| self.scope.places.find(&name.text));
+        let entries = names.filter_map(|name| self.scope.indices.find(&name.text));
         entries.filter_map(|place| u16::try_from(place).ok().map(EntryId)).collect()
     }
 

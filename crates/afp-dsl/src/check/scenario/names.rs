@@ -5,7 +5,7 @@ use super::resolve::{Cause, Part, Resolver, Walk};
 use super::robot::{Found, Robot};
 use crate::check::Context;
 use crate::check::formula::Scope;
-use crate::check::names::Places;
+use crate::check::names::Indices;
 use crate::index::{Recorder, Word};
 use crate::scenario::Field;
 use crate::toolbox::{Control, Fault, Signal};
@@ -20,11 +20,11 @@ pub(super) fn record(
     lines: &[Line],
 ) {
     let record = context.program.record;
-    let names = Names { context, resolver, robot, record, plan };
+    let names = NameRecorder { context, resolver, robot, record, plan };
     lines.iter().for_each(|line| names.line(line));
 }
 
-struct Names<'a> {
+struct NameRecorder<'a> {
     context: Context<'a>,
     resolver: &'a Resolver<'a>,
     robot: &'a Robot<'a>,
@@ -32,7 +32,7 @@ struct Names<'a> {
     plan: Option<usize>,
 }
 
-impl Names<'_> {
+impl NameRecorder<'_> {
     fn line(&self, line: &Line) {
         match line.kind() {
             LineKind::Set(path, value) => {
@@ -275,13 +275,13 @@ impl Names<'_> {
 
     /// A value, which may be made of constants of the plan.
     fn formula(&self, formula: &Formula) {
-        let none = Places::default();
+        let none = Indices::default();
         let head = self.plan.map(|plan| &self.context.program.plans[plan]);
         let scope = Scope {
             types: &self.context.file.types,
             tables: &[],
             entries: head.map_or(&[], |head| &head.entries),
-            places: head.map_or(&none, |head| &head.places),
+            indices: head.map_or(&none, |head| &head.indices),
             readable: &|_| true,
             unreadable: "",
             text: self.context.file.text,

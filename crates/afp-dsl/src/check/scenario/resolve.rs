@@ -86,7 +86,7 @@ impl<'a> Resolver<'a> {
     pub fn entry(&self, plan: usize, names: &[Name]) -> Walk<usize> {
         let mut walk = Walk { trail: Vec::new(), entered: Vec::new(), plan, end: Err(empty()) };
         for (at, name) in names.iter().enumerate() {
-            let element = self.members[walk.plan].places.find(&name.text);
+            let element = self.members[walk.plan].indices.find(&name.text);
             let id = element.and_then(|place| u16::try_from(place).ok()).map(ElementId);
             let inner = id.and_then(|id| Some((id, self.sub_plan(walk.plan, id)?)));
             if let (Some((id, inner)), true) = (inner, at + 1 < names.len()) {
@@ -96,7 +96,7 @@ impl<'a> Resolver<'a> {
                 continue;
             }
             let head = &self.program.plans[walk.plan];
-            let Some(place) = head.places.find(&name.text) else {
+            let Some(place) = head.indices.find(&name.text) else {
                 walk.end = Err(self.unknown_entry(walk.plan, name));
                 return walk;
             };
@@ -134,7 +134,7 @@ impl<'a> Resolver<'a> {
     /// An element or global supervisor of a plan.
     fn part(&self, plan: usize, name: &str) -> Option<Part> {
         let members = &self.members[plan];
-        if let Some(place) = members.places.find(name) {
+        if let Some(place) = members.indices.find(name) {
             return u16::try_from(place).ok().map(ElementId).map(Part::Element);
         }
         let place = members.globals.iter().position(|member| is_called(member, name))?;
@@ -272,7 +272,7 @@ impl<'a> Resolver<'a> {
         let known = entries.map(|entry| entry.name.text.as_str());
         let message = format!("'{}' has no entry '{}'", self.plan_name(plan), name.text);
         let inside = self.one_deeper(plan, &name.text, |_, inner| {
-            inner.is_some_and(|inner| self.program.plans[inner].places.find(&name.text).is_some())
+            inner.is_some_and(|inner| self.program.plans[inner].indices.find(&name.text).is_some())
         });
         if !inside.is_empty() {
             return Box::new(meant(Diagnostic::new(Code::E0209, name.span, message), inside));

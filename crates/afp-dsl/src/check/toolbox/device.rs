@@ -1,7 +1,7 @@
 //! One device: what can be pressed, how it fails, what it signals.
 
 use super::ports::{Declared, Site, Values};
-use crate::check::names::{Names, unknown};
+use crate::check::names::{DeclaredNames, unknown};
 use crate::index::Word;
 use crate::toolbox::device::{ROBOT, SHOWN, of_every_sensor};
 use crate::toolbox::{Amount, Constant, Control, Device, DeviceKind, Fault, Signal, SignalType};
@@ -13,7 +13,7 @@ use afp_syntax::source::Span;
 /// The devices of a toolbox so far.
 #[derive(Default)]
 pub(super) struct Devices {
-    names: Names,
+    names: DeclaredNames,
     /// Where `stop` stands.
     stop: Option<Span>,
     pub all: Vec<Device>,
@@ -59,7 +59,7 @@ impl Devices {
         &mut self,
         node: &ast::Press,
         device: &mut Device,
-        names: &mut Names,
+        names: &mut DeclaredNames,
         diags: &mut Diagnostics,
     ) {
         let stops = node.keyword().is_some_and(|word| word.text == "stop");
@@ -91,9 +91,9 @@ impl Devices {
 /// The names of the parts of a device.
 #[derive(Default)]
 struct Scopes {
-    controls: Names,
-    faults: Names,
-    signals: Names,
+    controls: DeclaredNames,
+    faults: DeclaredNames,
+    signals: DeclaredNames,
 }
 
 /// What a device is called.
@@ -127,7 +127,7 @@ fn fault(
     node: &ast::Fault,
     device: &Device,
     site: &Site<'_>,
-    names: &mut Names,
+    names: &mut DeclaredNames,
     diags: &mut Diagnostics,
 ) -> Option<Fault> {
     let written = node.amount();
@@ -187,7 +187,7 @@ fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Optio
 fn signal(
     node: &ast::Signal,
     site: &Site<'_>,
-    names: &mut Names,
+    names: &mut DeclaredNames,
     diags: &mut Diagnostics,
 ) -> Option<Signal> {
     let name = node.name();

@@ -1,8 +1,8 @@
 //! Ports of a template: types, defaults, ranges.
 
 use crate::check::formula::Scope;
-use crate::check::names::Places;
-use crate::check::names::{Names, unknown};
+use crate::check::names::Indices;
+use crate::check::names::{DeclaredNames, unknown};
 use crate::check::range;
 use crate::check::types::Types;
 use crate::index::Recorder;
@@ -16,7 +16,7 @@ pub(super) fn input(
     node: &ast::InPort,
     kind: TemplateKind,
     site: &Site<'_>,
-    names: &mut Names,
+    names: &mut DeclaredNames,
     diags: &mut Diagnostics,
 ) -> Option<InPort> {
     let Some(name) = node.name() else {
@@ -55,7 +55,7 @@ pub(super) fn output(
     node: &ast::OutPort,
     outcomes: &[Outcome],
     site: &Site<'_>,
-    names: &mut Names,
+    names: &mut DeclaredNames,
     diags: &mut Diagnostics,
 ) -> Option<OutPort> {
     let Site { types, record, .. } = *site;
@@ -129,7 +129,7 @@ impl Site<'_> {
             types: self.types,
             tables: &[],
             entries: &[],
-            places: &Places::default(),
+            indices: &Indices::default(),
             readable: &|_| false,
             unreadable: "",
             text: self.source,

@@ -1,6 +1,6 @@
 //! One template: its parts, each where it belongs and as often as it may stand.
 
-use crate::check::names::{Names, unknown};
+use crate::check::names::{DeclaredNames, unknown};
 use crate::check::toolbox::ports::{self, Site};
 use crate::check::{size, timing};
 use crate::index::Word;
@@ -40,7 +40,7 @@ pub(super) fn read(
     let parts = node.parts();
     let mut seen = Seen::default();
     outcomes(&parts, &mut template, diags);
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     for part in &parts {
         match part {
             Part::Icon(quoted, span) => {
@@ -146,7 +146,7 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
         TemplateKind::Supervisor => ("event", "state"),
         TemplateKind::Actor | TemplateKind::Computation => ("state", "event"),
     };
-    let mut names = Names::default();
+    let mut names = DeclaredNames::default();
     for part in parts {
         let Part::Outcome(node) = part else { continue };
         if let Some(keyword) = node.keyword().filter(|keyword| keyword.text == wrong) {

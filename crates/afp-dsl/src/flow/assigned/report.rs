@@ -1,4 +1,4 @@
-//! Says that an entry may have no value, with a way on which nothing writes it.
+//! Says that an entry may have no value, with a path on which nothing writes it.
 
 use super::reads::{Read, Reads};
 use crate::flow::dataflow;
@@ -9,7 +9,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Greatest number of other reads that one diagnostic shows.
 const MAX_READS: usize = 3;
-/// Greatest number of steps of a way that are printed.
+/// Greatest number of steps of a path that are printed.
 const MAX_STEPS: usize = 12;
 /// Greatest number of ways that are looked for in one plan; each costs a search.
 const MAX_WAYS: usize = 64;
@@ -55,8 +55,8 @@ impl<'a, 'b> Report<'a, 'b> {
         };
         found = found.note(declared.span, "it has no value when the plan starts");
         if let Some(node) = first.node {
-            let (way, blamed) = self.way(node, writes);
-            found = found.note(self.view.plan.start_span, format!("one way: {way}"));
+            let (path, blamed) = self.path(node, writes);
+            found = found.note(self.view.plan.start_span, format!("one way: {path}"));
             found = blamed.into_iter().fold(found, |found, at| self.blame(found, at, entry));
         }
         for other in early.take(MAX_READS) {
@@ -71,7 +71,7 @@ impl<'a, 'b> Report<'a, 'b> {
         self.diags.push(found.help(help));
     }
 
-    /// Notes that a sub-plan on the way does not surely write the entry.
+    /// Notes that a sub-plan on the path does not surely write the entry.
     fn blame(&self, found: Diagnostic, at: usize, entry: EntryId) -> Diagnostic {
         let Cause::State(id, state) = self.view.edges[at].cause else { return found };
         let element = &self.view.plan.elements[id.index()];
@@ -80,9 +80,9 @@ impl<'a, 'b> Report<'a, 'b> {
         let unset = &inner.unset[usize::from(state)];
         let mut ways = bound.filter_map(|output| unset.get(usize::from(output.port))?.as_ref());
         match ways.next() {
-            Some(way) => found.note(
+            Some(path) => found.note(
                 element.span,
-                format!("'{}' may end without a value for it: {way}", element.name),
+                format!("'{}' may end without a value for it: {path}", element.name),
             ),
             None => found,
         }
@@ -99,15 +99,15 @@ impl<'a, 'b> Report<'a, 'b> {
         let port = before.filter(|other| other.kind == EntryKind::Out).count();
         for ending in [OK, INTERRUPTED] {
             if lacks[ending] {
-                let (way, _) = self.way(self.view.end(ending), writes);
-                self.unset[ending][port] = Some(way);
+                let (path, _) = self.path(self.view.end(ending), writes);
+                self.unset[ending][port] = Some(path);
             }
         }
-        let Some(way) = &self.unset[OK][port] else { return };
+        let Some(path) = &self.unset[OK][port] else { return };
         let message = format!("'{}' may have no value when the plan ends", declared.name);
         self.diags.push(
             Diagnostic::new(Code::E0310, declared.span, message)
-                .note(self.view.plan.start_span, format!("one way: {way}"))
+                .note(self.view.plan.start_span, format!("one way: {path}"))
                 .help(format!(
                     "give '{}' an initial value, or write it on every way to 'terminate'",
                     declared.name
@@ -115,8 +115,8 @@ impl<'a, 'b> Report<'a, 'b> {
         );
     }
 
-    /// A way to a node on which nothing writes an entry, in words, with its edges.
-    fn way(&mut self, goal: Node, writes: &[u32]) -> (String, Vec<usize>) {
+    /// A path to a node on which nothing writes an entry, in words, with its edges.
+    fn path(&mut self, goal: Node, writes: &[u32]) -> (String, Vec<usize>) {
         self.ways += 1;
         if self.ways > MAX_WAYS {
             return ("not looked for, since there are so many".to_owned(), Vec::new());

@@ -2,9 +2,11 @@
 
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::{process, thread};
+use std::thread;
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+
+use crate::forks;
 
 /// The threads of this process, one for each core.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
@@ -16,7 +18,7 @@ static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 pub fn pool() -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
     let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((process, pool)) = &*pool
-        && *process == process::id()
+        && *process == forks::process()
     {
         return Ok(Arc::clone(pool));
     }
@@ -25,6 +27,6 @@ pub fn pool() -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
     // Threads are not forked: whoever waited for those of the parent would wait for ever.
     std::mem::forget(pool.take());
     let made = Arc::new(made);
-    *pool = Some((process::id(), Arc::clone(&made)));
+    *pool = Some((forks::process(), Arc::clone(&made)));
     Ok(made)
 }

@@ -1,7 +1,7 @@
 //! The conversation with a client, whatever carries it.
 
 use std::io::{ErrorKind, Read, Write};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -29,18 +29,21 @@ pub fn converse(
     mut send: impl FnMut(&[String]) -> bool,
 ) -> Result<(), WireError> {
     let begin = Instant::now();
-    while !adapter.is_over() {
+    let client = adapter.join();
+    while !adapter.is_over(client) {
         let out = match next(adapter.due())? {
             Arrived::Messages(messages) => {
                 let mut out = Vec::new();
                 for message in &messages {
-                    out.extend(adapter.handle(message, begin.elapsed()));
+                    out.extend(adapter.handle(client, message, begin.elapsed()));
                 }
                 out
             }
             Arrived::Nothing => adapter.tick(begin.elapsed()),
             Arrived::End => return Ok(()),
         };
+        // There is no other client.
+        let out: Vec<_> = out.into_iter().map(|told| told.message).collect();
         if !out.is_empty() && !send(&out) {
             return Ok(());
         }
@@ -59,7 +62,7 @@ pub(super) fn serve(
 ) -> Result<(), WireError> {
     let (sender, arrived) = channel();
     // It ends with the stream, or with the program.
-    thread::spawn(move || read(from, &sender));
+    thread::spawn(move || read(from, |bytes| sender.send(bytes).is_ok()));
     let mut frames = Frames::default();
     let next = |due: Option<Duration>| match wait(&arrived, due) {
         Ok(bytes) => {
@@ -90,12 +93,13 @@ fn wait(arrived: &Receiver<Vec<u8>>, due: Option<Duration>) -> Result<Vec<u8>, R
     }
 }
 
-fn read(mut from: impl Read, to: &Sender<Vec<u8>>) {
+/// Hands on what arrives, until nothing does or nobody wants it.
+pub(super) fn read(mut from: impl Read, mut arrived: impl FnMut(Vec<u8>) -> bool) {
     let mut buffer = [0; 1 << 14];
     loop {
         match from.read(&mut buffer) {
             Ok(0) => return,
-            Ok(length) if to.send(buffer[..length].to_vec()).is_err() => return,
+            Ok(length) if !arrived(buffer[..length].to_vec()) => return,
             Ok(_) => {}
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(_) => return,

@@ -7,7 +7,7 @@ use templates::{check_turned, spin};
 
 pub mod templates {
     //! What `gestures.afp` declares.
-    afp::toolbox!("gestures.afp");
+    afp::toolbox!("gestures.afp", robot: super::Navigator + super::Odometry);
 }
 
 /// Turns on the spot.

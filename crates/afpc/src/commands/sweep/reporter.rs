@@ -22,7 +22,7 @@ const GROUPS: usize = 12;
 const BAR: &str = "{bar:32} {pos} of {len} runs, {rate}, {eta} left{msg}";
 
 /// Tells how it goes.
-pub(super) struct Teller<'a> {
+pub(super) struct Reporter<'a> {
     sweep: &'a Sweep,
     json: bool,
 }
@@ -33,9 +33,9 @@ pub(super) struct Bar {
     failed: Cell<u64>,
 }
 
-impl<'a> Teller<'a> {
+impl<'a> Reporter<'a> {
     pub fn new(sweep: &'a Sweep, json: bool) -> Self {
-        Teller { sweep, json }
+        Reporter { sweep, json }
     }
 
     /// Says that a sweep goes on, and how to begin anew.

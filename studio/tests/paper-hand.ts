@@ -1,24 +1,18 @@
-// The paper's plan from an empty file by fingers, names, help and formulas typed. It ends in the words of the plan.
+// The paper's plan from an empty file by a hand that presses: with fingers, and with the mouse.
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
-import type { Page } from "playwright-core";
-import { inBrowser } from "./browser";
+import type { Locator, Page } from "playwright-core";
 
-const PLAN = "WallFollowing";
-const fingers = { hasTouch: true, viewport: { width: 1180, height: 820 } };
+export const PLAN = "WallFollowing";
 
-inBrowser("the paper's plan from an empty file by fingers", { "plan.afp": `use carbot\n\nplan ${PLAN} {\n}\n` }, async ({ page, read }) => {
-  await page.locator(`.node [data-item="${PLAN}.start"]`).waitFor();
-  const hand = new Fingers(page, () => read("plan.afp"));
-  await search(hand);
-  await follow(hand);
-  const words = (text: string): string => text.replace(/\s+/g, " ");
-  const paper = await readFile(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
-  assert.equal(words(await read("plan.afp")), words(paper));
-  await page.locator(".count", { hasText: "ready" }).waitFor();
-}, fingers);
+/** How a hand presses: what differs between a finger and a mouse. */
+export interface Pointer {
+  press(part: Locator): Promise<void>;
+  pressAt(x: number, y: number): Promise<void>;
+  /** Opens the menu of what is there. */
+  menuAt(x: number, y: number): Promise<void>;
+}
 
-async function search(hand: Fingers): Promise<void> {
+export async function search(hand: Hand): Promise<void> {
   await hand.help("Find the next wall, then drive parallel to it until the escape button is pressed.");
   await hand.entry("in walldist: length = 30 cm");
   await hand.help("Distance to keep to the wall.");
@@ -43,7 +37,7 @@ async function search(hand: Fingers): Promise<void> {
   await hand.connect("ForwardSuccessful", "searchFirstWall");
 }
 
-async function follow(hand: Fingers): Promise<void> {
+export async function follow(hand: Hand): Promise<void> {
   await hand.on("findWallAngle");
   await hand.create("WallFound", "Turn", "parallelToWall");
   await hand.value("angle", "wallangle");
@@ -61,9 +55,9 @@ async function follow(hand: Fingers): Promise<void> {
   await hand.connect("NoWallFound", "turnAfterWallLost");
 }
 
-/** What a person does with fingers; what is typed comes from the keyboard on the screen. */
-class Fingers {
-  constructor(private readonly page: Page, private readonly read: () => Promise<string>) {}
+/** What a person does with a finger or the mouse; names, help and formulas are typed. */
+export class Hand {
+  constructor(private readonly page: Page, private readonly read: () => Promise<string>, private readonly pointer: Pointer) {}
 
   private async has(wanted: string): Promise<void> {
     const end = Date.now() + 5000;
@@ -78,17 +72,17 @@ class Fingers {
 
   /** Selects an element in the drawing, all of which is brought into sight before. */
   async on(name: string): Promise<void> {
-    await this.page.getByRole("button", { name: "Show the whole plan" }).tap();
+    await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
     const box = (await this.page.locator(`.node [data-item="${PLAN}.${name}"] text.name`).first().boundingBox())!;
-    await this.page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
+    await this.pointer.pressAt(box.x + box.width / 2, box.y + box.height / 2);
     await this.stands(name);
   }
 
   /** Taps the ground: nothing is selected. */
   async ground(): Promise<void> {
-    await this.page.getByRole("button", { name: "Show the whole plan" }).tap();
+    await this.pointer.press(this.page.getByRole("button", { name: "Show the whole plan" }));
     const board = (await this.page.locator(".board").boundingBox())!;
-    await this.page.touchscreen.tap(board.x + 20, board.y + board.height - 90);
+    await this.pointer.pressAt(board.x + 20, board.y + board.height - 90);
     await this.stands(PLAN);
   }
 
@@ -102,23 +96,15 @@ class Fingers {
   help = (text: string): Promise<void> => this.field("Help", text, text);
   timing = (every: string): Promise<void> => this.field("every", every, `every ${every}`);
 
-  /** The menu of the start has it; a finger that rests opens the menu. */
+  /** The menu of the start has it. */
   async entry(line: string): Promise<void> {
     const start = (await this.page.locator(`.node [data-item="${PLAN}.start"] text.start`).boundingBox())!;
-    await this.rest(start.x + start.width / 2, start.y + start.height / 2);
-    await this.page.getByRole("menuitem", { name: "Add an entry" }).tap();
+    await this.pointer.menuAt(start.x + start.width / 2, start.y + start.height / 2);
+    await this.pointer.press(this.page.getByRole("menuitem", { name: "Add an entry" }));
     await this.page.getByRole("dialog").getByRole("textbox").fill(line);
-    await this.page.getByRole("dialog").getByRole("button", { name: "Add an entry" }).tap();
+    await this.pointer.press(this.page.getByRole("dialog").getByRole("button", { name: "Add an entry" }));
     await this.has(line);
     await this.stands(/(\w+):/.exec(line)![1]!);
-  }
-
-  private async rest(x: number, y: number): Promise<void> {
-    const client = await this.page.context().newCDPSession(this.page);
-    await client.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
-    await this.page.locator(".context-menu").waitFor();
-    await client.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
-    await client.detach();
   }
 
   private async rename(template: string, name: string): Promise<void> {
@@ -130,15 +116,15 @@ class Fingers {
   async add(template: string, name: string): Promise<void> {
     const button = this.page.locator(`[data-template=${template}]`);
     await button.scrollIntoViewIfNeeded();
-    await button.tap();
+    await this.pointer.press(button);
     await this.rename(template, name);
   }
 
   private async then(exit: string, choice: string): Promise<void> {
-    await this.page.locator(".inspector .row", { hasText: new RegExp(`^${exit}`) }).tap();
+    await this.pointer.press(this.page.locator(".inspector .row", { hasText: new RegExp(`^${exit}`) }));
     const list = this.page.locator(".chooser");
     await list.getByRole("combobox").fill(choice);
-    await list.locator(".choice-label", { hasText: new RegExp(`^${choice}$`) }).tap();
+    await this.pointer.press(list.locator(".choice-label", { hasText: new RegExp(`^${choice}$`) }));
     await list.waitFor({ state: "detached" });
   }
 
@@ -154,20 +140,20 @@ class Fingers {
   }
 
   private async port(name: string): Promise<void> {
-    await this.page.locator(".inspector .port > .row", { hasText: new RegExp(`^${name}`) }).tap();
+    await this.pointer.press(this.page.locator(".inspector .port > .row", { hasText: new RegExp(`^${name}`) }));
   }
 
   async value(port: string, value: string): Promise<void> {
     await this.port(port);
     await this.page.locator(".inspector .value input[type=text]").fill(value);
-    await this.page.locator(".inspector .value").getByRole("button", { name: "Set" }).tap();
+    await this.pointer.press(this.page.locator(".inspector .value").getByRole("button", { name: "Set" }));
     await this.has(`${port} = ${value}`);
   }
 
   /** Writes an output into an entry. */
   async write(port: string, entry: string): Promise<void> {
     await this.port(port);
-    await this.page.locator(".inspector .value .entry-chip", { hasText: entry }).tap();
+    await this.pointer.press(this.page.locator(".inspector .value .entry-chip", { hasText: entry }));
     await this.has(`${port} => ${entry}`);
   }
 }

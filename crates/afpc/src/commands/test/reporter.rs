@@ -20,7 +20,7 @@ const BAD: Style = AnsiColor::BrightRed.on_default().bold();
 const QUIET: Style = Style::new().dimmed();
 
 /// Tells how it goes.
-pub(super) struct Teller {
+pub(super) struct Reporter {
     all: usize,
     done: AtomicUsize,
     json: bool,
@@ -34,10 +34,10 @@ fn show(text: &str) {
     let _ = anstream::stderr().write_all(text.as_bytes());
 }
 
-impl Teller {
+impl Reporter {
     pub fn new(all: usize, json: bool) -> Self {
         let progress = std::io::stderr().is_terminal();
-        Teller { all, done: AtomicUsize::new(0), json, progress, failure: Mutex::default() }
+        Reporter { all, done: AtomicUsize::new(0), json, progress, failure: Mutex::default() }
     }
 
     /// A scenario is done; called from all threads.

@@ -1,4 +1,4 @@
-//! What observers and measures are told.
+//! What is reported to observers and measures.
 
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! Obstacles that move: those that can be pushed and those that go their own way.
 
-use super::{DT, Simulation};
+use super::{DT, Stage};
 use crate::vehicle::Place;
 use crate::world::{Mobility, Obstacle, Path};
 use afp_core::Instant;
@@ -13,7 +13,7 @@ const FLOOR: f32 = 0.4 * 9.81;
 
 /// An obstacle that moves.
 #[derive(Clone)]
-pub(super) struct Mover {
+pub(crate) struct Mover {
     obstacle: usize,
     body: RigidBodyHandle,
     /// Where it was at the start.
@@ -32,7 +32,7 @@ enum Way {
 
 impl Mover {
     /// A body for an obstacle that moves; none for one that does not.
-    pub(super) fn body(obstacle: &Obstacle, at: Isometry) -> Option<RigidBodyBuilder> {
+    pub(crate) fn body(obstacle: &Obstacle, at: Isometry) -> Option<RigidBodyBuilder> {
         match obstacle.mobility {
             Mobility::Fixed => None,
             Mobility::Movable { .. } => Some(RigidBodyBuilder::dynamic().pose(at)),
@@ -41,7 +41,7 @@ impl Mover {
     }
 
     /// The `i`-th obstacle, with its body; it stands at `start` and has a shape.
-    pub(super) fn new(
+    pub(crate) fn new(
         i: usize,
         body: RigidBodyHandle,
         (start, shape): (Isometry, &SharedShape),
@@ -59,16 +59,16 @@ impl Mover {
     }
 
     /// The obstacle, by its place in [`World::obstacles`](crate::World).
-    pub(super) fn obstacle(&self) -> usize {
+    pub(crate) fn obstacle(&self) -> usize {
         self.obstacle
     }
 
-    pub(super) fn handle(&self) -> RigidBodyHandle {
+    pub(crate) fn handle(&self) -> RigidBodyHandle {
         self.body
     }
 
     /// Where it was at the start.
-    pub(super) fn start(&self) -> Isometry {
+    pub(crate) fn start(&self) -> Isometry {
         self.start
     }
 
@@ -103,15 +103,15 @@ fn slide(body: &mut RigidBody, gyration: f32) {
     body.set_angvel(turn - calmer, false);
 }
 
-impl Simulation {
+impl Stage {
     /// Lets everything that moves begin the step that ends at `now`.
-    pub(super) fn move_obstacles(&mut self, now: Instant) {
+    pub(super) fn begin_movers(&mut self, now: Instant) {
         for mover in &self.movers {
             mover.step(&mut self.physics.bodies[mover.body], now);
         }
     }
 
-    /// The corners of an obstacle, by its place in [`World::obstacles`](crate::World), where it is now: metres,
+    /// The corners of an obstacle, by its place among the [`Stage::obstacles`], where it is now: metres,
     /// counter-clockwise; none for an obstacle that is not there.
     pub fn outline(&self, obstacle: usize) -> Vec<[f64; 2]> {
         let Some(there) = self.obstacles.get(obstacle) else { return Vec::new() };
@@ -124,20 +124,20 @@ impl Simulation {
         corners.into_iter().map(|[x, y]| moved.beyond(x, y)).collect()
     }
 
-    /// The obstacles that move, by their places in [`World::obstacles`](crate::World).
+    /// The obstacles that move, by their places among the [`Stage::obstacles`].
     pub fn movers(&self) -> impl Iterator<Item = usize> {
         self.movers.iter().map(|mover| mover.obstacle)
     }
 
-    /// Notes where everything that moves is after a step.
-    pub(super) fn note_obstacles(&mut self) {
+    /// Notes where everything that moves is, and tells of what is elsewhere than before.
+    pub(crate) fn note_movers(&mut self, mut moved: impl FnMut(usize, [f64; 2], [f64; 2])) {
         for (n, mover) in self.movers.iter().enumerate() {
             let at = *self.physics.bodies[mover.body].position();
             let Some((noted, _)) = self.shapes.get_mut(mover.obstacle) else { continue };
             if *noted != at {
                 *noted = at;
                 let (at, direction) = Place::new(&(at * mover.start.inverse())).parts();
-                self.scene.place(n, at, direction);
+                moved(n, at, direction);
             }
         }
     }

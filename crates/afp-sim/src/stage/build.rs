@@ -2,8 +2,7 @@
 
 use super::DT;
 use super::movers::Mover;
-use crate::devices::sonar;
-use crate::vehicle::{HALF_LENGTH, HALF_WIDTH, MASS};
+use crate::chassis::Chassis;
 use crate::world::{Mobility, Obstacle, World, WorldError, isometry};
 use rapier2d::geometry::{Group, InteractionGroups, InteractionTestMode};
 use rapier2d::math::{Pose as Isometry, Vector};
@@ -13,23 +12,23 @@ use rapier2d::prelude::{
 };
 
 /// What the range sensor hears.
-pub(super) const HIGH: Group = Group::GROUP_1;
+pub(crate) const HIGH: Group = Group::GROUP_1;
 /// What it looks over.
 const LOW: Group = Group::GROUP_2;
 /// The robot.
-pub(super) const ROBOT: Group = Group::GROUP_3;
+pub(crate) const ROBOT: Group = Group::GROUP_3;
 
 /// What the engine knows of a world.
-pub(super) struct Built {
-    pub(super) physics: PhysicsWorld,
-    pub(super) body: RigidBodyHandle,
-    pub(super) collider: ColliderHandle,
-    pub(super) shapes: Vec<(Isometry, SharedShape)>,
-    pub(super) movers: Vec<Mover>,
+pub(crate) struct Built {
+    pub(crate) physics: PhysicsWorld,
+    pub(crate) body: RigidBodyHandle,
+    pub(crate) collider: ColliderHandle,
+    pub(crate) shapes: Vec<(Isometry, SharedShape)>,
+    pub(crate) movers: Vec<Mover>,
 }
 
 /// Builds a world and the robot in it for the engine.
-pub(super) fn build(world: &World) -> Result<Built, WorldError> {
+pub(crate) fn build(world: &World, chassis: &Chassis) -> Result<Built, WorldError> {
     let mut physics = PhysicsWorld::new();
     physics.gravity = Vector::ZERO;
     physics.integration_parameters.dt = DT as f32;
@@ -40,7 +39,7 @@ pub(super) fn build(world: &World) -> Result<Built, WorldError> {
             span: None,
             message: format!("'{}' has no area", obstacle.name),
         })?;
-        let collider = collider(obstacle, shape.clone(), i);
+        let collider = collider(obstacle, shape.clone(), i, chassis);
         match Mover::body(obstacle, at) {
             None => drop(physics.insert_collider(collider.position(at), None)),
             Some(body) => {
@@ -51,15 +50,20 @@ pub(super) fn build(world: &World) -> Result<Built, WorldError> {
         shapes.push((at, shape));
     }
     let body = RigidBodyBuilder::dynamic().pose(isometry(world.start)).can_sleep(false);
-    let (body, collider) = physics.insert(body, robot());
+    let (body, collider) = physics.insert(body, robot(chassis));
     // Rays meet nothing before the first update of the search tree.
     physics.detect_collisions(&(), &());
     Ok(Built { physics, body, collider, shapes, movers })
 }
 
 /// An obstacle's collider; its index in the world is its user data.
-pub(super) fn collider(obstacle: &Obstacle, shape: SharedShape, i: usize) -> ColliderBuilder {
-    let group = if obstacle.height >= sonar::HEIGHT { HIGH } else { LOW };
+pub(crate) fn collider(
+    obstacle: &Obstacle,
+    shape: SharedShape,
+    i: usize,
+    chassis: &Chassis,
+) -> ColliderBuilder {
+    let group = if obstacle.height >= chassis.ranging_height { HIGH } else { LOW };
     let builder = match obstacle.mobility {
         Mobility::Movable { mass } => ColliderBuilder::new(shape).mass(mass as f32),
         Mobility::Fixed | Mobility::Scripted(_) => ColliderBuilder::new(shape),
@@ -76,9 +80,9 @@ pub(super) fn collider(obstacle: &Obstacle, shape: SharedShape, i: usize) -> Col
 }
 
 /// The robot's collider.
-fn robot() -> ColliderBuilder {
-    ColliderBuilder::cuboid(HALF_LENGTH as f32, HALF_WIDTH as f32)
-        .mass(MASS as f32)
+fn robot(chassis: &Chassis) -> ColliderBuilder {
+    ColliderBuilder::new(chassis.shared())
+        .mass(chassis.mass as f32)
         .friction(0.3)
         .restitution(0.0)
         .collision_groups(InteractionGroups::new(ROBOT, HIGH | LOW, InteractionTestMode::And))

@@ -1,0 +1,53 @@
+//! The proof that every template of a toolbox is implemented: it does not compile otherwise.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::{bound, words};
+use crate::names::{camel, ident, snake};
+use afp_dsl::toolbox::{Template, TemplateKind, Toolbox};
+
+/// What the templates of a toolbox ask of a robot.
+pub enum Asked {
+    /// The traits that every robot implements which can use all of them: `Lights + Wheels`.
+    Traits(TokenStream),
+    /// The one type of robot that they are implemented for.
+    Type(TokenStream),
+}
+
+/// A function that compiles when the Rust implements every template for such a robot.
+///
+/// Generic code is compiled before anybody names a robot, so a template that nobody implements would
+/// show only where a plan that uses it is built.
+pub fn complete(core: &TokenStream, toolbox: &Toolbox, asked: &Asked) -> TokenStream {
+    let robot = match asked {
+        Asked::Traits(_) => quote!(Robot),
+        Asked::Type(robot) => robot.clone(),
+    };
+    let parameter = match asked {
+        Asked::Traits(traits) if traits.is_empty() => quote!(<Robot: #core::Environment + ?Sized>),
+        Asked::Traits(traits) => quote!(<Robot: #core::Environment + ?Sized + #traits>),
+        Asked::Type(_) => TokenStream::new(),
+    };
+    let asserted = super::implemented(toolbox).map(|template| asserted(core, template, &robot));
+    quote! {
+        #[allow(dead_code)]
+        const _: () = {
+            fn actor<T: #core::ActorTemplate, E: ?Sized, C: #core::Actor<T, E>>() {}
+            fn supervisor<T: #core::SupervisorTemplate, E: ?Sized, C: #core::Supervisor<T, E>>() {}
+            fn computation<T: #core::ComputationTemplate, C: #core::Computation<T>>() {}
+            fn implemented #parameter () {
+                #(#asserted)*
+            }
+        };
+    }
+}
+
+/// The assertion that one template is implemented.
+fn asserted(core: &TokenStream, template: &Template, robot: &TokenStream) -> TokenStream {
+    let is = ident(&snake(&words(template.kind).component.to_string()));
+    let name = ident(&camel(&template.name));
+    let generic = bound(template).map(|_| quote!(<#core::Value>));
+    let on = (template.kind != TemplateKind::Computation).then(|| quote!(#robot,));
+    quote!(#is::<self::#name #generic, #on super::#name #generic>();)
+}

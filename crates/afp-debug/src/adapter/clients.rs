@@ -1,0 +1,185 @@
+//! The clients of a run: each counts for itself, is told what it asked for, and goes when it likes.
+
+use dapts::IEvent;
+use serde_json::{Value, json};
+
+use super::Adapter;
+use super::roles::Lease;
+
+/// A client of an adapter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ClientId(u32);
+
+/// A message for a client.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Told {
+    /// Who is told.
+    pub to: ClientId,
+    /// The message, without a header.
+    pub message: String,
+}
+
+/// What is known of a client.
+#[derive(Debug)]
+pub(super) struct Client {
+    /// What it calls itself.
+    pub name: String,
+    pub counting: Counting,
+    /// The number of the last message to it.
+    sent: i64,
+    /// Whether it is told what happens in the run.
+    pub attached: bool,
+    /// Whether it wants to be told what is the case.
+    pub state: bool,
+    /// Whether it wants to be told what happens, as records.
+    pub trace: bool,
+    /// Whether it knows our own requests, and so our own events.
+    pub ours: bool,
+    /// What keeps it in its role, where it answers for that.
+    pub lease: Option<Lease>,
+    /// Whether it has said goodbye.
+    pub over: bool,
+}
+
+/// How a client counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Counting {
+    /// The number of the first line.
+    pub first_line: u32,
+    /// The number of the first column.
+    pub first_column: u32,
+}
+
+impl ClientId {
+    /// The number that clients know each other by.
+    pub(super) fn number(self) -> u32 {
+        self.0
+    }
+}
+
+impl Default for Counting {
+    fn default() -> Self {
+        Counting { first_line: 1, first_column: 1 }
+    }
+}
+
+impl Adapter<'_> {
+    /// A client comes; what it says is handed over with its number.
+    pub fn join(&mut self) -> ClientId {
+        self.joined += 1;
+        let (id, number) = (ClientId(self.joined), self.joined);
+        let client = Client {
+            name: format!("client {number}"),
+            counting: Counting::default(),
+            sent: 0,
+            attached: false,
+            state: false,
+            trace: false,
+            ours: false,
+            lease: None,
+            over: false,
+        };
+        self.clients.insert(id, client);
+        id
+    }
+
+    /// A client is gone: its breakpoints go with it, and its role. With the last one that it is told to, the run ends.
+    pub fn leave(&mut self, id: ClientId) -> Vec<Told> {
+        self.let_go(id);
+        self.clients.remove(&id);
+        self.take()
+    }
+
+    /// A client is not told of the run any more.
+    pub(super) fn let_go(&mut self, id: ClientId) {
+        let Some(client) = self.clients.get_mut(&id) else { return };
+        client.attached = false;
+        if self.attached().next().is_none() {
+            if let Some(mut run) = self.run.take() {
+                run.target.stop(&mut |_, _| {});
+            }
+            self.breakpoints.forget(id);
+            self.operator = None;
+            return;
+        }
+        if self.operator == Some(id) {
+            return self.lose_operator("is gone");
+        }
+        self.forget_breakpoints(id);
+        self.tell_roles();
+    }
+
+    /// Whether a client has said goodbye.
+    pub fn is_over(&self, id: ClientId) -> bool {
+        self.clients.get(&id).is_none_or(|client| client.over)
+    }
+
+    /// Those who are told what happens in the run.
+    pub(super) fn attached(&self) -> impl Iterator<Item = ClientId> + '_ {
+        self.clients.iter().filter(|(_, client)| client.attached).map(|(id, _)| *id)
+    }
+
+    /// How the client that asks counts.
+    pub(super) fn counting(&self) -> Counting {
+        self.counting_of(self.asker)
+    }
+
+    pub(super) fn counting_of(&self, id: ClientId) -> Counting {
+        self.clients.get(&id).map(|client| client.counting).unwrap_or_default()
+    }
+
+    pub(super) fn name_of(&self, id: ClientId) -> &str {
+        self.clients.get(&id).map_or("a client that is gone", |client| &*client.name)
+    }
+
+    /// Takes all messages, numbered for each client.
+    pub(super) fn take(&mut self) -> Vec<Told> {
+        let mut all = Vec::with_capacity(self.out.len());
+        for (to, mut message) in std::mem::take(&mut self.out) {
+            let Some(client) = self.clients.get_mut(&to) else { continue };
+            client.sent += 1;
+            message["seq"] = json!(client.sent);
+            all.push(Told { to, message: message.to_string() });
+        }
+        all
+    }
+
+    /// Sends an event of the protocol to all.
+    pub(super) fn event<E: IEvent>(&mut self, body: &E::Body) {
+        let body = serde_json::to_value(body).unwrap_or_default();
+        self.tell(E::EVENT, &body);
+    }
+
+    /// Sends an event of the protocol to a client.
+    pub(super) fn event_to<E: IEvent>(&mut self, to: ClientId, body: &E::Body) {
+        let body = serde_json::to_value(body).unwrap_or_default();
+        self.tell_one(to, E::EVENT, body);
+    }
+
+    /// Sends an event to all.
+    pub(super) fn tell(&mut self, event: &str, body: &Value) {
+        self.tell_those(|client| client.attached, event, body);
+    }
+
+    /// Sends an event to some.
+    pub(super) fn tell_those(
+        &mut self,
+        wanted: impl Fn(&Client) -> bool,
+        event: &str,
+        body: &Value,
+    ) {
+        let some = self.clients.iter().filter(|(_, client)| wanted(client));
+        for to in some.map(|(id, _)| *id).collect::<Vec<_>>() {
+            self.tell_one(to, event, body.clone());
+        }
+    }
+
+    /// Sends an event to a client.
+    pub(super) fn tell_one(&mut self, to: ClientId, event: &str, body: Value) {
+        let mut message = json!({"type": "event", "event": event});
+        if !body.is_null() {
+            message["body"] = body;
+        }
+        self.out.push((to, message));
+    }
+}

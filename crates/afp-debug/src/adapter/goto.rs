@@ -1,0 +1,173 @@
+//! Going to an element along the plan's own edges: what is active, or watches, is made to report what leads there.
+//!
+//! Nothing is entered from nowhere: values are those that the edges on the way leave, the trace is one that sensors could
+//! have brought about, and so the run can be gone back through and run again.
+
+use std::collections::VecDeque;
+use std::collections::btree_map::{BTreeMap, Entry};
+use std::time::Duration as Wall;
+
+use afp_core::trace::{ComponentId, DEADLINE_MISSED};
+use afp_dsl::unfold::ComponentKind;
+use afp_session::EventKind;
+use serde_json::Value;
+
+use super::steer::Mode;
+use super::{Adapter, Answer, Refusal, Run};
+use crate::program::{Program, Spot};
+use crate::target::Happened;
+
+/// What a component has to report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Report {
+    component: ComponentId,
+    outcome: String,
+}
+
+impl Adapter<'_> {
+    /// The elements at a line.
+    pub(super) fn goto_targets(
+        &mut self,
+        asked: dapts::GotoTargetsArguments,
+    ) -> Answer<dapts::GotoTargetsResponse> {
+        let path = self.host.path(asked.source.path.as_deref().unwrap_or_default());
+        let first = self.counting().first_line;
+        let program = self.run()?.target.program();
+        let line = asked.line.saturating_sub(first);
+        let found = program.file(&path).and_then(|file| program.at_line(file, line));
+        let (line, spots) = found.filter(|(at, _)| *at == line).unwrap_or((line, &[]));
+        let elements = spots.iter().filter_map(|spot| match spot {
+            Spot::Start(id) => Some(*id),
+            Spot::Reports(id) if program.unit(*id)?.kind == ComponentKind::Computation => Some(*id),
+            _ => None,
+        });
+        let targets = elements.filter_map(|id| {
+            Some(dapts::GotoTarget {
+                id: u64::from(id.0),
+                label: program.unit(id)?.path.clone(),
+                line: line + first,
+                column: None,
+                end_column: None,
+                end_line: None,
+                instruction_pointer_reference: None,
+            })
+        });
+        Ok(dapts::GotoTargetsResponse { targets: targets.collect() })
+    }
+
+    /// Goes to an element, along edges.
+    pub(super) fn goto(&mut self, asked: &dapts::GotoArguments, now: Wall) -> Answer<Value> {
+        let run = self.run()?;
+        if run.target.is_recorded() {
+            return Err("a log shows what was: launch its plan to go somewhere else".into());
+        }
+        let id = u32::try_from(asked.target_id).map(ComponentId);
+        let id = id.map_err(|_| Refusal("there is no such target".to_owned()))?;
+        run.lead(id)?;
+        self.go(Mode::Goto(id), now)?;
+        Ok(Value::Null)
+    }
+}
+
+impl Run<'_> {
+    /// Makes the next report on the way to an element come about.
+    fn lead(&mut self, to: ComponentId) -> Result<(), String> {
+        let program = self.target.program().clone();
+        let unit = program.unit(to).filter(|unit| unit.kind != ComponentKind::Supervisor);
+        let unit = unit.ok_or("there is no such target")?;
+        let Some(from) = self.target.state().active(unit.plan) else {
+            let plan = program.unit(unit.plan).map_or("", |plan| &*plan.path);
+            return Err(format!(
+                "'{plan}' is not active: go on until it is; one goes to elements of plans that are"
+            ));
+        };
+        let steps = way(&program, unit.plan, from, &unit.name);
+        let Some(Report { component, outcome }) = steps else {
+            let from = program.unit(from).map_or("", |unit| &*unit.name);
+            return Err(format!(
+                "no edge that can be brought about leads from '{from}' to '{}'",
+                unit.name
+            ));
+        };
+        self.target.fire(component, &outcome)
+    }
+
+    /// After something happened on the way to an element: what leads on from here is made to come about.
+    ///
+    /// # Errors
+    /// Nothing does: why.
+    pub(super) fn lead_on(&mut self, happened: &[Happened]) -> Result<(), String> {
+        let Mode::Goto(to) = self.mode else { return Ok(()) };
+        let plan = self.target.program().unit(to).map(|unit| unit.plan);
+        let moved = happened.iter().any(|what| {
+            let unit = self.target.program().unit(what.event.component_id);
+            let started = what.event.kind == EventKind::Started;
+            started
+                && unit.is_some_and(|unit| {
+                    Some(unit.plan) == plan && unit.kind != ComponentKind::Supervisor
+                })
+        });
+        if moved { self.lead(to) } else { Ok(()) }
+    }
+}
+
+/// Whether something has come to the element that one goes to; computations are done as soon as they begin.
+pub(super) fn is_there(happened: &[Happened], to: ComponentId) -> bool {
+    happened.iter().any(|what| {
+        let kind = matches!(what.event.kind, EventKind::Started | EventKind::Finished);
+        kind && what.event.component_id == to
+    })
+}
+
+/// The first report on a shortest way from one element of a plan to another one.
+fn way(program: &Program, plan: ComponentId, from: ComponentId, to: &str) -> Option<Report> {
+    let number = |name: &str| {
+        let mut all = program.units.iter().skip(1);
+        let found =
+            all.position(|unit| unit.plan == plan && unit.owner.is_none() && unit.name == name);
+        found.map(|at| ComponentId(at as u32 + 1))
+    };
+    let mut first: BTreeMap<ComponentId, Option<Report>> = [(from, None)].into();
+    let mut open = VecDeque::from([from]);
+    while let Some(here) = open.pop_front() {
+        for (report, target) in edges(program, plan, here) {
+            let begun = first.get(&here).cloned().flatten().unwrap_or(report);
+            if target == to {
+                return Some(begun);
+            }
+            let Some(next) = number(target) else { continue };
+            if let Entry::Vacant(free) = first.entry(next) {
+                free.insert(Some(begun));
+                open.push_back(next);
+            }
+        }
+    }
+    None
+}
+
+/// The edges that can be brought about while an element is active: of itself where it is an actor, and of all who watch.
+fn edges(program: &Program, plan: ComponentId, here: ComponentId) -> Vec<(Report, &str)> {
+    let Some(unit) = program.unit(here) else { return Vec::new() };
+    let report =
+        |component: ComponentId, outcome: &str| Report { component, outcome: outcome.to_owned() };
+    let mut all = Vec::new();
+    if unit.kind == ComponentKind::Actor {
+        all.extend(unit.outcomes.iter().map(|(name, target)| (report(here, name), &**target)));
+    }
+    let watchers = (0..).map(ComponentId).zip(&program.units).skip(1).filter(|(_, it)| {
+        it.kind == ComponentKind::Supervisor
+            && it.plan == plan
+            && it.owner.is_none_or(|owner| owner == here)
+    });
+    for (id, watcher) in watchers {
+        for (number, (name, target)) in (0..).zip(&watcher.outcomes) {
+            let own = unit.reactions.iter().find(|(of, event, _)| (*of, *event) == (id, number));
+            let target = own.map_or(&**target, |(.., target)| target);
+            all.push((report(id, name), target));
+        }
+        let missed =
+            unit.reactions.iter().find(|(of, event, _)| (*of, *event) == (id, DEADLINE_MISSED));
+        all.extend(missed.map(|(.., target)| (report(id, "DeadlineMissed"), &**target)));
+    }
+    all
+}

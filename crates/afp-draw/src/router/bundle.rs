@@ -1,0 +1,151 @@
+//! Edges of one kind to one target that become one as soon as they meet.
+//!
+//! Where many lead to one box, as all errors to who handles them, each goes only as far as to the next one of them: they are a
+//! tree with one tip, in which nobody has to tell one line from another.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::lines::{Lines, axis_of, side_of};
+use super::{Axis, PITCH, Point, TIP, Wire};
+
+/// From so many edges on they are bundled.
+const MANY: usize = 5;
+
+/// For each edge, given as where it comes from, where it leads and its kind: the bundle that it belongs to.
+pub(in super::super) fn bundles<'a>(
+    edges: impl Iterator<Item = (usize, usize, &'a str)> + Clone,
+) -> Vec<Option<usize>> {
+    let mut groups: BTreeMap<(usize, &str), (usize, usize)> = BTreeMap::new();
+    let apart = edges.clone().filter(|(from, to, _)| from != to);
+    for (_, to, kind) in apart {
+        let number = groups.len();
+        groups.entry((to, kind)).or_insert((number, 0)).1 += 1;
+    }
+    let bundle = |(from, to, kind)| {
+        let (number, count) = groups.get(&(to, kind))?;
+        (from != to && *count >= MANY).then_some(*number)
+    };
+    edges.map(bundle).collect()
+}
+
+/// Where an edge ends on another one of its bundle, which leads on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Junction {
+    /// The edge that it joins.
+    pub(super) edge: usize,
+    /// The part of that edge, by its first corner.
+    pub(super) part: usize,
+    /// The direction in which that part leads on.
+    pub(super) side: usize,
+    /// Whether the last part of who ends here lies on that line, too, and does not come from beside it.
+    pub(super) along: bool,
+}
+
+impl Junction {
+    /// The direction of the line that is joined.
+    pub(super) fn axis(&self) -> Axis {
+        axis_of(self.side)
+    }
+
+    /// The junction with no bend too many: who comes from nearly the line of the joined edge takes that line, in front of it or
+    /// behind its next corner. Lines so near to each other could not be kept apart.
+    pub(super) fn aligned(self, points: &mut Vec<Point>, joined: &[Point]) -> Junction {
+        let [.., before, end] = points[..] else { return self };
+        let side = side_of(before, end);
+        let can_bend = points.len() > 2;
+        if axis_of(side) == self.axis() {
+            return Junction { along: can_bend && side == self.side, ..self };
+        }
+        if let [.., _, third, _, _] = points[..]
+            && distance(before, end) < PITCH
+            && side_of(third, before) == self.side
+        {
+            points.pop();
+            return Junction { along: true, ..self };
+        }
+        let corner = joined.get(self.part + 1).zip(joined.get(self.part + 2));
+        let follows = |(at, next): (&Point, &Point)| side_of(*at, *next) == side;
+        match corner.filter(|corner| distance(*corner.0, end) < PITCH && follows(*corner)) {
+            Some(_) if can_bend => Junction { part: self.part + 1, side, along: true, ..self },
+            _ => self,
+        }
+    }
+}
+
+/// Along right-angled lines.
+fn distance(a: Point, b: Point) -> f64 {
+    (a.0 - b.0).abs() + (a.1 - b.1).abs()
+}
+
+/// What is there of a bundle: who lies at the nodes of the search.
+pub(super) type Tree = BTreeMap<u32, Junction>;
+
+/// The trees of all bundles.
+#[derive(Debug)]
+pub(super) struct Trees {
+    bundle_of: Vec<Option<usize>>,
+    trees: BTreeMap<usize, Tree>,
+}
+
+impl Trees {
+    pub(super) fn new(wires: &[Wire]) -> Trees {
+        let ends = wires.iter().map(|wire| (wire.from, wire.to, wire.kind));
+        Trees { bundle_of: bundles(ends), trees: BTreeMap::new() }
+    }
+
+    /// Whether an edge belongs to a bundle.
+    pub(super) fn holds(&self, edge: usize) -> bool {
+        self.bundle_of[edge].is_some()
+    }
+
+    /// What an edge can join.
+    pub(super) fn of(&self, edge: usize) -> Option<&Tree> {
+        self.trees.get(&self.bundle_of[edge]?).filter(|tree| !tree.is_empty())
+    }
+
+    /// Takes edges out of the trees of their bundles.
+    pub(super) fn remove(&mut self, edges: &BTreeSet<usize>) {
+        let bundles: BTreeSet<_> = edges.iter().filter_map(|edge| self.bundle_of[*edge]).collect();
+        for bundle in bundles {
+            if let Some(tree) = self.trees.get_mut(&bundle) {
+                tree.retain(|_, junction| !edges.contains(&junction.edge));
+            }
+        }
+    }
+
+    /// Adds the corners of an edge to the tree of its bundle: not its first bit, where another one would seem to come from its
+    /// exit.
+    pub(super) fn add(&mut self, edge: usize, corners: &[Point], lines: &Lines) {
+        let Some(bundle) = self.bundle_of[edge] else { return };
+        let tree = self.trees.entry(bundle).or_default();
+        let Some(start) = corners.first() else { return };
+        for (part, pair) in corners.windows(2).enumerate() {
+            let side = side_of(pair[0], pair[1]);
+            for node in lines.along(pair[0], pair[1]) {
+                let (x, y) = lines.positions[node as usize];
+                let leaves = part == 0 && distance((x, y), *start) < TIP;
+                // At a corner the part that leads on is the one to join.
+                let turns = part + 2 < corners.len() && distance((x, y), pair[1]) < 0.05;
+                if !leaves && !turns {
+                    tree.entry(node).or_insert(Junction { edge, part, side, along: false });
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MANY, bundles};
+
+    #[test]
+    fn many_edges_of_a_kind_to_one_box_are_a_bundle() {
+        let mut edges = vec![(9, 0, "error"), (0, 0, "error"), (1, 0, "state")];
+        edges.extend((1..MANY).map(|from| (from, 0, "error")));
+        let found = bundles(edges.iter().copied());
+        assert_eq!(found[..3], [Some(0), None, None], "loops and other kinds stay apart");
+        assert!(found[3..].iter().all(|bundle| *bundle == Some(0)));
+        edges.pop();
+        assert!(bundles(edges.into_iter()).iter().all(Option::is_none), "too few");
+    }
+}

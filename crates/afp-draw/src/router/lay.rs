@@ -1,0 +1,147 @@
+//! Routes as they are laid, one edge after the other, and led elsewhere where they come too near to one another.
+
+use std::collections::BTreeSet;
+
+use super::bundle::Trees;
+use super::lines::Lines;
+use super::merge::{Join, merged};
+use super::search::Search;
+use super::spread::Spread;
+use super::{BUDGET, Bounds, Crowded, LEAST, PITCH, Point, Routes, Wire};
+
+/// How often edges are led elsewhere because they are too near to others.
+const DETOURS: usize = 5;
+
+/// As many edges are laid anew at once.
+const MOST_MOVED: usize = 32;
+
+/// Edges on their lines, before those that share one are moved apart.
+pub(super) struct Laid<'a> {
+    boxes: &'a [Bounds],
+    wires: &'a [Wire],
+    lines: &'a Lines,
+    search: Search<'a>,
+    trees: Trees,
+    /// The corners of each edge up to its tip, or to the edge that it joins.
+    corners: Vec<Vec<Point>>,
+    joins: Vec<Join>,
+    /// Which edges stay as they were.
+    fixed: Vec<bool>,
+    /// The others, each behind the one that it joins.
+    order: Vec<usize>,
+}
+
+impl<'a> Laid<'a> {
+    /// The edges that have corners already, and no others.
+    pub(super) fn new(
+        boxes: &'a [Bounds],
+        wires: &'a [Wire],
+        lines: &'a Lines,
+        mut trees: Trees,
+        corners: Vec<Vec<Point>>,
+    ) -> Laid<'a> {
+        let mut search = Search::new(lines, boxes);
+        for (wire, points) in corners.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
+            search.occupy(points);
+            trees.add(wire, points, lines);
+        }
+        let joins = vec![Join::None; wires.len()];
+        let fixed = corners.iter().map(|points| !points.is_empty()).collect();
+        Laid { boxes, wires, lines, search, trees, corners, joins, fixed, order: Vec::new() }
+    }
+
+    /// Lays an edge on the cheapest path; with `full` it comes to its target from the side.
+    fn lay(&mut self, wire: usize, full: bool) {
+        let tree = self.trees.of(wire);
+        let (mut points, junction) = self.search.route(&self.wires[wire], self.boxes, full, tree);
+        let alone = if full { Join::Nearest } else { Join::None };
+        let aligned = junction.map(|on| on.aligned(&mut points, &self.corners[on.edge]));
+        self.joins[wire] = aligned.map_or(alone, Join::At);
+        self.trees.add(wire, &points, self.lines);
+        self.corners[wire] = points;
+        self.order.push(wire);
+    }
+
+    /// Lays edges, each so that it can join those before it.
+    pub(super) fn lay_all(&mut self, order: &[usize]) {
+        for wire in order {
+            let full = self.search.is_full(&self.wires[*wire]);
+            self.lay(*wire, full);
+        }
+    }
+
+    /// All edges apart from each other; where that cannot be, some are led elsewhere for as long as it helps.
+    pub(super) fn routes(mut self) -> Routes {
+        let apart = self.apart();
+        merged(self.wires, &apart.corners, &self.fixed, &mut self.joins);
+        let mut best = self.apart();
+        let mut tried = vec![false; self.wires.len()];
+        for _ in 0..DETOURS {
+            let detours = detours(&best.crowded, &mut tried);
+            if detours.is_empty() || self.search.effort() > BUDGET {
+                break;
+            }
+            for narrow in &detours {
+                self.lead_elsewhere(narrow);
+            }
+            let found = self.apart();
+            if squeezed(&found) < squeezed(&best) {
+                best = found;
+            }
+        }
+        Routes { effort: self.search.effort(), ..best }
+    }
+
+    fn apart(&self) -> Routes {
+        let mut corners = self.corners.clone();
+        let Laid { boxes, wires, fixed, joins, order, .. } = self;
+        let crowded = Spread { boxes, wires, fixed, joins, order }.apply(&mut corners);
+        Routes { corners, crowded, effort: 0 }
+    }
+
+    /// Lays an edge anew, away from where it is too near to others, and whoever has joined it; not where those are many.
+    fn lead_elsewhere(&mut self, narrow: &Crowded) {
+        let mut moved = BTreeSet::from([narrow.edge]);
+        let mut again = vec![narrow.edge];
+        for edge in &self.order {
+            let junction = self.joins[*edge].junction();
+            if junction.is_some_and(|on| moved.contains(&on.edge)) && moved.insert(*edge) {
+                again.push(*edge);
+            }
+        }
+        if self.fixed[narrow.edge] || again.len() > MOST_MOVED {
+            return;
+        }
+        self.search.avoid(narrow);
+        self.trees.remove(&moved);
+        self.order.retain(|edge| !moved.contains(edge));
+        for edge in again {
+            let full = edge == narrow.edge && narrow.arrives || self.joins[edge] == Join::Nearest;
+            self.lay(edge, full);
+        }
+    }
+}
+
+/// How many parts are too near to others to be told apart.
+fn squeezed(routes: &Routes) -> usize {
+    routes.crowded.iter().filter(|part| part.distance < LEAST).count()
+}
+
+/// Of each group of edges that run too near to each other one that shall go elsewhere: first those
+/// that can join another one at their target, no edge twice.
+fn detours(crowded: &[Crowded], tried: &mut [bool]) -> Vec<Crowded> {
+    let mut chosen: Vec<Crowded> = Vec::new();
+    for arrives in [true, false] {
+        for part in crowded.iter().filter(|part| part.distance < LEAST && part.arrives == arrives) {
+            let beside = |other: &Crowded| {
+                let near = (other.at - part.at).abs() < 4.0 * PITCH && other.axis == part.axis;
+                near && other.span.0 < part.span.1 && part.span.0 < other.span.1
+            };
+            if !tried[part.edge] && !chosen.iter().any(beside) {
+                tried[part.edge] = true;
+                chosen.push(*part);
+            }
+        }
+    }
+    chosen
+}

@@ -1,0 +1,267 @@
+//! A plan on a robot whose time passes by itself: it is stopped however the run ends.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration as Span, Instant as Wall};
+
+use afp_carbot::table::Carbot;
+use afp_core::{Clock, Environment, Instant, Platform, rt::Registry as _};
+use afp_dsl::compile;
+use afp_dsl::files::Texts;
+use afp_dsl::toolbox::Toolboxes;
+use afp_run::options::RunOptions;
+use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, Program, RunError, run, run_on_hardware};
+use afp_session::{
+    Hardware, Loader, Opened, Opener, Robot, Samples, SessionError, Settings, hardware, simulated,
+};
+use afp_sim::Simulation;
+use afp_syntax::source::Source;
+use clap::{Args, Command, FromArgMatches};
+
+mod templates {
+    #![allow(missing_docs)]
+    afp_macros::toolbox!("tests/board.afp", robot = super::Board);
+}
+
+/// What is left of a board when it is gone.
+#[derive(Default)]
+struct Seen {
+    stops: AtomicU64,
+    polls: AtomicU64,
+}
+
+/// A robot that moves whenever it is not told to stand.
+struct Board {
+    time: Time,
+    seen: Arc<Seen>,
+}
+
+#[derive(Clone, Copy)]
+struct Time(Wall);
+
+impl Time {
+    fn now(self) -> Instant {
+        Instant::from_nanos(self.0.elapsed().as_nanos() as u64)
+    }
+}
+
+impl Clock for Time {
+    fn now(&self, step: Instant) -> Instant {
+        Time::now(*self).max(step)
+    }
+}
+
+impl Environment for Board {
+    fn stop(&mut self, _: Instant) {}
+
+    fn emergency_stop(&mut self) {
+        self.seen.stops.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+impl Platform for Board {
+    type Clock = Time;
+
+    fn clock(&self) -> Time {
+        self.time
+    }
+
+    fn now(&self) -> Instant {
+        self.time.now()
+    }
+
+    fn advance(&mut self, to: Instant) {
+        let left = to.since(self.now());
+        assert!(left.as_secs_f64() <= 0.021, "a signal would wait for {left:?}");
+        std::thread::sleep(Span::from_nanos(left.as_nanos()));
+    }
+}
+
+impl Robot for Board {
+    type Devices = Carbot;
+
+    fn sample(&self, _: &mut Samples<'_, '_>) {}
+}
+
+impl Hardware for Board {
+    fn open(settings: &Settings) -> Result<Self, String> {
+        match settings.get_or("port", "none") {
+            "none" => Err("there is no board at 'none'".to_owned()),
+            _ => Ok(Board { time: Time(Wall::now()), seen: Arc::default() }),
+        }
+    }
+}
+
+mod work {
+    //! What the board does.
+
+    use super::{Board, Ordering, Span, templates};
+    use afp_core::{Actor, Fault, Instant, Poll};
+
+    /// Polls that take their time, and break in the end.
+    #[derive(Clone)]
+    pub struct Work {
+        cost: Span,
+        breaks: u64,
+    }
+
+    impl Actor<templates::Work, Board> for Work {
+        fn start(
+            inputs: templates::work::Inputs,
+            _: &mut Board,
+            _: Instant,
+        ) -> Result<Self, Fault> {
+            let cost = Span::from_nanos(inputs.cost.duration().as_nanos());
+            Ok(Work { cost, breaks: inputs.breaks as u64 })
+        }
+
+        fn poll(
+            &mut self,
+            _: templates::work::Live,
+            board: &mut Board,
+            _: Instant,
+        ) -> Result<Poll<templates::work::State>, Fault> {
+            std::thread::sleep(self.cost);
+            let polls = board.seen.polls.fetch_add(1, Ordering::Relaxed) + 1;
+            assert!(polls != self.breaks, "this component is broken");
+            Ok(Poll::Pending)
+        }
+
+        fn interrupt(&mut self, _: &mut Board, _: Instant) -> Result<(), Fault> {
+            Ok(())
+        }
+    }
+}
+
+use work::Work;
+
+fn options(arguments: &[&str]) -> RunOptions {
+    let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
+    let no_log = ["--log", "none"].iter().filter(|_| !arguments.contains(&"--log"));
+    let all = ["--robot", "hardware", "--json"].iter().chain(no_log).chain(arguments);
+    RunOptions::from_arg_matches(&command.get_matches_from(all)).unwrap()
+}
+
+fn plan(text: &str) -> afp_dsl::graph::Graph {
+    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+    toolboxes.add(Source::new("board.afp", templates::SOURCE), "board");
+    let compiled = compile(&Source::new("plan.afp", text), &toolboxes, &Texts::default());
+    compiled.graph.clone().unwrap_or_else(|| panic!("{}", compiled.render(false)))
+}
+
+const WAITS: &str = "use std\nplan Waits {\n    in time: duration = 300 ms\n    start rest\n    \
+    actor rest: Wait(duration = time) { Elapsed -> terminate }\n}";
+
+/// Runs a plan on the board; what came of it, how long it took, and what the board has seen.
+fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<Seen>) {
+    let graph = plan(text);
+    let seen: Arc<Seen> = Arc::default();
+    let board = hardware::<Simulation, Board, _>(|registry| {
+        standard(registry);
+        registry.actor::<templates::Work, Work>("board", "Work");
+    });
+    let open = |settings: &Settings| {
+        let robot = Board::open(settings).map_err(SessionError::Hardware)?;
+        // The board of the opener is gone with its run; this one is looked at afterwards.
+        drop(board.open(&graph, settings)?);
+        let mut registry = afp::load::Registry::new();
+        standard(&mut registry);
+        registry.actor::<templates::Work, Work>("board", "Work");
+        let plan = afp::load::LoadedPlan::new(&graph, &registry).map_err(SessionError::Load)?;
+        let robot = Board { seen: seen.clone(), ..robot };
+        let session = Box::new(afp_session::Session::new(plan, robot));
+        Ok(Opened { session, last_resort: None })
+    };
+    let texts = [("plan.afp", text)];
+    let hardware = [("port", "ttyUSB0")];
+    let program = Program { name: "P", file: "plan.afp", texts: &texts, hardware: &hardware };
+    let began = Wall::now();
+    let ran = run_on_hardware(&program, Box::new(open), &options(arguments), None);
+    (ran, began.elapsed(), seen)
+}
+
+fn standard(registry: &mut afp::load::Registry<Board>) {
+    afp_std::templates::register(registry);
+}
+
+fn message(ran: Result<u8, RunError>) -> String {
+    ran.expect_err("it is refused").to_string()
+}
+
+#[test]
+fn a_plan_ends_by_its_own_clock_and_the_robot_stands() {
+    let (ran, took, seen) = on_board(WAITS, &["--set", "time=120ms"]);
+    assert_eq!(ran.unwrap(), EXIT_OK);
+    assert!(took >= Span::from_millis(120), "{took:?}");
+    assert!(seen.stops.load(Ordering::Relaxed) > 0);
+}
+
+#[test]
+fn until_ends_a_run_however_late_its_steps_are() {
+    // Polls every 10 ms that take 15 ms each.
+    let text = "use board\nplan Late {\n    start go\n    \
+        actor go: Work(cost = 15 ms) { Never -> terminate }\n}";
+    let (ran, took, seen) = on_board(text, &["--until", "200ms"]);
+    assert_eq!(ran.unwrap(), EXIT_OK);
+    assert!(took >= Span::from_millis(200), "{took:?}");
+    assert!(seen.stops.load(Ordering::Relaxed) > 0);
+}
+
+#[test]
+fn a_panic_stops_the_robot() {
+    let text = "use board\nplan Breaks {\n    start go\n    \
+        actor go: Work(breaks = 3) { Never -> terminate }\n}";
+    let (ran, _, seen) = on_board(text, &[]);
+    assert_eq!(ran.unwrap(), EXIT_PLAN_ERROR);
+    assert!(seen.stops.load(Ordering::Relaxed) > 0);
+    assert_eq!(seen.polls.load(Ordering::Relaxed), 3);
+}
+
+#[test]
+fn an_output_that_cannot_be_written_stops_the_robot_before_it_moves() {
+    let (ran, _, seen) = on_board(WAITS, &["--svg", "/no/such/folder/a.svg"]);
+    assert!(message(ran).contains("cannot write the picture"));
+    assert!(seen.stops.load(Ordering::Relaxed) > 0);
+}
+
+#[test]
+fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("a.mcap");
+    let name = log.to_str().unwrap();
+    let (ran, ..) = on_board(WAITS, &["--until", "50ms", "--log", name]);
+    assert_eq!(ran.unwrap(), EXIT_OK);
+    let read = afp_log::read(Path::new(name)).unwrap();
+    assert_eq!((&*read.recipe().robot, read.cut_short), ("hardware", None));
+    let robot = simulated::<Simulation, _>(|_| {});
+    let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
+    let again = command.get_matches_from(["--again", name, "--log", "none"]);
+    let again = RunOptions::from_arg_matches(&again).unwrap();
+    let program = Program { name: "P", file: "plan.afp", texts: &[], hardware: &[] };
+    let make = Box::new(|_: &dyn afp_session::AnyWorld, _: u64, _: &[&str]| {
+        panic!("there is nothing to make")
+    });
+    let ran = run(&program, robot.kind(), make, &again, None);
+    assert!(message(ran).contains("what it met does not come again"));
+}
+
+#[test]
+fn settings_go_to_the_robot_and_what_is_of_the_simulation_is_refused() {
+    let (ran, _, seen) = on_board(WAITS, &["--set", "robot.port=none"]);
+    let why = message(ran);
+    assert!(why.contains("the robot cannot be reached: there is no board at 'none'"), "{why}");
+    assert_eq!(seen.stops.load(Ordering::Relaxed), 0);
+    let why = message(on_board(WAITS, &["--set", "robot.baud=9600"]).0);
+    assert!(why.contains("no setting 'robot.baud'") && why.contains("'robot.port'"), "{why}");
+    for option in [
+        ["--world", "a.toml"],
+        ["--speed", "max"],
+        ["--press", "touch@1s"],
+        ["--fail", "touch.lost@1s"],
+        ["--start", "1m,1m,0deg"],
+    ] {
+        let why = message(on_board(WAITS, &option).0);
+        assert!(why.contains(option[0]) && why.contains("simulation"), "{why}");
+    }
+}

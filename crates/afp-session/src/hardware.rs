@@ -1,0 +1,176 @@
+//! Robots that are there: their time passes by itself, and what they do cannot be taken back.
+
+use afp_core::Platform;
+use afp_core::devices::Devices;
+use afp_core::rt::{NamedPlan, Plan};
+
+#[cfg(feature = "load")]
+use afp::load::{Graph, LoadedPlan, Registry};
+
+use crate::any::AnySession;
+use crate::record::Kept;
+use crate::robot::Robot;
+use crate::robots::SessionError;
+use crate::session::Session;
+use crate::world::{Drawing, World, WorldError};
+use crate::{Pose2, Shape};
+
+/// A robot that is there. Its [`Platform::advance`] sleeps, and passes on meanwhile what comes and goes.
+///
+/// Whoever drives it calls [`Platform::advance`] at least every 20 ms, and
+/// [`emergency_stop`](afp_core::Environment::emergency_stop) at every end. A process can die without either, so the robot
+/// itself stops when it hears nothing any more.
+pub trait Hardware:
+    Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
+{
+    /// The robot, standing; its time begins at zero.
+    ///
+    /// # Errors
+    /// Why it cannot be reached: what was tried and what came of it.
+    fn open(settings: &Settings) -> Result<Self, String>;
+
+    /// What stops the robot from another thread while a component hangs; none where nothing can. It is called before the
+    /// process ends by force.
+    fn last_resort(&self) -> Option<LastResort> {
+        None
+    }
+}
+
+/// Stops a robot from another thread.
+pub type LastResort = Box<dyn FnMut() + Send>;
+
+/// What the project says of its hardware: `port = "/dev/ttyUSB0"`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Settings(Vec<(String, String)>);
+
+impl Settings {
+    /// Names and values; of two of one name the later one counts.
+    pub fn new<'a>(all: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+        let owned = |(name, value): (&str, &str)| (name.to_owned(), value.to_owned());
+        Settings(all.into_iter().map(owned).collect())
+    }
+
+    /// The value of a name, as it is written.
+    pub fn get(&self, name: &str) -> Option<&str> {
+        let found = self.0.iter().rev().find(|(known, _)| known == name);
+        found.map(|(_, value)| value.as_str())
+    }
+
+    /// The value of a name, or what stands in its place.
+    pub fn get_or<'a>(&'a self, name: &str, usual: &'a str) -> &'a str {
+        self.get(name).unwrap_or(usual)
+    }
+}
+
+/// A plan on a robot that is there.
+pub struct Opened {
+    /// The session.
+    pub session: Box<dyn AnySession>,
+    /// What stops the robot where the session cannot.
+    pub last_resort: Option<LastResort>,
+}
+
+impl Opened {
+    /// A plan on a robot that is opened now.
+    ///
+    /// # Errors
+    /// The robot cannot be reached.
+    pub fn new<P, H>(plan: P, settings: &Settings) -> Result<Self, SessionError>
+    where
+        P: NamedPlan + Plan<H> + 'static,
+        H: Hardware,
+        Session<P, H, Kept>: AnySession,
+    {
+        let robot = H::open(settings).map_err(SessionError::Hardware)?;
+        let last_resort = robot.last_resort();
+        Ok(Opened { session: Box::new(Session::new(plan, robot)), last_resort })
+    }
+}
+
+/// A kind of robot that is there, on which plans can be loaded.
+#[cfg(feature = "load")]
+pub trait Opener: Sync {
+    /// The main plan of a graph on the robot, which is opened now.
+    ///
+    /// # Errors
+    /// A template that this program does not know or that the robot does not serve; a robot that cannot be reached.
+    fn open(&self, plan: &Graph, settings: &Settings) -> Result<Opened, SessionError>;
+}
+
+#[cfg(feature = "load")]
+struct Kind<H, F> {
+    robot: std::marker::PhantomData<fn() -> H>,
+    register: F,
+}
+
+/// A kind of robot that is there, with the devices of a simulated one and a function that registers the templates that
+/// plans for it may use.
+#[cfg(feature = "load")]
+pub const fn hardware<R, H, F>(register: F) -> impl Opener
+where
+    R: crate::Simulated,
+    H: Hardware + Robot<Devices = R::Devices>,
+    F: Fn(&mut Registry<H>) + Sync,
+{
+    Kind::<H, F> { robot: std::marker::PhantomData, register }
+}
+
+#[cfg(feature = "load")]
+impl<H: Hardware, F: Fn(&mut Registry<H>) + Sync> Opener for Kind<H, F> {
+    fn open(&self, plan: &Graph, settings: &Settings) -> Result<Opened, SessionError> {
+        let mut registry = Registry::new();
+        (self.register)(&mut registry);
+        // Before the robot is touched.
+        let plan = LoadedPlan::new(plan, &registry).map_err(SessionError::Load)?;
+        Opened::new::<_, H>(plan, settings)
+    }
+}
+
+/// The world of robots that are there, of which no program has a picture; and of simulated ones that have none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoWorld;
+
+impl World for NoWorld {
+    const DEFAULT: &'static str = "";
+
+    fn read(text: &str) -> Result<Self, WorldError> {
+        match text.trim().is_empty() {
+            true => Ok(NoWorld),
+            false => {
+                let message = "this robot has no worlds".to_owned();
+                Err(WorldError { span: None, message })
+            }
+        }
+    }
+
+    fn name(&self) -> &str {
+        "none"
+    }
+
+    fn started_at(&self, _: Pose2) -> Result<Self, String> {
+        Err("this robot has no worlds to start in".to_owned())
+    }
+
+    fn scene(&self) -> Vec<Shape> {
+        Vec::new()
+    }
+
+    fn drawing(&self) -> Drawing {
+        Drawing::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_two_settings_of_one_name_the_later_counts() {
+        let settings = Settings::new([("port", "a"), ("baud", "9600"), ("port", "b")]);
+        assert_eq!((settings.get("port"), settings.get("Port")), (Some("b"), None));
+        assert_eq!(
+            (settings.get_or("baud", "1"), settings.get_or("parity", "none")),
+            ("9600", "none")
+        );
+    }
+}

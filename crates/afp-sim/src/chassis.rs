@@ -1,0 +1,71 @@
+//! What a robot is to the engine and to its worlds: a shape with a mass.
+
+use crate::truth::Pose;
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH, MASS};
+use rapier2d::parry::shape::SharedShape;
+
+/// So many corners stand for a circle in pictures.
+const CORNERS: u32 = 32;
+
+/// A robot's body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chassis {
+    /// Seen from above.
+    pub shape: Footprint,
+    /// Kilograms, spread evenly.
+    pub mass: f64,
+    /// How high it is, metres, for logs.
+    pub height: f64,
+    /// The range sensor looks over what is lower than this, metres.
+    pub ranging_height: f64,
+}
+
+/// The shape of a body seen from above, around its turning centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Footprint {
+    /// A rectangle: half its length and half its width, metres.
+    Box([f64; 2]),
+    /// A circle of this radius, metres.
+    Round(f64),
+}
+
+impl Chassis {
+    /// The Carbot's.
+    pub const CARBOT: Chassis = Chassis {
+        shape: Footprint::Box([HALF_LENGTH, HALF_WIDTH]),
+        mass: MASS,
+        height: 0.22,
+        ranging_height: 0.15,
+    };
+
+    /// Inertia about the turning centre, kilogram square metres.
+    pub fn inertia(&self) -> f64 {
+        match self.shape {
+            Footprint::Box([length, width]) => self.mass * (length * length + width * width) / 3.0,
+            Footprint::Round(radius) => self.mass * radius * radius / 2.0,
+        }
+    }
+
+    /// Its outline at a pose, metres, counter-clockwise; of a circle as a polygon.
+    pub fn outline(&self, at: Pose) -> Vec<[f64; 2]> {
+        let (sin, cos) = libm::sincos(at.heading);
+        let placed = |[x, y]: [f64; 2]| [at.x + x * cos - y * sin, at.y + x * sin + y * cos];
+        match self.shape {
+            Footprint::Box([x, y]) => [[x, y], [-x, y], [-x, -y], [x, -y]].map(placed).to_vec(),
+            Footprint::Round(radius) => {
+                let turn = core::f64::consts::TAU / f64::from(CORNERS);
+                let corner = |n| libm::sincos(f64::from(n) * turn);
+                let corners = (0..CORNERS).map(corner);
+                corners.map(|(sin, cos)| placed([radius * cos, radius * sin])).collect()
+            }
+        }
+    }
+
+    /// As the engine has it.
+    pub(crate) fn shared(&self) -> SharedShape {
+        match self.shape {
+            Footprint::Box([x, y]) => SharedShape::cuboid(x as f32, y as f32),
+            Footprint::Round(radius) => SharedShape::ball(radius as f32),
+        }
+    }
+}

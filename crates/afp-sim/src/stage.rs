@@ -1,0 +1,124 @@
+//! A world and the body of one robot in the engine: what pushes what, what rays meet, what is touched.
+//!
+//! It knows neither wheels nor sensors. Whoever simulates a robot pushes its body, lets a step pass, and looks.
+
+mod build;
+mod movers;
+mod ray;
+mod split;
+mod touch;
+
+use crate::chassis::Chassis;
+use crate::simulation::STEP;
+use crate::truth::{Collision, Collisions, Pose};
+use crate::vehicle::{Push, Twist};
+use crate::world::{Obstacle, World, WorldError};
+use afp_core::Instant;
+use rapier2d::math::{Pose as Isometry, Vector};
+use rapier2d::parry::shape::SharedShape;
+use rapier2d::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle};
+
+pub use ray::Met;
+pub use touch::Touch;
+
+pub(crate) use build::{Built, HIGH, ROBOT, build, collider};
+pub(crate) use movers::Mover;
+pub(crate) use ray::Rays;
+
+/// A step in seconds.
+pub(crate) const DT: f64 = STEP.as_nanos() as f64 / 1e9;
+
+/// A world and the body of one robot, stepped every [`STEP`].
+pub struct Stage {
+    pub(crate) physics: PhysicsWorld,
+    pub(crate) body: RigidBodyHandle,
+    collider: ColliderHandle,
+    pub(crate) chassis: Chassis,
+    pub(crate) obstacles: Vec<Obstacle>,
+    pub(crate) shapes: Vec<(Isometry, SharedShape)>,
+    pub(crate) movers: Vec<Mover>,
+    collisions: Collisions,
+}
+
+impl Stage {
+    /// A world with a robot's body at its start.
+    ///
+    /// # Errors
+    /// An obstacle without an area; [`World::parse`] lets none through.
+    pub fn new(world: &World, chassis: Chassis) -> Result<Stage, WorldError> {
+        let Built { physics, body, collider, shapes, movers } = build(world, &chassis)?;
+        let (obstacles, collisions) = (world.obstacles.clone(), Collisions::default());
+        Ok(Stage { physics, body, collider, chassis, obstacles, shapes, movers, collisions })
+    }
+
+    /// Where the middle of the robot's body is.
+    pub fn pose(&self) -> Pose {
+        let at = self.position();
+        let heading = libm::atan2(f64::from(at.rotation.im), f64::from(at.rotation.re));
+        let [x, y] = [at.translation.x, at.translation.y].map(f64::from);
+        Pose { x, y, heading }
+    }
+
+    /// How the robot's body moves, in its own frame.
+    pub fn twist(&self) -> Twist {
+        let body = &self.physics.bodies[self.body];
+        let velocity = body.rotation().inverse_transform_vector(body.linvel());
+        let [x, y] = [velocity.x, velocity.y].map(f64::from);
+        Twist { x, y, turn: f64::from(body.angvel()) }
+    }
+
+    /// Says what pushes the robot's body in the next step, in its own frame, in place of what did before.
+    pub fn push(&mut self, push: Push) {
+        let body = &mut self.physics.bodies[self.body];
+        let force = body.rotation().transform_vector(Vector::new(push.x as f32, push.y as f32));
+        body.reset_forces(false);
+        body.reset_torques(false);
+        body.add_force(force, false);
+        body.add_torque(push.turn as f32, false);
+    }
+
+    /// Lets the step pass that ends at `now`.
+    pub fn step(&mut self, now: Instant) {
+        self.step_noting(now, |_, _, _| {});
+    }
+
+    /// The same; `moved` is told of each obstacle that is elsewhere than before: its place among those that can move, where
+    /// it is against its start, and its direction as cosine and sine.
+    pub(crate) fn step_noting(
+        &mut self,
+        now: Instant,
+        moved: impl FnMut(usize, [f64; 2], [f64; 2]),
+    ) {
+        self.begin_movers(now);
+        self.physics.step();
+        self.note_movers(moved);
+    }
+
+    /// Everything that stands in the world, in the order of its file, then what was dropped.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        &self.obstacles
+    }
+
+    /// Every collision so far, in the order of their beginnings.
+    pub fn collisions(&self) -> &[Collision] {
+        self.collisions.all()
+    }
+
+    /// The collisions that last at an instant, in the order of their beginnings.
+    pub fn touching(&self, now: Instant) -> impl DoubleEndedIterator<Item = &Collision> {
+        self.collisions.lasting(now)
+    }
+
+    /// Whether the engine has taken no body out for being nowhere: where a pose or a velocity is not
+    /// finite, it lets the body take no more part.
+    pub fn is_sound(&self) -> bool {
+        let mut bodies = self.physics.bodies.iter();
+        let mut colliders = self.physics.colliders.iter();
+        bodies.all(|(_, body)| body.is_enabled())
+            && colliders.all(|(_, collider)| collider.is_enabled())
+    }
+
+    pub(crate) fn position(&self) -> &Isometry {
+        self.physics.bodies[self.body].position()
+    }
+}

@@ -1,0 +1,39 @@
+//! A copy of a stage that goes on by itself.
+
+use super::Stage;
+use rapier2d::prelude::{CCDSolver, CollisionPipeline, PhysicsPipeline, PhysicsWorld};
+
+impl Stage {
+    /// The same at the same instant: both go on alike.
+    pub fn split(&self) -> Stage {
+        Stage {
+            physics: physics(&self.physics),
+            body: self.body,
+            collider: self.collider,
+            chassis: self.chassis,
+            obstacles: self.obstacles.clone(),
+            shapes: self.shapes.clone(),
+            movers: self.movers.clone(),
+            collisions: self.collisions.clone(),
+        }
+    }
+}
+
+/// The state of the engine. Its pipelines are room to compute in and begin empty.
+fn physics(of: &PhysicsWorld) -> PhysicsWorld {
+    PhysicsWorld {
+        gravity: of.gravity,
+        integration_parameters: of.integration_parameters,
+        physics_pipeline: PhysicsPipeline::new(),
+        collision_pipeline: CollisionPipeline::new(),
+        islands: of.islands.clone(),
+        broad_phase: of.broad_phase.clone(),
+        narrow_phase: of.narrow_phase.clone(),
+        bodies: of.bodies.clone(),
+        colliders: of.colliders.clone(),
+        impulse_joints: of.impulse_joints.clone(),
+        multibody_joints: of.multibody_joints.clone(),
+        soft_bodies: of.soft_bodies.clone(),
+        ccd_solver: CCDSolver::new(),
+    }
+}

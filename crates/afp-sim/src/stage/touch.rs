@@ -1,0 +1,46 @@
+//! What the robot's body touches.
+
+use super::Stage;
+use afp_core::Instant;
+use rapier2d::parry::query;
+
+/// Nearer than this is a touch, metres.
+const TOUCH: f32 = 0.001;
+/// What pushes is no farther away than what comes closer at 1 m/s in a step.
+const PUSH: f32 = 0.005;
+
+/// Something that the robot's body touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// By its place among the [`Stage::obstacles`].
+    pub obstacle: usize,
+    /// Where, in the body's frame: ahead and to the left of its middle, metres.
+    pub at: [f64; 2],
+}
+
+impl Stage {
+    /// Looks at what the robot touches after a step, notes it as collisions, and tells of each touch.
+    ///
+    /// The engine keeps a pair's contact points over several steps, so the distance is computed
+    /// afresh for the few pairs that are near.
+    pub fn feel(&mut self, now: Instant, mut felt: impl FnMut(Touch)) {
+        for pair in self.physics.narrow_phase.contact_pairs_with(self.collider) {
+            if !pair.has_any_active_contact() {
+                continue;
+            }
+            let other =
+                if pair.collider1 == self.collider { pair.collider2 } else { pair.collider1 };
+            let colliders = &self.physics.colliders;
+            let (robot, other) = (&colliders[self.collider], &colliders[other]);
+            let (at, there) = (robot.position(), other.position());
+            // What the engine held apart in this step, in advance of any touch, pushed all the same.
+            let near = if pair.total_impulse_magnitude() > 0.0 { PUSH } else { TOUCH };
+            let contact = query::contact(at, robot.shape(), there, other.shape(), near);
+            let Ok(Some(contact)) = contact else { continue };
+            let obstacle = other.user_data as usize;
+            self.collisions.touch(obstacle, now);
+            let point = at.inverse_transform_point(contact.point1);
+            felt(Touch { obstacle, at: [f64::from(point.x), f64::from(point.y)] });
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Plans that people can begin with, each copied with the world that it drives in and the plans that it uses.
+
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use serde_json::{Value, json};
+
+use crate::files::Folder;
+
+/// A plan to begin with.
+#[derive(Clone, Debug, Default)]
+pub struct Example {
+    /// The name of its file, `patrol.afp`.
+    pub name: String,
+    /// The text of the plan.
+    pub plan: String,
+    /// The text of its world; without one it drives in that of the robot.
+    pub world: Option<String>,
+    /// The names of the examples whose files it uses.
+    pub uses: Vec<String>,
+}
+
+impl Example {
+    /// As clients list it: with the help of its plan, which says what it does.
+    pub(crate) fn listed(&self) -> Value {
+        json!({ "name": self.name, "title": title(&self.plan) })
+    }
+}
+
+/// The help in front of the first plan of a text, or else the first one: its first sentence.
+fn title(text: &str) -> String {
+    let (mut first, mut help) = (String::new(), String::new());
+    for line in text.lines().map(str::trim) {
+        match line.strip_prefix("///") {
+            Some(words) => help = format!("{help} {}", words.trim()).trim().to_owned(),
+            None if line.starts_with("plan ") => break,
+            None if first.is_empty() => first = std::mem::take(&mut help),
+            None => help.clear(),
+        }
+    }
+    let help = if help.is_empty() { first } else { help };
+    help.split_once(". ").map_or(help.clone(), |(first, _)| format!("{first}."))
+}
+
+/// Copies an example into a folder, to a file that is not there yet. What is there already of the others stays as it
+/// is. The world lies where a run looks for it: in the folder `worlds` beside that of the plan.
+///
+/// # Errors
+/// There is no such example, a file lies outside of the folder or cannot be written: a sentence.
+pub(crate) fn copy(
+    examples: &[Example],
+    name: &str,
+    folder: &Folder,
+    plan: &Path,
+) -> Result<(), String> {
+    let known = |name: &str| examples.iter().find(|example| example.name == name);
+    let example = known(name).ok_or_else(|| format!("there is no example '{name}'"))?;
+    write(folder, plan, &example.plan)?;
+    let place = plan.parent().unwrap_or(folder.root());
+    if let Some((text, path)) = example.world.as_ref().zip(world_of(plan)) {
+        write_new(folder, &path, text)?;
+    }
+    for name in &example.uses {
+        let used = known(name).ok_or_else(|| format!("there is no example '{name}'"))?;
+        write_new(folder, &place.join(&used.name), &used.plan)?;
+    }
+    Ok(())
+}
+
+/// Where a run looks for the world of a plan.
+fn world_of(plan: &Path) -> Option<PathBuf> {
+    let file = Path::new(plan.file_stem()?).with_extension("toml");
+    Some(plan.parent()?.parent()?.join("worlds").join(file))
+}
+
+fn write_new(folder: &Folder, path: &Path, text: &str) -> Result<(), String> {
+    if path.exists() { Ok(()) } else { write(folder, path, text) }
+}
+
+/// Writes a file, in a folder of its own where that is not there yet.
+fn write(folder: &Folder, path: &Path, text: &str) -> Result<(), String> {
+    let wrong = |why: io::Error| format!("cannot write '{}': {why}", path.display());
+    if let Some(parent) = path.parent().filter(|parent| !parent.exists()) {
+        // Nothing is made outside, not even a folder.
+        let above = parent.parent().and_then(|above| above.canonicalize().ok());
+        match above.is_some_and(|above| above.starts_with(folder.root())) {
+            true => fs::create_dir(parent).map_err(wrong)?,
+            false => return Err(format!("there is no folder '{}'", parent.display())),
+        }
+    }
+    let file = folder.inside(&path.to_string_lossy())?;
+    afp_output::write_whole(&file, text.as_bytes()).map_err(wrong)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_example_says_of_itself_is_the_help_of_its_plan() {
+        let text = "use std\n\n/// Places.\ntable t(x: length) {}\n\n/// Drive to a room,\n/// round what stands there. And back.\nplan P {\n";
+        assert_eq!(title(text), "Drive to a room, round what stands there.");
+        assert_eq!(title("/// All of it.\nuse std\n\nplan P {"), "All of it.");
+        assert_eq!(title("plan P {"), "");
+    }
+
+    #[test]
+    fn an_example_comes_with_its_world_and_what_it_uses_and_nothing_is_overwritten() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = Folder::new(place.path()).unwrap();
+        let example = |name: &str, uses: &[&str]| Example {
+            name: name.to_owned(),
+            plan: format!("plan of {name}"),
+            world: Some(format!("world of {name}")),
+            uses: uses.iter().map(|&name| name.to_owned()).collect(),
+        };
+        let examples = [example("one.afp", &[]), example("two.afp", &["one.afp"])];
+        let at = |path: &str| folder.root().join(path);
+        let read = |path: &str| fs::read_to_string(at(path)).unwrap();
+        copy(&examples, "two.afp", &folder, &at("plans/my.afp")).unwrap();
+        assert_eq!(read("plans/my.afp"), "plan of two.afp");
+        assert_eq!(read("worlds/my.toml"), "world of two.afp");
+        assert_eq!(read("plans/one.afp"), "plan of one.afp");
+        fs::write(at("plans/one.afp"), "mine").unwrap();
+        copy(&examples, "two.afp", &folder, &at("plans/other.afp")).unwrap();
+        assert_eq!(read("plans/one.afp"), "mine");
+        let outside = at("../elsewhere/my.afp");
+        assert!(copy(&examples, "one.afp", &folder, &outside).is_err());
+        assert!(!outside.parent().unwrap().exists());
+    }
+}

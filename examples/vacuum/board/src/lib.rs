@@ -1,0 +1,174 @@
+//! The vacuum cleaner itself: a board that drives motors and reads sensors, spoken to over a serial line.
+//!
+//! What is said is text, a line for each thing. To the board: `drive SPEED TURN` in m/s and rad/s, `suck 0` or `suck 1`,
+//! `stop`, after which it obeys nobody until its power was off. From the board, fifty times a second: `AHEAD TURNED LEFT RIGHT
+//! DROP DIRT BUTTON`, what the wheels have counted in m and rad, the switches as 0 or 1, the dirt from 0 to 1. A board
+//! that has heard nothing for 200 ms stops the motors by itself; so what it was told last is said again and again.
+
+mod line;
+
+use std::io::{BufRead, BufReader};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::{fs, thread};
+
+use afp::core::{Invalid, Platform};
+use afp::quantity::{Angle, AngularSpeed, Length, Speed};
+use afp::{Duration, Environment, Instant, Reading};
+use afp_hardware::{Hardware, LastResort, RealTime, Robot, SampleRef, Samples, Settings};
+use vacuum::templates::devices::Devices;
+use vacuum::templates::signal;
+use vacuum::{Nozzle, Senses, Way, Wheels};
+
+use line::{Line, Said};
+
+/// What the board has not said for so long is not known any more.
+const STALE: Duration = Duration::from_millis(100);
+/// The board hears from us at least this often.
+const OFTEN: Duration = Duration::from_millis(20);
+
+/// The robot.
+pub struct Board {
+    time: RealTime,
+    line: Line,
+    /// What the board said last, and when.
+    heard: Arc<Mutex<Option<(Said, Instant)>>>,
+    asked: [f64; 2],
+    suction: bool,
+}
+
+impl Board {
+    /// What the board said last, unless that was too long ago.
+    fn said(&self) -> Option<(Said, Instant)> {
+        let heard = *self.heard.lock().unwrap_or_else(PoisonError::into_inner);
+        heard.filter(|(_, at)| self.time.now().since(*at) < STALE)
+    }
+
+    /// A sensor's reading; lost where the board says nothing any more.
+    fn sense<T: Copy>(&self, of: impl Fn(&Said) -> T) -> Reading<T> {
+        match self.said() {
+            Some((said, at)) => Reading::valid(of(&said), at),
+            None => Reading::invalid(Invalid::NoAnswer, self.time.now()),
+        }
+    }
+
+    fn tell(&mut self) {
+        let [speed, turn] = self.asked;
+        self.line.say(&format!("drive {speed:.4} {turn:.4}\nsuck {}\n", u8::from(self.suction)));
+    }
+}
+
+impl Hardware for Board {
+    fn open(settings: &Settings) -> Result<Self, String> {
+        let port = settings.get("port").ok_or("'settings' in afp.toml does not say the 'port'")?;
+        let wrong = |error| format!("'{port}': {error}");
+        let file = fs::File::options().read(true).write(true).open(port).map_err(wrong)?;
+        let (time, heard) = (RealTime::start(), Arc::new(Mutex::new(None)));
+        let (lines, hears) = (BufReader::new(file.try_clone().map_err(wrong)?), heard.clone());
+        // It ends with the line.
+        thread::spawn(move || {
+            for line in lines.lines().map_while(Result::ok) {
+                if let Some(said) = Said::read(&line) {
+                    let mut heard = hears.lock().unwrap_or_else(PoisonError::into_inner);
+                    *heard = Some((said, time.now()));
+                }
+            }
+        });
+        let board = Board { time, line: Line::new(file), heard, asked: [0.0; 2], suction: false };
+        let patience = time.now() + Duration::from_secs(1);
+        while board.said().is_none() {
+            if time.now() > patience {
+                return Err(format!("'{port}': the board says nothing"));
+            }
+            time.sleep_until(time.now() + OFTEN);
+        }
+        Ok(board)
+    }
+
+    fn last_resort(&self) -> Option<LastResort> {
+        self.line.last_resort()
+    }
+}
+
+impl Environment for Board {
+    fn stop(&mut self, _: Instant) {
+        self.halt();
+    }
+
+    fn emergency_stop(&mut self) {
+        (self.asked, self.suction) = ([0.0; 2], false);
+        self.line.say("stop\n");
+    }
+}
+
+impl Platform for Board {
+    type Clock = RealTime;
+
+    fn clock(&self) -> RealTime {
+        self.time
+    }
+
+    fn now(&self) -> Instant {
+        self.time.now()
+    }
+
+    fn advance(&mut self, to: Instant) {
+        self.tell();
+        self.time.sleep_until(to);
+    }
+}
+
+impl Wheels for Board {
+    fn drive(&mut self, speed: Speed, turn: AngularSpeed) {
+        self.asked = [speed.si(), turn.si()];
+        self.tell();
+    }
+
+    fn way(&self) -> Way {
+        // Counters that are not known any more stand still, and so do the wheels: the board has stopped them.
+        let heard = *self.heard.lock().unwrap_or_else(PoisonError::into_inner);
+        let way = heard.map_or([0.0; 2], |(said, _)| said.way);
+        Way { ahead: Length::from_si(way[0]), turned: Angle::from_si(way[1]) }
+    }
+}
+
+impl Nozzle for Board {
+    fn suck(&mut self, on: bool) {
+        self.suction = on;
+        self.tell();
+    }
+}
+
+impl Senses for Board {
+    fn bumper(&self) -> Reading<[bool; 2]> {
+        self.sense(|said| said.bumper)
+    }
+
+    fn drop(&self) -> Reading<bool> {
+        self.sense(|said| said.drop)
+    }
+
+    fn dirt(&self) -> Reading<f64> {
+        self.sense(|said| said.dirt)
+    }
+
+    fn button(&self) -> Reading<bool> {
+        self.sense(|said| said.button)
+    }
+}
+
+impl Robot for Board {
+    type Devices = Devices;
+    /// Nobody tells where it is.
+    const LACKS: &'static [&'static str] = &["robot"];
+
+    fn sample(&self, to: &mut Samples<'_, '_>) {
+        let Some((said, _)) = self.said() else { return };
+        let [left, right] = said.bumper;
+        to.put(signal::BUMPER_LEFT, SampleRef::Bool(left));
+        to.put(signal::BUMPER_RIGHT, SampleRef::Bool(right));
+        to.put(signal::CLIFF_DROP, SampleRef::Bool(said.drop));
+        to.put(signal::DIRT_LEVEL, SampleRef::Float(said.dirt));
+        to.put(signal::BUTTON_HALT, SampleRef::Bool(said.button));
+        to.put(signal::SUCTION_ON, SampleRef::Bool(self.suction));
+    }
+}

@@ -1,0 +1,84 @@
+"""A run to be watched in a notebook while it goes on: the robot in its world, the plan, the entries."""
+
+from __future__ import annotations
+
+import base64
+import html
+import time
+from typing import TYPE_CHECKING
+
+from . import notebook
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+__all__ = ["watch"]
+
+EVERY = 0.1
+"""Seconds between two pictures."""
+ACTIVE = "stroke:#e8590c!important;stroke-width:5!important"
+"""How the box of the active element is drawn."""
+KINDS = ".actor,.subplan,.computation"
+"""The boxes of elements, without those of what watches them."""
+
+
+def watch(simulation: Simulation, until: float, speed: float) -> None:
+    """Drives a simulation to its end or to `until`, `speed` times as fast as the clock on the wall, and shows it."""
+    if not notebook.is_here():
+        raise RuntimeError("watch() shows the run in a notebook's cell, and this is none; run() runs it")
+    if not speed > 0:
+        raise ValueError(f"speed is {speed}; give how many times as fast as the clock on the wall, such as 1 or 5")
+    cell, first, begin = notebook.Cell(), simulation.time, time.monotonic()
+    view = _View(simulation)
+    going, shown = True, begin
+    while going and simulation.time < until:
+        cell.show(view.bundle())
+        shown += EVERY
+        time.sleep(max(0.0, shown - time.monotonic()))
+        # What is late is not made up for all at once: a picture may take longer than its time.
+        shown = max(shown, time.monotonic() - EVERY)
+        going = simulation.run_to(min(until, first + (time.monotonic() - begin) * speed))
+    cell.show(view.bundle())
+
+
+class _View:
+    """What is shown of a simulation."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._plan = simulation.plan.svg(theme="light")
+
+    def bundle(self) -> dict[str, str]:
+        """The moment as data by media types."""
+        simulation = self._simulation
+        active = simulation.active
+        words = f"{simulation.plan.name}, {simulation.time:.1f} s, {active or simulation.ending}"
+        world, plan = _image(simulation.picture().svg), _image(self._marked(active))
+        rows = "".join(
+            f"<tr><th>{html.escape(name)}</th><td>{html.escape(_shown(value))}</td></tr>"
+            for name, value in simulation.entries.items()
+        )
+        page = (
+            f'<div><b>{html.escape(words)}</b><div style="display:flex;flex-wrap:wrap;gap:12px;align-items:flex-start">'
+            f'<img alt="the robot in its world" style="width:420px" src="{world}">'
+            f'<img alt="the plan" style="width:420px" src="{plan}"><table>{rows}</table></div></div>'
+        )
+        return {"text/html": page, "text/plain": words}
+
+    def _marked(self, active: str | None) -> str:
+        """The drawing of the plan with the active element marked."""
+        if active is None:
+            return self._plan
+        item = f"{self._simulation.plan.name}.{active}"
+        rule = f'<style>.element[data-item="{html.escape(item)}"]>.box:is({KINDS}){{{ACTIVE}}}</style>'
+        head, end, tail = self._plan.rpartition("</svg>")
+        return f"{head}{rule}{end}{tail}"
+
+
+def _image(svg: str) -> str:
+    """A drawing as an address: its styles are its own there."""
+    return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
+
+
+def _shown(value: object) -> str:
+    return "" if value is None else f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,106 @@
+// What a sweep came to, as a map: each run in the cell of the values that it had. Pure, so that it is tested without a page.
+
+/** How a run ended, as the command line names it; the good ones first. */
+export const ENDINGS = ["ok", "interrupted", "time_limit", "error", "not_started", "panicked"] as const;
+export type Ending = (typeof ENDINGS)[number];
+
+/** A run of a sweep. */
+export interface Run {
+  run: number;
+  ending: Ending;
+  where: string;
+  why: string;
+  time_s: number;
+  seed: number;
+  /** null for that of the plan */
+  world: string | null;
+  /** What was varied, as people write it and as a number in units of SI. */
+  values: Readonly<Record<string, { text: string; si: number }>>;
+  /** What it touched, and for how long, seconds. */
+  touched: Readonly<Record<string, number>>;
+  /** What does this run alone, on the command line. */
+  command: string;
+}
+
+export interface Axis {
+  name: string;
+  labels: readonly string[];
+}
+
+/** Runs by columns and rows: `cells[row][column]`. */
+export interface OutcomeMap {
+  across: Axis;
+  /** Without a name where the rows go on with the columns. */
+  down: Axis;
+  cells: readonly (readonly (readonly Run[])[])[];
+}
+
+/** Seeds in a row, where nothing else was varied. */
+export const ROW = 20;
+
+export const SEED = "seed";
+const WORLD = "world";
+
+/** What runs differ in: the label that each has there, and what they are ordered by. */
+interface Difference {
+  name: string;
+  of: (run: Run) => string;
+  order: (run: Run) => number;
+}
+
+/** The lines of a sweep that are runs; the last one is what they came to together. */
+export const runsOf = (lines: readonly unknown[]): Run[] => lines.filter((line): line is Run => typeof (line as Run).run === "number");
+
+function differences(runs: readonly Run[]): Difference[] {
+  const names = [...new Set(runs.flatMap(({ values }) => Object.keys(values)))];
+  const varied = names.map((name) => ({ name, of: (run: Run) => run.values[name]?.text ?? "", order: (run: Run) => run.values[name]?.si ?? 0 }));
+  const others: Difference[] = [
+    { name: WORLD, of: ({ world }) => world?.split("/").at(-1) ?? "", order: ({ run }) => run },
+    { name: SEED, of: ({ seed }) => String(seed), order: ({ seed }) => seed },
+  ];
+  return [...varied, ...others].filter(({ of }) => new Set(runs.map(of)).size > 1);
+}
+
+function axis(runs: readonly Run[], { name, of, order }: Difference): Axis {
+  const labels = new Map([...runs].sort((one, two) => order(one) - order(two)).map((run) => [of(run), null]));
+  return { name, labels: [...labels.keys()] };
+}
+
+/** The map of runs. What a third thing was varied to comes together in one cell. */
+export function mapOf(runs: readonly Run[]): OutcomeMap {
+  const [first, second] = differences(runs);
+  if (!first) return { across: { name: "", labels: [""] }, down: { name: "", labels: [""] }, cells: [[runs]] };
+  const across = axis(runs, first);
+  if (!second) return wrapped(runs, across, first);
+  const down = axis(runs, second);
+  const cells = down.labels.map((row) => across.labels.map((column) => runs.filter((run) => first.of(run) === column && second.of(run) === row)));
+  return { across, down, cells };
+}
+
+/** One thing was varied: its values go on in the next row where they are many. */
+function wrapped(runs: readonly Run[], { name, labels }: Axis, { of }: Difference): OutcomeMap {
+  const all = labels.map((label) => runs.filter((run) => of(run) === label));
+  const rows = Array.from({ length: Math.ceil(all.length / ROW) }, (_, row) => all.slice(row * ROW, (row + 1) * ROW));
+  if (rows.length < 2) return { across: { name, labels }, down: { name: "", labels: [""] }, cells: rows };
+  const columns = Array.from({ length: ROW }, (_, column) => (name === SEED ? `+${column}` : ""));
+  return { across: { name, labels: columns }, down: { name: "", labels: rows.map((_, row) => labels[row * ROW]!) }, cells: rows };
+}
+
+/** How often runs ended how, in the order of the endings; only what there is. */
+export const counted = (runs: readonly Run[]): { ending: Ending; count: number }[] =>
+  ENDINGS.map((ending) => ({ ending, count: runs.filter((run) => run.ending === ending).length })).filter(({ count }) => count > 0);
+
+/** Runs that came to the same, with how many; the most frequent first. */
+export function grouped(runs: readonly Run[]): { run: Run; count: number }[] {
+  const groups = new Map<string, { run: Run; count: number }>();
+  for (const run of runs) {
+    const key = [run.ending, run.where, run.why].join("\n");
+    const known = groups.get(key);
+    if (known) known.count++;
+    else groups.set(key, { run, count: 1 });
+  }
+  return [...groups.values()].sort((one, two) => two.count - one.count);
+}
+
+/** Whether a run can be made again in the simulator here: worlds are varied by the command line alone. */
+export const isRepeatable = ({ values }: Run): boolean => !Object.keys(values).some((name) => name.startsWith("world."));

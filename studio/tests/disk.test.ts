@@ -1,0 +1,127 @@
+// What lies on the disk and what the page says of it: "saved" is never shown for what is not there, and no byte is lost.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdir, readFile, rename, rm, symlink, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { AFPC, inBrowser, settled, shows } from "./browser";
+
+const PLAN = `use std
+
+plan P {
+    start go
+
+    actor go: Wait(duration = 1 s) { Elapsed -> rest }
+    actor rest: Wait(duration = 2 s) { Elapsed -> terminate }
+}
+`;
+
+/** Types at the end of a line of the text. */
+async function type(page: Page, line: string, text: string): Promise<void> {
+  await page.locator(".cm-line", { hasText: line }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.type(text);
+}
+
+const openText = (page: Page): Promise<void> => page.locator(".rail button", { hasText: "Text" }).click();
+
+/** The page says "saved" only while the file has what the page shows. */
+const isHonest = async (page: Page, on: () => Promise<string>, wanted: string): Promise<void> => {
+  const said = await page.locator(".saved").getAttribute("class");
+  if (/\bsaved saved\b/.test(said ?? "")) assert.equal(await on(), wanted);
+};
+
+inBrowser("a file that cannot be written is said not to be saved, and is as soon as it can be", { "plan.afp": PLAN }, async ({ page, folder, read, holds, isSaved }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  const file = join(folder, "plan.afp");
+  await rename(file, `${file}.kept`);
+  await mkdir(file);
+  await type(page, "start go", " // one");
+  await shows(page.locator(".saved"), /not saved/);
+  await shows(page.locator(".banner.error"), /not saved: /);
+  const wanted = PLAN.replace("start go", "start go // one");
+  for (let round = 0; round < 5; round++) {
+    await isHonest(page, () => read("plan.afp"), wanted);
+    await page.waitForTimeout(200);
+  }
+  await rm(file, { recursive: true });
+  await rename(`${file}.kept`, file);
+  await isSaved();
+  await holds("plan.afp", wanted);
+  assert.equal(await page.locator(".banner.error").count(), 0);
+});
+
+inBrowser("a file that another program removes is not saved until it is written anew", { "plan.afp": PLAN }, async ({ page, folder, holds, isSaved, read }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  await rm(join(folder, "plan.afp"));
+  await shows(page.locator(".banner.error"), /removed 'plan.afp'/);
+  assert.equal(await read("plan.afp"), "");
+  await type(page, "start go", " // still here");
+  await isSaved();
+  await holds("plan.afp", PLAN.replace("start go", "start go // still here"));
+});
+
+inBrowser("a full disk keeps the old bytes, and takes the new ones once it has room", { "plan.afp": PLAN }, async ({ page, folder, isSaved, read }) => {
+  // A small file system of its own, where the test may make one.
+  const small = join(folder, "small");
+  await mkdir(small);
+  const made = spawnSync("mount", ["-t", "tmpfs", "-o", "size=16k", "tmpfs", small]);
+  if (made.status !== 0) return void console.log("no full disk: a file system cannot be mounted here");
+  try {
+    await writeFile(join(small, "there.afp"), PLAN);
+    await page.reload();
+    await page.getByRole("button", { name: "Files" }).click();
+    await page.getByRole("menuitemradio", { name: "small/there.afp" }).click();
+    await page.locator(".bar .file", { hasText: "there.afp" }).waitFor();
+    await openText(page);
+    await writeFile(join(small, "filler"), Buffer.alloc(64_000)).catch(() => {});
+    await type(page, "start go", ` // ${"x".repeat(60)}`);
+    await shows(page.locator(".saved"), /not saved/);
+    assert.equal(await read("small/there.afp"), PLAN);
+    await rm(join(small, "filler"));
+    await isSaved();
+    assert.equal(await read("small/there.afp"), PLAN.replace("start go", `start go // ${"x".repeat(60)}`));
+  } finally {
+    spawnSync("umount", ["-l", small]);
+  }
+});
+
+inBrowser("a link stays a link, and what it leads to is written", {}, async ({ page, folder, read, isSaved }) => {
+  await mkdir(join(folder, "real"));
+  await writeFile(join(folder, "real/plan.afp"), PLAN.replaceAll("\n", "\r\n"));
+  await symlink("real/plan.afp", join(folder, "plan.afp"));
+  await page.reload();
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  await type(page, "start go", " // linked");
+  await isSaved();
+  const wanted = PLAN.replace("start go", "start go // linked").replaceAll("\n", "\r\n");
+  assert.equal(await settled(() => read("real/plan.afp"), (now) => now === wanted), wanted);
+  assert.equal(await readFile(join(folder, "plan.afp"), "utf8"), wanted);
+});
+
+inBrowser("who starts a second studio in the folder comes to the first one", { "a.afp": PLAN, "b.afp": PLAN.replaceAll("P", "Q") }, async ({ page, folder }) => {
+  await page.locator(".node text").first().waitFor();
+  const second = spawnSync(AFPC, ["studio", join(folder, "b.afp"), "--no-open"], { encoding: "utf8", timeout: 10_000, env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } });
+  assert.equal(second.status, 0, second.stderr);
+  assert.match(second.stderr, /serves this folder already/);
+  const address = /http:\S+/.exec(second.stdout)![0];
+  assert.equal(new URL(address).port, new URL(page.url()).port);
+  const other = await page.context().newPage();
+  await other.goto(address);
+  await other.locator(".bar .file", { hasText: "b.afp" }).waitFor();
+  await other.locator(".banner", { hasText: "You watch" }).waitFor();
+  assert.equal(new URL(other.url()).hash, "");
+});
+
+inBrowser("an example comes with its world and the plans that it uses, and runs at once", {}, async ({ page, read }) => {
+  await page.locator(".card", { hasText: "Find object" }).click();
+  await page.locator(".bar .file", { hasText: "find_object.afp" }).waitFor();
+  await page.locator(".count", { hasText: "ready" }).waitFor();
+  for (const file of ["plans/find_object.afp", "plans/avoid_obstacle.afp", "worlds/find_object.toml"]) assert.notEqual(await read(file), "", file);
+  await shows(page.locator(".where select"), /find_object\.toml/);
+  await page.keyboard.press("F5");
+  await page.locator(".clock:not(.held)").waitFor();
+});
