@@ -12,9 +12,8 @@ use afp_core::{Fault, Instant};
 const ACCELERATION: f64 = 3.0;
 /// So many readings in a row must say that it is ahead.
 const SURE: u8 = 3;
-/// Without a sight of it the robot turns until it has looked everywhere, and so much farther: what is only half in view may
-/// not be recognised, radians.
-const FARTHER: f64 = 0.35;
+/// Without a sight of it the robot turns a little more than once around, radians.
+const ALL_AROUND: f64 = core::f64::consts::TAU + 0.2;
 /// The whole way counts as turned when less than this is left, radians.
 const CLOSE: f64 = 0.005;
 
@@ -24,8 +23,6 @@ const CLOSE: f64 = 0.005;
 /// about the heading that the robot had when it was measured.
 #[derive(Clone, Debug)]
 pub(crate) struct Seeking {
-    /// The turn that looks everywhere, radians.
-    all_around: f64,
     tolerance: f64,
     speed: f64,
     ramp: Ramp,
@@ -53,10 +50,10 @@ pub(crate) enum Sought {
 }
 
 impl Seeking {
-    /// With a sensor that looks ahead and covers the whole angle `field`; `silent` is its fault when it says nothing usable.
+    /// `silent` is the fault of a sensor that says nothing usable.
     pub(crate) fn new<E>(
         (tolerance, speed): (Angle, AngularSpeed),
-        (field, silent): (Angle, Fault),
+        silent: Fault,
         env: &mut E,
         now: Instant,
     ) -> Self
@@ -67,7 +64,6 @@ impl Seeking {
         let mut history = History::new();
         history.note(env.motion());
         Seeking {
-            all_around: core::f64::consts::TAU - field.si() + FARTHER,
             tolerance: tolerance.si(),
             speed: speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
@@ -117,7 +113,7 @@ impl Seeking {
     fn rest(&mut self, heading: f64) -> (f64, Option<Sought>) {
         let from = *self.from.get_or_insert(heading);
         let Some((towards, seen)) = self.towards else {
-            let rest = self.all_around - (heading - from);
+            let rest = ALL_AROUND - (heading - from);
             return (rest, (rest < CLOSE).then_some(Sought::Missing));
         };
         let lost = self.last_look.since(seen) > PATIENCE;
