@@ -20,6 +20,8 @@ pub struct Case {
     pub world: World,
     /// The seed of the robot's noise.
     pub seed: u64,
+    /// What the plan is given: its inputs by name, the values as they would stand in a plan.
+    pub inputs: Vec<(&'static str, String)>,
     /// What happens.
     pub chance: Chance,
     /// When the case is over.
@@ -39,7 +41,7 @@ impl Case {
     /// A plan in a given room, in which nothing happens.
     pub fn quiet(plan: &'static Plan, world: World, seed: u64) -> Case {
         let until = Instant::ZERO + Duration::from_secs(SECONDS);
-        Case { plan, world, seed, chance: Chance::default(), until }
+        Case { plan, world, seed, inputs: Vec::new(), chance: Chance::default(), until }
     }
 }
 

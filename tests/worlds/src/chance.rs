@@ -39,7 +39,7 @@ impl Dice {
         self.0.next_u32() as usize % bound
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * f64::from(self.0.next_u32()) / 4_294_967_296.0
     }
 

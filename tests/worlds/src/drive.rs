@@ -8,7 +8,7 @@ use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{Ending, Line, Observe, Record, TraceHash, Verdict};
 use afp_core::{Duration, Instant, Scheduler, Wake};
-use afp_sim::Simulation;
+use afp_sim::{Pose, Simulation};
 
 use crate::case::Case;
 use crate::watch::Watch;
@@ -30,16 +30,20 @@ pub struct Outcome {
     pub broken: Vec<(Instant, String)>,
     /// What happened, line by line.
     pub timeline: String,
-    /// How often the robot came to touch something.
-    pub contacts: usize,
+    /// What the robot came to touch, each time, by its place in [`World::obstacles`](afp_sim::World::obstacles).
+    pub contacts: Vec<usize>,
     /// For how long it touched something while its drive was told to move.
     pub pushing: Duration,
+    /// When the plan ended, or the case.
+    pub at: Instant,
+    /// Where the robot is then.
+    pub pose: Pose,
 }
 
 /// Drives a case to its end.
 ///
 /// # Panics
-/// The simulator, the scheduler or a template panics, which they should not.
+/// The simulator, the scheduler or a template panics, which they should not; or the plan lacks an input of the case.
 pub fn run(case: &Case) -> Outcome {
     let mut registry = Registry::<Witness>::new();
     afp_std::templates::register(&mut registry);
@@ -64,10 +68,13 @@ pub fn run(case: &Case) -> Outcome {
     let clock = sim.clock();
     let mut robot = Witness { sim, watch: Rc::clone(&watch) };
     let mut scheduler = Scheduler::new(plan);
+    for (entry, value) in &case.inputs {
+        scheduler.set_named(entry, value).expect("the plan has such an input");
+    }
     let start = scheduler.start(&mut robot, &mut sink, &clock, Instant::ZERO);
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
-    let mut pushing = Duration::ZERO;
+    let (mut pushing, mut at) = (Duration::ZERO, case.until);
     while robot.sim.now() < end {
         let due = match wake {
             Wake::At(due) => due.max(clock.free()),
@@ -90,15 +97,17 @@ pub fn run(case: &Case) -> Outcome {
             watch.borrow_mut().stepped(now);
             if matches!(wake, Wake::Ended(_)) {
                 // Nobody helps the robot: what the plan did must be enough.
-                end = now + REST;
+                (at, end) = (now, now + REST);
             }
         }
     }
-    let (ending, contacts) = (scheduler.ending(), robot.sim.truth().collisions().len());
+    let (ending, truth) = (scheduler.ending(), robot.sim.truth());
+    let (contacts, pose) =
+        (truth.collisions().iter().map(|it| it.obstacle).collect(), truth.pose());
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
     let broken = watch.into_inner().broken();
-    Outcome { trace, ending, broken, timeline, contacts, pushing }
+    Outcome { trace, ending, broken, timeline, contacts, pushing, at, pose }
 }
 
 /// Whether the robot touches something while its drive is told to move.

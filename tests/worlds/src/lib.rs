@@ -8,7 +8,9 @@
 mod case;
 mod chance;
 mod drive;
+mod errand;
 mod plans;
+mod reach;
 mod sensor;
 mod single;
 mod watch;
@@ -17,6 +19,8 @@ mod witness;
 pub use case::Case;
 pub use chance::{Chance, Stimulus};
 pub use drive::{Outcome, run};
+pub use errand::Errand;
 pub use plans::{Plan, plan, plans};
+pub use reach::Reach;
 pub use single::{Account, Single};
 pub use watch::Watch;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use afp_dsl::compile;
+use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
@@ -47,9 +47,26 @@ pub fn plan(name: &str) -> &'static Plan {
     found.unwrap_or_else(|| panic!("there is no plan '{name}'"))
 }
 
+/// One plan of several in a file that AFP ships.
+///
+/// # Panics
+/// There is none.
+pub fn part(file: &str, name: &str) -> Plan {
+    let (texts, others) = texts(SHIPPED);
+    let text = texts.into_iter().find(|(stem, _)| stem == file);
+    let (stem, text) = text.unwrap_or_else(|| panic!("there is no plan '{file}'"));
+    compiled((stem, text), Some(name), &others, true)
+}
+
 /// The plans of a folder.
 fn of(folder: &str) -> Vec<Plan> {
+    let (texts, others) = texts(folder);
     let shipped = folder == SHIPPED;
+    texts.into_iter().map(|text| compiled(text, None, &others, shipped)).collect()
+}
+
+/// The names and texts of a folder's plans, and the same for those that use each other.
+fn texts(folder: &str) -> (Vec<(String, String)>, Texts) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
     let files = fs::read_dir(&folder).unwrap_or_else(|why| panic!("{}: {why}", folder.display()));
     let paths = files.flatten().map(|file| file.path());
@@ -61,7 +78,7 @@ fn of(folder: &str) -> Vec<Plan> {
     for (name, text) in &texts {
         others.add(&format!("{name}.afp"), text.as_str());
     }
-    texts.into_iter().map(|(name, text)| compiled(name, text, &others, shipped)).collect()
+    (texts, others)
 }
 
 /// The name of a plan's file, and its text.
@@ -70,10 +87,15 @@ fn read(path: &Path) -> (String, String) {
     (path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), text)
 }
 
-fn compiled(name: String, text: String, others: &Texts, shipped: bool) -> Plan {
+fn compiled(
+    (name, text): (String, String),
+    part: Option<&str>,
+    others: &Texts,
+    shipped: bool,
+) -> Plan {
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let source = Source::new(format!("{name}.afp"), text);
-    let compiled = compile(&source, &toolboxes, others);
+    let compiled = compile_plan(&source, &toolboxes, others, part);
     let said = compiled.render(false);
     Plan { name, shipped, graph: compiled.graph.unwrap_or_else(|| panic!("{said}")) }
 }

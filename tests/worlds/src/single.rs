@@ -137,7 +137,7 @@ impl Account {
             Some(Ending::Error(fault)) => fault.code(),
         };
         *row.endings.entry(ending.to_owned()).or_default() += 1;
-        row.contacts += outcome.contacts;
+        row.contacts += outcome.contacts.len();
         row.pushing = row.pushing + outcome.pushing;
         row.longest = row.longest.max(outcome.pushing);
     }

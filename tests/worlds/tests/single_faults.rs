@@ -30,7 +30,7 @@ fn shown(name_of: &str, all: &[Single]) {
     let single = single.unwrap_or_else(|| panic!("no case '{name_of}'"));
     let outcome = run(&single.case);
     println!("{}{}{:?}", single.case, outcome.timeline, outcome.ending);
-    println!("{} contacts, pushing for {}", outcome.contacts, outcome.pushing);
+    println!("{} contacts, pushing for {}", outcome.contacts.len(), outcome.pushing);
     assert_eq!(single.objections(&outcome), [""; 0]);
 }
 

@@ -1,0 +1,143 @@
+//! Errands: a plan in a made-up room, and where the robot has to be in the end.
+//!
+//! A room is fit for an errand when a wide enough way leads to its goal; what a plan misses then is its own fault.
+
+use std::sync::OnceLock;
+
+use afp_core::trace::Ending;
+use afp_core::{Duration, Instant};
+use afp_sim::world::Mobility;
+use afp_sim::{Pose, World};
+
+use crate::case::Case;
+use crate::chance::Dice;
+use crate::drive::Outcome;
+use crate::plans::{Plan, part, plan};
+use crate::reach::{Reach, bounds, is_in_sight, room};
+
+/// What is lower than this the range sensor does not hear, metres.
+const HEARD: f64 = 0.15;
+/// The robot's eyes are so far above the floor, metres.
+const EYE: f64 = 0.15;
+/// Places that are tried for a goal made up.
+const TRIES: usize = 200;
+/// Nearer to anything the lane is not free at a goal straight ahead, metres.
+const LANE: f64 = 0.45;
+/// A bin needs so much room around its middle, metres.
+const BIN: f64 = 0.25;
+/// Nearer to the start than this no goal made up is, metres.
+const APART: f64 = 1.5;
+
+/// A plan, a room and a goal.
+#[derive(Clone, Debug)]
+pub struct Errand {
+    /// What is driven, where, and for how long at most.
+    pub case: Case,
+    /// The text of the room's file, so that the same can be driven by hand.
+    pub text: String,
+    goal: [f64; 2],
+    /// So near to the goal the robot's middle is in the end, metres.
+    within: f64,
+    /// Where that straight on from the start is as good as the goal.
+    beyond: bool,
+}
+
+impl Errand {
+    /// Two metres straight ahead, round what stands in the way; none where the room of the number is not fit.
+    pub fn ahead(number: u64) -> Option<Errand> {
+        let text = World::random_text(number);
+        let world = parsed(&text);
+        let Pose { x, y, heading } = world.start;
+        let goal = [x + 2.0 * heading.cos(), y + 2.0 * heading.sin()];
+        let fit = Reach::of(&world).has(goal) && room(&world, goal) > LANE;
+        let case = Case::quiet(plan("avoid_obstacle"), world, number);
+        // It counts as there 40 cm beside the place, and the odometry drifts.
+        fit.then(|| Errand { case: lasting(case, 300), text, goal, within: 0.7, beyond: true })
+    }
+
+    /// To where the room's beacon is as bright as wanted.
+    pub fn beacon(number: u64) -> Option<Errand> {
+        let text = World::random_text(number);
+        let world = parsed(&text);
+        let goal = world.lights[0].position;
+        // From the turning centre to the beacon where it is bright enough: the sensor sits 18 cm before it.
+        let seen = |place| is_in_sight(&world, (place, EYE), (goal, world.lights[0].height));
+        let fit = Reach::of(&world).near(goal, 0.5).any(seen);
+        let case = Case::quiet(plan("find_infrared"), world, number);
+        fit.then(|| Errand { case: lasting(case, 300), text, goal, within: 0.9, beyond: false })
+    }
+
+    /// To a pink bin, which is put somewhere.
+    pub fn bin(number: u64) -> Option<Errand> {
+        let text = World::random_text(number);
+        let world = parsed(&text);
+        let goal = somewhere(&world, number, |place| room(&world, place) > BIN)?;
+        let text = format!(
+            "{text}\n[[box]]\nname = \"bin\"\npose_m_deg = [{:.3}, {:.3}, 30.0]\nsize_m = [0.3, 0.3]\n\
+             height_m = 0.5\ncolor = \"#d91a80\"\n",
+            goal[0], goal[1]
+        );
+        let seen = |place| is_in_sight(&world, (place, EYE), (goal, EYE));
+        let with = World::parse(&text).ok()?;
+        let fit = Reach::of(&with).near(goal, 0.7).any(seen);
+        let case = Case::quiet(plan("find_object"), with, number);
+        fit.then(|| Errand { case: lasting(case, 300), text, goal, within: 1.2, beyond: false })
+    }
+
+    /// To a place of the map.
+    pub fn place(number: u64) -> Option<Errand> {
+        static GO_TO: OnceLock<Plan> = OnceLock::new();
+        let text = World::random_text(number);
+        let world = parsed(&text);
+        let reach = Reach::of(&world);
+        let goal = somewhere(&world, number, |place| reach.has(place))?;
+        let plan = GO_TO.get_or_init(|| part("navigate_room", "GoTo"));
+        let mut case = lasting(Case::quiet(plan, world, number), 180);
+        case.inputs = ["x", "y"].into_iter().zip(goal.map(|at| format!("{at} m"))).collect();
+        Some(Errand { case, text, goal, within: 0.3, beyond: false })
+    }
+
+    /// Why the robot did not do what it was sent for; none if it did.
+    pub fn objection(&self, outcome: &Outcome) -> Option<String> {
+        let [mut x, mut y] = [outcome.pose.x - self.goal[0], outcome.pose.y - self.goal[1]];
+        let (sin, cos) = self.case.world.start.heading.sin_cos();
+        let beyond = (x * cos + y * sin).max(0.0);
+        if self.beyond {
+            (x, y) = (x - beyond * cos, y - beyond * sin);
+        }
+        let far = x.hypot(y);
+        match outcome.ending {
+            None => Some(format!("not yet there, {far:.1} m away")),
+            Some(Ending::Ok) if far <= self.within => None,
+            Some(Ending::Ok) => Some(format!("ended {far:.1} m away")),
+            Some(ending) => Some(format!("{ending:?}, {far:.1} m away")),
+        }
+    }
+
+    /// How often the robot touched what its range sensor hears and what does not walk into it.
+    pub fn touches(&self, outcome: &Outcome) -> usize {
+        let obstacles = &self.case.world.obstacles;
+        let touched = outcome.contacts.iter().filter_map(|place| obstacles.get(*place));
+        let walks = |mobility: &Mobility| matches!(mobility, Mobility::Scripted(_));
+        touched.filter(|it| it.height >= HEARD && !walks(&it.mobility)).count()
+    }
+}
+
+fn parsed(text: &str) -> World {
+    World::parse(text).expect("a room made up is sound")
+}
+
+fn lasting(case: Case, seconds: u64) -> Case {
+    Case { until: Instant::ZERO + Duration::from_secs(seconds), ..case }
+}
+
+/// A place of the room that is fit, apart from the start.
+fn somewhere(world: &World, number: u64, is_fit: impl Fn([f64; 2]) -> bool) -> Option<[f64; 2]> {
+    let (low, high) = bounds(world);
+    let mut dice = Dice::new(number, 3);
+    (0..TRIES).find_map(|_| {
+        let place = [0, 1].map(|i| dice.between(low[i], high[i]));
+        let far = (place[0] - world.start.x).hypot(place[1] - world.start.y);
+        (far >= APART && is_fit(place)).then_some(place)
+    })
+}

@@ -1,0 +1,143 @@
+//! Which places of a room the robot can get to: what a goal must be, so that a plan can be blamed for missing it.
+
+use std::ops::RangeInclusive;
+
+use afp_sim::world::{Mobility, Obstacle};
+use afp_sim::{HALF_LENGTH, HALF_WIDTH, World};
+
+/// From one place to the next, metres.
+const CELL: f64 = 0.1;
+/// A place is wide enough when the robot can turn around there with so much to spare, metres.
+const SPARE: f64 = 0.05;
+/// The robot leaves its start, where there may be less room, for a place so near, metres.
+const LEAVING: f64 = 0.3;
+
+/// The places of a room to which a wide enough way leads from the robot's start, as things stand at the start. What walks
+/// about is taken away: it gives way by itself.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    low: [f64; 2],
+    columns: usize,
+    rows: usize,
+    reached: Vec<bool>,
+}
+
+impl Reach {
+    /// Looks for every way in a room.
+    pub fn of(world: &World) -> Reach {
+        let (low, high) = bounds(world);
+        let [columns, rows] = [0, 1].map(|i| ((high[i] - low[i]) / CELL).ceil() as usize);
+        let mut reach = Reach { low, columns, rows, reached: vec![false; columns * rows] };
+        let still = without_walkers(world);
+        let wide = HALF_LENGTH.hypot(HALF_WIDTH) + SPARE;
+        let mut seen = reach.reached.clone();
+        let mut next: Vec<usize> = reach.around([world.start.x, world.start.y], LEAVING).collect();
+        while let Some(cell) = next.pop() {
+            let at = reach.middle(cell);
+            if !std::mem::replace(&mut seen[cell], true) && room(&still, at) >= wide {
+                reach.reached[cell] = true;
+                next.extend(reach.around(at, CELL * 1.1));
+            }
+        }
+        reach
+    }
+
+    /// Whether the robot can get to a place.
+    pub fn has(&self, place: [f64; 2]) -> bool {
+        self.near(place, CELL / 2.0).next().is_some()
+    }
+
+    /// The places within so many metres of one, both ways.
+    pub fn near(&self, place: [f64; 2], far: f64) -> impl Iterator<Item = [f64; 2]> {
+        self.around(place, far).filter(|cell| self.reached[*cell]).map(|cell| self.middle(cell))
+    }
+
+    /// The cells within so many metres of a place, along either axis.
+    fn around(&self, place: [f64; 2], far: f64) -> impl Iterator<Item = usize> + use<> {
+        let range = |i: usize, count: usize| -> RangeInclusive<usize> {
+            let cell = |at: f64| ((at - self.low[i]) / CELL).max(0.0) as usize;
+            cell(place[i] - far)..=cell(place[i] + far).min(count.saturating_sub(1))
+        };
+        let (across, up, columns) = (range(0, self.columns), range(1, self.rows), self.columns);
+        up.flat_map(move |row| across.clone().map(move |column| row * columns + column))
+    }
+
+    fn middle(&self, cell: usize) -> [f64; 2] {
+        let at = |i: usize, n: usize| self.low[i] + (n as f64 + 0.5) * CELL;
+        [at(0, cell % self.columns), at(1, cell / self.columns)]
+    }
+}
+
+/// The lower left and the upper right corner of what stands in a room.
+pub(crate) fn bounds(world: &World) -> ([f64; 2], [f64; 2]) {
+    let corners = world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
+    let outside = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    corners.fold(outside, |(low, high), at| {
+        ([0, 1].map(|i| low[i].min(at[i])), [0, 1].map(|i| high[i].max(at[i])))
+    })
+}
+
+/// How far the nearest thing is from a place, metres; nothing inside of one.
+pub(crate) fn room(world: &World, place: [f64; 2]) -> f64 {
+    let room = |it: &Obstacle| distance(&it.outline.corners(), place);
+    world.obstacles.iter().map(room).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether nothing stands between two places, each with its height above the floor, metres.
+pub(crate) fn is_in_sight(
+    world: &World,
+    (from, low): ([f64; 2], f64),
+    (to, high): ([f64; 2], f64),
+) -> bool {
+    /// So many places of the line are looked at.
+    const PLACES: u32 = 50;
+    (0..=PLACES).all(|n| {
+        let share = f64::from(n) / f64::from(PLACES);
+        let place = [0, 1].map(|i| from[i] + (to[i] - from[i]) * share);
+        let height = low + (high - low) * share;
+        let mut higher = world.obstacles.iter().filter(|it| it.height > height);
+        higher.all(|it| distance(&it.outline.corners(), place) > 0.0)
+    })
+}
+
+/// How far a place is from a convex outline whose corners go counter-clockwise; nothing inside of it.
+fn distance(corners: &[[f64; 2]], place: [f64; 2]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    let mut inside = true;
+    let off = |([ax, ay], [bx, by]): (&[f64; 2], &[f64; 2])| {
+        let ([x, y], [px, py]) = ([bx - ax, by - ay], [place[0] - ax, place[1] - ay]);
+        inside &= x * py - y * px >= 0.0;
+        let share = ((x * px + y * py) / (x * x + y * y).max(1e-12)).clamp(0.0, 1.0);
+        (px - x * share).hypot(py - y * share)
+    };
+    let off = corners.iter().zip(next).map(off).fold(f64::INFINITY, f64::min);
+    if inside { 0.0 } else { off }
+}
+
+fn without_walkers(world: &World) -> World {
+    let mut still = world.clone();
+    still.obstacles.retain(|obstacle| !matches!(obstacle.mobility, Mobility::Scripted(_)));
+    still
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_leads_through_a_door_and_not_through_a_gap() {
+        let halves = |door: f64| {
+            World::parse(&format!(
+                "version = 1\nname = \"halves\"\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n\
+                 [[wall]]\nclosed = true\npoints_m = [[0, 0], [4, 0], [4, 2], [0, 2]]\n\
+                 [[wall]]\npoints_m = [[2, 0], [2, {}]]\n",
+                2.0 - door
+            ))
+        };
+        for (door, leads) in [(0.9, true), (0.5, false)] {
+            let reach = Reach::of(&halves(door).expect("a world"));
+            assert!(reach.has([1.2, 1.2]) && !reach.has([0.1, 0.1]) && !reach.has([9.0, 1.0]));
+            assert_eq!(reach.has([3.0, 1.0]), leads, "{door}");
+        }
+    }
+}
