@@ -30,7 +30,7 @@ pub fn of_package(folder: &Path) -> Option<String> {
 /// The commit of a checkout, with a `+` where something has changed since.
 pub fn of_checkout(folder: &str) -> Option<String> {
     let commit = git(folder, &["rev-parse", "HEAD"])?;
-    for watched in ["HEAD", "index", "logs/HEAD"] {
+    for watched in ["HEAD", "logs/HEAD"] {
         if let Some(path) =
             git(folder, &["rev-parse", "--path-format=absolute", "--git-path", watched])
         {
@@ -48,7 +48,9 @@ fn short(commit: &str) -> String {
 
 /// What git prints; none where there is no git, or no checkout.
 fn git(folder: &str, arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").arg("-C").arg(folder).args(arguments).output().ok()?;
+    // Looking must change nothing: what is built from a file that is newer than it is built anew each time.
+    let git = ["--no-optional-locks", "-C", folder];
+    let output = Command::new("git").args(git).args(arguments).output().ok()?;
     let text = String::from_utf8(output.stdout).ok().filter(|_| output.status.success())?;
     Some(text.trim().to_owned())
 }
