@@ -209,9 +209,10 @@ inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLA
   await page.keyboard.press("Control+Shift+M");
   await page.locator(".pane.bottom").waitFor();
   const reached = new Set<string>();
-  for (let step = 0; step < 5; step++) {
+  // All the way round: the bar, palette, drawing, world, text and problems.
+  for (let step = 0; step < 6; step++) {
     await page.keyboard.press("F6");
     reached.add(await page.evaluate(() => document.activeElement?.closest("[data-pane], .bar")?.getAttribute("aria-label") ?? "bar"));
   }
-  assert.ok(reached.has("Text") && reached.has("bar"), [...reached].join());
+  assert.ok(["bar", "Palette", "Drawing", "World", "Text", "Problems"].every((pane) => reached.has(pane)), [...reached].join());
 });
