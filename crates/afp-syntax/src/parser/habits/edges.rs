@@ -43,9 +43,14 @@ impl Parser<'_, '_> {
             return false;
         }
         if self.at(Kind::Text) {
-            let name = self.found().replace(['"', '\''], "");
-            let help = format!("write '{name}'");
-            self.instead(1, "a target has no quotes".to_owned(), help, &name);
+            let text = self.token(0).map_or("", |token| token.text);
+            let name = text.trim_matches('"');
+            let is_name = name.chars().all(|sign| sign.is_alphanumeric() || sign == '_');
+            let (message, better) = match is_name && !name.is_empty() {
+                true => ("a target has no quotes", name.to_owned()),
+                false => ("a text here belongs to 'fail'", format!("fail {text}")),
+            };
+            self.instead(1, message.to_owned(), format!("write '{better}'"), &better);
             return true;
         }
         let in_brackets = matches!(
