@@ -9,7 +9,9 @@ import { middle } from "./spots";
 const PAPER = readFileSync(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 
 const poseOf = async (page: Page): Promise<[number, number]> => {
-  const found = /translate\((\S+) (\S+)\)/.exec((await page.locator(".floor .robot").getAttribute("transform"))!)!;
+  // The robot may be there a moment before its place is.
+  const robot = await page.waitForSelector('.floor .robot[transform^="translate("]', { state: "attached" });
+  const found = /translate\((\S+) (\S+)\)/.exec((await robot.getAttribute("transform"))!)!;
   return [Number(found[1]), Number(found[2])];
 };
 
