@@ -51,12 +51,13 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<void>, make = co
   const greet = async (first: Lsp): Promise<void> => {
     const said = await first.request<Hello>("afp/hello", {});
     const begun = hello.value !== null;
+    // At once: what the server tells next is newer.
+    files.value = said.files;
+    pen.value = said.pen;
     const params = { processId: null, rootUri: said.root, workspaceFolders: [{ uri: said.root, name: "root" }], capabilities: CAPABILITIES };
     const { capabilities } = await first.request<any>("initialize", params);
     first.notify("initialized", {});
     legend.value = capabilities.semanticTokensProvider?.legend ?? legend.value;
-    files.value = said.files;
-    pen.value = said.pen;
     hello.value = said;
     if (begun) await again(first);
   };

@@ -208,3 +208,28 @@ test("the difference of two texts is one change", () => {
     assert.equal(changes.reduce((now, { from, to, insert }) => now.slice(0, from) + insert + now.slice(to), before), after);
   }
 });
+
+test("what the server tells while it is being greeted is newer than its greeting", async () => {
+  let greeted: Promise<void> | null = null;
+  const takers = new Map<string, (params: any) => void>();
+  const one = { uri: "file:///w/a.afp", name: "a.afp" };
+  const two = { uri: "file:///w/b.afp", name: "b.afp" };
+  const lsp: Lsp = {
+    open: signal(true),
+    on: (method, take) => (takers.set(method, take), () => {}),
+    request: async (method: string): Promise<any> => {
+      if (method === "afp/hello") return { client: 1, root: "file:///w", open: null, pen: true, documents: [], files: [one], examples: [] };
+      await null;
+      takers.get("afp/files")!({ files: [one, two] });
+      return { capabilities: {} };
+    },
+    notify: () => {},
+  };
+  session.begin("", async () => {}, (_, greet) => {
+    queueMicrotask(() => (greeted = greet(lsp)));
+    return lsp;
+  });
+  await Promise.resolve();
+  await greeted;
+  assert.deepEqual(session.files.value.map(({ name }) => name), ["a.afp", "b.afp"]);
+});

@@ -15,6 +15,9 @@ use afp_syntax::source::Source;
 
 const TABLE: &str = "tests/draw/counted.txt";
 
+/// How far lines that lie side by side are apart.
+const APART: f64 = 12.0;
+
 /// Plans, with the toolboxes beside them.
 const FOLDERS: [(&str, &str); 3] = [
     ("plans", ""),
@@ -99,6 +102,17 @@ fn crossings(one: &[Point], other: &[Point]) -> usize {
     pairs.filter(|(a, b)| cross(a, b) || cross(b, a)).count()
 }
 
+/// Where a line is shifted by less than lines are apart, and goes on as before: it looks like a mistake.
+fn jogs(way: &[Point]) -> usize {
+    let direction = |a: Point, b: Point| ((b.0 - a.0).signum(), (b.1 - a.1).signum());
+    let inner = way.windows(4).filter(|corners| {
+        let [before, from, to, after] = **corners else { return false };
+        let shift = (to.0 - from.0).abs() + (to.1 - from.1).abs();
+        shift < APART && direction(before, from) == direction(to, after)
+    });
+    inner.count()
+}
+
 /// Whether an upright line passes through a level one; what ends on it, joins it.
 fn cross(upright: &[Point], level: &[Point]) -> bool {
     let between = |x: f64, a: f64, b: f64| a.min(b) + 0.5 < x && x < a.max(b) - 0.5;
@@ -124,6 +138,9 @@ fn drawings_stay_calm() {
         all.add(counted);
         let ratio = plan.bounds.width / plan.bounds.height;
         assert!((0.5..=2.0).contains(&ratio), "'{}' is {ratio:.2} as wide as high", plan.name);
+        for edge in &plan.edges {
+            assert_eq!(jogs(&edge.points), 0, "'{}': {} -> {} {:?}", plan.name, edge.item, edge.to, edge.points);
+        }
         table += &line(&plan.name, counted, Some((plan.bounds.width, plan.bounds.height)));
     }
     table += &line("all", all, None);

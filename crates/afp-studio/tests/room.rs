@@ -242,6 +242,10 @@ fn files_are_made_renamed_and_removed_within_the_folder_alone() {
     let hello = place.ask(1, "afp/hello", json!({})).unwrap();
     assert_eq!(hello["files"].as_array().unwrap().len(), 1);
     assert_eq!(hello["examples"][0]["title"], "Wait.");
+    // Whoever comes sees the folder as it is now, not as it was when it was last looked at.
+    fs::write(place.path("q.afp"), PLAN).unwrap();
+    let hello = place.ask(1, "afp/hello", json!({})).unwrap();
+    assert_eq!(hello["files"].as_array().unwrap().len(), 2);
 }
 
 #[test]

@@ -72,6 +72,35 @@ impl Junction {
     }
 }
 
+/// Where an edge shall end instead: nearly there is a corner of the joined edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Corner {
+    pub(super) at: Point,
+    pub(super) junction: Junction,
+}
+
+impl Junction {
+    /// The corner of the joined edge near which an edge ends that comes from beside it: the one in front, if the line goes on
+    /// there as the edge does, or the one behind.
+    pub(super) fn corner(self, points: &[Point], joined: &[Point]) -> Option<Corner> {
+        let [_, .., before, end] = points[..] else { return None };
+        let side = side_of(before, end);
+        let axis = axis_of(side);
+        if self.along || axis == self.axis() || before == end {
+            return None;
+        }
+        let near = |corner: &Point| (axis.across(*corner) - axis.across(end)).abs() < PITCH;
+        let ahead = joined.get(self.part + 1).zip(joined.get(self.part + 2));
+        let ahead = ahead.filter(|(corner, next)| near(corner) && side_of(**corner, **next) == side);
+        if let Some((at, _)) = ahead {
+            let junction = Junction { part: self.part + 1, side, along: true, ..self };
+            return Some(Corner { at: *at, junction });
+        }
+        let behind = joined.get(self.part).filter(|corner| self.part > 0 && near(corner))?;
+        Some(Corner { at: *behind, junction: self })
+    }
+}
+
 /// Along right-angled lines.
 fn distance(a: Point, b: Point) -> f64 {
     (a.0 - b.0).abs() + (a.1 - b.1).abs()

@@ -72,9 +72,7 @@ impl<'a> Laid<'a> {
 
     /// All edges apart from each other; where that cannot be, some are led elsewhere for as long as it helps.
     pub(super) fn routes(mut self) -> Routes {
-        let apart = self.apart();
-        merged(self.wires, &apart.corners, &self.fixed, &mut self.joins);
-        let mut best = self.apart();
+        let mut best = self.merged();
         let mut tried = vec![false; self.wires.len()];
         for _ in 0..DETOURS {
             let detours = detours(&best.crowded, &mut tried);
@@ -84,12 +82,19 @@ impl<'a> Laid<'a> {
             for narrow in &detours {
                 self.lead_elsewhere(narrow);
             }
-            let found = self.apart();
+            let found = self.merged();
             if squeezed(&found) < squeezed(&best) {
                 best = found;
             }
         }
         Routes { effort: self.search.effort(), ..best }
+    }
+
+    /// The edges apart, and those that arrive side by side as one.
+    fn merged(&mut self) -> Routes {
+        let apart = self.apart();
+        merged(self.wires, &apart.corners, &self.fixed, &mut self.joins);
+        self.apart()
     }
 
     fn apart(&self) -> Routes {

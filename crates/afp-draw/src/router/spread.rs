@@ -62,7 +62,8 @@ impl Spread<'_> {
                 self.attach(corners);
             }
         }
-        self.complete(corners);
+        let junctions = self.settle(corners);
+        complete(corners, &junctions);
         for (points, _) in corners.iter_mut().zip(self.fixed).filter(|(_, fixed)| !**fixed) {
             *points = without_straight_corners(std::mem::take(points));
         }
@@ -109,26 +110,28 @@ impl Spread<'_> {
     /// Lets what ends on another edge end where that is now.
     fn attach(&self, corners: &mut [Vec<Point>]) {
         for (edge, on) in self.junctions() {
-            let (joined, axis) = (corners[on.edge][on.part], on.axis());
-            let points = &mut corners[edge];
-            let [.., before, end] = &mut points[..] else { continue };
-            let place = |corner: &mut Point| match axis {
-                Axis::Upright => corner.0 = joined.0,
-                Axis::Level => corner.1 = joined.1,
-            };
-            place(end);
-            if on.along {
-                place(before);
-            }
+            attach(corners, edge, on);
         }
     }
 
-    /// Leads what ends on another edge on to their target.
-    fn complete(&self, corners: &mut [Vec<Point>]) {
-        for (edge, on) in self.junctions() {
-            let rest = corners[on.edge][on.part + 1..].to_vec();
-            corners[edge].extend(rest);
+    /// Lets what ends nearly at a corner of another edge end there, where the boxes leave room for it: a line that is shifted by
+    /// less than lines are apart would look like a mistake. Gives where the edges end then.
+    fn settle(&self, corners: &mut [Vec<Point>]) -> Vec<(usize, Junction)> {
+        let mut junctions: Vec<_> = self.junctions().collect();
+        for (edge, on) in &mut junctions {
+            attach(corners, *edge, *on);
+            let Some(found) = on.corner(&corners[*edge], &corners[on.edge]) else { continue };
+            let last = corners[*edge].len() - 2;
+            let [from, to] = [corners[*edge][last], corners[*edge][last + 1]];
+            let axis = Axis::of(from, to);
+            let room = between(axis, self.boxes, axis.across(to), span(axis, from, to));
+            let at = axis.across(found.at);
+            if room.0 <= at && at <= room.1 {
+                self.put(axis, corners, (*edge, last), at);
+                *on = found.junction;
+            }
         }
+        junctions
     }
 
     /// The edges that end on others, with where.
@@ -203,6 +206,28 @@ impl Spread<'_> {
             }
         }
         parts
+    }
+}
+
+/// Lets an edge end where the one that it joins is now.
+fn attach(corners: &mut [Vec<Point>], edge: usize, on: Junction) {
+    let (joined, axis) = (corners[on.edge][on.part], on.axis());
+    let [.., before, end] = &mut corners[edge][..] else { return };
+    let place = |corner: &mut Point| match axis {
+        Axis::Upright => corner.0 = joined.0,
+        Axis::Level => corner.1 = joined.1,
+    };
+    place(end);
+    if on.along {
+        place(before);
+    }
+}
+
+/// Leads what ends on another edge on to their target.
+fn complete(corners: &mut [Vec<Point>], junctions: &[(usize, Junction)]) {
+    for (edge, on) in junctions {
+        let rest = corners[on.edge][on.part + 1..].to_vec();
+        corners[*edge].extend(rest);
     }
 }
 

@@ -39,7 +39,10 @@ pub(super) fn answer(
 ) -> (Result<Value, String>, Out) {
     let mut out = Out::new();
     let answer = match method {
-        "afp/hello" => Ok(hello(room, client)),
+        "afp/hello" => {
+            out = room.look_at_files();
+            Ok(hello(room, client))
+        }
         "afp/pen" => {
             if params["take"] == json!(true) {
                 out = room.hand_pen(Some(client));
@@ -63,10 +66,7 @@ pub(super) fn answer(
         _ => Err(format!("there is no '{method}'")),
     };
     if matches!(method, "afp/create" | "afp/rename" | "afp/remove") && answer.is_ok() {
-        room.files = room.folder.files();
-        let files = json!({ "files": room.listed() });
-        let say = |&id: &ClientId| (id, super::notification("afp/files", files.clone()));
-        out.extend(room.clients.keys().map(say));
+        out.extend(room.look_at_files());
     }
     (answer, out)
 }

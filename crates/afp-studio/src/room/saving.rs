@@ -99,7 +99,7 @@ impl Room {
     }
 
     /// Looks at the tree: which files there are, and whether one has changed that plans may use.
-    fn look_at_files(&mut self) -> Out {
+    pub(super) fn look_at_files(&mut self) -> Out {
         let found = self.folder.files();
         if found == self.files {
             return Vec::new();
