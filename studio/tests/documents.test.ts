@@ -226,7 +226,7 @@ test("what the server tells while it is being greeted is newer than its greeting
     notify: () => {},
   };
   session.begin("", async () => {}, (_, greet) => {
-    queueMicrotask(() => (greeted = greet(lsp)));
+    queueMicrotask(() => (greeted = greet!(lsp)));
     return lsp;
   });
   await Promise.resolve();

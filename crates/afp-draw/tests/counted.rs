@@ -139,7 +139,15 @@ fn drawings_stay_calm() {
         let ratio = plan.bounds.width / plan.bounds.height;
         assert!((0.5..=2.0).contains(&ratio), "'{}' is {ratio:.2} as wide as high", plan.name);
         for edge in &plan.edges {
-            assert_eq!(jogs(&edge.points), 0, "'{}': {} -> {} {:?}", plan.name, edge.item, edge.to, edge.points);
+            assert_eq!(
+                jogs(&edge.points),
+                0,
+                "'{}': {} -> {} {:?}",
+                plan.name,
+                edge.item,
+                edge.to,
+                edge.points
+            );
         }
         table += &line(&plan.name, counted, Some((plan.bounds.width, plan.bounds.height)));
     }

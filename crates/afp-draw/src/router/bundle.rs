@@ -91,7 +91,8 @@ impl Junction {
         }
         let near = |corner: &Point| (axis.across(*corner) - axis.across(end)).abs() < PITCH;
         let ahead = joined.get(self.part + 1).zip(joined.get(self.part + 2));
-        let ahead = ahead.filter(|(corner, next)| near(corner) && side_of(**corner, **next) == side);
+        let ahead =
+            ahead.filter(|(corner, next)| near(corner) && side_of(**corner, **next) == side);
         if let Some((at, _)) = ahead {
             let junction = Junction { part: self.part + 1, side, along: true, ..self };
             return Some(Corner { at: *at, junction });
