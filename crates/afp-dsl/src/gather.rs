@@ -160,7 +160,14 @@ impl Gathering<'_> {
         if wrong.is_empty()
             && let Some(error) = path_error(&text, written.span)
         {
-            wrong.push(error);
+            wrong.push(match self.toolboxes.get(&text) {
+                Some(_) => {
+                    Diagnostic::new(error.code, error.span, "a toolbox is used by its name alone")
+                        .help(format!("write 'use {text}'"))
+                        .replace(text.clone())
+                }
+                None => error,
+            });
         }
         if !wrong.is_empty() {
             self.diags.extend(wrong);

@@ -51,6 +51,9 @@ impl<'t> Lexer<'t, '_> {
             '"' => self.quoted(),
             '/' if rest.starts_with("/*") => self.block_comment(),
             '/' if rest.starts_with("//") => self.comment(),
+            '-' | ';' | '%' if self.comment_sign().is_some() => {
+                self.foreign_comment(self.comment_sign().unwrap_or_default());
+            }
             // The mark at the start of a file says how it is encoded.
             '\u{feff}' if self.at == 0 => {
                 self.push(Kind::Whitespace, first.len_utf8());

@@ -279,7 +279,7 @@ pub(crate) fn names_only(
         }
         match &edge.target {
             Some(to) if !elements.is_word(to) => {
-                find(to, true, elements, diags);
+                find(to, Leads::Edge, elements, diags);
             }
             _ => {}
         }
@@ -348,7 +348,8 @@ fn target(
         }
         _ => {}
     }
-    find(to, true, elements, diags).map(Target::Element)
+    let leads = if origin.supervisor { Leads::Event } else { Leads::Edge };
+    find(to, leads, elements, diags).map(Target::Element)
 }
 
 /// Notes that a fault's own reason is lost.
@@ -361,21 +362,33 @@ fn hides_reason(edge: &WrittenEdge, diags: &mut Diagnostics) {
     }
 }
 
+/// What names an element.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Leads {
+    /// The start of the plan.
+    Start,
+    /// A state, or what is not known to be an event.
+    Edge,
+    /// An event.
+    Event,
+}
+
 /// The element of that name; reports when there is none. Edges may lead to words instead.
 pub(crate) fn find(
     to: &Name,
-    is_edge: bool,
+    leads: Leads,
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<ElementId> {
     let Some(place) = elements.indices.find(&to.text) else {
         elements.record.unknown(to.span);
         let words = [TERMINATE, FAIL].into_iter();
-        let words = words.filter(|word| is_edge && elements.indices.find(word).is_none());
+        let words =
+            words.filter(|word| leads != Leads::Start && elements.indices.find(word).is_none());
         let names = elements.names().chain(words);
         let message = format!("the plan has no element '{}'", to.text);
         let none = "add an element of that name";
-        let meant = meant::target(&to.text).filter(|_| is_edge);
+        let meant = meant::target(&to.text, leads);
         diags.push(match meant.filter(|_| words::nearest(&to.text, elements.names()).is_none()) {
             Some(word) => Diagnostic::new(Code::E0216, to.span, message)
                 .help(format!("write '{word}'"))

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::edges::Leads;
 use super::{PlanHead, Program};
 use crate::toolbox::Toolbox;
 use afp_syntax::diagnostics::{Code, Diagnostic};
@@ -14,6 +15,12 @@ const WORDS: &[(&str, &[&str])] = &[
         &["stop", "end", "done", "finish", "finished", "exit", "quit", "halt", "success", "return"],
     ),
     ("fail", &["error", "failure", "failed", "abort", "aborted", "panic"]),
+];
+
+/// Words that reactions to events have elsewhere, and ours.
+const REACTIONS: &[(&str, &[&str])] = &[
+    ("ignore", &["none", "nothing", "nop", "noop", "pass", "skip", "null", "nil"]),
+    ("resume", &["continue", "proceed", "go_on", "goon", "carry_on"]),
 ];
 
 /// Types that are called otherwise elsewhere, and ours.
@@ -33,8 +40,9 @@ const TYPES: &[(&str, &[&str])] = &[
 ];
 
 /// The word behind `->` that was meant by a name.
-pub(super) fn target(name: &str) -> Option<&'static str> {
-    ours(WORDS, name)
+pub(super) fn target(name: &str, leads: Leads) -> Option<&'static str> {
+    let of_ends = ours(WORDS, name).filter(|_| leads != Leads::Start);
+    of_ends.or_else(|| ours(REACTIONS, name).filter(|_| leads == Leads::Event))
 }
 
 /// The type that was meant by a name.

@@ -2,7 +2,7 @@
 
 mod component;
 
-use crate::check::edges::Elements;
+use crate::check::edges::{Elements, Leads};
 use crate::check::formula::Scope;
 use crate::check::names::{self, DeclaredNames, Indices};
 use crate::check::places::Ranges;
@@ -249,11 +249,11 @@ fn start(
                 .help("remove one of them"),
         );
         if let Some(target) = other.target() {
-            edges::find(&target, false, elements, &mut Diagnostics::default());
+            edges::find(&target, Leads::Start, elements, &mut Diagnostics::default());
         }
     }
     let target = first.target()?;
-    Some((edges::find(&target, false, elements, diags)?, target.span))
+    Some((edges::find(&target, Leads::Start, elements, diags)?, target.span))
 }
 
 /// Whether an item of the plan itself, not of an element in it, could not be read.

@@ -30,6 +30,9 @@ const SIGNS: &[(&str, Kind, &str)] = &[
 /// Quotes that texts begin with elsewhere, and those that end them.
 const QUOTES: (&str, &str) = ("'`“”„‟‘’‚«»", "'`“”‟‘’»«");
 
+/// Signs that a line begins with that is a comment elsewhere.
+const COMMENTS: [&str; 3] = ["--", ";", "%"];
+
 /// What to write where other languages compare or choose.
 const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
 
@@ -49,14 +52,7 @@ impl Lexer<'_, '_> {
             return self.instead(*kind, foreign.len(), &format!("write '{ours}'"), ours);
         }
         if rest.starts_with('#') && begins_comment(rest) {
-            let length = line_length(rest);
-            let text = rest[..length].trim_start_matches('#');
-            return self.instead(
-                Kind::Comment,
-                length,
-                "start the comment with '//'",
-                &format!("//{text}"),
-            );
+            return self.foreign_comment("#");
         }
         if let Some((length, inner)) = quoted(rest) {
             let text = format!("\"{}\"", inner.replace('\\', "\\\\").replace('"', "\\\""));
@@ -84,6 +80,34 @@ impl Lexer<'_, '_> {
         }
     }
 
+    /// The sign of a comment of other languages that a line begins with: words follow it, as none do in a formula.
+    pub(super) fn comment_sign(&self) -> Option<&'static str> {
+        let rest = &self.text[self.at..];
+        let sign = COMMENTS.into_iter().find(|sign| rest.starts_with(sign))?;
+        let before = &self.text[..self.at];
+        let begins_line = before.trim_end_matches([' ', '\t']).ends_with('\n');
+        let line = &rest[sign.len()..line_length(rest)];
+        let is_text = |word: &str| word.chars().all(|each| is_word(each) || each == '\'');
+        let mut words = line.split_whitespace();
+        let follow = words.next().is_some_and(is_text) && words.next().is_some_and(is_text);
+        (begins_line && line.starts_with(' ') && follow && begins_comment(rest)).then_some(sign)
+    }
+
+    /// Takes the rest of a line that is a comment elsewhere.
+    pub(super) fn foreign_comment(&mut self, sign: &str) {
+        let rest = &self.text[self.at..];
+        let length = line_length(rest);
+        let text = match sign {
+            "#" => rest[..length].trim_start_matches('#'),
+            _ => &rest[sign.len()..length],
+        };
+        let better = format!("//{text}");
+        let help = "start the comment with '//'";
+        let message = format!("comments do not begin with '{sign}'");
+        let span = self.push(Kind::Comment, length);
+        self.diags.push(Diagnostic::new(Code::E0101, span, message).help(help).replace(better));
+    }
+
     /// Reports characters that something else should be written for.
     fn instead(&mut self, kind: Kind, length: usize, help: &str, ours: &str) {
         let error = self.error(kind, length, help).replace(ours);
@@ -93,7 +117,6 @@ impl Lexer<'_, '_> {
     fn error(&mut self, kind: Kind, length: usize, help: &str) -> Diagnostic {
         let shown: String = self.text[self.at..self.at + length].chars().take(20).collect();
         let message = match kind {
-            Kind::Comment => "comments do not begin with '#'".to_owned(),
             Kind::Text => "a text stands in double quotes".to_owned(),
             _ if shown.chars().all(is_invisible) => {
                 format!("'{}' cannot be seen", shown.escape_debug())

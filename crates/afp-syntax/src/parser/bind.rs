@@ -58,7 +58,7 @@ impl Parser<'_, '_> {
         self.close_item();
     }
 
-    fn bind(&mut self) {
+    pub(super) fn bind(&mut self) {
         let is_value = self.nth(1) == Kind::Arrow && self.nth(2) != Kind::Name;
         let is_output = matches!(self.nth(1), Kind::FatArrow | Kind::Arrow) && !is_value;
         self.open_item(if is_output { Kind::BindOut } else { Kind::BindIn });

@@ -104,6 +104,12 @@ impl Parser<'_, '_> {
             Kind::Name if matches!(self.word(0), "true" | "false") && !self.names_something(0) => {
                 self.literal();
             }
+            Kind::Name if self.at_function_of_a_library() => {
+                let function = self.word(2);
+                let message = "functions belong to no library".to_owned();
+                self.instead(2, message, format!("write '{function}'"), "");
+                self.call();
+            }
             Kind::Name if self.nth(1) == Kind::OpenParen => self.call(),
             // A name that is bound begins the next item; the operand is missing.
             Kind::Name if !self.names_something(0) || self.nth(1) == Kind::Colon => {
@@ -239,7 +245,7 @@ impl Parser<'_, '_> {
     pub(super) fn reference(&mut self) {
         self.open(Kind::Ref);
         self.name("write a name");
-        if self.eat(Kind::Dot) {
+        if self.eat(Kind::Dot) || self.double_colon() {
             // An item on the next line is none of what is still being typed here.
             if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {
                 self.bump();

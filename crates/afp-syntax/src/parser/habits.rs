@@ -2,6 +2,7 @@
 
 mod bodies;
 mod edges;
+mod heads;
 mod items;
 
 use super::Parser;
@@ -130,6 +131,23 @@ impl Parser<'_, '_> {
             (Kind::Colon, Kind::Name, Kind::Name) if same_line(1) && !same_line(2) => Some(1),
             _ => None,
         }
+    }
+
+    /// `math.sqrt(x)`
+    pub(super) fn at_function_of_a_library(&self) -> bool {
+        let kinds = (self.nth(1), self.nth(2), self.nth(3));
+        let called = kinds == (Kind::Dot, Kind::Name, Kind::OpenParen);
+        called && !(1..=3).any(|ahead| self.begins_line(ahead))
+    }
+
+    /// `Side::left`: reports the sign between the names, and reads past it.
+    pub(super) fn double_colon(&mut self) -> bool {
+        let stands = self.at(Kind::Colon) && self.nth(1) == Kind::Colon && self.is_adjacent();
+        let named = self.nth(2) == Kind::Name && !self.begins_line(2);
+        if stands && named {
+            self.instead(2, "no '::' between two names".to_owned(), "write '.'".to_owned(), ".");
+        }
+        stands && named
     }
 
     /// Whether a word stands here that is written for an arrow.

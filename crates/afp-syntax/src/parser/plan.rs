@@ -159,6 +159,7 @@ impl Parser<'_, '_> {
             _ => self.pass(1),
         }
         self.head("a supervisor's template");
+        self.time_by_another_word();
         while self.at_timing() {
             self.timing();
         }
@@ -180,6 +181,8 @@ impl Parser<'_, '_> {
         }
         if self.at(Kind::OpenParen) {
             self.args(true);
+        } else {
+            self.ports_without_parentheses();
         }
     }
 
@@ -350,6 +353,9 @@ impl Parser<'_, '_> {
         let fails = self.word(0) == "fail";
         self.take_name();
         self.pass_tokens(brackets);
+        if fails {
+            self.reason_without_quotes();
+        }
         if fails && self.at(Kind::Text) && self.on_same_line() {
             self.bump();
         }
