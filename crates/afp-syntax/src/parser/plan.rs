@@ -198,7 +198,11 @@ impl Parser<'_, '_> {
 
     pub(super) fn timing(&mut self) {
         self.open(Kind::Timing);
-        self.keyword();
+        match self.word(0) {
+            "every" | "deadline" => self.keyword(),
+            // Another word, of which something has been said.
+            _ => self.pass(1),
+        }
         if matches!(self.nth(0), Kind::Colon | Kind::Equal) {
             let message = format!("no {} before a time", self.found());
             self.instead(1, message, "remove it".to_owned(), "");
