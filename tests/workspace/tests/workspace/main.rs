@@ -2,4 +2,5 @@
 
 mod arrows;
 mod rebuilds;
+mod shared;
 mod weight;
