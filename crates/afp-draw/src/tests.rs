@@ -3,7 +3,7 @@
 use super::sample::{
     EVERY_PART, WALL_FOLLOWING, afp_files, compiled, compiled_with, generated, is_toolbox,
 };
-use super::scene::Drawn;
+use super::scene::{Drawn, Scene};
 use super::sketch::{Arrow, Frame, Rect, Shape, Sketch, Tip};
 use super::{Count, Options, PlanUsage, Theme, Usage, svg};
 use crate::layout_file::Layout;
@@ -43,6 +43,17 @@ fn nothing_overlaps_with_sub_plans_and_every_kind_of_edge() {
 #[test]
 fn nothing_overlaps_in_a_plan_of_sixty_elements() {
     check_all(&compiled(&generated(60, 1)));
+}
+
+#[test]
+fn plans_are_as_wide_as_a_screen_even_where_edges_lead_anywhere() {
+    for (count, seed) in [(60, 1), (60, 2), (120, 3), (200, 4)] {
+        let scene =
+            Scene::new(&compiled(&generated(count, seed)).outline, &Options::default(), None);
+        let bounds = scene.plans[0].bounds;
+        let ratio = bounds.width / bounds.height;
+        assert!((0.5..=2.0).contains(&ratio), "{count} elements, seed {seed}: {ratio:.2}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Folds what is much higher than wide: its layers stand in columns side by side.
 //!
-//! A cut goes between two layers where few edges pass, so chains wrap like lines of a text, and what hangs together in many
-//! ways stays as it is.
+//! Chains wrap like lines of a text. A cut goes between two layers, where few edges pass: those run in the gap between the
+//! columns then.
 
 use super::super::arrange::WANTED;
 use super::super::router::{PITCH, Point};
@@ -11,14 +11,23 @@ use super::grid::Grid;
 /// Height by width from which on layers are folded.
 const TALL: f64 = 2.0;
 
-/// As many edges may pass a cut.
-const MOST_CUT: usize = 5;
+/// What an edge that passes a cut is worth: so much of a column's height the cut may lie elsewhere.
+const EDGE: f64 = 0.05;
 
-/// Distance between two columns, without room for the edges between them.
+/// Distance between two columns, without room for the edges that pass the cut.
 const APART: f64 = 48.0;
 
 /// As many columns are tried.
 const MOST_COLUMNS: usize = 200;
+
+/// Where columns can begin.
+#[derive(Clone, Copy, Debug)]
+struct Cut {
+    /// The first layer of a column.
+    layer: usize,
+    /// How many edges pass from above it into it or past it.
+    passing: usize,
+}
 
 /// From where to where a layer or several ones reach.
 #[derive(Clone, Copy, Debug)]
@@ -36,24 +45,26 @@ pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec
     if whole.height() <= TALL * whole.width() {
         return None;
     }
-    let cuts: Vec<usize> =
-        (2..layers.len()).filter(|layer| passing(grid, *layer) <= MOST_CUT).collect();
-    let far = |columns: &[Extent]| (ratio(columns) / WANTED).ln().abs();
-    let tried = (2..=MOST_COLUMNS.min(cuts.len() + 1)).map(|count| starts(&layers, &cuts, count));
-    let tried = tried.map(|starts| (columns(&layers, &starts), starts));
-    let (columns, starts) = tried.min_by(|a, b| far(&a.0).total_cmp(&far(&b.0)))?;
-    if far(&columns) >= far(&[whole]) {
+    let cuts: Vec<Cut> =
+        (2..layers.len()).map(|layer| Cut { layer, passing: passing(grid, layer) }).collect();
+    let far = |columns: &[Column]| (ratio(columns) / WANTED).ln().abs();
+    let tried = (2..=MOST_COLUMNS.min(cuts.len() + 1)).map(|count| chosen(&layers, &cuts, count));
+    let columns =
+        tried.map(|cuts| columns(&layers, &cuts)).min_by(|a, b| far(a).total_cmp(&far(b)))?;
+    let one = Column { first: 0, extent: whole, gap: 0.0 };
+    if far(&columns) >= far(&[one]) {
         return None;
     }
     let mut left = whole.left;
     let mut shifts = Vec::with_capacity(columns.len());
-    for column in &columns {
-        shifts.push((left - column.left, whole.top - column.top));
-        left += column.width() + between();
+    for Column { extent, gap, .. } in &columns {
+        left += gap;
+        shifts.push((left - extent.left, whole.top - extent.top));
+        left += extent.width();
     }
     let moved = |(node, (x, y)): (usize, &Point)| {
         let layer = grid.items[node].layer;
-        let (dx, dy) = shifts[starts.partition_point(|start| *start <= layer) - 1];
+        let (dx, dy) = shifts[columns.partition_point(|column| column.first <= layer) - 1];
         (x + dx, y + dy)
     };
     Some(corners.iter().enumerate().map(moved).collect())
@@ -81,40 +92,53 @@ fn passing(grid: &Grid, layer: usize) -> usize {
     ends.filter(|[start, end]| start.above != end.above).count()
 }
 
-/// The first layers of so many columns or fewer, about equally high.
-fn starts(layers: &[Extent], cuts: &[usize], count: usize) -> Vec<usize> {
+/// Where so many columns or fewer begin behind the first one, about equally high.
+fn chosen(layers: &[Extent], cuts: &[Cut], count: usize) -> Vec<Cut> {
     let (top, bottom) = (layers[0].top, layers[layers.len() - 1].bottom);
-    let mut starts = vec![0];
+    let height = (bottom - top) / count as f64;
+    let mut chosen: Vec<Cut> = Vec::new();
     for column in 1..count {
-        let wanted = top + (bottom - top) * column as f64 / count as f64;
-        let after = cuts.partition_point(|cut| layers[*cut].top < wanted);
-        let around = [after.checked_sub(1), Some(after)].into_iter().flatten();
-        let around = around.filter_map(|place| cuts.get(place));
-        let distance = |cut: &&usize| (layers[**cut].top - wanted).abs();
-        let nearest = around.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        starts.extend(nearest.filter(|cut| starts.last() < Some(cut)));
+        let wanted = top + height * column as f64;
+        let around = cuts.partition_point(|cut| layers[cut.layer].top < wanted - height / 2.0)
+            ..cuts.partition_point(|cut| layers[cut.layer].top < wanted + height / 2.0);
+        let cost = |cut: &&Cut| {
+            let distance = (layers[cut.layer].top - wanted).abs() / height;
+            distance + cut.passing as f64 * EDGE
+        };
+        let best = cuts[around].iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let last = chosen.last().map_or(0, |cut| cut.layer);
+        chosen.extend(best.filter(|cut| cut.layer > last));
     }
-    starts
+    chosen
 }
 
-fn columns(layers: &[Extent], starts: &[usize]) -> Vec<Extent> {
-    let ends = starts.iter().skip(1).copied().chain([layers.len()]);
-    let column = |(start, end): (&usize, usize)| {
-        let first = layers[*start];
-        layers[*start..end].iter().copied().fold(first, Extent::with)
+/// Layers in a column of their own.
+#[derive(Clone, Copy, Debug)]
+struct Column {
+    /// The first of its layers.
+    first: usize,
+    extent: Extent,
+    /// How much room is left before it.
+    gap: f64,
+}
+
+fn columns(layers: &[Extent], cuts: &[Cut]) -> Vec<Column> {
+    let starts = [Cut { layer: 0, passing: 0 }].into_iter().chain(cuts.iter().copied());
+    let ends = cuts.iter().map(|cut| cut.layer).chain([layers.len()]);
+    let column = |(start, end): (Cut, usize)| {
+        let first = layers[start.layer];
+        let extent = layers[start.layer..end].iter().copied().fold(first, Extent::with);
+        let gap = APART + start.passing as f64 * PITCH;
+        Column { first: start.layer, extent, gap: if start.layer == 0 { 0.0 } else { gap } }
     };
-    starts.iter().zip(ends).map(column).collect()
+    starts.zip(ends).map(column).collect()
 }
 
 /// Width by height of columns side by side.
-fn ratio(columns: &[Extent]) -> f64 {
-    let width = columns.iter().map(|column| column.width() + between()).sum::<f64>() - between();
-    let height = columns.iter().map(Extent::height).fold(0.0, f64::max);
+fn ratio(columns: &[Column]) -> f64 {
+    let width: f64 = columns.iter().map(|column| column.gap + column.extent.width()).sum();
+    let height = columns.iter().map(|column| column.extent.height()).fold(0.0, f64::max);
     width.max(1.0) / height.max(1.0)
-}
-
-fn between() -> f64 {
-    APART + MOST_CUT as f64 * PITCH
 }
 
 impl Extent {

@@ -93,8 +93,8 @@ impl<'a> Laid<'a> {
     /// The edges apart, and those that arrive side by side as one.
     fn merged(&mut self) -> Routes {
         let apart = self.apart();
-        merged(self.wires, &apart.corners, &self.fixed, &mut self.joins);
-        self.apart()
+        let changed = merged(self.wires, &apart.corners, &self.fixed, &mut self.joins);
+        if changed { self.apart() } else { apart }
     }
 
     fn apart(&self) -> Routes {

@@ -30,8 +30,14 @@ impl Join {
 }
 
 /// Lets the edges of one kind that arrive side by side from the side join one of them: one that comes from above where there is
-/// one.
-pub(super) fn merged(wires: &[Wire], corners: &[Vec<Point>], fixed: &[bool], joins: &mut [Join]) {
+/// one. Says whether an edge does so that did not before.
+pub(super) fn merged(
+    wires: &[Wire],
+    corners: &[Vec<Point>],
+    fixed: &[bool],
+    joins: &mut [Join],
+) -> bool {
+    let mut changed = false;
     let tip = |edge: &usize| corners[*edge].last().map_or(0.0, |tip| tip.0);
     let mut arrivals: Vec<usize> =
         (0..wires.len()).filter(|edge| joins[*edge] == Join::None).collect();
@@ -47,8 +53,10 @@ pub(super) fn merged(wires: &[Wire], corners: &[Vec<Point>], fixed: &[bool], joi
             let far = |trunk: &&usize| (tip(trunk) - tip(edge)).abs();
             let nearest = trunks.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
             joins[*edge] = nearest.map_or(Join::None, |trunk| Join::Edge(*trunk));
+            changed |= nearest.is_some();
         }
     }
+    changed
 }
 
 /// Whether an edge turns down only where there must be room for its tip.
