@@ -361,10 +361,14 @@ fn live(node: &Node, file: u16) -> Option<Span> {
     words.find(|word| word.text == "live").map(|word| word.span)
 }
 
+/// The ends of the range in a node, as far as they are written.
+fn range_ends(node: &Node, file: u16) -> Vec<Formula> {
+    child(node, Kind::Range).map(|range| Formula::children_of(&range, file)).unwrap_or_default()
+}
+
 /// Least and greatest value in a node, and the place of both.
 fn range(node: &Node, file: u16) -> Option<(Formula, Formula, Span)> {
-    let range = child(node, Kind::Range)?;
-    let mut ends = Formula::children_of(&range, file).into_iter();
+    let mut ends = range_ends(node, file).into_iter();
     let (from, to) = (ends.next()?, ends.next()?);
     let span = from.span().to(to.span());
     Some((from, to, span))

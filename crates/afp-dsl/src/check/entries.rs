@@ -96,8 +96,7 @@ impl Site<'_> {
         if let Some(ty) = entry.ty() {
             self.types.resolve(&ty, self.record, &mut Diagnostics::default());
         }
-        let range = entry.range().map(|(least, greatest, _)| [least, greatest]);
-        for formula in entry.init().into_iter().chain(range.into_iter().flatten()) {
+        for formula in entry.init().into_iter().chain(entry.ends()) {
             self.scope(entries, &|_| true, "").names_only(&formula);
         }
     }
@@ -169,7 +168,10 @@ fn limit(
     site: &Site<'_>,
     diags: &mut Diagnostics,
 ) {
-    let Some(written) = entry.range() else { return };
+    let Some(written) = entry.range() else {
+        let scope = site.scope(drafts, &|_| true, "");
+        return entry.ends().iter().for_each(|end| scope.names_only(end));
+    };
     let own = &drafts[place];
     let readable = |other: usize| drafts[other].kind == EntryKind::Const && other != place;
     let scope = site.scope(drafts, &readable, "a range may use 'const' entries");

@@ -1,6 +1,6 @@
 //! Devices of a toolbox in the typed view.
 
-use super::{Formula, Name, Type, child, children, doc, named, range, token, views};
+use super::{Formula, Name, Type, child, children, doc, named, range, range_ends, token, views};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -117,6 +117,11 @@ impl Amount {
     /// Least and greatest value, and the place of both.
     pub fn range(&self) -> Option<(Formula, Formula, Span)> {
         range(&self.node, self.file)
+    }
+
+    /// The ends of its range, as far as they are written.
+    pub fn ends(&self) -> Vec<Formula> {
+        range_ends(&self.node, self.file)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     Formula, Name, Ref, Timing, Type, child, child_span, children, doc, keyword, keyword_as,
-    last_token, live, named, note, range, span_of, token, tokens, views,
+    last_token, live, named, note, range, range_ends, span_of, token, tokens, views,
 };
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -174,6 +174,11 @@ impl Entry {
     /// Least and greatest value, and the place of both.
     pub fn range(&self) -> Option<(Formula, Formula, Span)> {
         range(&self.node, self.file)
+    }
+
+    /// The ends of its range, as far as they are written.
+    pub fn ends(&self) -> Vec<Formula> {
+        range_ends(&self.node, self.file)
     }
 }
 

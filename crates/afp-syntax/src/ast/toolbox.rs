@@ -1,7 +1,8 @@
 //! Toolboxes in the typed view.
 
 use super::{
-    Formula, Name, Type, child, doc, keyword_as, live, named, range, span_of, token, tokens, views,
+    Formula, Name, Type, child, doc, keyword_as, live, named, range, range_ends, span_of, token,
+    tokens, views,
 };
 use crate::kind::Kind;
 use crate::source::Span;
@@ -110,6 +111,11 @@ impl InPort {
     /// Least and greatest value, and the place of both.
     pub fn range(&self) -> Option<(Formula, Formula, Span)> {
         range(&self.node, self.file)
+    }
+
+    /// The ends of its range, as far as they are written.
+    pub fn ends(&self) -> Vec<Formula> {
+        range_ends(&self.node, self.file)
     }
 }
 

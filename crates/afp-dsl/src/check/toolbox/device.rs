@@ -154,10 +154,8 @@ fn fault(
 fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Option<Amount> {
     let name = node.name();
     let ty = node.ty().and_then(|ty| site.types.resolve(&ty, site.record, diags));
-    let ends = node.range();
     let (Some(name), Some(ty)) = (name, ty) else {
-        let ends = ends.map(|(least, greatest, _)| [least, greatest]);
-        site.values_only(node.default().into_iter().chain(ends.into_iter().flatten()));
+        site.values_only(node.default().into_iter().chain(node.ends()));
         return None;
     };
     let Type::Quantity(dimension) = ty else {
@@ -169,7 +167,11 @@ fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Optio
         return None;
     };
     let values = Values { site, ty: &ty, of: Declared::Amount };
-    let range = ends.and_then(|written| values.range(&written, diags));
+    let written = node.range();
+    if written.is_none() {
+        site.values_only(node.ends().into_iter());
+    }
+    let range = written.and_then(|written| values.range(&written, diags));
     let Some(written) = node.default() else {
         let message = format!("'{}' has no default", name.text);
         let help =

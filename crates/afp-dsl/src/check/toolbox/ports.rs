@@ -37,7 +37,11 @@ pub(super) fn input(
         return None;
     };
     let values = Values { site, ty: &ty, of: Declared::Port };
-    let range = node.range().and_then(|written| values.range(&written, diags));
+    let written = node.range();
+    if written.is_none() {
+        site.values_only(node.ends().into_iter());
+    }
+    let range = written.and_then(|written| values.range(&written, diags));
     let default = node.default().and_then(|formula| values.default(&formula, range, diags));
     Some(InPort {
         doc: node.doc(),
@@ -108,8 +112,7 @@ impl Site<'_> {
         if let Some(ty) = node.ty() {
             self.types.resolve(&ty, self.record, &mut Diagnostics::default());
         }
-        let range = node.range().map(|(least, greatest, _)| [least, greatest]);
-        self.values_only(node.default().into_iter().chain(range.into_iter().flatten()));
+        self.values_only(node.default().into_iter().chain(node.ends()));
     }
 
     /// Finds out what the names in values mean of whose type nothing is known.
