@@ -17,6 +17,9 @@ const KEYFRAMES: usize = 1024;
 /// What a client hears that wants to change what is over.
 const READ_ONLY: &str = "a log shows what was: launch its plan to change something";
 
+/// What a camera had seen last at a time: width, height, and a byte for each of red, green and blue.
+type Pictures = Box<dyn Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send>;
+
 /// A run that was recorded. All events of an instant are one step.
 pub struct LogTarget {
     program: Arc<Program>,
@@ -29,6 +32,8 @@ pub struct LogTarget {
     passed: usize,
     /// Where the robot was, by time.
     poses: Vec<(Instant, Pose2)>,
+    /// What its camera had seen last at a time.
+    picture: Pictures,
     now: Instant,
     state: State,
 }
@@ -57,13 +62,21 @@ impl LogTarget {
         moments.extend((!events.is_empty()).then_some(events.len()));
         let (now, state) = (Instant::ZERO, State::default());
         let keyframes = vec![state.clone()];
-        let poses = Vec::new();
-        Ok(LogTarget { program, events, moments, keyframes, passed: 0, poses, now, state })
+        let (poses, picture): (_, Pictures) = (Vec::new(), Box::new(|_| None));
+        Ok(LogTarget { program, events, moments, keyframes, passed: 0, poses, picture, now, state })
     }
 
     /// The same with where the robot was, by time.
     pub fn with_poses(self, poses: Vec<(Instant, Pose2)>) -> LogTarget {
         LogTarget { poses, ..self }
+    }
+
+    /// The same with what the camera had seen last at a time.
+    pub fn with_pictures(
+        self,
+        picture: impl Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send + 'static,
+    ) -> LogTarget {
+        LogTarget { picture: Box::new(picture), ..self }
     }
 
     /// The events of the next moment.
@@ -171,6 +184,10 @@ impl Target for LogTarget {
     fn pose(&self) -> Option<Pose2> {
         let later = self.poses.partition_point(|(at, _)| *at <= self.now);
         self.poses.get(later.saturating_sub(1)).map(|(_, pose)| *pose)
+    }
+
+    fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {
+        (self.picture)(self.now)
     }
 
     fn set(&mut self, _: &str, _: &str) -> Result<String, String> {

@@ -9,6 +9,7 @@ use crate::proto::foxglove::{
     Pose, PoseInFrame, Quaternion, SceneEntity, SceneUpdate, TriangleListPrimitive, Vector3,
     line_primitive, log,
 };
+use crate::picture;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 
 /// Rays that stand for the cone of one ranging.
@@ -57,20 +58,9 @@ pub(crate) fn image(image: &Image) -> CompressedImage {
     CompressedImage {
         timestamp: Some(timestamp(image.time)),
         frame_id: image.frame.to_owned(),
-        data: png(image).unwrap_or_default(),
+        data: picture::png(image).unwrap_or_default(),
         format: "png".to_owned(),
     }
-}
-
-fn png(image: &Image) -> Option<Vec<u8>> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, image.width, image.height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header().ok()?;
-    writer.write_image_data(&image.rgb).ok()?;
-    writer.finish().ok()?;
-    Some(file)
 }
 
 pub(crate) fn text(at: Instant, level: Level, name: &str, message: &str) -> Log {

@@ -10,6 +10,7 @@ mod error;
 mod event;
 mod foxglove;
 mod names;
+mod picture;
 mod proto;
 mod read;
 mod recipe;

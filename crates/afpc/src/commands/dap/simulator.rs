@@ -139,12 +139,14 @@ impl<'a> Host<'a> for Simulator<'a> {
 
 /// A run that is over.
 fn recorded(path: &Path) -> Result<LogTarget, String> {
-    let log = afp_log::read(path).map_err(|why| why.to_string())?;
+    let mut log = afp_log::read(path).map_err(|why| why.to_string())?;
     let file = PlanFile::of_log(&log).map_err(|why| why.to_string())?;
     let shown = file.compiled.render(false);
     let graph = file.compiled.graph.clone().ok_or(shown)?;
-    let target = LogTarget::new(Arc::new(program(&graph, &file)), log.events)?;
-    Ok(target.with_poses(log.poses))
+    let events = std::mem::take(&mut log.events);
+    let target = LogTarget::new(Arc::new(program(&graph, &file)), events)?;
+    let target = target.with_poses(std::mem::take(&mut log.poses));
+    Ok(target.with_pictures(move |at| log.picture(at)))
 }
 
 /// A plan with its places; texts that are not those of files go along.
