@@ -4,12 +4,12 @@ use afp_core::Instant;
 use prost_types::Timestamp;
 
 use crate::event::timestamp;
+use crate::picture;
 use crate::proto::foxglove::{
     Color, CompressedImage, FrameTransform, FrameTransforms, LaserScan, LinePrimitive, Log, Point3,
     Pose, PoseInFrame, Quaternion, SceneEntity, SceneUpdate, TriangleListPrimitive, Vector3,
     line_primitive, log,
 };
-use crate::picture;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 
 /// Rays that stand for the cone of one ranging.

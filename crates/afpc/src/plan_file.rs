@@ -13,6 +13,7 @@ use afp_run::RunError;
 use afp_session::Recipe;
 use afp_syntax::source::Source;
 
+use crate::nearby::unreadable;
 use crate::reader::Reader;
 
 /// A plan that was read and compiled.
@@ -70,7 +71,7 @@ impl PlanFile {
     /// A file cannot be read.
     pub fn read(argument: &str) -> Result<PlanFile, RunError> {
         let (path, plan) = split(argument);
-        let text = read_text(&path).map_err(RunError::file("cannot read the plan", &path))?;
+        let text = read_text(&path).map_err(unreadable(&path))?;
         let source = Source::new(path.display().to_string(), text);
         PlanFile::compile(path, &source, &Disk::default(), plan)
     }

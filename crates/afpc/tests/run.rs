@@ -179,7 +179,12 @@ fn options_that_wait_for_something_say_for_what() {
 #[test]
 fn files_that_do_not_work_are_named() {
     let place = Place::with_plan();
-    place.afpc("run missing.afp").fails(1, &["error: cannot read the plan 'missing.afp'"]);
+    let said = place.afpc("run missing.afp");
+    said.fails(
+        1,
+        &["error: cannot read the plan 'missing.afp'", "plans here: 'wall_following.afp'"],
+    );
+    place.afpc("run wall_following").fails(1, &["write 'wall_following.afp'"]);
     let said = place.afpc("run wall_following.afp --world missing.toml");
     said.fails(1, &["error: cannot read the world 'missing.toml'"]);
     let said = place.afpc("run wall_following.afp --log no/such/a.mcap");

@@ -10,6 +10,7 @@ use clap::Args;
 use similar::TextDiff;
 
 use super::print;
+use crate::nearby::unreadable;
 use crate::plan_file::NoPlan;
 
 /// Arguments of `afpc fmt`.
@@ -75,8 +76,7 @@ fn one(name: &str, check: bool) -> Result<u8, NoPlan> {
 
 fn read(name: &str) -> Result<String, RunError> {
     if name != "-" {
-        return read_text(name.as_ref())
-            .map_err(RunError::file("cannot read the plan", name.as_ref()));
+        return read_text(name.as_ref()).map_err(unreadable(name.as_ref()));
     }
     let mut text = String::new();
     std::io::stdin()
