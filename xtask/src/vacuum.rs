@@ -64,27 +64,27 @@ pub fn all() -> Result<(), Failure> {
 }
 
 /// Runs the plan on the robot itself, with a stand-in for its board: to the end of the time that it gets, and until a signal ends
-/// it. Both times the wheels have turned, and the board is told to stop.
+/// it, one that would put it to sleep, too. Each time the wheels have turned, and the board is told to stop.
 fn on_the_board(command: &mut Command) -> Result<(), Failure> {
     let mut firmware = cargo();
     firmware.args(["build", "--package", "vacuum-board", "--example", "firmware"]);
     run_command(firmware.current_dir(root().join(FOLDER)).env("CARGO_TARGET_DIR", target()))?;
     command.args(["--robot", "hardware", "--json", "--log", "none"]);
-    for (signal, code) in [(false, 0), (true, 143)] {
+    for (signal, code) in [(None, 0), (Some("-TERM"), 143), (Some("-TSTP"), 0), (Some("-INT"), 0)] {
         let (mut board, port) = board()?;
         let mut run = Command::new(command.get_program());
         run.args(command.get_args()).arg("--set").arg(format!("robot.port={port}"));
         run.current_dir(root().join(FOLDER)).stdout(Stdio::null());
         run.envs(command.get_envs().filter_map(|(name, value)| Some((name, value?))));
-        if !signal {
+        if signal.is_none() {
             run.args(["--until", "2s"]);
         }
         eprintln!("$ on a board that stands in: {run:?}");
         let mut run = run.spawn()?;
-        if signal {
+        if let Some(signal) = signal {
             // It has built before, so it drives soon.
             thread::sleep(Duration::from_secs(4));
-            run_command(program("kill").args(["-TERM", &run.id().to_string()]))?;
+            run_command(program("kill").args([signal, &run.id().to_string()]))?;
         }
         let ended = run.wait()?.code();
         let mut told = String::new();

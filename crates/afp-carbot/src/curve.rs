@@ -1,34 +1,44 @@
 //! Drive along an arc.
 
-use crate::devices::{Navigator, Odometry};
+use crate::devices::{Motion, Navigator, Odometry};
 use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::curve::{Inputs, Live, State};
-use crate::tracking::Tracking;
+use crate::tracking::{DRIVE_STALLED, Tracking};
 use crate::turning::{Progress, Turning};
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Speed is gained and lost at this many metres a second squared.
 const ACCELERATION: f64 = 0.5;
+/// The way may be off the arc's length by this share of it, and by so many metres while the wheels are being steered.
+const OFF_ARC: f64 = 0.25;
+const STEERED: f64 = 0.1;
 
 /// Drives an arc of a circle until the heading has turned by an angle, by odometry.
 #[derive(Clone, Debug)]
 pub struct Curve {
     turning: Turning,
+    angle: f64,
     radius: f64,
     speed: f64,
     ramp: Ramp,
     tracking: Tracking,
+    /// The way driven so far, metres, and where that was.
+    way: f64,
+    last: Option<Motion>,
 }
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         Ok(Curve {
             turning: Turning::new(inputs.angle, env, now)?,
+            angle: inputs.angle.si(),
             radius: inputs.radius.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
             tracking: Tracking::new(now),
+            way: 0.0,
+            last: None,
         })
     }
 
@@ -36,6 +46,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
         match self.turning.progress(env, now)? {
             Progress::Unknown => self.tracking.halt(env, now),
             Progress::Left(left, motion) => {
+                self.check_arc(self.angle - left, motion)?;
                 let speed = self.ramp.rate(left.abs() * self.radius, self.speed, now);
                 let rate = speed.copysign(left) / self.radius;
                 self.tracking.drive(env, &motion, (speed, rate), now)?;
@@ -53,6 +64,22 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
         env.halt(now);
         Ok(())
+    }
+}
+
+impl Curve {
+    /// Compares the way with the angle turned: a wheel that does not follow makes another arc, of which each part may be
+    /// near enough to what was commanded.
+    ///
+    /// # Errors
+    /// [`DRIVE_STALLED`] when the arc is another one.
+    fn check_arc(&mut self, turned: f64, motion: Motion) -> Result<(), Fault> {
+        if let Some(last) = self.last.replace(motion) {
+            self.way += libm::hypot((motion.x - last.x).si(), (motion.y - last.y).si());
+        }
+        let arc = self.radius * turned.abs();
+        let off = (self.way - arc).abs();
+        if off > STEERED + OFF_ARC * arc { Err(DRIVE_STALLED) } else { Ok(()) }
     }
 }
 
@@ -86,6 +113,19 @@ mod tests {
         let mut robot = Fake::new(&[]);
         assert!(matches!(curve(&mut robot, 360.0), Ok(Some(_))));
         assert!(robot.motion.x.si().abs() < 0.01 && robot.motion.y.si().abs() < 0.01);
+    }
+
+    #[test]
+    fn another_arc_than_the_one_asked_for_is_a_fault() {
+        // Both are near enough to the command at every instant, and neither is a circle of 50 cm.
+        for follows in [(0.6, 1.0), (1.0, 0.6)] {
+            let mut robot = Fake::new(&[]);
+            robot.follows = follows;
+            assert_eq!(curve(&mut robot, 270.0), Err(DRIVE_STALLED), "{follows:?}");
+        }
+        let mut robot = Fake::new(&[]);
+        robot.follows = (0.9, 1.0);
+        assert!(matches!(curve(&mut robot, 270.0), Ok(Some(_))), "its circle is a little smaller");
     }
 
     #[test]

@@ -56,7 +56,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "TIME", value_parser = afp_project::duration)]
     pub until: Option<Duration>,
 
-    /// Speed of simulated time: 1x is real time, max as fast as it goes [default: max, with '--live' 1x]
+    /// Speed of simulated time: 1x is real time, max as fast as it goes [default: max; 1x where others watch]
     #[arg(long, value_name = "SPEED", value_parser = parse::speed)]
     pub speed: Option<Speed>,
 
@@ -89,9 +89,10 @@ pub struct RunOptions {
     pub json: bool,
 
     /// Serves Foxglove and others who watch the run while it goes on, on a port or an address with a port; without one
-    /// on 127.0.0.1:8765. For programs built with the feature 'live'
+    /// on 127.0.0.1:8765
     #[arg(
         long,
+        hide = cfg!(not(feature = "live")),
         value_name = "ADDRESS",
         num_args = 0..=1,
         require_equals = true,

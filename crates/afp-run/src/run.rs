@@ -5,6 +5,7 @@ mod hardware;
 mod paths;
 
 use std::cell::RefCell;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use afp_core::{Ending, Instant, StartError};
@@ -176,10 +177,9 @@ fn drive(
             Some(SessionLog::create(path, &about, names, devices, scene, options.camera)?)
         }
     };
-    let stop =
-        StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
-    stop.set_last_resort(last_resort);
     let keeper = options.time_keeper();
+    let stop = stop_flag(keeper).map_err(RunError::file("cannot handle", "signals".as_ref()))?;
+    stop.set_last_resort(last_resort);
     let report = Report::new(options.json, end, keeper);
     let report =
         RefCell::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);
@@ -216,6 +216,15 @@ fn drive(
     let code = came.finish(session, report.into_inner(), &paths, setting)?;
     setting.again.map_or(Ok(()), |again| again.compare(program, session.trace()))?;
     Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
+}
+
+/// The flag that signals raise; where the robot itself runs, nothing puts the process to sleep.
+fn stop_flag(keeper: TimeKeeper) -> io::Result<StopFlag> {
+    let stop = StopFlag::on_signals()?;
+    if matches!(keeper, TimeKeeper::Robot) {
+        stop.stay_awake()?;
+    }
+    Ok(stop)
 }
 
 /// Runs the plan to its end, or until it is stopped.

@@ -45,6 +45,17 @@ impl StopFlag {
         Ok(StopFlag::default())
     }
 
+    /// From now on what would put the process to sleep (SIGTSTP, from whoever sends it) asks it to stop instead: a process that
+    /// sleeps stops no robot.
+    ///
+    /// # Errors
+    /// Signals cannot be handled.
+    pub(crate) fn stay_awake(&self) -> std::io::Result<()> {
+        #[cfg(unix)]
+        signals::stay_awake()?;
+        Ok(())
+    }
+
     /// Whether it was raised.
     pub fn is_raised(&self) -> bool {
         self.0.raised.load(Ordering::Relaxed)
@@ -85,8 +96,8 @@ mod signals {
     use std::sync::{Mutex, PoisonError};
     use std::thread;
 
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
-    use signal_hook::iterator::Signals;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
+    use signal_hook::iterator::{Handle, Signals};
     use signal_hook::low_level;
 
     use super::StopFlag;
@@ -95,22 +106,27 @@ mod signals {
     /// The exit code after a second signal.
     const EXIT_SIGNAL: i32 = 130;
 
-    static FLAG: Mutex<Option<StopFlag>> = Mutex::new(None);
+    static MADE: Mutex<Option<(StopFlag, Handle)>> = Mutex::new(None);
 
     /// The flag; the first call makes it and the thread that raises it.
     pub(super) fn flag() -> io::Result<StopFlag> {
-        let mut made = FLAG.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(flag) = &*made {
+        let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((flag, _)) = &*made {
             return Ok(flag.clone());
         }
         let signals = Signals::new([SIGINT, SIGTERM, SIGHUP, SIGQUIT])?;
-        let flag = StopFlag::default();
+        let (flag, signals_taken) = (StopFlag::default(), signals.handle());
         let raised = flag.clone();
         thread::Builder::new()
             .name("afp-signals".into())
             .spawn(move || handle(signals, &raised))?;
-        *made = Some(flag.clone());
+        *made = Some((flag.clone(), signals_taken));
         Ok(flag)
+    }
+
+    pub(super) fn stay_awake() -> io::Result<()> {
+        let made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+        made.as_ref().map_or(Ok(()), |(_, handle)| handle.add_signal(SIGTSTP))
     }
 
     /// A thread of its own may do what the handler of a signal may not, and does it also while the
@@ -156,5 +172,20 @@ mod tests {
         stop.set_last_resort(None);
         stop.resort();
         assert_eq!(done.load(Ordering::Relaxed), 1);
+    }
+
+    /// The flag is one for the process: no other test here may use that of signals.
+    #[cfg(unix)]
+    #[test]
+    fn what_would_put_a_process_to_sleep_asks_it_to_stop() {
+        let stop = StopFlag::on_signals().unwrap();
+        stop.stay_awake().unwrap();
+        signal_hook::low_level::raise(signal_hook::consts::SIGTSTP).unwrap();
+        let patience = std::time::Instant::now() + std::time::Duration::from_secs(10);
+        while !stop.is_raised() && std::time::Instant::now() < patience {
+            std::thread::yield_now();
+        }
+        assert!(stop.is_raised());
+        assert_eq!(stop.exit_code(), None, "as Ctrl-C");
     }
 }

@@ -177,6 +177,13 @@ fn options_that_wait_for_something_say_for_what() {
 }
 
 #[test]
+fn help_lists_what_this_program_can_do() {
+    let help = Place::with_plan().afpc("run --help");
+    assert_eq!(help.out.contains("--live"), cfg!(feature = "live"), "{}", help.out);
+    assert!(!help.out.contains("--rt-report"), "{}", help.out);
+}
+
+#[test]
 fn files_that_do_not_work_are_named() {
     let place = Place::with_plan();
     let said = place.afpc("run missing.afp");

@@ -43,7 +43,8 @@ impl World {
         }
         let cells = Cells::new(&grey, |value| settings.is_wall(value));
         if cells.is_empty() {
-            let message = "no cell of the map is occupied: look at 'negate' and 'occupied_thresh'";
+            let message =
+                "no cell of the map is occupied: look at 'mode', 'negate' and 'occupied_thresh'";
             return Err(WorldError { span: None, message: message.to_owned() });
         }
         let start = start(&settings, &cells, &grey).ok_or_else(|| WorldError {

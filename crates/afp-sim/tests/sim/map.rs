@@ -88,6 +88,10 @@ fn what_is_wrong_with_a_map_is_said() {
         ),
         (format!("{YAML}unknown: wall\n"), "line 8, column 1: unknown: 'wall' is not known"),
         (YAML.replace("trinary", "foo"), "line 2, column 1: mode: 'foo' is not known"),
+        (
+            YAML.replace("trinary", "5"),
+            "line 2, column 1: mode: is to be 'trinary' or 'scale' or 'raw'",
+        ),
         (YAML.replace("0.65", "1.5"), "occupied_thresh: is not within 0 and 1"),
         (YAML.replace("0.196", "0.7"), "free_thresh: is more than 'occupied_thresh'"),
         (YAML.replace("0.65", "1.0"), "no cell of the map is occupied"),

@@ -146,15 +146,18 @@ impl<'a, 'b> Keys<'a, 'b> {
     /// What a word stands for; none where the key is not there.
     fn one_of<T: Copy>(&self, key: &str, known: &[(&str, T)]) -> Result<Option<T>, WorldError> {
         let Some(value) = self.get(key) else { return Ok(None) };
-        let word = value.as_str().unwrap_or_default();
-        match known.iter().find(|(name, _)| *name == word) {
-            Some((_, meant)) => Ok(Some(*meant)),
-            None => {
-                let names: Vec<_> = known.iter().map(|(name, _)| format!("'{name}'")).collect();
-                let what = format!("'{word}' is not known; {} are", names.join(" and "));
-                Err(self.error(key, &what))
-            }
+        let word = value.as_str();
+        if let Some((_, meant)) = known.iter().find(|(name, _)| Some(*name) == word) {
+            return Ok(Some(*meant));
         }
+        let names: Vec<_> = known.iter().map(|(name, _)| format!("'{name}'")).collect();
+        let names = names.join(" or ");
+        // A number, a list or nothing is no word that could be repeated.
+        let what = match word {
+            Some(word) => format!("'{word}' is not known; it is to be {names}"),
+            None => format!("is to be {names}"),
+        };
+        Err(self.error(key, &what))
     }
 
     /// A number from 0 to 1.
