@@ -13,7 +13,7 @@ use crate::timing;
 use crate::toolbox::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::{Source, Sources};
-use afp_syntax::unquote;
+use afp_syntax::{Parse, unquote};
 
 /// What became of a text.
 #[derive(Clone, Debug)]
@@ -35,6 +35,8 @@ pub struct Compiled {
     /// Which of [`Compiled::sources`] are plan files: the one that was compiled, then those that it
     /// uses, directly or through others.
     pub plan_files: Range<usize>,
+    /// What the parser has made of each plan file.
+    trees: Vec<Parse>,
 }
 
 impl Compiled {
@@ -47,6 +49,11 @@ impl Compiled {
     /// others.
     pub fn plan_sources(&self) -> impl Iterator<Item = &Source> {
         self.sources.iter().skip(self.plan_files.start).take(self.plan_files.len())
+    }
+
+    /// What the parser has made of a plan file; `None` of another file.
+    pub fn tree(&self, file: u16) -> Option<&Parse> {
+        self.trees.get(usize::from(file).checked_sub(self.plan_files.start)?)
     }
 
     /// Path and text of each plan file, in the order of [`Compiled::plan_sources`]; paths are seen
@@ -120,7 +127,8 @@ fn compile_with(
         false => (Vec::new(), Vec::new()),
     };
     let graph = graph.filter(|_| !diags.has_errors());
-    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files }
+    let trees = gathered.into_iter().map(|file| file.parse).collect();
+    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files, trees }
 }
 
 /// The scenarios of the first file without errors, and those with errors.
