@@ -16,7 +16,7 @@ use afp_syntax::source::{Source, Sources};
 use afp_syntax::{Parse, unquote};
 
 /// What became of a text.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Compiled {
     /// The static graph; `None` exactly when there are errors.
     pub graph: Option<Graph>,
@@ -37,6 +37,8 @@ pub struct Compiled {
     pub plan_files: Range<usize>,
     /// What the parser has made of each plan file.
     trees: Vec<Parse>,
+    /// See [`Compiled::sound`].
+    sound: Option<Graph>,
 }
 
 impl Compiled {
@@ -49,6 +51,12 @@ impl Compiled {
     /// others.
     pub fn plan_sources(&self) -> impl Iterator<Item = &Source> {
         self.sources.iter().skip(self.plan_files.start).take(self.plan_files.len())
+    }
+
+    /// The static graph of the plan where that and all that it uses are without errors, whatever is wrong elsewhere:
+    /// to tell about it, not to run it.
+    pub fn sound(&self) -> Option<&Graph> {
+        self.graph.as_ref().or(self.sound.as_ref())
     }
 
     /// What the parser has made of a plan file; `None` of another file.
@@ -114,7 +122,7 @@ fn compile_with(
     let mut sources = toolboxes.sources().clone();
     let first = sources.len();
     let gathered = gather::gather(source, files, toolboxes, &mut sources, &mut diags);
-    let Checked { graph, scenarios, mut outline, index } =
+    let Checked { graph, sound, scenarios, mut outline, index } =
         check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
         timing::check_everywhere(graph, &mut diags);
@@ -126,9 +134,12 @@ fn compile_with(
         true => sorted_out(scenarios, &outline, &diags),
         false => (Vec::new(), Vec::new()),
     };
-    let graph = graph.filter(|_| !diags.has_errors());
+    let (graph, sound) = match diags.has_errors() {
+        false => (graph, None),
+        true => (None, sound.or(graph.filter(|_| outline.excuses(&diags)))),
+    };
     let trees = gathered.into_iter().map(|file| file.parse).collect();
-    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files, trees }
+    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files, trees, sound }
 }
 
 /// The scenarios of the first file without errors, and those with errors.
