@@ -6,21 +6,26 @@
 //! their routes to the last digit.
 
 mod lines;
+mod painted;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::Options;
 use super::arrange::arrange;
 use super::card::{self, Card, Leaving};
 use super::layout::{self, Link, Node, Placement};
 use super::legend::legend;
-use super::sketch::{Arrow, Rect, Sketch};
-use super::svg::paint::Painter;
+#[cfg(test)]
+use super::sketch::Arrow;
+use super::sketch::{Rect, Sketch};
+use super::svg::paint::{self, Content, Painter};
 use super::usage::Class;
 use super::view::View;
 use afp_dsl::outline::{Component, Outline, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
+use painted::Painted;
 
 /// A place in pixels, y downwards.
 pub type Point = (f64, f64);
@@ -87,6 +92,8 @@ pub struct ElementScene {
     pub pieces: Vec<PieceScene>,
     /// A group, moved to its place.
     pub svg: String,
+    /// What the group was painted from.
+    content: Arc<Content>,
 }
 
 /// A box, tab, port, exit or entry.
@@ -119,6 +126,9 @@ pub struct EdgeScene {
     pub severity: Option<Severity>,
     /// A group with the line and its tip.
     pub svg: String,
+    /// What that was painted from, besides the points.
+    class: Class,
+    joined: f64,
 }
 
 impl Scene {
@@ -129,8 +139,14 @@ impl Scene {
     pub fn new(outline: &Outline, options: &Options, before: Option<&Scene>) -> Scene {
         let drawn = Drawn::new(outline, options, before);
         let mut painter = Painter::new(options.icons);
-        let plans = drawn.plans.iter().map(|plan| plan.scene(&mut painter)).collect();
-        let legend = drawn.legend.as_ref().map(|(sketch, at)| painter.group("legend", sketch, *at));
+        let painted = |plan: DrawnPlan<'_>| {
+            let known =
+                before.and_then(|before| before.plan(&plan.view.plan.item, plan.view.plan.file()));
+            plan.scene(&mut painter, &Painted::of(known))
+        };
+        let plans = drawn.plans.into_iter().map(painted).collect();
+        let legend =
+            drawn.legend.map(|(sketch, at)| paint::group("legend", &painter.content(sketch), at));
         Scene { plans, symbols: painter.symbols(), size: drawn.size, legend }
     }
 
@@ -262,38 +278,12 @@ impl<'a> DrawnPlan<'a> {
         all
     }
 
-    fn scene(&self, painter: &mut Painter) -> PlanScene {
-        let edges =
-            self.edges.iter().zip(lines::joined(&self.edges)).filter_map(|(edge, joined)| {
-                let arrow = Arrow { joined, ..Arrow::flow(edge.points.clone(), edge.class) };
-                Some(EdgeScene {
-                    item: edge.item.clone(),
-                    part: edge.part.clone(),
-                    to: edge.to.clone()?,
-                    kind: edge.class.name,
-                    severity: edge.severity,
-                    svg: painter.edge(&edge.item, &edge.part, &arrow),
-                    points: edge.points.clone(),
-                })
-            });
-        let edges = edges.collect();
-        let elements = self.cards.iter().map(|(card, at)| ElementScene {
-            item: card.item.clone(),
-            rect: card.rect.moved(*at),
-            outer: Rect { x: at.0, y: at.1, width: card.width, height: card.height },
-            pieces: card
-                .sketch
-                .pieces
-                .iter()
-                .map(|piece| PieceScene {
-                    item: piece.item.clone(),
-                    part: piece.part.clone(),
-                    rect: piece.rect.moved(*at),
-                    severity: piece.severity,
-                })
-                .collect(),
-            svg: painter.element(&card.item, &card.sketch, *at),
-        });
+    fn scene(self, painter: &mut Painter, painted: &Painted<'_>) -> PlanScene {
+        let joined = lines::joined(&self.edges);
+        let edges = self.edges.into_iter().zip(joined);
+        let edges = edges.filter_map(|(edge, joined)| painted.edge(edge, joined)).collect();
+        let cards = self.cards.into_iter();
+        let elements = cards.map(|(card, at)| painted.element(card, at, painter)).collect();
         PlanScene {
             plan: self.view.plan.item.clone(),
             file: self.view.plan.file(),
@@ -301,7 +291,7 @@ impl<'a> DrawnPlan<'a> {
             doc: self.view.plan.doc.clone(),
             offset: self.offset,
             bounds: self.bounds,
-            elements: elements.collect(),
+            elements,
             edges,
         }
     }

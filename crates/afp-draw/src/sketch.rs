@@ -39,7 +39,7 @@ pub(super) enum Shape {
 }
 
 /// A box.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Frame {
     pub(super) rect: Rect,
     pub(super) shape: Shape,
@@ -57,7 +57,7 @@ pub(super) enum Anchor {
 }
 
 /// A line of text.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
     pub(super) x: f64,
     /// Ordinate of the baseline.
@@ -105,7 +105,7 @@ pub(super) struct Piece {
 }
 
 /// A line with an arrow tip at its end.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Arrow {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) class: Class,

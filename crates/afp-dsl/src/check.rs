@@ -122,6 +122,8 @@ pub(crate) enum Flow {
 pub(crate) struct Checked {
     /// The graph of the plan that runs.
     pub graph: Option<Graph>,
+    /// That graph where the plan and all that it uses are without errors, and other plans are not.
+    pub sound: Option<Graph>,
     /// The scenarios of the first file.
     pub scenarios: Vec<Scenario>,
     /// What stands in the files, with or without errors.
@@ -169,10 +171,20 @@ pub(crate) fn check(
     let material = Material { program: &program, files, members, meanings: &meanings, main };
     let outline = outline::build(material);
     let index = index::build(&outline, &meanings, declared);
-    let Some(main) = main.filter(|_| outline.excuses(diags)) else {
-        return Checked { outline, index, ..Checked::default() };
-    };
-    Checked { graph: assemble::graph(&program, plans, &order, main), scenarios, outline, index }
+    let mut checked = Checked { outline, index, ..Checked::default() };
+    let Some(main) = main else { return checked };
+    let excused = checked.outline.excuses(diags);
+    if !excused && !checked.outline.are_errors_outside(diags, &assemble::needed(&program, main)) {
+        return checked;
+    }
+    let graph = assemble::graph(&program, plans, &order, main);
+    match excused {
+        true => Checked { graph, scenarios, ..checked },
+        false => {
+            checked.sound = graph;
+            checked
+        }
+    }
 }
 
 /// What all names mean, and what toolboxes declare.

@@ -13,10 +13,10 @@ use crate::timing;
 use crate::toolbox::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::{Source, Sources};
-use afp_syntax::unquote;
+use afp_syntax::{Parse, unquote};
 
 /// What became of a text.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Compiled {
     /// The static graph; `None` exactly when there are errors.
     pub graph: Option<Graph>,
@@ -35,6 +35,10 @@ pub struct Compiled {
     /// Which of [`Compiled::sources`] are plan files: the one that was compiled, then those that it
     /// uses, directly or through others.
     pub plan_files: Range<usize>,
+    /// What the parser has made of each plan file.
+    trees: Vec<Parse>,
+    /// See [`Compiled::sound`].
+    sound: Option<Graph>,
 }
 
 impl Compiled {
@@ -47,6 +51,17 @@ impl Compiled {
     /// others.
     pub fn plan_sources(&self) -> impl Iterator<Item = &Source> {
         self.sources.iter().skip(self.plan_files.start).take(self.plan_files.len())
+    }
+
+    /// The static graph of the plan where that and all that it uses are without errors, whatever is wrong elsewhere:
+    /// to tell about it, not to run it.
+    pub fn sound(&self) -> Option<&Graph> {
+        self.graph.as_ref().or(self.sound.as_ref())
+    }
+
+    /// What the parser has made of a plan file; `None` of another file.
+    pub fn tree(&self, file: u16) -> Option<&Parse> {
+        self.trees.get(usize::from(file).checked_sub(self.plan_files.start)?)
     }
 
     /// Path and text of each plan file, in the order of [`Compiled::plan_sources`]; paths are seen
@@ -107,7 +122,7 @@ fn compile_with(
     let mut sources = toolboxes.sources().clone();
     let first = sources.len();
     let gathered = gather::gather(source, files, toolboxes, &mut sources, &mut diags);
-    let Checked { graph, scenarios, mut outline, index } =
+    let Checked { graph, sound, scenarios, mut outline, index } =
         check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
         timing::check_everywhere(graph, &mut diags);
@@ -119,8 +134,12 @@ fn compile_with(
         true => sorted_out(scenarios, &outline, &diags),
         false => (Vec::new(), Vec::new()),
     };
-    let graph = graph.filter(|_| !diags.has_errors());
-    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files }
+    let (graph, sound) = match diags.has_errors() {
+        false => (graph, None),
+        true => (None, sound.or(graph.filter(|_| outline.excuses(&diags)))),
+    };
+    let trees = gathered.into_iter().map(|file| file.parse).collect();
+    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files, trees, sound }
 }
 
 /// The scenarios of the first file without errors, and those with errors.

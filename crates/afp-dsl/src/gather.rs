@@ -21,7 +21,9 @@ pub(crate) struct PlanFile {
     pub path: String,
     /// Its text.
     pub source: Arc<Source>,
-    /// Its tree.
+    /// What the parser has made of it.
+    pub parse: Parse,
+    /// The tree of that.
     pub tree: File,
     /// Its index among the sources.
     pub index: u16,
@@ -116,14 +118,14 @@ impl Gathering<'_> {
         // compilation.
         let index = self.sources.add(source.clone()).unwrap_or(u16::MAX);
         let tree = parse(&source.text, index, self.diags);
-        self.add(normalised(&source.name), source, index, &tree);
+        self.add(normalised(&source.name), source, index, tree);
     }
 
-    fn add(&mut self, path: String, source: Arc<Source>, index: u16, tree: &Parse) -> usize {
+    fn add(&mut self, path: String, source: Arc<Source>, index: u16, parse: Parse) -> usize {
         let place = self.found.len();
         self.known.entry(path.clone()).or_insert(Ok(place));
-        let (tree, uses, paths) = (tree.file(), Vec::new(), Vec::new());
-        let file = PlanFile { path, source, tree, index, uses, paths, incomplete: false };
+        let (tree, uses, paths) = (parse.file(), Vec::new(), Vec::new());
+        let file = PlanFile { path, source, parse, tree, index, uses, paths, incomplete: false };
         self.found.push(file);
         place
     }
@@ -209,7 +211,7 @@ impl Gathering<'_> {
         let too_many = || Unusable::Unread("there are too many files".to_owned());
         let index = self.sources.add(source.clone()).ok_or_else(too_many)?;
         self.diags.extend(diags);
-        Ok(self.add(path.to_owned(), source, index, &tree))
+        Ok(self.add(path.to_owned(), source, index, tree))
     }
 
     fn unusable(&self, why: &Unusable, path: &str, span: Span) -> Diagnostic {

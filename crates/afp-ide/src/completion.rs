@@ -118,7 +118,7 @@ struct List<'v, 'a> {
     replaces: Span,
     all: Vec<Completion>,
     /// The edits that bring toolboxes into view, by toolbox: each reads the whole file.
-    uses: BTreeMap<String, Vec<TextEdit>>,
+    uses: BTreeMap<String, Option<TextEdit>>,
 }
 
 impl List<'_, '_> {

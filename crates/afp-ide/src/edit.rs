@@ -39,7 +39,9 @@ use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
 use serde::{Deserialize, Serialize};
 
+pub(crate) use add::edit_of_use;
 pub use afp_syntax::diagnostics::Edit as TextEdit;
+pub(crate) use name::Taken;
 pub use positions::follow;
 pub use several::{Made, edit_all};
 pub use wire::{item, path};

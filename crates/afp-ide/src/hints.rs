@@ -18,9 +18,9 @@ pub struct Hint {
 }
 
 /// How long after its condition each supervisor of the file has made the robot stand, in the order of
-/// the text: of the plan that was compiled and of those that it uses, while there are no errors.
+/// the text: of the plan that was compiled and of those that it uses, while these are without errors.
 pub fn hints(view: &View) -> Vec<Hint> {
-    let Some(graph) = &view.compiled.graph else { return Vec::new() };
+    let Some(graph) = view.compiled.sound() else { return Vec::new() };
     let rows = timing(graph, None).supervisors;
     let supervisors = view.plans().flat_map(|plan| plan.all_supervisors());
     let hint = |supervisor: &Component| {

@@ -172,7 +172,7 @@ fn bounds(view: &View, definition: &Definition) -> Vec<String> {
             time(times.deadline)
         ));
     }
-    let Some(graph) = view.compiled.graph.as_ref().filter(|_| times.is_some()) else {
+    let Some(graph) = view.compiled.sound().filter(|_| times.is_some()) else {
         return facts;
     };
     let rows = timing(graph, None).supervisors;

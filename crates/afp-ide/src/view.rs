@@ -1,5 +1,6 @@
 //! What editors ask about: one file of a compilation, a plan file or a toolbox.
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use afp_dsl::Compiled;
@@ -9,7 +10,7 @@ use afp_dsl::toolbox::{Template, Toolbox, Toolboxes};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
-use afp_syntax::{Node, Token, parse};
+use afp_syntax::{Node, Parse, Token, parse};
 
 /// A file of a compilation, with its tree.
 #[derive(Clone, Debug)]
@@ -20,15 +21,14 @@ pub struct View<'a> {
     pub toolboxes: &'a Toolboxes,
     /// The file, as [`Span::file`] says it.
     pub file: u16,
-    root: Node,
+    /// Asked for by some questions alone.
+    root: OnceCell<Node>,
 }
 
 impl<'a> View<'a> {
     /// A file of a compilation; one that is not there is empty.
     pub fn new(compiled: &'a Compiled, toolboxes: &'a Toolboxes, file: u16) -> View<'a> {
-        let text = compiled.sources.get(file).map_or("", |source| &source.text);
-        let root = parse(text, file, &mut Diagnostics::default()).root();
-        View { compiled, toolboxes, file, root }
+        View { compiled, toolboxes, file, root: OnceCell::new() }
     }
 
     /// The text of the file.
@@ -50,7 +50,8 @@ impl<'a> View<'a> {
     }
 
     pub(crate) fn root(&self) -> &Node {
-        &self.root
+        let parsed = || parse(self.text(), self.file, &mut Diagnostics::default()).root();
+        self.root.get_or_init(|| self.compiled.tree(self.file).map_or_else(parsed, Parse::root))
     }
 
     /// The text of a place of any file.
@@ -121,8 +122,8 @@ impl<'a> View<'a> {
 
     /// The last solid token that ends at or before a byte.
     pub(crate) fn solid_before(&self, offset: u32) -> Option<Token> {
-        let at = rowan::TextSize::from(offset.min(u32::from(self.root.text_range().end())));
-        let mut token = self.root.token_at_offset(at).left_biased();
+        let at = rowan::TextSize::from(offset.min(u32::from(self.root().text_range().end())));
+        let mut token = self.root().token_at_offset(at).left_biased();
         while let Some(found) = token {
             if !found.kind().is_trivia() && found.text_range().end() <= at {
                 return Some(found);
@@ -134,8 +135,8 @@ impl<'a> View<'a> {
 
     /// The token that a byte lies in or ends.
     pub(crate) fn token_at(&self, offset: u32) -> Option<Token> {
-        let at = rowan::TextSize::from(offset.min(u32::from(self.root.text_range().end())));
-        self.root.token_at_offset(at).left_biased()
+        let at = rowan::TextSize::from(offset.min(u32::from(self.root().text_range().end())));
+        self.root().token_at_offset(at).left_biased()
     }
 }
 

@@ -206,11 +206,16 @@ impl Enum {
 impl Ref {
     /// The name before the point; `None` without a point.
     pub fn home(&self) -> Option<Name> {
-        let last = last_token(&self.node, Kind::Name, self.file, |_, span| span)?;
+        let last = self.name_span()?;
         find_token(&self.node, self.file, |kind, text, span| {
             let before = kind == Kind::Name && span != last;
             before.then(|| Name { text: text.to_owned(), span })
         })
+    }
+
+    /// The place of [`Ref::name`].
+    pub fn name_span(&self) -> Option<Span> {
+        last_token(&self.node, Kind::Name, self.file, |_, span| span)
     }
 
     /// The name, behind the point if there is one.

@@ -26,40 +26,76 @@ pub(in super::super) fn layout_around(
     }
     let corners = places(nodes, links, &placement);
     let (boxes, wires) = (bounds(nodes, &corners), wires(nodes, links, &corners));
+    let near = NearBoxes::new(&boxes);
     let kept: Vec<_> = placement
         .routes
         .into_iter()
         .zip(&wires)
-        .map(|(route, wire)| route.filter(|route| is_still_good(route, wire, &boxes)))
+        .map(|(route, wire)| route.filter(|route| is_still_good(route, wire, &near)))
         .collect();
     let found = router::route(&boxes, &wires, &kept);
     LaidOut::new(nodes, corners, found.corners)
 }
 
 /// Whether a route has the ends of its edge and passes no box too closely.
-fn is_still_good(route: &[Point], wire: &Wire, boxes: &[Bounds]) -> bool {
+fn is_still_good(route: &[Point], wire: &Wire, boxes: &NearBoxes<'_>) -> bool {
     let (Some(start), Some(tip)) = (route.first(), route.last()) else { return false };
     let (left, right) = wire.arrival;
     let near = |a: f64, b: f64| (a - b).abs() < 0.01;
     let starts = near(start.0, wire.start.0) && near(start.1, wire.start.1);
     let ends = starts && near(tip.1, wire.tip) && left <= tip.0 + 0.01 && tip.0 <= right + 0.01;
-    let passes = |each: &Bounds, pair: &[Point]| {
-        let (a, b) = (pair[0], pair[1]);
-        let apart = a.0.max(b.0) <= each.left - NEAR
-            || each.right + NEAR <= a.0.min(b.0)
-            || a.1.max(b.1) <= each.top - NEAR
-            || each.bottom + NEAR <= a.1.min(b.1);
-        !apart
-    };
     let last = route.len().saturating_sub(2);
     let free = |(at, pair): (usize, &[Point])| {
-        boxes.iter().enumerate().all(|(index, each)| {
+        boxes.passed(pair[0], pair[1]).all(|index| {
             // It touches its own boxes with its ends.
-            let own = index == wire.from && at <= 1 || index == wire.to && at == last;
-            own || !passes(each, pair)
+            index == wire.from && at <= 1 || index == wire.to && at == last
         })
     };
     ends && route.windows(2).enumerate().all(free)
+}
+
+/// Boxes, found by where they are.
+struct NearBoxes<'b> {
+    boxes: &'b [Bounds],
+    /// Each from left to right, and from top to bottom.
+    by_left: Vec<usize>,
+    by_top: Vec<usize>,
+    /// Width and height of the greatest ones.
+    greatest: Point,
+}
+
+impl<'b> NearBoxes<'b> {
+    fn new(boxes: &'b [Bounds]) -> NearBoxes<'b> {
+        let sorted = |by: fn(&Bounds) -> f64| {
+            let mut all: Vec<_> = (0..boxes.len()).collect();
+            all.sort_by(|one, other| by(&boxes[*one]).total_cmp(&by(&boxes[*other])));
+            all
+        };
+        let greatest = |of: fn(&Bounds) -> f64| boxes.iter().map(of).fold(0.0, f64::max);
+        NearBoxes {
+            boxes,
+            by_left: sorted(|each| each.left),
+            by_top: sorted(|each| each.top),
+            greatest: (greatest(|it| it.right - it.left), greatest(|it| it.bottom - it.top)),
+        }
+    }
+
+    /// The boxes that a line from one point to another passes too closely.
+    fn passed(&self, a: Point, b: Point) -> impl Iterator<Item = usize> {
+        let (left, right) = (a.0.min(b.0) - NEAR, a.0.max(b.0) + NEAR);
+        let (top, bottom) = (a.1.min(b.1) - NEAR, a.1.max(b.1) + NEAR);
+        let (order, from, to, of): (_, _, _, fn(&Bounds) -> f64) = match right - left < bottom - top
+        {
+            true => (&self.by_left, left - self.greatest.0, right, |it| it.left),
+            false => (&self.by_top, top - self.greatest.1, bottom, |it| it.top),
+        };
+        let first = order.partition_point(|index| of(&self.boxes[*index]) < from);
+        let near = order[first..].iter().take_while(move |index| of(&self.boxes[**index]) < to);
+        near.copied().filter(move |index| {
+            let each = &self.boxes[*index];
+            each.left < right && left < each.right && each.top < bottom && top < each.bottom
+        })
+    }
 }
 
 /// The corner of each node.

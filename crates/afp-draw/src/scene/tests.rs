@@ -1,6 +1,7 @@
 use std::path::Path;
+use std::sync::Arc;
 
-use super::{EdgeScene, Scene};
+use super::{Arrow, EdgeScene, Scene, paint};
 use crate::layout_file::{Layout, Position};
 use crate::sample::{WALL_FOLLOWING, afp_files, compiled, generated, is_toolbox};
 use crate::{Options, dot, json, picture, svg};
@@ -207,5 +208,70 @@ fn placed_elements_hold_their_places_through_edits() {
             assert_eq!((found.rect.x, found.rect.y), (700.0, 900.0), "{changed}");
         }
         before = Some(scene);
+    }
+}
+
+/// What a scene shows, painted anew.
+fn painted_anew(scene: &Scene) -> Vec<String> {
+    let plans = || scene.plans.iter();
+    let elements = plans().flat_map(|plan| &plan.elements);
+    let elements =
+        elements.map(|one| paint::element(&one.item, &one.content, (one.outer.x, one.outer.y)));
+    let edges = plans().flat_map(|plan| &plan.edges).map(|one| {
+        let arrow = Arrow { joined: one.joined, ..Arrow::flow(one.points.clone(), one.class) };
+        paint::edge(&one.item, &one.part, &arrow)
+    });
+    elements.chain(edges).collect()
+}
+
+/// The fragments of a scene.
+fn fragments(scene: &Scene) -> Vec<&str> {
+    let plans = || scene.plans.iter();
+    let elements = plans().flat_map(|plan| &plan.elements).map(|one| one.svg.as_str());
+    elements.chain(plans().flat_map(|plan| &plan.edges).map(|one| one.svg.as_str())).collect()
+}
+
+#[test]
+fn what_is_taken_over_is_what_would_be_painted() {
+    let mut before: Option<Scene> = None;
+    for end in
+        (0..WALL_FOLLOWING.len()).step_by(97).filter(|end| WALL_FOLLOWING.is_char_boundary(*end))
+    {
+        let compiled = whatever(&WALL_FOLLOWING[..end]);
+        let options = Options { warnings: true, ..Options::default() };
+        let scene = Scene::new(&compiled.outline, &options, before.as_ref());
+        assert_eq!(fragments(&scene), painted_anew(&scene), "{}", &WALL_FOLLOWING[..end]);
+        before = Some(scene);
+    }
+}
+
+#[test]
+fn only_what_has_changed_is_painted() {
+    let text = generated(30, 5);
+    let before = scene(&text, None);
+    let after = scene(&text.replacen("30 cm", "31 cm", 1), Some(&before));
+    let pairs = || before.plans[0].elements.iter().zip(&after.plans[0].elements);
+    let painted = pairs().filter(|(one, other)| !Arc::ptr_eq(&one.content, &other.content));
+    let differ = pairs().filter(|(one, other)| one.svg != other.svg);
+    assert_eq!((painted.count(), differ.count()), (1, 1));
+}
+
+#[test]
+fn an_icon_that_has_changed_is_painted() {
+    let compiled = whatever(WALL_FOLLOWING);
+    let with = |radius: u32, before| {
+        let icon = format!("<svg viewBox=\"0 0 24 24\"><circle r=\"{radius}\"/></svg>");
+        let icons = |_: &_, _: &str| Some(icon.clone());
+        let options = Options { icons: Some(&icons), ..Options::default() };
+        Scene::new(&compiled.outline, &options, before)
+    };
+    let before = with(1, None);
+    let same = with(1, Some(&before));
+    assert_eq!(fragments(&same), fragments(&before));
+    let after = with(2, Some(&before));
+    assert_ne!(after.symbols, before.symbols);
+    for one in &after.plans[0].elements {
+        let used = after.symbols.iter().filter(|symbol| one.svg.contains(&symbol.id));
+        assert_eq!(one.svg.matches("<use ").count() > 0, used.count() > 0, "{}", one.svg);
     }
 }

@@ -1,11 +1,12 @@
 //! Writes the parts of a scene as SVG elements.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
+use std::fmt::{self, Display, Write};
 
 use super::super::Icons;
 use super::super::scene::{Point, Symbol};
 use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch, Tip};
+use super::super::usage::Class;
 use super::icon;
 use afp_dsl::outline::Part;
 use afp_syntax::item::Item;
@@ -19,6 +20,25 @@ const CUT: f64 = 0.376_775;
 /// Length and half width of arrow tips, thick and thin.
 const THICK_TIP: (f64, f64) = (10.0, 5.5);
 const THIN_TIP: (f64, f64) = (7.0, 3.2);
+
+/// What a group shows: a sketch with the ids of its icons. Where it is the same as before, so is the group.
+#[derive(Clone, Debug, PartialEq)]
+pub(in super::super) struct Content {
+    frames: Vec<Frame>,
+    labels: Vec<Label>,
+    icons: Vec<IconUse>,
+    arrows: Vec<Arrow>,
+}
+
+/// An icon at its place.
+#[derive(Clone, Debug, PartialEq)]
+struct IconUse {
+    id: String,
+    x: f64,
+    y: f64,
+    size: f64,
+    class: Class,
+}
 
 /// Paints parts and remembers which icons they use.
 pub(in super::super) struct Painter<'a> {
@@ -38,58 +58,24 @@ impl<'a> Painter<'a> {
         self.symbols
     }
 
-    /// An element with all that is attached to it, as a group at its place.
-    pub(in super::super) fn element(&mut self, item: &Item, sketch: &Sketch, at: Point) -> String {
-        let attributes = format!("element\" data-item=\"{}", escaped(&item.to_string()));
-        self.group(&attributes, sketch, at)
+    /// What a group of a sketch shows; its icons are remembered.
+    pub(in super::super) fn content(&mut self, sketch: Sketch) -> Content {
+        let Sketch { frames, labels, pictures, arrows, .. } = sketch;
+        let icons = pictures.iter().filter_map(|picture| self.icon_use(picture)).collect();
+        Content { frames, labels, icons, arrows }
     }
 
-    /// A drawing as a group of a class, moved.
-    pub(in super::super) fn group(
-        &mut self,
-        class: &str,
-        sketch: &Sketch,
-        (x, y): Point,
-    ) -> String {
-        let (x, y) = (number(x), number(y));
-        let mut out = format!("<g class=\"{class}\" transform=\"translate({x} {y})\">\n");
-        sketch.arrows.iter().for_each(|arrow| paint_arrow(&mut out, arrow));
-        sketch.frames.iter().for_each(|frame| paint_frame(&mut out, frame));
-        sketch.labels.iter().for_each(|label| paint_label(&mut out, label));
-        sketch.pictures.iter().for_each(|picture| self.paint_picture(&mut out, picture));
-        out + "</g>\n"
-    }
-
-    /// An edge as a group.
-    pub(in super::super) fn edge(&self, item: &Item, part: &Part, arrow: &Arrow) -> String {
-        let exit = match part {
-            Part::Exit { name, .. } => name.as_str(),
-            _ => "start",
-        };
-        let (item, exit) = (escaped(&item.to_string()), escaped(exit));
-        let mut out = format!("<g class=\"edge\" data-item=\"{item}\" data-exit=\"{exit}\">\n");
-        paint_arrow(&mut out, arrow);
-        out + "</g>\n"
-    }
-
-    fn paint_picture(&mut self, out: &mut String, picture: &Picture) {
+    fn icon_use(&mut self, picture: &Picture) -> Option<IconUse> {
         let own = picture.icon.and_then(|(toolbox, name)| {
             let find = self.icons?;
             let key = (toolbox.name.clone(), name.to_owned());
             self.id(key, || find(toolbox, name))
         });
         let key = || (String::new(), format!("{:?}", picture.fallback).to_ascii_lowercase());
-        let id = own.or_else(|| self.id(key(), || Some(icon::glyph(picture.fallback).to_owned())));
-        let Some(id) = id else { return };
-        let (x, y, size) = (number(picture.x), number(picture.y), number(picture.size));
-        let class = picture.class;
-        line(
-            out,
-            &format!(
-                "<use class=\"icon {class}\" href=\"#{id}\" x=\"{x}\" y=\"{y}\" \
-                 width=\"{size}\" height=\"{size}\"/>"
-            ),
-        );
+        let id =
+            own.or_else(|| self.id(key(), || Some(icon::glyph(picture.fallback).to_owned())))?;
+        let Picture { x, y, size, class, .. } = *picture;
+        Some(IconUse { id, x, y, size, class })
     }
 
     /// The id of an icon, which is read when it is asked for first.
@@ -113,6 +99,34 @@ impl<'a> Painter<'a> {
     }
 }
 
+/// An element with all that is attached to it, as a group at its place.
+pub(in super::super) fn element(item: &Item, content: &Content, at: Point) -> String {
+    group(&format!("element\" data-item=\"{}", escaped(&item.to_string())), content, at)
+}
+
+/// A drawing as a group of a class, moved.
+pub(in super::super) fn group(class: &str, content: &Content, (x, y): Point) -> String {
+    let (x, y) = (number(x), number(y));
+    let mut out = format!("<g class=\"{class}\" transform=\"translate({x} {y})\">\n");
+    content.arrows.iter().for_each(|arrow| paint_arrow(&mut out, arrow));
+    content.frames.iter().for_each(|frame| paint_frame(&mut out, frame));
+    content.labels.iter().for_each(|label| paint_label(&mut out, label));
+    content.icons.iter().for_each(|icon| paint_icon(&mut out, icon));
+    out + "</g>\n"
+}
+
+/// An edge as a group.
+pub(in super::super) fn edge(item: &Item, part: &Part, arrow: &Arrow) -> String {
+    let exit = match part {
+        Part::Exit { name, .. } => name.as_str(),
+        _ => "start",
+    };
+    let (item, exit) = (escaped(&item.to_string()), escaped(exit));
+    let mut out = format!("<g class=\"edge\" data-item=\"{item}\" data-exit=\"{exit}\">\n");
+    paint_arrow(&mut out, arrow);
+    out + "</g>\n"
+}
+
 /// An id that is the same for the same icon only, so that several pictures can stand in one page.
 fn symbol_id((toolbox, name): &(String, String), svg: &str) -> String {
     // FNV-1a.
@@ -128,16 +142,44 @@ fn is_plain(character: char) -> bool {
 }
 
 /// A coordinate with one decimal, without trailing zeros.
-pub(super) fn number(value: f64) -> String {
-    let rounded = (value * 10.0).round() / 10.0;
-    // Adding zero turns -0 into 0.
-    (rounded + 0.0).to_string()
+pub(super) fn number(value: f64) -> impl Display {
+    Tenths((value * 10.0).round())
+}
+
+/// A number of tenths. A drawing has thousands of them, and whole numbers are written several times as fast as others.
+struct Tenths(f64);
+
+impl Display for Tenths {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Tenths(tenths) = *self;
+        if tenths.abs() > 1e15 || tenths.is_nan() {
+            return write!(f, "{}", tenths / 10.0);
+        }
+        let sign = if tenths < 0.0 { "-" } else { "" };
+        let tenths = tenths.abs() as u64;
+        match (tenths / 10, tenths % 10) {
+            (whole, 0) => write!(f, "{sign}{whole}"),
+            (whole, tenth) => write!(f, "{sign}{whole}.{tenth}"),
+        }
+    }
 }
 
 /// Adds a line of text.
 pub(super) fn line(out: &mut String, text: &str) {
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{text}");
+}
+
+fn paint_icon(out: &mut String, icon: &IconUse) {
+    let IconUse { id, class, .. } = icon;
+    let (x, y, size) = (number(icon.x), number(icon.y), number(icon.size));
+    line(
+        out,
+        &format!(
+            "<use class=\"icon {class}\" href=\"#{id}\" x=\"{x}\" y=\"{y}\" \
+             width=\"{size}\" height=\"{size}\"/>"
+        ),
+    );
 }
 
 fn paint_frame(out: &mut String, frame: &Frame) {
@@ -337,7 +379,10 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!([1.0, 1.04, -0.04, 2.55].map(number), ["1", "1", "0", "2.6"]);
+        assert_eq!(
+            [1.0, 1.04, -0.04, 2.55, -12.06, 1e300].map(|value| number(value).to_string()),
+            ["1", "1", "0", "2.6", "-12.1", &1e300.to_string()]
+        );
     }
 
     #[test]

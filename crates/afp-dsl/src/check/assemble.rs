@@ -41,7 +41,7 @@ pub(super) fn graph(
 }
 
 /// Which plans `main` is made of, itself included.
-fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
+pub(super) fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
     let mut needed = vec![false; program.plans.len()];
     let mut open = vec![main];
     while let Some(place) = open.pop() {

@@ -7,11 +7,17 @@ use afp_syntax::source::Span;
 
 /// The first edge, as written, that ends the plan as `Interrupted`.
 pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
-    let events = Events::of(plan);
+    let (elements, globals) = (plan.elements(), edges_of_globals(plan));
+    // Most plans are decided without looking into their elements.
+    if elements.iter().all(|element| element.reactions().is_empty())
+        && let Some((_, edge)) = globals.iter().find(|(_, edge)| edge.leads_to("terminate"))
+    {
+        return Some(edge.span());
+    }
+    let events = Events::of(&elements, globals);
     let ending = |edges: &[Edge]| edges.iter().find(|edge| edge.leads_to("terminate")).cloned();
     let of_globals = || events.globals.iter().filter(|(_, edge)| edge.leads_to("terminate"));
     let mut of_elements = events.elements.iter().map(|each| ending(&each.edges));
-    // Most plans are decided without knowing what can be reached.
     let is_shared = events.elements.iter().any(|each| !each.replaced.is_empty());
     if !is_shared && let Some((_, edge)) = of_globals().next() {
         return Some(edge.span());
@@ -19,7 +25,7 @@ pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
     if of_globals().next().is_none() && of_elements.all(|edge| edge.is_none()) {
         return None;
     }
-    let reached = reached(plan, &events);
+    let reached = reached(plan, &elements, &events);
     let active = || events.elements.iter().zip(&reached).filter(|(_, reached)| **reached);
     let global = of_globals().find(|each| active().any(|(element, _)| element.keeps(each)));
     let edge = global.map(|(_, edge)| edge.clone());
@@ -44,16 +50,19 @@ struct OfElement {
 }
 
 impl Events {
-    fn of(plan: &Plan) -> Events {
-        let guards = plan.guards().into_iter().flat_map(|guard| {
-            let name = guard.name().map(|name| name.text).unwrap_or_default();
-            guard.edges().into_iter().map(move |edge| (name.clone(), edge))
-        });
-        let globals: Vec<(String, Edge)> = guards.collect();
-        let elements = plan.elements();
+    fn of(elements: &[Element], globals: Vec<(String, Edge)>) -> Events {
         let elements = elements.iter().map(|element| OfElement::of(element, &globals));
         Events { elements: elements.collect(), globals }
     }
+}
+
+/// The edges of global supervisors, each with its supervisor's name.
+fn edges_of_globals(plan: &Plan) -> Vec<(String, Edge)> {
+    let guards = plan.guards().into_iter().flat_map(|guard| {
+        let name = guard.name().map(|name| name.text).unwrap_or_default();
+        guard.edges().into_iter().map(move |edge| (name.clone(), edge))
+    });
+    guards.collect()
 }
 
 impl OfElement {
@@ -87,8 +96,7 @@ fn leads_to(edge: &Edge) -> String {
 
 /// Which elements can be reached from `start`, by their own edges, and by those of global supervisors
 /// that hold where something is active.
-fn reached(plan: &Plan, events: &Events) -> Vec<bool> {
-    let elements = plan.elements();
+fn reached(plan: &Plan, elements: &[Element], events: &Events) -> Vec<bool> {
     let names: Vec<_> = elements.iter().map(Element::name).collect();
     let indices =
         Indices::of(names.iter().map(|name| name.as_ref().map(|name| name.text.as_str())));

@@ -200,6 +200,9 @@ fn reactions(
     members: Vec<Member>,
     owner: &str,
 ) -> Vec<Component> {
+    if members.is_empty() {
+        return Vec::new();
+    }
     let items: Vec<_> = numbered(members.iter().map(|member| member.name.as_ref())).collect();
     let nodes = node.reactions();
     let nodes = nodes.iter().zip(members).zip(items);

@@ -58,7 +58,7 @@ impl Reader<'_> {
                 TemplateUse {
                     text: text.unwrap_or_else(|| reference.in_one_line()),
                     span,
-                    name_span: reference.name().map_or(span, |name| name.span),
+                    name_span: reference.name_span().unwrap_or(span),
                     made_from,
                 }
             }),

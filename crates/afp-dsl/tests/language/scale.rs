@@ -89,23 +89,28 @@ fn ten_times_the_plan_takes_about_ten_times_as_long() {
 }
 
 #[test]
-fn thousands_of_unknown_names_are_answered_in_time() {
+fn ten_times_the_unknown_names_take_about_ten_times_as_long() {
     let toolboxes = support::toolboxes();
-    let mut text = String::from("use carbot\nplan P {\n    start a0\n");
-    for at in 0..3000 {
-        let _ = writeln!(
-            text,
-            "    actor a{at}: Forward {{ ForwardSuccessful -> b{} }}",
-            at * 7 % 3001
-        );
-    }
-    let begin = Instant::now();
-    let compiled = support::compile(&(text + "}\n"), &toolboxes);
-    let took = begin.elapsed();
-    let unknown = compiled.diags.iter().filter(|each| each.code.as_str() == "E0216");
-    assert_eq!(unknown.count(), 3000);
-    // Unoptimised and on a busy machine; comparing all pairs takes minutes there.
-    assert!(took < Duration::from_secs(30), "{took:?}");
+    let best = |count: usize| {
+        let mut text = String::from("use carbot\nplan P {\n    start a0\n");
+        for at in 0..count {
+            let to = at * 7 % (count + 1);
+            let _ = writeln!(text, "    actor a{at}: Forward {{ ForwardSuccessful -> b{to} }}");
+        }
+        text += "}\n";
+        let run = || {
+            let begin = Instant::now();
+            let compiled = support::compile(&text, &toolboxes);
+            let took = begin.elapsed();
+            let unknown = compiled.diags.iter().filter(|each| each.code.as_str() == "E0216");
+            assert_eq!(unknown.count(), count);
+            took
+        };
+        (0..3).map(|_| run()).min().unwrap_or(Duration::ZERO)
+    };
+    let (few, many) = (best(312), best(3120));
+    // Comparing all pairs would take a hundred times as long; the machine may be busy.
+    assert!(many < few * 50, "{few:?} for 312 names, {many:?} for 3120");
 }
 
 #[test]

@@ -33,16 +33,9 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
         let mut own = Toolboxes::default();
         own.add(source, "mine");
         let (diags, sources): (_, &Sources) = (own.diagnostics().clone(), own.sources());
-        return Compiled {
-            graph: None,
-            scenarios: Vec::new(),
-            unsound: Vec::new(),
-            outline: Default::default(),
-            index: Default::default(),
-            diags,
-            sources: sources.clone(),
-            plan_files: 0..0,
-        };
+        let mut compiled = Compiled::default();
+        (compiled.diags, compiled.sources) = (diags, sources.clone());
+        return compiled;
     }
     let plan = text.lines().next().and_then(|line| line.strip_prefix("// plan: "));
     let mut compiled = afp_dsl::compile_plan(&source, toolboxes, files, plan);

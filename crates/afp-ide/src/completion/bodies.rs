@@ -2,6 +2,7 @@
 
 use crate::View;
 use crate::describe::component_kind;
+use crate::edit::Taken;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{ComponentKind, Plan};
 use afp_dsl::toolbox::Template;
@@ -74,8 +75,8 @@ fn body(parts: &Parts<'_>, kind: ComponentKind) -> Vec<Piece> {
 
 /// A name for what is made from a template: its own with a small first letter, or with a number behind
 /// it where that is taken.
-pub(crate) fn instance_name(template: &str, taken: &[String]) -> String {
+pub(crate) fn instance_name(template: &str, taken: &Taken) -> String {
     let mut letters = template.chars();
     let first = letters.next().map(|first| first.to_lowercase().to_string()).unwrap_or_default();
-    crate::edit::fresh_name(&format!("{first}{}", letters.as_str()), taken)
+    taken.fresh(&format!("{first}{}", letters.as_str()))
 }

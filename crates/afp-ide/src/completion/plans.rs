@@ -3,14 +3,13 @@
 use super::List;
 use super::bodies::{Piece, body_of_plan, body_of_template, instance_name, plain};
 use super::context::Origin;
-use crate::edit::{Change, TextEdit, edit};
+use crate::edit::{Taken, edit_of_use};
 use crate::view::token;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_dsl::outline::{Component, ComponentKind, Plan};
 use afp_dsl::toolbox::{Template, Toolbox};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
-use afp_syntax::source::Source;
 
 /// Items of a plan file.
 pub(super) fn of_file(list: &mut List) {
@@ -78,11 +77,11 @@ pub(super) fn items(list: &mut List, plan: Option<&Plan>, node: &Node) {
 }
 
 /// The names in a plan.
-fn names(plan: &Plan) -> Vec<String> {
+fn names(plan: &Plan) -> Taken {
     let entries = plan.entries.iter().filter_map(|entry| entry.name.as_ref());
     let components = plan.supervisors.iter().chain(&plan.elements);
     let components = components.filter_map(|component| component.name.as_ref());
-    entries.chain(components).map(|name| name.text.clone()).collect()
+    Taken::of(entries.chain(components).map(|name| name.text.as_str()))
 }
 
 /// A template or plan that components can be made from.
@@ -156,17 +155,10 @@ fn add_made(list: &mut List, made: &Made, insert: Vec<Piece>, rank: u8) {
     list.definition_as(made.id, &label, insert, rank + far);
     if let (Some(toolbox), Some(last)) = (&made.missing, list.all.last_mut()) {
         let line = list.uses.entry(toolbox.clone());
-        last.with.clone_from(line.or_insert_with(|| line_of_use(list.view, toolbox)));
+        let view = list.view;
+        let edit = || edit_of_use(view.text(), view.root(), view.file, toolbox);
+        last.with = line.or_insert_with(edit).iter().cloned().collect();
     }
-}
-
-/// The edit that brings a toolbox into view.
-fn line_of_use(view: &crate::View, toolbox: &str) -> Vec<TextEdit> {
-    let change = Change::AddUse { toolbox: toolbox.to_owned(), alias: None };
-    let files = [Source::new("", view.text())];
-    let mut edits = edit(&files, view.toolboxes, 0, &change).unwrap_or_default();
-    edits.iter_mut().for_each(|edit| edit.span.file = view.file);
-    edits
 }
 
 /// What a component can be made from, by its keyword; with a body where there is none yet. Behind the
@@ -213,12 +205,8 @@ pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_el
     }
     if is_element && component.kind != ComponentKind::Computation {
         list.keywords(&["supervise"], 2);
-        let taken: Vec<_> = component
-            .supervisors
-            .iter()
-            .filter_map(|it| it.name.as_ref())
-            .map(|name| name.text.clone())
-            .collect();
+        let names = component.supervisors.iter().filter_map(|it| it.name.as_ref());
+        let taken = Taken::of(names.map(|name| name.text.as_str()));
         for made in all_made(list, component.span.start) {
             if made.kind != ComponentKind::Supervisor {
                 continue;

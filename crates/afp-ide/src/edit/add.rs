@@ -1,10 +1,10 @@
 //! Adding: `use` lines, plans, and the items of a plan.
 
-use super::buffer::TextBuffer;
+use super::buffer::{self, Splice, TextBuffer};
 use super::list::{Page, Place};
 use super::name;
 use super::tree::{self, Scope, children, name_of};
-use super::{Refused, fragment};
+use super::{Refused, TextEdit, fragment};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
@@ -20,28 +20,41 @@ pub(super) fn line_of_use(
     line(buffer, &format!("use {toolbox}{alias}"))
 }
 
+/// The edit that brings a toolbox into view of a file; nothing where it is.
+pub(crate) fn edit_of_use(text: &str, root: &Node, file: u16, toolbox: &str) -> Option<TextEdit> {
+    let page = Page { text, root: root.clone() };
+    let (range, text) = splice_of_line(&page, &format!("use {toolbox}")).ok()??;
+    Some(TextEdit { span: buffer::span(file, range), text })
+}
+
 /// Adds a `use` line below the others, unless it is there.
 pub(super) fn line(buffer: &mut TextBuffer, line: &str) -> Result<(), Refused> {
-    let root = buffer.root();
+    let page = Page { text: buffer.text(), root: buffer.root() };
+    if let Some(splice) = splice_of_line(&page, line)? {
+        buffer.splice(vec![splice]);
+    }
+    Ok(())
+}
+
+/// What puts a `use` line below the others; nothing where it is there.
+pub(super) fn splice_of_line(page: &Page<'_>, line: &str) -> Result<Option<Splice>, Refused> {
+    let root = &page.root;
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
     let same = |node: &Node| {
         let range = tree::solid_range(node).unwrap_or_default();
-        words(buffer.text()[range].trim_end_matches(',')) == words(line)
+        words(page.text[range].trim_end_matches(',')) == words(line)
     };
-    if children(&root, Kind::Use).any(|node| same(&node)) {
-        return Ok(());
+    if children(root, Kind::Use).any(|node| same(&node)) {
+        return Ok(None);
     }
-    let last = children(&root, Kind::Use).last().or_else(|| children(&root, Kind::Version).next());
+    let last = children(root, Kind::Use).last().or_else(|| children(root, Kind::Version).next());
     let first = root.children().next();
     let (place, apart) = match (last, first) {
         (Some(last), _) => (Place::After(last), false),
         (None, Some(first)) => (Place::Before(first), true),
         (None, None) => (Place::Top, true),
     };
-    let page = Page { text: buffer.text(), root: root.clone() };
-    let splice = page.insert_lines(&root, place, line, apart)?;
-    buffer.splice(vec![splice]);
-    Ok(())
+    page.insert_lines(root, place, line, apart).map(Some)
 }
 
 /// Adds plans below the last one.

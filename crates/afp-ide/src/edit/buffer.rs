@@ -129,7 +129,7 @@ impl TextBuffer {
     }
 }
 
-fn span(file: u16, range: Range<usize>) -> Span {
+pub(super) fn span(file: u16, range: Range<usize>) -> Span {
     let offset = |at| u32::try_from(at).unwrap_or(u32::MAX);
     Span { file, start: offset(range.start), end: offset(range.end) }
 }

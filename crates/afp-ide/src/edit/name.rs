@@ -1,5 +1,7 @@
 //! Names that a change brings: can they be used, and are they free.
 
+use std::collections::BTreeSet;
+
 use super::Refused;
 use super::tree::Scope;
 
@@ -44,10 +46,25 @@ pub(super) fn check_free(scope: &Scope, name: &str, own: Option<&str>) -> Result
 
 /// The name itself, or with the least number behind it that makes it free.
 pub(super) fn fresh(name: &str, taken: &[String]) -> String {
-    let free = |name: &str| !taken.iter().any(|known| key(known) == key(name));
-    let numbered = (2_u32..).map(|number| format!("{name}{number}"));
-    let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
-    candidates.find(|candidate| free(candidate)).unwrap_or_default()
+    Taken::of(taken.iter().map(String::as_str)).fresh(name)
+}
+
+/// Names that are taken, for whoever looks for many free ones.
+#[derive(Debug, Default)]
+pub(crate) struct Taken(BTreeSet<String>);
+
+impl Taken {
+    /// Takes names.
+    pub fn of<'n>(names: impl Iterator<Item = &'n str>) -> Taken {
+        Taken(names.map(key).collect())
+    }
+
+    /// The name itself, or with the least number behind it that makes it free.
+    pub fn fresh(&self, name: &str) -> String {
+        let numbered = (2_u32..).map(|number| format!("{name}{number}"));
+        let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
+        candidates.find(|candidate| !self.0.contains(&key(candidate))).unwrap_or_default()
+    }
 }
 
 /// What is left of a name in every spelling of it.

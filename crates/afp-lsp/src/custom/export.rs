@@ -17,10 +17,10 @@ pub(crate) struct Timing {
 }
 
 /// The bounds of the first plan and of all that it uses, as `afpc check --timing --json` has them;
-/// nothing while there are errors.
+/// nothing while these have errors.
 pub(crate) fn timing(server: &mut Server, params: Timing) -> Answer {
     let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
-    let graph = analysis.compiled.graph.as_ref();
+    let graph = analysis.compiled.sound();
     ok(graph.map(|graph| afp_dsl::timing::timing(graph, None).json()))
 }
 

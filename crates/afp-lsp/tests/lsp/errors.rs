@@ -16,6 +16,7 @@ plan P {
     start go
     // far
     actor go: Forward(distance = 2 * gap) {
+        supervise touch: CheckTouchSensor every 5 ms { TouchSensorPressed -> look }
         ForwardSuccessful -> look
     }
     actor look: SearchWall(angle => found) { WallFound -> face, NoWallFound -> terminate }
@@ -152,6 +153,14 @@ fn what_is_sound_is_answered_alike_beside_ten_errors() {
         let [one, other] = ask(method, &params);
         assert_eq!(one, other, "{method} of {params}");
     }
+    let document = json!({ "uri": URI });
+    let range =
+        json!({ "start": { "line": 0, "character": 0 }, "end": { "line": lines, "character": 0 } });
+    let [one, other] =
+        ask("textDocument/inlayHint", &json!({ "textDocument": document, "range": range }));
+    assert_eq!((one["result"].as_array().map(Vec::len), &one), (Some(1), &other));
+    let [one, other] = ask("afp/timing", &json!({ "textDocument": document }));
+    assert_eq!((one["result"]["supervisors"].as_array().map(Vec::len), &one), (Some(1), &other));
     let drawn = |plan: &str| json!({ "textDocument": { "uri": URI }, "plan": plan });
     for plan in ["P", "Q"] {
         let [one, other] = ask("afp/drawing", &drawn(plan));

@@ -26,8 +26,11 @@ impl Marks {
         let may_break =
             |token: &&Token<'_>| matches!(token.kind, Kind::Whitespace | Kind::BlockComment);
         for token in tokens.iter().filter(may_break) {
-            let bytes = token.text.bytes().zip(token.start..);
-            marks.newlines.extend(bytes.filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at));
+            for (at, byte) in (token.start..).zip(token.text.as_bytes()) {
+                if *byte == b'\n' {
+                    marks.newlines.push(at);
+                }
+            }
         }
         let mut open = Vec::new();
         for (place, token) in (0..).zip(solid.iter().filter_map(|at| tokens.get(*at as usize))) {

@@ -1,0 +1,77 @@
+//! Fragments of a plan, painted where they differ from those of the scene before.
+//!
+//! Painting takes longer than everything else that a small change brings about, and such a change leaves nearly all
+//! fragments as they are.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::{DrawnEdge, EdgeScene, ElementScene, PieceScene, PlanScene, Point};
+use crate::card::Card;
+use crate::sketch::{Arrow, Rect};
+use crate::svg::paint::{self, Painter};
+use afp_dsl::outline::Part;
+use afp_syntax::item::Item;
+
+/// What of a plan has been painted before.
+#[derive(Default)]
+pub(super) struct Painted<'s> {
+    elements: BTreeMap<&'s Item, &'s ElementScene>,
+    edges: BTreeMap<(&'s Item, &'s Part), &'s EdgeScene>,
+}
+
+impl<'s> Painted<'s> {
+    /// What is in the scene before; nothing without one.
+    pub(super) fn of(plan: Option<&'s PlanScene>) -> Painted<'s> {
+        let Some(plan) = plan else { return Painted::default() };
+        Painted {
+            elements: plan.elements.iter().map(|known| (&known.item, known)).collect(),
+            edges: plan.edges.iter().map(|known| ((&known.item, &known.part), known)).collect(),
+        }
+    }
+
+    /// A card at its place.
+    pub(super) fn element(&self, card: Card<'_>, at: Point, painter: &mut Painter) -> ElementScene {
+        let Card { item, rect, width, height, mut sketch, .. } = card;
+        let pieces = std::mem::take(&mut sketch.pieces);
+        let content = painter.content(sketch);
+        let known = self.elements.get(&item);
+        let known =
+            known.filter(|known| (known.outer.x, known.outer.y) == at && *known.content == content);
+        let (svg, content) = match known {
+            Some(known) => (known.svg.clone(), Arc::clone(&known.content)),
+            None => (paint::element(&item, &content, at), Arc::new(content)),
+        };
+        let piece = |piece: crate::sketch::Piece| PieceScene {
+            item: piece.item,
+            part: piece.part,
+            rect: piece.rect.moved(at),
+            severity: piece.severity,
+        };
+        ElementScene {
+            rect: rect.moved(at),
+            outer: Rect { x: at.0, y: at.1, width, height },
+            pieces: pieces.into_iter().map(piece).collect(),
+            item,
+            svg,
+            content,
+        }
+    }
+
+    /// An edge that is one with another one for so long in front of its target; nothing where it leads to no element.
+    pub(super) fn edge(&self, edge: DrawnEdge, joined: f64) -> Option<EdgeScene> {
+        let DrawnEdge { item, part, to, class, severity, points } = edge;
+        let to = to?;
+        let known = self.edges.get(&(&item, &part));
+        let known = known.filter(|known| {
+            known.points == points && (known.class, known.joined) == (class, joined)
+        });
+        let arrow = Arrow { joined, ..Arrow::flow(points, class) };
+        let svg = match known {
+            Some(known) => known.svg.clone(),
+            None => paint::edge(&item, &part, &arrow),
+        };
+        let (kind, points) = (class.name, arrow.points);
+        Some(EdgeScene { item, part, to, kind, points, severity, svg, class, joined })
+    }
+}
