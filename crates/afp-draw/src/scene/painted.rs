@@ -36,8 +36,9 @@ impl<'s> Painted<'s> {
         let pieces = std::mem::take(&mut sketch.pieces);
         let content = painter.content(sketch);
         let known = self.elements.get(&item);
-        let known =
-            known.filter(|known| (known.outer.x, known.outer.y) == at && *known.content == content);
+        let known = known.filter(|known| {
+            paint::alike((known.outer.x, known.outer.y), at) && *known.content == content
+        });
         let (svg, content) = match known {
             Some(known) => (known.svg.clone(), Arc::clone(&known.content)),
             None => (paint::element(&item, &content, at), Arc::new(content)),

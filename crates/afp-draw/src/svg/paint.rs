@@ -146,6 +146,12 @@ pub(super) fn number(value: f64) -> impl Display {
     Tenths((value * 10.0).round())
 }
 
+/// Whether two places are written alike.
+pub(in super::super) fn alike(one: Point, other: Point) -> bool {
+    let alike = |one: f64, other: f64| (one * 10.0).round() == (other * 10.0).round();
+    alike(one.0, other.0) && alike(one.1, other.1)
+}
+
 /// A number of tenths. A drawing has thousands of them, and whole numbers are written several times as fast as others.
 struct Tenths(f64);
 
