@@ -11,7 +11,7 @@ const TIMES: &[(&str, &[&str])] =
 impl Parser<'_, '_> {
     /// `Turn[angle = 90 deg]`, `Turn angle = 90 deg`: reports the parentheses that are missing, and reads the ports.
     pub(in crate::parser) fn ports_without_parentheses(&mut self) {
-        if !self.on_same_line() {
+        if !self.on_same_line() || self.at_timing() {
             return;
         }
         let in_brackets = self.at(Kind::OpenBracket);
