@@ -103,11 +103,12 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         |each: &&Diagnostic| each.span.file == file && each.severity == Severity::Error;
     let starts = diags.iter().filter(is_reported).map(|each| each.span.start);
     let mut reported: Vec<_> = starts.map(|start| (start, start)).collect();
+    let mut strays = Vec::new();
     for _ in 0..MOST {
         let Some(wrong) = find(tokens) else { break };
         let (behind, error, brace) = match wrong {
             Wrong::Stray(at) => {
-                diags.push(stray(tokens[at], file));
+                strays.push((span(tokens[at], file), tokens[at].text));
                 reported.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::Unknown;
                 continue;
@@ -146,13 +147,25 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         reported.extend(lines.map(|line| (line, start)));
         tokens.insert(behind + 1, Token { kind: brace, text: "", start });
     }
+    report_strays(strays, diags);
     let (opened, closed) = count(tokens);
     Mended { reported, balanced: opened == closed }
 }
 
-fn stray(token: Token<'_>, file: u16) -> Diagnostic {
-    let message = format!("this '{}' is too much", token.text);
-    Diagnostic::new(Code::E0102, span(token, file), message).help("remove it").replace("")
+/// Reports braces that are too much; those that stand side by side are one mistake.
+fn report_strays(mut strays: Vec<(Span, &str)>, diags: &mut Diagnostics) {
+    strays.sort_by_key(|(span, _)| span.start);
+    let side_by_side =
+        |one: &(Span, &str), next: &(Span, &str)| one.0.end == next.0.start && one.1 == next.1;
+    for group in strays.chunk_by(side_by_side) {
+        let [(first, brace), ..] = *group else { continue };
+        let place = group.last().map_or(first, |(last, _)| first.to(*last));
+        let (message, help) = match group.len() {
+            1 => (format!("this '{brace}' is too much"), "remove it"),
+            many => (format!("these {many} '{brace}' are too much"), "remove them"),
+        };
+        diags.push(Diagnostic::new(Code::E0102, place, message).help(help).replace(""));
+    }
 }
 
 /// What stands behind a token.

@@ -1,5 +1,8 @@
 //! The lines of a scenario, and those that count from one of its moments.
 
+use std::cell::OnceCell;
+use std::collections::BTreeSet;
+
 use super::times::Stretch;
 use super::{Checker, seed};
 use crate::graph::EntryKind;
@@ -115,11 +118,19 @@ impl Checker<'_> {
     }
 }
 
-/// The lines without syntax errors; those that count from a moment are looked at one by one.
+/// The lines that can be read; those that count from a moment are looked at one by one. Where a bracket alone is missing the
+/// line is whole, and its edit is withdrawn if something else is wrong.
 pub(super) fn sound(mut lines: Vec<Line>, diags: &Diagnostics) -> Vec<Line> {
+    let brackets = OnceCell::new();
+    let is_bracket = |place: &Span| {
+        let missing = || diags.iter().filter(|each| each.code == Code::E0103);
+        brackets
+            .get_or_init(|| missing().map(|each| each.span).collect::<BTreeSet<_>>())
+            .contains(place)
+    };
     lines.retain(|line| {
         matches!(line.kind(), LineKind::Moment(..))
-            || diags.syntax_errors_within(line.span()).next().is_none()
+            || diags.syntax_errors_within(line.span()).all(|place| is_bracket(&place))
     });
     lines
 }
