@@ -1,7 +1,7 @@
 // Gestures of the drawing, by mouse and by keys, each ending in the bytes of the files.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { inBrowser, settled } from "./browser";
+import { inBrowser, settled, shows } from "./browser";
 import { exit, middle, name, type Spot } from "./spots";
 
 const PLAN = `use carbot
@@ -186,6 +186,23 @@ inBrowser("the selection is moved, copied, pasted and removed by keys", { "plan.
   await studio.becomes("plan.afp", /^use carbot\n\nplan P \{\s*\}\n$/);
   await page.keyboard.press("Control+z");
   await holds("plan.afp", PLAN);
+});
+
+inBrowser("where the browser keeps its clipboard to itself, that is said and nothing is lost", { "plan.afp": PLAN }, async ({ page, read }) => {
+  const first = await read("plan.afp");
+  await ready(page, "P.go");
+  await page.evaluate(() => {
+    const denied = () => Promise.reject(new DOMException("denied", "NotAllowedError"));
+    Object.assign(navigator.clipboard, { readText: denied, writeText: denied });
+  });
+  await page.mouse.click(900, 600, { button: "right" });
+  await page.getByRole("menuitem", { name: /^Paste/ }).click();
+  await shows(page.locator(".board-notice"), /read the clipboard: press Ctrl\+V/);
+  await page.keyboard.press("Home");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Control+x");
+  await shows(page.locator(".board-notice"), /write to the clipboard/);
+  assert.equal(await read("plan.afp"), first);
 });
 
 const clipboard = { permissions: ["clipboard-read", "clipboard-write"] };

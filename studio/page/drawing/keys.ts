@@ -142,16 +142,21 @@ function inspect(): void {
   requestAnimationFrame(() => document.querySelector<HTMLElement>(".inspector input")?.focus());
 }
 
-async function copy(): Promise<void> {
-  await navigator.clipboard.writeText(await actions.copied());
+/** Says whether the selection is in the clipboard, which a browser may keep to itself. */
+async function copy(): Promise<boolean> {
+  const text = await actions.copied();
+  return navigator.clipboard.writeText(text).then(() => true, () => (refuse(words.noClipboard), false));
 }
 
 const cut = async (): Promise<void> => {
-  await copy();
-  await actions.remove(selected.peek());
+  if (await copy()) await actions.remove(selected.peek());
 };
 
-const paste = async (): Promise<void> => actions.paste(await navigator.clipboard.readText());
+async function paste(): Promise<void> {
+  const text = await navigator.clipboard.readText().catch(() => null);
+  if (text === null) return refuse(words.noPaste);
+  await actions.paste(text);
+}
 
 /** Leaves the innermost thing: the selection is the last one. */
 function escape(): void {

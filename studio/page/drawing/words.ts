@@ -61,6 +61,8 @@ export const words = {
   template: "Use another template",
 
   paste: "Paste",
+  noPaste: "The browser does not let this page read the clipboard: press Ctrl+V, or allow it beside the address",
+  noClipboard: "The browser does not let this page write to the clipboard: allow it beside the address. Nothing was changed",
   menu: "What can be done here",
   extract: "Make a plan of the selection",
   extractHint: (count: number) => `${count === 1 ? "The element goes" : `The ${count} elements go`} into a plan of ${count === 1 ? "its" : "their"} own, with a sub-plan in ${count === 1 ? "its" : "their"} place. What is it called?`,
