@@ -51,9 +51,6 @@ impl<'t> Lexer<'t, '_> {
             '"' => self.quoted(),
             '/' if rest.starts_with("/*") => self.block_comment(),
             '/' if rest.starts_with("//") => self.comment(),
-            '-' | ';' | '%' if self.comment_sign().is_some() => {
-                self.foreign_comment(self.comment_sign().unwrap_or_default());
-            }
             // The mark at the start of a file says how it is encoded.
             '\u{feff}' if self.at == 0 => {
                 self.push(Kind::Whitespace, first.len_utf8());
@@ -62,11 +59,12 @@ impl<'t> Lexer<'t, '_> {
                 self.push(Kind::Whitespace, run(rest, is_blank));
             }
             _ if is_word(first) => self.word(),
-            _ => match sign(rest) {
-                Some((kind, length)) => {
+            _ => match (self.comment_sign(), sign(rest)) {
+                (Some(sign), _) => self.foreign_comment(sign),
+                (None, Some((kind, length))) => {
                     self.push(kind, length);
                 }
-                None => self.unknown(),
+                (None, None) => self.unknown(),
             },
         }
     }

@@ -63,23 +63,10 @@ impl Junction {
             points.pop();
             return Junction { along: true, ..self };
         }
-        let corner = joined.get(self.part + 1).zip(joined.get(self.part + 2));
-        let follows = |(at, next): (&Point, &Point)| side_of(*at, *next) == side;
-        match corner.filter(|corner| distance(*corner.0, end) < PITCH && follows(*corner)) {
-            Some(_) if can_bend => Junction { part: self.part + 1, side, along: true, ..self },
-            _ => self,
-        }
+        let ahead = self.corner(points, joined).filter(|corner| corner.junction.along);
+        ahead.map_or(self, |corner| corner.junction)
     }
-}
 
-/// Where an edge shall end instead: nearly there is a corner of the joined edge.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Corner {
-    pub(super) at: Point,
-    pub(super) junction: Junction,
-}
-
-impl Junction {
     /// The corner of the joined edge near which an edge ends that comes from beside it: the one in front, if the line goes on
     /// there as the edge does, or the one behind.
     pub(super) fn corner(self, points: &[Point], joined: &[Point]) -> Option<Corner> {
@@ -100,6 +87,13 @@ impl Junction {
         let behind = joined.get(self.part).filter(|corner| self.part > 0 && near(corner))?;
         Some(Corner { at: *behind, junction: self })
     }
+}
+
+/// Where an edge shall end instead: nearly there is a corner of the joined edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Corner {
+    pub(super) at: Point,
+    pub(super) junction: Junction,
 }
 
 /// Along right-angled lines.

@@ -143,17 +143,24 @@ fn is_plain(character: char) -> bool {
 
 /// A coordinate with one decimal, without trailing zeros.
 pub(super) fn number(value: f64) -> impl Display {
-    Tenths((value * 10.0).round())
+    Tenths::of(value)
 }
 
 /// Whether two places are written alike.
 pub(in super::super) fn alike(one: Point, other: Point) -> bool {
-    let alike = |one: f64, other: f64| (one * 10.0).round() == (other * 10.0).round();
-    alike(one.0, other.0) && alike(one.1, other.1)
+    let written = |(x, y): Point| (Tenths::of(x), Tenths::of(y));
+    written(one) == written(other)
 }
 
 /// A number of tenths. A drawing has thousands of them, and whole numbers are written several times as fast as others.
+#[derive(PartialEq)]
 struct Tenths(f64);
+
+impl Tenths {
+    fn of(value: f64) -> Tenths {
+        Tenths((value * 10.0).round())
+    }
+}
 
 impl Display for Tenths {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

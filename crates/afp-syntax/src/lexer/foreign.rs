@@ -84,8 +84,8 @@ impl Lexer<'_, '_> {
     pub(super) fn comment_sign(&self) -> Option<&'static str> {
         let rest = &self.text[self.at..];
         let sign = COMMENTS.into_iter().find(|sign| rest.starts_with(sign))?;
-        let before = &self.text[..self.at];
-        let begins_line = before.trim_end_matches([' ', '\t']).ends_with('\n');
+        let before = self.text[..self.at].trim_end_matches([' ', '\t']);
+        let begins_line = before.is_empty() || before.ends_with('\n');
         let line = &rest[sign.len()..line_length(rest)];
         let is_text = |word: &str| word.chars().all(|each| is_word(each) || each == '\'');
         let mut words = line.split_whitespace();

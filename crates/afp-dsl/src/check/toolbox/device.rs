@@ -167,11 +167,7 @@ fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Optio
         return None;
     };
     let values = Values { site, ty: &ty, of: Declared::Amount };
-    let written = node.range();
-    if written.is_none() {
-        site.values_only(node.ends().into_iter());
-    }
-    let range = written.and_then(|written| values.range(&written, diags));
+    let range = values.range(node.range(), node.ends(), diags);
     let Some(written) = node.default() else {
         let message = format!("'{}' has no default", name.text);
         let help =

@@ -37,11 +37,7 @@ pub(super) fn input(
         return None;
     };
     let values = Values { site, ty: &ty, of: Declared::Port };
-    let written = node.range();
-    if written.is_none() {
-        site.values_only(node.ends().into_iter());
-    }
-    let range = written.and_then(|written| values.range(&written, diags));
+    let range = values.range(node.range(), node.ends(), diags);
     let default = node.default().and_then(|formula| values.default(&formula, range, diags));
     Some(InPort {
         doc: node.doc(),
@@ -194,11 +190,20 @@ impl Values<'_> {
         Some(value)
     }
 
-    /// Least and greatest value.
-    pub fn range(&self, written: &range::Written, diags: &mut Diagnostics) -> Option<(f64, f64)> {
+    /// Least and greatest value; of a range that is half written the names are read.
+    pub fn range(
+        &self,
+        written: Option<range::Written>,
+        ends: Vec<Formula>,
+        diags: &mut Diagnostics,
+    ) -> Option<(f64, f64)> {
+        let Some(written) = written else {
+            self.site.values_only(ends.into_iter());
+            return None;
+        };
         let mut constant = |formula: &Formula, ty: Option<&Type>, diags: &mut Diagnostics| {
             self.site.formula(formula, ty, diags)
         };
-        range::read(written, self.ty, &mut constant, diags)
+        range::read(&written, self.ty, &mut constant, diags)
     }
 }

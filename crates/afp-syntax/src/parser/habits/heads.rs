@@ -49,20 +49,4 @@ impl Parser<'_, '_> {
         self.error(Diagnostic::new(Code::E0102, here, message).help(help).replace(*ours));
         self.timing();
     }
-
-    /// `fail it is stuck`: reports the quotes that are missing, and reads past the words.
-    pub(in crate::parser) fn reason_without_quotes(&mut self) {
-        let is_word = |parser: &Self, ahead: usize| {
-            parser.nth(ahead) == Kind::Name && !parser.begins_line(ahead)
-        };
-        let words = (0..).take_while(|ahead| is_word(self, *ahead)).count();
-        let ends = self.nth(words) == Kind::CloseBrace || self.begins_line(words);
-        if words == 0 || !ends {
-            return;
-        }
-        let text: Vec<_> = (0..words).map(|ahead| self.word(ahead)).collect();
-        let better = format!("\"{}\"", text.join(" "));
-        let message = "why a plan fails stands in double quotes".to_owned();
-        self.instead(words, message, format!("write '{better}'"), &better);
-    }
 }
