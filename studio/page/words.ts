@@ -134,6 +134,7 @@ export const words = {
   neverActive: "It has not been active yet.",
   activeSince: (still: boolean, since: number) => (still ? `It is active since ${since.toFixed(3)} s.` : `It became active last at ${since.toFixed(3)} s.`),
   leadTo: "What leads to it",
+  inRun: (value: string) => `in the run: ${value}`,
   looksNow: "looks now",
   looksNot: "does not look now",
   neverTaken: "never taken",

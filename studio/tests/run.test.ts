@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
+import type { Page } from "playwright-core";
 import AxeBuilder from "@axe-core/playwright";
 import { moved } from "../page/debug/breakpoints";
 import { inBrowser, shows } from "./browser";
@@ -33,6 +34,22 @@ plan Outer {
 }
 `;
 
+/** Where a word of the text is on the page. */
+const middle = (page: Page, word: string): Promise<[number, number]> =>
+  page.evaluate((word) => {
+    const texts = document.createTreeWalker(document.querySelector(".cm-content")!, NodeFilter.SHOW_TEXT);
+    while (texts.nextNode()) {
+      const at = new RegExp(`\\b${word}\\b`).exec(texts.currentNode.nodeValue ?? "")?.index;
+      if (at === undefined) continue;
+      const range = document.createRange();
+      range.setStart(texts.currentNode, at);
+      range.setEnd(texts.currentNode, at + word.length);
+      const { x, y, width, height } = range.getBoundingClientRect();
+      return [x + width / 2, y + height / 2];
+    }
+    throw new Error(`no '${word}' in ${document.querySelector(".cm-content")!.textContent}`);
+  }, word);
+
 inBrowser("runs, shows the active element through sub-plans, pauses, steps and ends with a card", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".count", { hasText: "warning" }).or(page.locator(".count", { hasText: "ready" })).waitFor();
   await page.getByRole("button", { name: "Plans of this file" }).click();
@@ -48,6 +65,18 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await page.getByRole("tab", { name: "Run" }).click();
   await page.locator(".run-pane dt", { hasText: "worked" }).waitFor();
   await page.locator(".run-pane li", { hasText: "work.first started" }).waitFor();
+  await page.locator(".rail button", { hasText: "Text" }).click();
+  await page.locator(".cm-content").waitFor();
+  for (const [word, wanted] of [
+    ["pause", /in the run: 3 s/],
+    ["done", /in the run: false/],
+    ["first", /in the run: active since 0\.500 s/],
+  ] as const) {
+    await page.mouse.move(...(await middle(page, word)));
+    await shows(page.locator(".cm-tooltip-hover"), wanted);
+    await page.mouse.move(2, 2);
+    await page.locator(".cm-tooltip-hover").waitFor({ state: "detached" });
+  }
   await page.getByLabel("Speed").selectOption("20");
   await page.getByRole("button", { name: "Go on" }).click();
   const card = page.locator(".end-card");

@@ -3,6 +3,7 @@
 mod clients;
 mod force;
 mod goto;
+mod hover;
 mod launch;
 mod look;
 mod outside;

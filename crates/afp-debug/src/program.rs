@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use afp_core::Duration;
 use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId};
-use afp_dsl::graph::{EntryKind, Graph};
+use afp_dsl::graph::{Component, EntryKind, Graph, PlanId};
 use afp_dsl::timing::{SupervisorTiming, timing};
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{ComponentKind, Reaction, places, unfold};
-use afp_syntax::source::{Encoding, Lines, Sources, Span};
+use afp_syntax::source::{Encoding, LineColumn, Lines, Sources, Span};
 
 /// A plan with the places of everything in it.
 #[derive(Clone, Debug)]
@@ -19,6 +19,10 @@ pub struct Program {
     pub units: Vec<Unit>,
     /// All entries by number.
     pub entries: Vec<Entry>,
+    /// Where the name of each plan of the graph stands.
+    plans: Vec<Place>,
+    /// The edges that begin at a place, in each use of its plan.
+    edges: BTreeMap<Place, Vec<Spot>>,
     /// What can happen at a line of a file.
     lines: BTreeMap<(usize, u32), Vec<Spot>>,
     /// The graph.
@@ -146,6 +150,8 @@ impl Program {
             files: texts.names(path),
             units,
             entries,
+            plans: graph.plans.iter().map(|plan| texts.place(plan.span)).collect(),
+            edges: BTreeMap::new(),
             lines: BTreeMap::new(),
             graph: graph.clone(),
             texts: BTreeMap::new(),
@@ -158,12 +164,12 @@ impl Program {
             let outcomes = (0..).zip(&place.edges.outcomes);
             for (outcome, span) in outcomes.chain([(special, &place.edges.extra)]) {
                 let at = span.map(|span| texts.place(span));
-                at.into_iter().for_each(|at| program.add(at, Spot::Outcome(id, outcome)));
+                at.into_iter().for_each(|at| program.add_edge(at, Spot::Outcome(id, outcome)));
             }
             for (edge, _, span) in &place.reactions {
                 let (supervisor, event) = (ComponentId(edge.supervisor), edge.event);
                 let spot = Spot::Reaction(id, supervisor, event.unwrap_or(DEADLINE_MISSED));
-                program.add(texts.place(*span), spot);
+                program.add_edge(texts.place(*span), spot);
             }
         }
         for number in 0..program.entries.len() {
@@ -186,6 +192,16 @@ impl Program {
     /// The text of a file that clients have no file for.
     pub fn text_of(&self, file: usize) -> Option<&str> {
         self.texts.get(&file).map(String::as_str)
+    }
+
+    fn add_edge(&mut self, at: Place, spot: Spot) {
+        self.edges.entry(at).or_default().push(spot);
+        self.add(at, spot);
+    }
+
+    /// The edges that begin at a place, in each use of its plan.
+    pub fn edges_at(&self, at: Place) -> &[Spot] {
+        self.edges.get(&at).map_or(&[], Vec::as_slice)
     }
 
     /// Something can happen at a line. Where a component is declared in one line, that line stands for its start.
@@ -228,6 +244,54 @@ impl Program {
             Spot::Commit(id) => self.entries.get(id.0 as usize).map(|it| it.plan),
         };
         plan.unwrap_or_default()
+    }
+
+    /// Everything that a place of the text is in: the plan, for each use of it, and the component whose name comes last
+    /// before the place, where there is one.
+    pub fn around(&self, at: Place) -> Vec<(ComponentId, Option<ComponentId>)> {
+        let is_before = |place: &Place| place.file == at.file && *place <= at;
+        let units = || (0..).map(ComponentId).zip(&self.units).skip(1);
+        let units = || units().filter(|(_, unit)| is_before(&unit.at));
+        let entries = || self.entries.iter().filter(|entry| is_before(&entry.at));
+        let plans = || self.plans.iter().filter(|place| is_before(place));
+        let last = units().map(|(_, unit)| unit.at).chain(entries().map(|entry| entry.at));
+        let Some(last) = last.chain(plans().copied()).max() else { return Vec::new() };
+        let units = units().filter(|(_, unit)| unit.at == last);
+        let entries = entries().filter(|entry| entry.at == last);
+        let mut found: Vec<_> = units.map(|(id, unit)| (unit.plan, Some(id))).collect();
+        found.extend(entries.map(|entry| (entry.plan, None)));
+        if found.is_empty() {
+            let head = |id: &ComponentId| self.plan_of(*id).map(|plan| self.plans[plan.index()]);
+            let all = (0..self.units.len() as u32).map(ComponentId);
+            let all = all.filter(|id| {
+                let kind = self.units[id.0 as usize].kind;
+                matches!(kind, ComponentKind::Plan | ComponentKind::SubPlan)
+            });
+            found.extend(all.filter(|id| head(id) == Some(last)).map(|id| (id, None)));
+        }
+        found
+    }
+
+    /// The text of the plan from a place on.
+    pub(crate) fn text_from(&self, at: Place) -> Option<&str> {
+        let mut sources = self.graph.sources.iter();
+        let (_, source) = sources.find(|(file, _)| usize::from(*file) == at.file)?;
+        let place = LineColumn { line: at.line, column: at.column };
+        source.text.get(Lines::new(&source.text).offset(place, Encoding::Utf16) as usize..)
+    }
+
+    /// The plan that an element is, or the outermost one.
+    pub(crate) fn plan_of(&self, plan: ComponentId) -> Option<PlanId> {
+        if plan == ComponentId(0) {
+            return Some(self.graph.main);
+        }
+        let unit = self.unit(plan)?;
+        let around = self.plan_of(unit.plan)?;
+        let mut elements = self.graph.plan(around).elements.iter();
+        match elements.find(|element| element.name == unit.name)?.component {
+            Component::SubPlan(id) => Some(id),
+            _ => None,
+        }
     }
 
     /// What a path means: an element (`patrol.avoid`), a supervisor, one of its states or events

@@ -1,7 +1,7 @@
 //! Formulas that a client asks for, with their values now.
 
 use afp_core::trace::{ComponentId, TraceEntryId};
-use afp_dsl::graph::{Component, EntryId, Graph, PlanId};
+use afp_dsl::graph::EntryId;
 use afp_dsl::toolbox::Constant;
 use afp_dsl::types::Type;
 use afp_dsl::watch::Watch;
@@ -26,7 +26,7 @@ impl Watched {
     /// # Errors
     /// What is wrong with it, and what to do.
     pub fn new(program: &Program, plan: ComponentId, text: &str) -> Result<Watched, String> {
-        let inside = plan_of(&program.graph, program, plan).ok_or("there is no such plan")?;
+        let inside = program.plan_of(plan).ok_or("there is no such plan")?;
         let watch = Watch::new(&program.graph, inside, text).map_err(|why| why.to_string())?;
         let first = program.entries.iter().position(|entry| entry.plan == plan).unwrap_or(0);
         Ok(Watched { watch, text: text.trim().to_owned(), first: first as u32 })
@@ -86,22 +86,8 @@ impl Program {
     fn graph_entry(&self, id: TraceEntryId) -> Option<&afp_dsl::graph::Entry> {
         let plan = self.entries.get(id.0 as usize)?.plan;
         let first = self.entries.iter().position(|entry| entry.plan == plan)?;
-        let inside = plan_of(&self.graph, self, plan)?;
+        let inside = self.plan_of(plan)?;
         self.graph.plan(inside).entries.get(id.0 as usize - first)
-    }
-}
-
-/// The plan that an element is, or the outermost one.
-fn plan_of(graph: &Graph, program: &Program, plan: ComponentId) -> Option<PlanId> {
-    if plan == ComponentId(0) {
-        return Some(graph.main);
-    }
-    let unit = program.unit(plan)?;
-    let around = plan_of(graph, program, unit.plan)?;
-    let mut elements = graph.plan(around).elements.iter();
-    match elements.find(|element| element.name == unit.name)?.component {
-        Component::SubPlan(id) => Some(id),
-        _ => None,
     }
 }
 

@@ -47,6 +47,18 @@ fn recorded(text: &str, name: &str, seconds: u64, press: Option<Duration>) -> Lo
     read
 }
 
+/// Words of the plans with their lines: entries, elements, ports, supervisors, events.
+const WORDS: [(u32, &str); 8] = [
+    (40, "walldist"),
+    (40, "searchFirstWall"),
+    (12, "pause"),
+    (12, "light"),
+    (14, "duration"),
+    (14, "left"),
+    (40, "touch"),
+    (16, "Elapsed"),
+];
+
 /// What a client sees where a run stands still.
 fn look(client: &mut Clients) -> String {
     client.told.clear();
@@ -57,6 +69,10 @@ fn look(client: &mut Clients) -> String {
     }
     for group in 1..320 {
         client.say(&format!(r#"variables {{"variablesReference":{group}}}"#));
+    }
+    for (line, word) in WORDS {
+        let place = format!(r#""source":{{"path":"plan.afp"}},"line":{line}"#);
+        client.say(&format!(r#"evaluate {{"expression":"{word}","context":"hover",{place}}}"#));
     }
     // Only a run can be written to.
     std::mem::take(&mut client.told)

@@ -34,6 +34,8 @@ plan P {
 /// Requests that mean something, each with arguments that may.
 fn requests() -> Vec<(&'static str, Value)> {
     let line = json!({ "source": { "path": "plan.afp" }, "line": 14 });
+    let mut pointed = line.clone();
+    (pointed["expression"], pointed["context"]) = (json!("a"), json!("hover"));
     let stops = json!([{ "line": 14, "condition": "left == 1" }, { "line": 19, "hitCondition": "2" }, { "line": 3, "logMessage": "{left}" }]);
     vec![
         ("initialize", json!({ "adapterID": "afp", "clientName": "x" })),
@@ -61,6 +63,7 @@ fn requests() -> Vec<(&'static str, Value)> {
         ("setVariable", json!({ "variablesReference": 1, "name": "pause", "value": "1 s" })),
         ("setExpression", json!({ "expression": "pause", "value": "100 ms" })),
         ("evaluate", json!({ "expression": "left + 1" })),
+        ("evaluate", pointed),
         ("evaluate", json!({ "expression": "pause = 2 s" })),
         ("exceptionInfo", json!({ "threadId": 1 })),
         ("continue", json!({ "threadId": 1 })),

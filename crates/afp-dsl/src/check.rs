@@ -18,6 +18,7 @@ mod formula;
 mod imports;
 mod meant;
 mod names;
+pub(crate) mod partial;
 mod places;
 mod plan;
 mod range;
@@ -52,6 +53,7 @@ use afp_syntax::source::Span;
 
 use entries::EntryDraft;
 use names::Indices;
+use partial::{Partial, Parts};
 pub(crate) use plan::{Made, Member, Members};
 use scope::FileScope;
 use signature::Signatures;
@@ -122,8 +124,8 @@ pub(crate) enum Flow {
 pub(crate) struct Checked {
     /// The graph of the plan that runs.
     pub graph: Option<Graph>,
-    /// That graph where the plan and all that it uses are without errors, and other plans are not.
-    pub sound: Option<Graph>,
+    /// What is known of that plan while anything but scenarios has errors.
+    pub partial: Option<Partial>,
     /// The scenarios of the first file.
     pub scenarios: Vec<Scenario>,
     /// What stands in the files, with or without errors.
@@ -150,10 +152,12 @@ pub(crate) fn check(
     let record = Recorder::for_text(bytes);
     let program = scope::program(files, toolboxes, &record, diags);
     let order = recursion::order(&program, diags);
-    let (mut plans, mut users, mut members) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut plans, mut inputs) = (Vec::new(), Vec::new());
+    let (mut users, mut members) = (Vec::new(), Vec::new());
     for place in 0..program.plans.len() {
         let checked = plan::check(&program, place, diags);
         plans.push(checked.plan);
+        inputs.push(checked.inputs);
         users.push(checked.users);
         members.push(checked.members);
     }
@@ -173,18 +177,14 @@ pub(crate) fn check(
     let index = index::build(&outline, &meanings, declared);
     let mut checked = Checked { outline, index, ..Checked::default() };
     let Some(main) = main else { return checked };
-    let excused = checked.outline.excuses(diags);
-    if !excused && !checked.outline.are_errors_outside(diags, &assemble::needed(&program, main)) {
-        return checked;
+    if checked.outline.excuses(diags) {
+        let graph = assemble::graph(&program, plans, &order, main);
+        return Checked { graph, scenarios, ..checked };
     }
-    let graph = assemble::graph(&program, plans, &order, main);
-    match excused {
-        true => Checked { graph, scenarios, ..checked },
-        false => {
-            checked.sound = graph;
-            checked
-        }
-    }
+    let parts = plans.into_iter().zip(inputs).map(|(plan, inputs)| Parts { plan, inputs });
+    let wanted = (&*order, main);
+    checked.partial = partial::partial(&program, parts.collect(), &checked.outline, wanted, diags);
+    checked
 }
 
 /// What all names mean, and what toolboxes declare.

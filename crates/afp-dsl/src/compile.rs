@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::check::partial::Partial;
 use crate::check::{self, Checked, Flow};
 use crate::files::{Files, below_all, normalised};
 use crate::gather;
@@ -9,7 +10,7 @@ use crate::graph::Graph;
 use crate::index::Index;
 use crate::outline::Outline;
 use crate::scenario::{Scenario, Unsound};
-use crate::timing;
+use crate::timing::{self, Timing};
 use crate::toolbox::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::{Source, Sources};
@@ -37,8 +38,8 @@ pub struct Compiled {
     pub plan_files: Range<usize>,
     /// What the parser has made of each plan file.
     trees: Vec<Parse>,
-    /// See [`Compiled::sound`].
-    sound: Option<Graph>,
+    /// What is known of the plan while there are errors.
+    partial: Option<Partial>,
 }
 
 impl Compiled {
@@ -53,10 +54,18 @@ impl Compiled {
         self.sources.iter().skip(self.plan_files.start).take(self.plan_files.len())
     }
 
-    /// The static graph of the plan where that and all that it uses are without errors, whatever is wrong elsewhere:
-    /// to tell about it, not to run it.
-    pub fn sound(&self) -> Option<&Graph> {
-        self.graph.as_ref().or(self.sound.as_ref())
+    /// What is known of the time behaviour of the plan and of all that it uses, budgets as declared.
+    ///
+    /// In a plan with errors it is told of what is without; what is wrong counts as if it took no time. `None` where
+    /// there is no plan.
+    pub fn timing(&self) -> Option<Timing> {
+        if let Some(graph) = &self.graph {
+            return Some(timing::timing(graph, None));
+        }
+        let Partial { graph, wrong } = self.partial.as_ref()?;
+        let mut timing = timing::timing(graph, None);
+        timing.supervisors.retain(|row| !wrong.contains(&row.span));
+        Some(timing)
     }
 
     /// What the parser has made of a plan file; `None` of another file.
@@ -122,7 +131,7 @@ fn compile_with(
     let mut sources = toolboxes.sources().clone();
     let first = sources.len();
     let gathered = gather::gather(source, files, toolboxes, &mut sources, &mut diags);
-    let Checked { graph, sound, scenarios, mut outline, index } =
+    let Checked { graph, partial, scenarios, mut outline, index } =
         check::check(&gathered, toolboxes, plan, flow, &mut diags);
     if let Some(graph) = graph.as_ref().filter(|_| flow == Flow::Checked) {
         timing::check_everywhere(graph, &mut diags);
@@ -134,12 +143,23 @@ fn compile_with(
         true => sorted_out(scenarios, &outline, &diags),
         false => (Vec::new(), Vec::new()),
     };
-    let (graph, sound) = match diags.has_errors() {
+    let (graph, partial) = match diags.has_errors() {
         false => (graph, None),
-        true => (None, sound.or(graph.filter(|_| outline.excuses(&diags)))),
+        true => (None, partial.or(graph.map(|graph| Partial { graph, wrong: Vec::new() }))),
     };
     let trees = gathered.into_iter().map(|file| file.parse).collect();
-    Compiled { graph, scenarios, unsound, outline, index, diags, sources, plan_files, trees, sound }
+    Compiled {
+        graph,
+        scenarios,
+        unsound,
+        outline,
+        index,
+        diags,
+        sources,
+        plan_files,
+        trees,
+        partial,
+    }
 }
 
 /// The scenarios of the first file without errors, and those with errors.

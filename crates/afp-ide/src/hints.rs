@@ -3,7 +3,7 @@
 use crate::View;
 use crate::hover::bound;
 use afp_dsl::outline::Component;
-use afp_dsl::timing::timing;
+use afp_dsl::timing::Timing;
 use afp_syntax::source::Span;
 
 /// A text that is shown behind a place.
@@ -18,10 +18,9 @@ pub struct Hint {
 }
 
 /// How long after its condition each supervisor of the file has made the robot stand, in the order of
-/// the text: of the plan that was compiled and of those that it uses, while these are without errors.
+/// the text: of the plan that was compiled and of those that it uses, but none with an error in it.
 pub fn hints(view: &View) -> Vec<Hint> {
-    let Some(graph) = view.compiled.sound() else { return Vec::new() };
-    let rows = timing(graph, None).supervisors;
+    let Some(Timing { supervisors: rows, .. }) = view.compiled.timing() else { return Vec::new() };
     let supervisors = view.plans().flat_map(|plan| plan.all_supervisors());
     let hint = |supervisor: &Component| {
         let name = supervisor.name.as_ref()?.span;

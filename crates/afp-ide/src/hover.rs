@@ -5,7 +5,7 @@ mod words;
 use crate::View;
 use crate::describe::{component, declaration, entry, word};
 use afp_dsl::index::{Definition, DefinitionId, DefinitionKind, Meaning};
-use afp_dsl::timing::{SupervisorTiming, timing};
+use afp_dsl::timing::SupervisorTiming;
 use afp_dsl::types::{Dimension, Type};
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
@@ -160,7 +160,7 @@ fn units(ty: &Type) -> Option<String> {
     Some(format!("Written in `{usual}`{others}."))
 }
 
-/// How long after its condition the robot stands, of a supervisor of a plan without errors.
+/// How long after its condition the robot stands, of a supervisor without errors.
 fn bounds(view: &View, definition: &Definition) -> Vec<String> {
     let mut facts = Vec::new();
     let times = component(view, definition).and_then(|component| component.times);
@@ -172,11 +172,9 @@ fn bounds(view: &View, definition: &Definition) -> Vec<String> {
             time(times.deadline)
         ));
     }
-    let Some(graph) = view.compiled.sound().filter(|_| times.is_some()) else {
-        return facts;
-    };
-    let rows = timing(graph, None).supervisors;
-    let Some(row) = rows.iter().find(|row| row.span == definition.name) else { return facts };
+    let Some(timing) = times.and_then(|_| view.compiled.timing()) else { return facts };
+    let mut rows = timing.supervisors.iter();
+    let Some(row) = rows.find(|row| row.span == definition.name) else { return facts };
     facts.extend(bound(row).map(|(label, why)| format!("It {label}: {why}.")));
     facts
 }

@@ -5,6 +5,7 @@ import { current, nameOf, onText, saved } from "../documents";
 import { plan as shownPlan, trail, wanted } from "../drawing/model";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
+import type { Position } from "../positions";
 import { number, problems } from "../problems";
 import { words } from "../words";
 import * as arranged from "./arranged";
@@ -202,6 +203,14 @@ export const order = (command: string, args: object = { threadId: 1 }): Promise<
 
 /** Asks something of the run that nobody waits for; without a run, or refused, there is no answer. */
 export const ask = <T>(command: string, args: object = {}): Promise<T | null> => dap?.request<T>(command, args).catch(() => null) ?? Promise.resolve(null);
+
+/** What a word of the text is in the run at this moment; nothing without a run, or where the text is another one by now. */
+export async function valueAt(uri: string, expression: string, at: Position): Promise<string | null> {
+  if (phase.peek() === "idle" || older.peek()) return null;
+  const place = { source: { path: pathOf(uri) }, line: at.line + 1, column: at.character + 1 };
+  const said = await ask<{ result: string }>("evaluate", { context: "hover", expression, ...place });
+  return said?.result ?? null;
+}
 
 export const pause = (): unknown => order("pause");
 export const next = (): unknown => step("next");

@@ -1,10 +1,12 @@
 // What the language server offers at a place of the text: completion and hover.
 import { snippet, type Completion, type CompletionContext, type CompletionResult } from "@codemirror/autocomplete";
 import type { EditorView, Tooltip } from "@codemirror/view";
+import { valueAt } from "../debug/run";
 import { inOrder, text, type TextEdit } from "../documents";
 import { nodes } from "../markdown";
 import { offset, position, type Range } from "../positions";
 import { lsp } from "../session";
+import { words } from "../words";
 import { fromProtocol } from "./snippets";
 
 interface Item {
@@ -60,7 +62,7 @@ function option(item: Item, rank: number, uri: string, together: Together): Comp
   };
 }
 
-/** What is to be said of the word at a place. */
+/** What is to be said of the word at a place; first what it is in the run, where there is one. */
 export const hover = (uri: string) => async (_view: EditorView, pos: number): Promise<Tooltip | null> => {
   const now = text(uri);
   const params = { textDocument: { uri }, position: position(now, pos) };
@@ -68,5 +70,11 @@ export const hover = (uri: string) => async (_view: EditorView, pos: number): Pr
   const answer = await lsp().request<Answer | null>("textDocument/hover", params).catch(() => null);
   if (!answer) return null;
   const [from, to] = answer.range ? [offset(now, answer.range.start), offset(now, answer.range.end)] : [pos, pos];
-  return { pos: from, end: to, above: true, create: () => ({ dom: nodes(answer.contents.value) }) };
+  const value = answer.range && (await valueAt(uri, now.slice(from, to), answer.range.start));
+  const create = (): { dom: HTMLElement } => {
+    const dom = nodes(answer.contents.value);
+    if (value) dom.prepend(Object.assign(document.createElement("p"), { className: "in-run", textContent: words.inRun(value) }));
+    return { dom };
+  };
+  return { pos: from, end: to, above: true, create };
 };

@@ -13,11 +13,12 @@ use super::launch::FLOW;
 use super::stop::source;
 use super::{Adapter, Answer, Refusal};
 use crate::program::Unit;
+use crate::state::State;
 use crate::watched::Watched;
 
 /// What a number for variables stands for: three bits of this below the number of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Group {
+pub(super) enum Group {
     /// The entries of a plan.
     Entries,
     /// What a component started with.
@@ -31,7 +32,8 @@ enum Group {
 impl Group {
     const ALL: [Group; 4] = [Group::Entries, Group::Inputs, Group::Supervisors, Group::Timing];
 
-    fn reference(self, id: ComponentId) -> u32 {
+    /// The number by which clients ask for it, of a component.
+    pub fn reference(self, id: ComponentId) -> u32 {
         let kind = Group::ALL.iter().position(|known| *known == self).unwrap_or(0) as u32;
         (id.0 << 3 | kind) + 1
     }
@@ -208,11 +210,8 @@ impl Adapter<'_> {
         };
         let watching = state.watching().filter_map(|id| Some((id, program.unit(id)?)));
         let shown = watching.filter(|(_, unit)| concerns(unit)).map(|(id, unit)| {
-            let said = match state.report(id) {
-                Some((at, event)) => format!("{event} at {:.3} s", at.as_secs_f64()),
-                None => "clear".to_owned(),
-            };
             let reference = Group::Timing.reference(id);
+            let said = said(state, id);
             dapts::Variable { variables_reference: reference, ..variable(&unit.name, said) }
         });
         Ok(shown.collect())
@@ -279,13 +278,21 @@ impl Adapter<'_> {
         Ok(run.target.set(path, value)?)
     }
 
-    /// The value of a formula; `name = value` writes an entry.
+    /// The value of a formula; `name = value` writes an entry, but not where a client shows it by itself, again and
+    /// again.
     pub(super) fn evaluate(
         &mut self,
         asked: dapts::EvaluateArguments,
         now: Wall,
     ) -> Answer<dapts::EvaluateResponse> {
+        use dapts::EvaluateArgumentsContext as Context;
+        if asked.context == Some(Context::Hover) {
+            return self.hover(&asked);
+        }
         if let Some((name, value)) = assigned(&asked.expression) {
+            if let Some(Context::Watch | Context::Clipboard | Context::Variables) = asked.context {
+                return Err("nothing is written from here: '==' compares".into());
+            }
             self.may(request::SetExpression::COMMAND, now)?;
             let result = self.assign(asked.frame_id, name, value)?;
             return Ok(dapts::EvaluateResponse { result, ..dapts::EvaluateResponse::default() });
@@ -315,6 +322,12 @@ impl Adapter<'_> {
     }
 }
 
+/// What a supervisor reported last.
+pub(super) fn said(state: &State, supervisor: ComponentId) -> String {
+    let report = state.report(supervisor);
+    report.map_or("clear".to_owned(), |(at, event)| format!("{event} at {:.3} s", at.as_secs_f64()))
+}
+
 /// The two sides of an assignment; a comparison is none.
 fn assigned(text: &str) -> Option<(&str, &str)> {
     let (name, value) = text.split_once('=')?;
@@ -323,7 +336,7 @@ fn assigned(text: &str) -> Option<(&str, &str)> {
 }
 
 /// The component behind the number of a frame.
-fn component(frame: u64) -> ComponentId {
+pub(super) fn component(frame: u64) -> ComponentId {
     ComponentId(u32::try_from(frame.saturating_sub(1)).unwrap_or(u32::MAX))
 }
 

@@ -54,7 +54,7 @@ pub(super) fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
 
 /// Gives plans of one name, which come from files that do not see each other, numbers; the main
 /// plan keeps its name.
-fn tell_apart(plans: &mut [graph::Plan], main: PlanId) {
+pub(super) fn tell_apart(plans: &mut [graph::Plan], main: PlanId) {
     let mut taken = std::collections::HashSet::from([key(&plans[main.index()].name)]);
     for (place, plan) in plans.iter_mut().enumerate() {
         if place == main.index() || taken.insert(key(&plan.name)) {

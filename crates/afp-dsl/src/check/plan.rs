@@ -3,16 +3,18 @@
 mod component;
 
 use crate::check::edges::{Elements, Leads};
+use crate::check::entries::EntryDraft;
 use crate::check::formula::Scope;
 use crate::check::names::{self, DeclaredNames, Indices};
 use crate::check::places::Ranges;
 use crate::check::reactions::Watchers;
 use crate::check::resources::Users;
 use crate::check::{Context, PlanHead, Program, edges, resume, size};
-use crate::graph::{self, Element, ElementId, Supervisor, SupervisorId};
+use crate::graph::{self, Element, ElementId, Formula, Supervisor, SupervisorId};
 use crate::index::Recorder;
 use crate::outline::ComponentKind;
 use crate::rows::Table;
+use crate::types::Type;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
@@ -26,6 +28,8 @@ pub(crate) struct CheckedPlan {
     /// What the graph has of it; `None` when that would have holes. [`graph::Component::SubPlan`]
     /// carries the place in [`Program::plans`] for now.
     pub plan: Option<graph::Plan>,
+    /// Where there is none, the inputs of each element, as far as they are right.
+    pub inputs: Vec<Vec<Formula>>,
     /// What its components command.
     pub users: Users,
     /// What its components are called and made from.
@@ -130,9 +134,11 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     ];
     size::too_many_rows(head.name.as_ref(), written, diags);
     let reasons = names.reasons();
-    let plan = finish(context, head, (drawn, supervisors, reasons), globals, start);
     members.indices = names.into_indices();
-    CheckedPlan { plan, users, members }
+    match finish(context, head, (drawn, supervisors, reasons), globals, start) {
+        Ok(plan) => CheckedPlan { plan: Some(plan), inputs: Vec::new(), users, members },
+        Err(inputs) => CheckedPlan { plan: None, inputs, users, members },
+    }
 }
 
 fn id(place: usize) -> Option<u16> {
@@ -149,42 +155,56 @@ fn own(mut element: Element, first: usize, end: usize) -> Option<Element> {
 /// Elements, supervisors, and the texts behind `fail`.
 type Parts = (Vec<Option<Element>>, Vec<Option<Supervisor>>, Vec<String>);
 
+/// The plan, or, where it would have holes, the inputs of its elements.
 fn finish(
     context: Context<'_>,
     head: &PlanHead,
-    (elements, supervisors, reasons): Parts,
+    (mut elements, supervisors, reasons): Parts,
     globals: usize,
     start: Option<(ElementId, Span)>,
-) -> Option<graph::Plan> {
-    let entries = head.entries.iter().map(|draft| {
-        Some(graph::Entry {
-            name: draft.name.text.clone(),
-            doc: draft.doc.clone(),
-            kind: draft.kind,
-            live: draft.live,
-            ty: draft.ty.clone()?,
-            init: draft.init.clone(),
-            range: draft.range,
-            ranged_by: draft.ranged_by.clone(),
-            span: draft.name.span,
-        })
-    });
-    let name = head.name.as_ref()?;
-    Some(graph::Plan {
+) -> Result<graph::Plan, Vec<Vec<Formula>>> {
+    let is_whole = elements.iter().all(Option::is_some)
+        && supervisors.iter().all(Option::is_some)
+        && head.entries.iter().all(|draft| draft.ty.is_some());
+    let (Some(name), Some(globals), Some((start, start_span)), true) =
+        (&head.name, id(globals), start, is_whole)
+    else {
+        let inputs = |element: &mut Option<Element>| element.take().map(|element| element.inputs);
+        return Err(elements
+            .iter_mut()
+            .map(|element| inputs(element).unwrap_or_default())
+            .collect());
+    };
+    Ok(graph::Plan {
         name: name.text.clone(),
         file: context.file_from_main(),
         doc: head.node.doc(),
-        entries: entries.collect::<Option<_>>()?,
-        elements: elements.into_iter().collect::<Option<_>>()?,
-        supervisors: supervisors.into_iter().collect::<Option<_>>()?,
-        globals: id(globals)?,
+        entries: head.entries.iter().map(entry).collect(),
+        elements: elements.into_iter().flatten().collect(),
+        supervisors: supervisors.into_iter().flatten().collect(),
+        globals,
         reasons,
-        start: start?.0,
-        start_span: start?.1,
+        start,
+        start_span,
         interruptible: head.interrupting.is_some(),
         forever: head.node.forever().is_some(),
         span: name.span,
     })
+}
+
+/// An entry; one of an unknown type, which no plan has that is whole, is a truth value.
+pub(super) fn entry(draft: &EntryDraft) -> graph::Entry {
+    graph::Entry {
+        name: draft.name.text.clone(),
+        doc: draft.doc.clone(),
+        kind: draft.kind,
+        live: draft.live,
+        ty: draft.ty.clone().unwrap_or(Type::Bool),
+        init: draft.init.clone(),
+        range: draft.range,
+        ranged_by: draft.ranged_by.clone(),
+        span: draft.name.span,
+    }
 }
 
 /// Checks the names of the plan's scope and gives the elements.

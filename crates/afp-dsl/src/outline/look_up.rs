@@ -15,17 +15,9 @@ impl Outline {
 
     /// Whether every error lies in a scenario, so that the plans are sound.
     pub(crate) fn excuses(&self, diags: &Diagnostics) -> bool {
-        self.are_errors_outside(diags, &[])
-    }
-
-    /// Whether every error lies in a scenario, or in a plan that is not among those needed, by place.
-    pub(crate) fn are_errors_outside(&self, diags: &Diagnostics, needed: &[bool]) -> bool {
-        let scenarios = self.files.iter().flat_map(|file| &file.scenarios);
-        let others = self.plans.iter().zip(needed).filter(|(_, needed)| !**needed);
-        let outside: Vec<_> =
-            scenarios.map(|it| it.span).chain(others.map(|(it, _)| it.span)).collect();
+        let scenarios = || self.files.iter().flat_map(|file| &file.scenarios);
         let mut errors = diags.iter().filter(|each| each.severity == Severity::Error);
-        errors.all(|error| outside.iter().any(|span| span.contains(error.span)))
+        errors.all(|error| scenarios().any(|scenario| scenario.span.contains(error.span)))
     }
 }
 

@@ -16,12 +16,11 @@ pub(crate) struct Timing {
     text_document: Document,
 }
 
-/// The bounds of the first plan and of all that it uses, as `afpc check --timing --json` has them;
-/// nothing while these have errors.
+/// The bounds of the first plan and of all that it uses, as `afpc check --timing --json` has them; while there are
+/// errors, of what is without.
 pub(crate) fn timing(server: &mut Server, params: Timing) -> Answer {
     let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
-    let graph = analysis.compiled.sound();
-    ok(graph.map(|graph| afp_dsl::timing::timing(graph, None).json()))
+    ok(analysis.compiled.timing().map(|timing| timing.json()))
 }
 
 /// A picture of a plan.

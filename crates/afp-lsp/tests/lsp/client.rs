@@ -40,8 +40,11 @@ impl Client {
     /// A client that can do much and works in `/w`.
     pub fn ready(files: Files) -> Client {
         let mut client = Client::new(files);
-        let said =
-            client.request("initialize", json!({ "rootUri": "file:///w", "capabilities": {} }));
+        let commands = json!({ "commands": ["afp.run", "afp.debug"] });
+        let params = json!({
+            "rootUri": "file:///w", "capabilities": {}, "initializationOptions": commands,
+        });
+        let said = client.request("initialize", params);
         assert!(said[0].get("result").is_some(), "{said:?}");
         client.notify("initialized", json!({}));
         client

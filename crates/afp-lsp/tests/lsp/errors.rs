@@ -46,6 +46,12 @@ plan Wrong {
 }
 ";
 
+/// How many errors a document has, by what the server says of it.
+fn errors_in(said: &[Value]) -> usize {
+    let found = said[0]["params"]["diagnostics"].as_array().unwrap();
+    found.iter().filter(|each| each["severity"] == 1).count()
+}
+
 /// What is asked about a place.
 fn about(line: u32, character: u32) -> Vec<(&'static str, Value)> {
     let document = json!({ "uri": URI });
@@ -71,7 +77,30 @@ fn about(line: u32, character: u32) -> Vec<(&'static str, Value)> {
             "textDocument/selectionRange",
             json!({ "textDocument": document, "positions": [position] }),
         ),
+        (
+            "textDocument/codeAction",
+            json!({
+                "textDocument": document,
+                "range": { "start": position, "end": position },
+                "context": { "diagnostics": [] },
+            }),
+        ),
         ("afp/itemAt", at),
+    ]
+}
+
+/// What is asked about a whole file.
+fn about_all(lines: u32) -> Vec<(&'static str, Value)> {
+    let document = json!({ "uri": URI });
+    let whole = json!({ "textDocument": document });
+    let range =
+        json!({ "start": { "line": 0, "character": 0 }, "end": { "line": lines, "character": 0 } });
+    vec![
+        ("textDocument/documentSymbol", whole.clone()),
+        ("textDocument/foldingRange", whole.clone()),
+        ("textDocument/codeLens", whole.clone()),
+        ("textDocument/semanticTokens/full", whole),
+        ("textDocument/inlayHint", json!({ "textDocument": document, "range": range })),
     ]
 }
 
@@ -121,8 +150,7 @@ fn what_is_sound_is_answered_alike_beside_ten_errors() {
     let said = sound.open(URI, SOUND);
     assert_eq!(said[0]["params"]["diagnostics"], json!([]));
     let said = wrong.open(URI, &format!("{SOUND}{WRONG}"));
-    let found = said[0]["params"]["diagnostics"].as_array().unwrap();
-    let errors = found.iter().filter(|each| each["severity"] == 1).count();
+    let errors = errors_in(&said);
     assert!(errors >= 10, "{errors} errors");
     let lines = SOUND.lines().count() as u32 - 1;
     let mut ask = |method: &str, params: &Value| {
@@ -153,12 +181,12 @@ fn what_is_sound_is_answered_alike_beside_ten_errors() {
         let [one, other] = ask(method, &params);
         assert_eq!(one, other, "{method} of {params}");
     }
-    let document = json!({ "uri": URI });
-    let range =
-        json!({ "start": { "line": 0, "character": 0 }, "end": { "line": lines, "character": 0 } });
-    let [one, other] =
-        ask("textDocument/inlayHint", &json!({ "textDocument": document, "range": range }));
+    // Of the others the answers of the file with errors are longer.
+    let all = about_all(lines);
+    let (method, params) = all.iter().find(|(name, _)| name.ends_with("inlayHint")).unwrap();
+    let [one, other] = ask(method, params);
     assert_eq!((one["result"].as_array().map(Vec::len), &one), (Some(1), &other));
+    let document = json!({ "uri": URI });
     let [one, other] = ask("afp/timing", &json!({ "textDocument": document }));
     assert_eq!((one["result"]["supervisors"].as_array().map(Vec::len), &one), (Some(1), &other));
     let drawn = |plan: &str| json!({ "textDocument": { "uri": URI }, "plan": plan });
@@ -169,4 +197,172 @@ fn what_is_sound_is_answered_alike_beside_ten_errors() {
         }
     }
     assert!(asked > 700, "asked {asked} times");
+}
+
+/// A plan, and the same lines with an error of some stage of the compiler in each of some of them.
+const LINES: &[(&str, Option<&str>)] = &[
+    ("use carbot", None),
+    ("use std", None),
+    ("/// To the wall, and along it.", None),
+    ("plan P {", None),
+    ("    in  gap: length = 20 cm", None),
+    ("    var odd: int = 2", Some("    var odd: int = 2 m")),
+    ("    var found: angle = 0 deg", None),
+    ("    const rounds: int = 3", None),
+    ("    start go", None),
+    ("    supervise tired: CheckBattery every 100 ms { BatteryLow -> terminate }", None),
+    ("    actor go: Forward(distance = 2 * gap) {", None),
+    ("        supervise touch: CheckTouchSensor every 5 ms { TouchSensorPressed -> look }", None),
+    ("        ForwardSuccessful -> look", None),
+    ("    }", None),
+    (
+        "    actor look: SearchWall(angle => found) { WallFound -> face, NoWallFound -> a }",
+        Some("    actor look: SearchWall(angle => found) { WallFound -> face, NoWallFound -> aa }"),
+    ),
+    ("    actor face: Turn(angle = found) { TurnSuccessful -> round }", None),
+    ("    subplan round: Q(gap) { OK -> again, Error -> terminate }", None),
+    ("    computation again: Count(value = 0, limit = rounds) { Again -> near, Done -> a }", None),
+    ("    actor near: Forward(distance = gap / 2) {", None),
+    ("        supervise bump: CheckTouchSensor every 4 ms { TouchSensorPressed -> go }", None),
+    ("        on tired { BatteryLow -> look }", None),
+    ("        ForwardSuccessful -> again", None),
+    ("    }", None),
+    (
+        "    actor a: Forward(distance = 30 cm) { ForwardSuccessful -> b }",
+        Some("    actor a: Forward(distance = 30) { ForwardSuccessful -> b }"),
+    ),
+    (
+        "    actor b: Forward(distance = 30 cm, speed = 0.1 m/s) { ForwardSuccessful -> c }",
+        Some("    actor b: Forward(distance = 30 cm, sped = 0.1 m/s) { ForwardSuccessful -> c }"),
+    ),
+    (
+        "    actor c: Turn(angle = 90 deg) { TurnSuccessful -> d }",
+        Some("    actor c: Turn(angle = 90 deg) { TurnSuccesful -> d }"),
+    ),
+    (
+        "    actor d: Forward(distance = gap) { ForwardSuccessful -> e }",
+        Some("    actor d: Forwad(distance = gap) { ForwardSuccessful -> e }"),
+    ),
+    (
+        "    subplan e: Q(gap) { OK -> f, Error -> terminate }",
+        Some("    subplan e: Qq(gap) { OK -> f, Error -> terminate }"),
+    ),
+    (
+        "    actor f: Turn(angle = found) { TurnSuccessful -> h }",
+        Some("    actor f: Turn(angle = found + 1) { TurnSuccessful -> h }"),
+    ),
+    ("    actor h: Forward(distance = gap) {", None),
+    (
+        "        supervise slow: CheckTouchSensor every 5 ms { TouchSensorPressed -> i }",
+        Some("        supervise slow: CheckTouchSensor every 5 m { TouchSensorPressed -> i }"),
+    ),
+    ("        supervise fast: CheckTouchSensor every 2 ms { TouchSensorPressed -> go }", None),
+    ("        ForwardSuccessful -> i", None),
+    ("    }", None),
+    (
+        "    actor i: Turn(angle = 90 deg) { TurnSuccessful -> j }",
+        Some("    actor i: Turn(angle = ) { TurnSuccessful -> j }"),
+    ),
+    (
+        "    actor j: Turn(angle = 90 deg) { TurnSuccessful -> k }",
+        Some("    actor j: Turn(angle = 90 deg) { }"),
+    ),
+    (
+        "    actor k: Turn(angle = 90 deg) { TurnSuccessful -> terminate }",
+        Some("    actor k: Turn(angle = far) { TurnSuccessful -> }"),
+    ),
+    ("}", None),
+    ("", None),
+    ("plan Q {", None),
+    ("    in gap: length", None),
+    ("    start ahead", None),
+    ("    actor ahead: Forward(distance = gap) { ForwardSuccessful -> terminate }", None),
+    ("}", None),
+];
+
+/// The line of an answer's part, by which such parts are told apart.
+fn line_of(part: &Value) -> Option<u64> {
+    let at = ["/range/start/line", "/location/range/start/line", "/position/line", "/startLine"];
+    at.iter().find_map(|at| part.pointer(at)?.as_u64())
+}
+
+/// Whether a completion names what is declared in a line with an error.
+fn names_wrong(part: &Value) -> bool {
+    let Some(label) = part["label"].as_str() else { return false };
+    let declares = |line: &str| line.split([' ', ':']).any(|word| word == label);
+    LINES.iter().any(|(line, wrong)| {
+        let head = line.split(" = ").next().unwrap_or_default();
+        wrong.is_some() && declares(head.split('(').next().unwrap_or_default())
+    })
+}
+
+/// Drops what stands in lines with errors, and says in which line each colour stands.
+fn in_sound_lines(mut answer: Value) -> Value {
+    fn cut(value: &mut Value) {
+        let is_wrong = |part: &Value| {
+            let line = line_of(part).and_then(|line| LINES.get(line as usize));
+            line.is_some_and(|(_, wrong)| wrong.is_some()) || names_wrong(part)
+        };
+        match value {
+            Value::Object(object) => object.values_mut().for_each(cut),
+            Value::Array(list) => {
+                list.retain(|part| !is_wrong(part));
+                list.iter_mut().for_each(cut);
+            }
+            _ => {}
+        }
+    }
+    if let Some(data) = answer["result"]["data"].as_array() {
+        let mut line = 0;
+        let colours = data.chunks(5).map(|colour| {
+            line += colour[0].as_u64().unwrap_or_default();
+            json!({ "range": { "start": { "line": line } }, "colour": colour[1..] })
+        });
+        answer["result"]["data"] = colours.collect();
+    }
+    cut(&mut answer);
+    answer
+}
+
+#[test]
+fn what_is_sound_is_answered_alike_among_ten_errors_of_its_plan() {
+    let text = |wrong: bool| {
+        let line = |(right, other): &(&'static str, Option<&'static str>)| match other {
+            Some(other) if wrong => *other,
+            _ => *right,
+        };
+        LINES.iter().map(line).collect::<Vec<_>>().join("\n")
+    };
+    let mut sound = Client::ready(Files::default());
+    let mut wrong = Client::ready(Files::default());
+    let said = sound.open(URI, &text(false));
+    assert_eq!(errors_in(&said), 0);
+    let errors = errors_in(&wrong.open(URI, &text(true)));
+    assert!(errors >= 10, "{errors} errors");
+    let mut ask = |method: &str, params: &Value| {
+        let answers = [&mut sound, &mut wrong].map(|client| client.request(method, params.clone()));
+        answers.map(|said| in_sound_lines(said[0].clone()))
+    };
+    let mut asked = 0;
+    for (line, (text, _)) in (0..).zip(LINES).filter(|(_, (_, wrong))| wrong.is_none()) {
+        for character in (0..=text.len() as u32).step_by(7) {
+            for (method, params) in about(line, character) {
+                let [mut one, other] = ask(method, &params);
+                one["id"] = other["id"].clone();
+                assert_eq!(one, other, "{method} at {line}:{character}");
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 700, "asked {asked} times");
+    for (method, params) in about_all(LINES.len() as u32) {
+        let [one, other] = ask(method, &params);
+        assert_eq!(one, other, "{method}");
+        let found = one.pointer("/result/data").unwrap_or(&one["result"]);
+        let count = found.as_array().map_or(0, Vec::len);
+        assert!(count > 1, "{method}: {count}");
+        if method == "textDocument/inlayHint" {
+            assert_eq!(count, 4, "{one}");
+        }
+    }
 }

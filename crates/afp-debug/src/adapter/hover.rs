@@ -1,0 +1,205 @@
+//! What a word of the text has to do with the run: the value of an entry or formula, what a port was given, since when an
+//! element is active, what a supervisor reported, when an edge was taken.
+
+use afp_core::Instant;
+use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR};
+use afp_dsl::unfold::ComponentKind;
+
+use super::look::{Group, component, said};
+use super::{Adapter, Answer, Refusal};
+use crate::program::{Place, Program, Spot, Unit};
+use crate::state::State;
+use crate::watched::Watched;
+
+/// What there is to say of a word.
+struct Told {
+    text: String,
+    ty: Option<String>,
+    /// More of it, as for [`Adapter::variables`]; 0 for nothing.
+    more: u32,
+}
+
+impl From<String> for Told {
+    fn from(text: String) -> Told {
+        Told { text, ty: None, more: 0 }
+    }
+}
+
+impl Adapter<'_> {
+    /// What a word is while the plan runs. Without its place in a file it is one of the frame.
+    pub(super) fn hover(
+        &mut self,
+        asked: &dapts::EvaluateArguments,
+    ) -> Answer<dapts::EvaluateResponse> {
+        let at = self.place(asked)?;
+        let run = self.run()?;
+        let (program, state) = (run.target.program(), run.target.state());
+        let (plan, unit) = match at {
+            Some(at) => {
+                let all = program.around(at);
+                let frame = asked.frame_id.and_then(|frame| program.unit(component(frame)));
+                let is_of_frame =
+                    |(plan, _): &&(ComponentId, _)| frame.is_some_and(|it| it.plan == *plan);
+                let is_on = |(plan, _): &&(ComponentId, _)| state.is_on(*plan);
+                // Of several uses of a plan that of the frame is meant, else the one that goes on.
+                let inside = all.iter().find(is_of_frame).or_else(|| all.iter().find(is_on));
+                *inside
+                    .or_else(|| all.first())
+                    .ok_or("the plan that runs does not use this text")?
+            }
+            None => {
+                let id = asked.frame_id.map(component).unwrap_or_default();
+                let unit = program.unit(id).ok_or("there is no such frame")?;
+                if unit.kind == ComponentKind::Plan { (id, None) } else { (unit.plan, Some(id)) }
+            }
+        };
+        let text = asked.expression.trim();
+        let from = at.and_then(|at| program.text_from(at)).and_then(|from| from.strip_prefix(text));
+        let is_bound = from.is_some_and(|behind| binds(behind.trim_start()));
+        let edges = at.map_or(&[][..], |at| program.edges_at(at));
+        let word = Word { program, state, plan, unit, text, is_bound, edges };
+        let Told { text, ty, more } = word.told()?;
+        Ok(dapts::EvaluateResponse {
+            result: text,
+            ty,
+            variables_reference: more,
+            ..dapts::EvaluateResponse::default()
+        })
+    }
+
+    /// Where a word stands, if the client says so.
+    fn place(&mut self, asked: &dapts::EvaluateArguments) -> Answer<Option<Place>> {
+        let path = asked.source.as_ref().and_then(|source| source.path.as_deref());
+        let (Some(path), Some(line)) = (path, asked.line) else { return Ok(None) };
+        let path = self.host.path(path);
+        let counting = self.counting();
+        let file = self.run()?.target.program().file(&path);
+        let file = file.ok_or("the plan that runs does not use this file")?;
+        let line = line.saturating_sub(counting.first_line);
+        let column = asked.column.map(|column| column.saturating_sub(counting.first_column));
+        Ok(Some(Place { file, line, column: column.unwrap_or(u32::MAX) }))
+    }
+}
+
+/// A word inside a plan, and behind the name of a component.
+struct Word<'a> {
+    program: &'a Program,
+    state: &'a State,
+    plan: ComponentId,
+    unit: Option<ComponentId>,
+    text: &'a str,
+    /// Whether it is the port in front of a binding.
+    is_bound: bool,
+    /// The edges that begin with it.
+    edges: &'a [Spot],
+}
+
+impl Word<'_> {
+    fn told(&self) -> Answer<Told> {
+        if let Some(port) = self.port().filter(|_| self.is_bound) {
+            return Ok(port);
+        }
+        if self.reads() {
+            let formula = Watched::new(self.program, self.plan, self.text)?;
+            let text = formula.shown(self.program, self.state)?;
+            return Ok(Told { text, ty: Some(formula.ty()), more: 0 });
+        }
+        let found = self.port().or_else(|| self.outcome()).or_else(|| self.component());
+        found.ok_or_else(|| self.nothing())
+    }
+
+    /// Whether it names an entry: other formulas are what they are.
+    fn reads(&self) -> bool {
+        let mut entries = self.program.entries.iter().filter(|entry| entry.plan == self.plan);
+        let is_part = |part: char| part.is_alphanumeric() || part == '_';
+        let names: Vec<_> = self.text.split(|part| !is_part(part)).collect();
+        entries.any(|entry| names.contains(&&*entry.name))
+    }
+
+    fn nothing(&self) -> Refusal {
+        Refusal(format!("'{}' is nothing that changes while the plan runs", self.text))
+    }
+
+    /// The component, and the element that it watches.
+    fn units(&self) -> impl Iterator<Item = (ComponentId, &Unit)> {
+        let own = self.unit.and_then(|id| Some((id, self.program.unit(id)?)));
+        let owner = own.and_then(|(_, unit)| unit.owner);
+        own.into_iter().chain(owner.and_then(|id| Some((id, self.program.unit(id)?))))
+    }
+
+    /// What an input of the component was given last.
+    fn port(&self) -> Option<Told> {
+        let id = self.unit?;
+        let (_, si_unit) = self.program.unit(id)?.inputs.iter().find(|port| port.0 == self.text)?;
+        let value = self.state.inputs(id).find(|(name, _)| *name == self.text);
+        let value = value.map(|(_, value)| value.in_unit(si_unit));
+        Some(Told::from(value.unwrap_or_else(|| "not read yet".to_owned())))
+    }
+
+    /// When a state was reached or an event taken last, by its own edge or by the one at that place.
+    fn outcome(&self) -> Option<Told> {
+        let here = |spot: &&Spot| self.program.plan_at(**spot) == self.plan;
+        let last = match self.edges.iter().find(here) {
+            Some(Spot::Reaction(id, watcher, event)) => self.state.reacted(*id, *watcher, *event),
+            Some(Spot::Outcome(id, outcome)) => self.state.reached(*id, *outcome),
+            _ => {
+                let number = |unit| outcome_of(unit, self.text);
+                let mut all = self.units().filter_map(|(id, unit)| Some((id, number(unit)?)));
+                let (id, number) = all.next()?;
+                self.state.reached(id, number)
+            }
+        };
+        let text =
+            last.map_or("not taken yet".to_owned(), |at| format!("last taken at {}", time(at)));
+        Some(Told::from(text))
+    }
+
+    /// What an element or a supervisor does.
+    fn component(&self) -> Option<Told> {
+        let all = (0..).map(ComponentId).zip(&self.program.units).skip(1);
+        let same = all.filter(|(_, unit)| unit.plan == self.plan && unit.name == self.text);
+        let same: Vec<_> = same.collect();
+        let owners: Vec<_> = self.units().map(|(id, _)| id).collect();
+        // An element's own supervisors hide nothing, but two elements may have supervisors of one name.
+        let is_near = |unit: &Unit| unit.owner.is_none_or(|owner| owners.contains(&owner));
+        let (id, unit) = same.iter().find(|(_, unit)| is_near(unit))?;
+        let is_on = self.state.is_on(*id);
+        let (text, group) = match unit.kind {
+            ComponentKind::Supervisor if !is_on => ("not watching".to_owned(), Group::Timing),
+            ComponentKind::Supervisor => (said(self.state, *id), Group::Timing),
+            _ => {
+                let since = self.state.cause(*id).map(|(at, _)| time(at));
+                let text = match (is_on, since) {
+                    (true, Some(since)) => format!("active since {since}"),
+                    (true, None) => "active".to_owned(),
+                    (false, Some(since)) => format!("not active; started last at {since}"),
+                    (false, None) => "not started yet".to_owned(),
+                };
+                // The inputs of a sub-plan are entries.
+                let is_plan = unit.kind == ComponentKind::SubPlan;
+                (text, if is_plan { Group::Entries } else { Group::Inputs })
+            }
+        };
+        Some(Told { more: group.reference(*id), ..Told::from(text) })
+    }
+}
+
+/// Whether a text goes on with what binds a port.
+fn binds(behind: &str) -> bool {
+    behind.strip_prefix('=').is_some_and(|rest| !rest.starts_with('='))
+}
+
+/// The number of a state or event of a component.
+fn outcome_of(unit: &Unit, name: &str) -> Option<u16> {
+    match name {
+        "Error" => return Some(ERROR),
+        "DeadlineMissed" => return Some(DEADLINE_MISSED),
+        _ => {}
+    }
+    let place = unit.outcomes.iter().position(|(known, _)| known == name)?;
+    u16::try_from(place).ok()
+}
+
+fn time(at: Instant) -> String {
+    format!("{:.3} s", at.as_secs_f64())
+}

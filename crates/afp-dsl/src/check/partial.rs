@@ -1,0 +1,359 @@
+//! A plan with errors, as far as what is said of time needs it: flow, templates and times.
+//!
+//! Editors go on telling the bounds of what is without errors. What is wrong takes no time itself and may lead to
+//! anything, so that nothing else of the plan is lost.
+
+use std::sync::Arc;
+
+use crate::check::assemble::{needed, tell_apart};
+use crate::check::timing::DEFAULT_EVERY;
+use crate::check::{PlanHead, Program};
+use crate::graph::{
+    self, EdgeSpans, Element, ElementId, Formula, Graph, PlanId, Reactions, ReasonId, Supervisor,
+    SupervisorId, TemplateId, ToolboxId,
+};
+use crate::outline::{
+    Component, ComponentKind, Destination, Edge, Exit, ExitKind, MadeFrom, Outline, Plan, Times,
+};
+use crate::toolbox::{Template, TemplateKind, Toolbox};
+use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::source::Span;
+
+/// A plan of which something may be missing. It is no plan to run.
+#[derive(Clone, Debug)]
+pub(crate) struct Partial {
+    /// Its graph, without rows; elements with errors have no inputs, and none has outputs.
+    pub graph: Graph,
+    /// The names of the supervisors with errors, of which nothing can be said.
+    pub wrong: Vec<Span>,
+}
+
+/// What of a plan has been checked.
+pub(super) struct Parts {
+    /// The plan, where it has no holes.
+    pub plan: Option<graph::Plan>,
+    /// Where it has, the inputs of each element, as far as they are right.
+    pub inputs: Vec<Vec<Formula>>,
+}
+
+/// The plan `main` with all that it uses; `order` has sub-plans before their users. `None` where there are more
+/// elements than there can be.
+pub(super) fn partial(
+    program: &Program<'_>,
+    mut plans: Vec<Parts>,
+    outline: &Outline,
+    (order, main): (&[usize], usize),
+    diags: &Diagnostics,
+) -> Option<Partial> {
+    let needed = needed(program, main);
+    let mut toolboxes = program.linked.clone();
+    let unknown = ToolboxId(u16::try_from(toolboxes.len()).ok()?);
+    toolboxes.push(Arc::new(nothing_known()));
+    let unknown = TemplateId { toolbox: unknown, index: 0 };
+    let mut reader = Reader { toolboxes, unknown, ids: vec![None; plans.len()], wrong: Vec::new() };
+    let mut drawn = Vec::new();
+    for place in order.iter().copied().filter(|place| needed[*place]) {
+        let (head, node) = (&program.plans[place], &outline.plans[place]);
+        let plan = match plans[place].plan.take() {
+            Some(plan) => reader.whole(plan),
+            None => reader.plan(head, node, &plans[place].inputs)?,
+        };
+        reader.note_wrong(node, diags);
+        reader.ids[place] = Some(PlanId(u16::try_from(drawn.len()).ok()?));
+        drawn.push(plan);
+    }
+    let main = reader.ids[main]?;
+    tell_apart(&mut drawn, main);
+    let sources = program.files.iter().map(|file| (file.source.0, Arc::clone(file.source.1)));
+    let (toolboxes, sources) = (reader.toolboxes, sources.collect());
+    let graph = Graph { plans: drawn, main, toolboxes, rows: Vec::new(), sources };
+    Some(Partial { graph, wrong: reader.wrong })
+}
+
+/// A toolbox of one template, which takes no time: what stands for those that are not known.
+fn nothing_known() -> Toolbox {
+    let span = Span::default();
+    let template = Template {
+        kind: TemplateKind::Actor,
+        name: String::new(),
+        doc: String::new(),
+        icon: None,
+        uses: Vec::new(),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        outcomes: Vec::new(),
+        states_of: None,
+        reads_table: None,
+        every: DEFAULT_EVERY,
+        deadline: None,
+        budget: Some(0),
+        stop: Some(0),
+        span,
+    };
+    Toolbox {
+        name: String::new(),
+        version: String::new(),
+        doc: String::new(),
+        devices: Vec::new(),
+        templates: vec![template],
+        enums: Vec::new(),
+        objects: Vec::new(),
+        rust_path: String::new(),
+        span,
+    }
+}
+
+/// Reads plans from the outline.
+struct Reader {
+    toolboxes: Vec<Arc<Toolbox>>,
+    /// The template for what is not known.
+    unknown: TemplateId,
+    /// The plans read so far, by their place in the program.
+    ids: Vec<Option<PlanId>>,
+    wrong: Vec<Span>,
+}
+
+impl Reader {
+    /// A plan without holes: its sub-plans get their numbers.
+    fn whole(&self, mut plan: graph::Plan) -> graph::Plan {
+        for element in &mut plan.elements {
+            if let graph::Component::SubPlan(place) = element.component {
+                element.component = self.sub_plan(place.index());
+            }
+        }
+        plan
+    }
+
+    /// A plan; an element that stands for anything that edges with errors may lead to comes last.
+    fn plan(
+        &mut self,
+        head: &PlanHead,
+        node: &Plan,
+        inputs: &[Vec<Formula>],
+    ) -> Option<graph::Plan> {
+        let anything = ElementId(u16::try_from(node.elements.len()).ok()?);
+        let leads = Leads { anything };
+        let globals = u16::try_from(node.supervisors.len()).ok()?;
+        let mut supervisors: Vec<_> =
+            node.supervisors.iter().map(|each| self.supervisor(each, None, leads)).collect();
+        let mut elements = Vec::with_capacity(node.elements.len() + 1);
+        for (id, each) in (0..).map(ElementId).zip(&node.elements) {
+            let first = u16::try_from(supervisors.len()).ok()?;
+            let locals = each.supervisors.iter();
+            supervisors.extend(locals.map(|local| self.supervisor(local, Some(id), leads)));
+            let end = u16::try_from(supervisors.len()).ok()?;
+            let mut element = self.element(each, leads);
+            element.supervisors = (first..end).map(SupervisorId).collect();
+            element.reactions = leads.reactions(each, &node.supervisors);
+            element.inputs = inputs.get(id.index()).cloned().unwrap_or_default();
+            elements.push(element);
+        }
+        elements.push(self.anything(anything, node.span));
+        let start = node.starts.first();
+        let (name, span) = named(node.name.as_ref(), node.span);
+        Some(graph::Plan {
+            name,
+            file: None,
+            doc: String::new(),
+            entries: head.entries.iter().map(super::plan::entry).collect(),
+            elements,
+            supervisors,
+            globals,
+            reasons: Vec::new(),
+            start: start.map_or(anything, |start| match start.target.as_ref().map(|it| it.to) {
+                Some(Destination::Element(id)) => leads.element(id),
+                _ => anything,
+            }),
+            interruptible: node.interruptible,
+            forever: node.forever,
+            span,
+            start_span: start.map_or(span, |start| start.span),
+        })
+    }
+
+    /// What may lead to every element of a plan.
+    fn anything(&self, own: ElementId, span: Span) -> Element {
+        let states = (0..own.0).map(|id| Some(graph::Target::Element(ElementId(id)))).collect();
+        Element { states, ..element(String::new(), graph::Component::Actor(self.unknown), span) }
+    }
+
+    fn element(&mut self, node: &Component, leads: Leads) -> Element {
+        let (name, span) = named(node.name.as_ref(), node.span);
+        let component = self.component(node);
+        let exits = || node.exits.iter().filter(|exit| exit.kind == ExitKind::State);
+        let mut states: Vec<_> = match component {
+            graph::Component::SubPlan(_) => {
+                let of = |name: &str| exits().find(|exit| *exit.name == *name);
+                ["OK", "Interrupted"].map(|name| leads.target(of(name)?)).to_vec()
+            }
+            _ => exits().map(|exit| leads.target(exit)).collect(),
+        };
+        if component == graph::Component::Actor(self.unknown) {
+            states.push(Some(graph::Target::Element(leads.anything)));
+        }
+        let error = node.exits.iter().find(|exit| exit.kind == ExitKind::Error);
+        let on_error = error.and_then(|exit| leads.target(exit));
+        Element { states, on_error, ..element(name, component, span) }
+    }
+
+    fn supervisor(
+        &mut self,
+        node: &Component,
+        owner: Option<ElementId>,
+        leads: Leads,
+    ) -> Supervisor {
+        let (name, span) = named(node.name.as_ref(), node.span);
+        let usual = Times {
+            every: DEFAULT_EVERY,
+            deadline: DEFAULT_EVERY,
+            every_span: None,
+            deadline_span: None,
+        };
+        let times = node.times.unwrap_or(usual);
+        let event = |exit: &Exit| leads.target(exit).unwrap_or(graph::Target::Ignore);
+        let missed = node.exits.iter().find(|exit| exit.kind == ExitKind::Missed);
+        Supervisor {
+            doc: String::new(),
+            owner,
+            template: self.template(node).unwrap_or(self.unknown),
+            generic: None,
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            events: events(node).map(event).collect(),
+            on_miss: missed.and_then(|exit| leads.target(exit)),
+            every: times.every,
+            deadline: times.deadline,
+            timed_by: Vec::new(),
+            every_span: times.every_span,
+            edges: EdgeSpans::default(),
+            name,
+            span,
+        }
+    }
+
+    /// What an element is made from.
+    fn component(&mut self, node: &Component) -> graph::Component {
+        match (node.kind, node.sub_plan(), self.template(node)) {
+            (ComponentKind::SubPlan, Some(plan), _) => self.sub_plan(plan.index()),
+            (ComponentKind::Computation, _, Some(id)) => graph::Component::Computation(id),
+            (_, _, id) => graph::Component::Actor(id.unwrap_or(self.unknown)),
+        }
+    }
+
+    /// A plan by its place in the program; one that is part of itself is not known.
+    fn sub_plan(&self, place: usize) -> graph::Component {
+        let id = self.ids.get(place).copied().flatten();
+        id.map_or(graph::Component::Actor(self.unknown), graph::Component::SubPlan)
+    }
+
+    fn template(&mut self, node: &Component) -> Option<TemplateId> {
+        let MadeFrom::Template { toolbox, index } = node.template.as_ref()?.made_from.as_ref()?
+        else {
+            return None;
+        };
+        let known = self.toolboxes.iter().position(|known| Arc::ptr_eq(known, toolbox));
+        let place = known.unwrap_or_else(|| {
+            self.toolboxes.push(Arc::clone(toolbox));
+            self.toolboxes.len() - 1
+        });
+        let toolbox = ToolboxId(u16::try_from(place).ok()?);
+        Some(TemplateId { toolbox, index: u16::try_from(*index).ok()? })
+    }
+
+    /// Notes the supervisors of a plan with errors, and those of elements that are made from nothing known.
+    fn note_wrong(&mut self, plan: &Plan, diags: &Diagnostics) {
+        let elements = plan.elements.iter().flat_map(|element| {
+            let is_known = element.template().is_some() || element.sub_plan().is_some();
+            element.supervisors.iter().map(move |own| (own, is_known))
+        });
+        let all = plan.supervisors.iter().map(|own| (own, true)).chain(elements);
+        let is_wrong = |(own, is_known): &(&Component, bool)| {
+            !is_known || own.template().is_none() || diags.error_within(own.span)
+        };
+        let wrong = all.filter(is_wrong);
+        self.wrong
+            .extend(wrong.map(|(own, _)| own.name.as_ref().map_or(own.span, |name| name.span)));
+    }
+}
+
+/// Where the edges of a plan lead.
+#[derive(Clone, Copy)]
+struct Leads {
+    /// The element that stands for anything.
+    anything: ElementId,
+}
+
+impl Leads {
+    /// `None` where nothing leads, and nothing need.
+    fn target(self, exit: &Exit) -> Option<graph::Target> {
+        match &exit.edge {
+            Some(edge) => Some(self.edge(edge)),
+            None => exit.required.then_some(graph::Target::Element(self.anything)),
+        }
+    }
+
+    fn edge(self, edge: &Edge) -> graph::Target {
+        match edge.target.as_ref().map(|target| target.to) {
+            Some(Destination::Element(id)) => graph::Target::Element(self.element(id)),
+            Some(Destination::Terminate) => graph::Target::Terminate,
+            Some(Destination::Fail) => graph::Target::Fail(ReasonId(0)),
+            Some(Destination::Ignore) => graph::Target::Ignore,
+            Some(Destination::Resume) => graph::Target::Resume,
+            Some(Destination::Unknown) | None => graph::Target::Element(self.anything),
+        }
+    }
+
+    fn element(self, id: crate::outline::ElementId) -> ElementId {
+        u16::try_from(id.index()).map_or(self.anything, ElementId)
+    }
+
+    /// The reactions of an element to supervisors that are there.
+    fn reactions(self, element: &Component, globals: &[Component]) -> Vec<Reactions> {
+        if element.kind == ComponentKind::Computation {
+            return Vec::new();
+        }
+        let reactions = element.reactions.iter().filter_map(|node| {
+            let name = node.name.as_ref()?;
+            let is_it = |own: &Component| own.name.as_ref().is_some_and(|it| it.text == name.text);
+            let place = globals.iter().position(is_it)?;
+            let own = |event: &Exit| node.exits.iter().find(|exit| exit.name == event.name);
+            let missed = node.exits.iter().find(|exit| exit.kind == ExitKind::Missed);
+            Some(Reactions {
+                supervisor: SupervisorId(u16::try_from(place).ok()?),
+                events: events(&globals[place]).map(|it| self.target(own(it)?)).collect(),
+                on_miss: missed.and_then(|exit| self.target(exit)),
+                span: name.span,
+                edges: EdgeSpans::default(),
+            })
+        });
+        reactions.collect()
+    }
+}
+
+/// The events of a supervisor, and what is written as one.
+fn events(supervisor: &Component) -> impl Iterator<Item = &Exit> {
+    supervisor.exits.iter().filter(|exit| exit.kind == ExitKind::Event)
+}
+
+/// An element that leads nowhere.
+fn element(name: String, component: graph::Component, span: Span) -> Element {
+    Element {
+        name,
+        doc: String::new(),
+        component,
+        generic: None,
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        states: Vec::new(),
+        on_error: None,
+        supervisors: Vec::new(),
+        reactions: Vec::new(),
+        span,
+        edges: EdgeSpans::default(),
+    }
+}
+
+/// A name with its place, or that of what has none.
+fn named(name: Option<&afp_syntax::ast::Name>, whole: Span) -> (String, Span) {
+    name.map_or((String::new(), whole), |name| (name.text.clone(), name.span))
+}
