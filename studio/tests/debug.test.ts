@@ -4,6 +4,7 @@ import { test } from "node:test";
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "playwright-core";
 import { beside, extended, rows, scale, within, zoomed, type Record } from "../page/debug/trace";
+import { held } from "../page/debug/values";
 import { inBrowser, shows } from "./browser";
 
 const PLAN = `use std
@@ -63,6 +64,32 @@ test("windows stay within the run; a scale has round seconds", () => {
   assert.deepEqual(scale({ from: 0.05, to: 0.85 }), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8]);
   assert.equal(beside([0, 1, 2], 1, 1), 2);
   assert.equal(beside([0, 1, 2], 0, -1), null);
+});
+
+test("an entry of the plan that is shown holds what the innermost plan of that name holds", () => {
+  const frames = [{ path: "", plan: "Outer" }, { path: "work", plan: "Inner" }];
+  const entries = { left: "1", "work.left": "2" };
+  assert.equal(held(frames, "Outer", entries, "Outer.left"), "1");
+  assert.equal(held(frames, "Inner", entries, "Inner.left"), "2");
+  assert.equal(held(frames, "Other", entries, "Other.left"), null);
+  assert.equal(held(frames, "Outer", entries, "Outer.right"), null);
+});
+
+inBrowser("while a plan runs, its entries show what they hold", { "plan.afp": PLAN }, async ({ page }) => {
+  await begun(page);
+  const held = async (): Promise<string[]> => page.locator(".run-value-text").allTextContents();
+  await page.waitForFunction(() => document.querySelectorAll(".run-value-text").length === 2);
+  assert.equal((await held())[0], "1 s");
+  // What is declared makes room, and stands there again without a run.
+  const declared = page.locator(".declared").first();
+  assert.equal(await declared.evaluate((text) => getComputedStyle(text).visibility), "hidden");
+  await page.waitForFunction(() => [...document.querySelectorAll(".run-value-text")].at(-1)?.textContent === "2");
+  await page.keyboard.press("Shift+F5");
+  await page.locator(".end-card").waitFor();
+  await page.locator(".board").focus();
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => document.querySelectorAll(".run-value-text").length === 0);
+  assert.equal(await declared.evaluate((text) => getComputedStyle(text).visibility), "visible");
 });
 
 async function clean(page: Page, within: string): Promise<void> {

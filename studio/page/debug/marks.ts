@@ -8,6 +8,7 @@ import { at, taken, type At } from "./follow";
 import { onDrawing } from "../results";
 import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
+import { chips, held } from "./values";
 
 /** Milliseconds that an edge is shown as just taken. */
 const FADES = 600;
@@ -114,4 +115,23 @@ function flash({ edges }: Layers, id: string | null): void {
   if (!group) return;
   group.classList.add("taken");
   setTimeout(() => group.classList.remove("taken"), FADES);
+}
+
+/** Keeps what entries hold; what has just been written stands out for a while. */
+export function values(root: Element, layer: SVGGElement): () => void {
+  let before: ReadonlyMap<string, string> = new Map();
+  let drawnBefore: Drawing | null = null;
+  return effect(() => {
+    const drawn = drawing.value;
+    const now = active.value || phase.value === "over" ? state.value : null;
+    const found = new Map(drawn && now ? drawn.entries.flatMap(({ item }) => {
+      const value = held(frames.value, drawn.plan, now.entries, item);
+      return value === null ? [] : [[item, value] as const];
+    }) : []);
+    if (drawn === drawnBefore && found.size === before.size && [...found].every(([item, value]) => before.get(item) === value)) return;
+    const fresh = new Set([...found].filter(([item, value]) => before.has(item) && before.get(item) !== value).map(([item]) => item));
+    [before, drawnBefore] = [found, drawn];
+    root.classList.toggle("holding", found.size > 0);
+    layer.replaceChildren(...(drawn ? chips(drawn, found, fresh) : []));
+  });
 }
