@@ -2,39 +2,54 @@
 import { svg } from "../drawing/fragment";
 import { nameOf, rectOf, type Drawing, type Entry } from "../drawing/shapes";
 import { frameOf, type Frame } from "./follow";
+import type { State } from "./told";
 
 /** Characters of a value that a chip shows. */
 const LONGEST = 22;
-/** The width of a character, the height of a chip, and what stands around its text, in units of the plan. */
+/** The width of a character, the height of a chip, what stands around its text, and the width of a lock, in units of the plan. */
 const CHARACTER = 7.6;
 const HEIGHT = 18;
 const PAD = 6;
+const LOCK = 14;
 /** From the widest name to the chips. */
 const GAP = 6;
 
+export interface Held {
+  text: string;
+  /** For how many seconds it is still forced; null for what the plan has written. */
+  left: number | null;
+}
+
 /** What an entry of the plan that is shown holds; null where a run says nothing of it. */
-export function held(frames: readonly Frame[], plan: string | null, entries: Readonly<Record<string, string>>, item: string): string | null {
+export function held(frames: readonly Frame[], plan: string | null, now: Pick<State, "at" | "entries" | "forced">, item: string): Held | null {
   const frame = frameOf(frames, plan);
   if (!frame) return null;
-  return entries[frame.path ? `${frame.path}.${nameOf(item)}` : nameOf(item)] ?? null;
+  const path = frame.path ? `${frame.path}.${nameOf(item)}` : nameOf(item);
+  const text = now.entries[path];
+  const forced = now.forced.find((each) => each.path === path && each.value !== undefined);
+  return text === undefined ? null : { text, left: forced ? Math.max(0, Math.ceil(forced.until - now.at)) : null };
 }
 
 const short = (value: string): string => (value.length > LONGEST ? `${value.slice(0, LONGEST - 1)}…` : value);
 
 /** Chips for entries with a value; those of `fresh` have just been written. */
-export function chips(drawn: Drawing, values: ReadonlyMap<string, string>, fresh: ReadonlySet<string>): SVGElement[] {
+export function chips(drawn: Drawing, values: ReadonlyMap<string, Held>, fresh: ReadonlySet<string>): SVGElement[] {
   const rights = drawn.entries.map(({ item }) => rectOf(drawn, { item })).map((rect) => (rect ? rect[0] + rect[2] : 0));
   const left = Math.max(...rights) + GAP;
   return drawn.entries.flatMap((entry) => chip(drawn, entry, left, values.get(entry.item), fresh.has(entry.item)));
 }
 
-function chip(drawn: Drawing, { item }: Entry, left: number, value: string | undefined, fresh: boolean): SVGElement[] {
+function chip(drawn: Drawing, { item }: Entry, x: number, value: Held | undefined, fresh: boolean): SVGElement[] {
   const rect = rectOf(drawn, { item });
   if (!rect || value === undefined) return [];
-  const text = short(value);
+  const forced = value.left !== null;
+  const text = forced ? `${short(value.text)}, ${value.left} s` : short(value.text);
   const middle = rect[1] + rect[3] / 2;
-  const body = svg("rect", { class: `run-value${fresh ? " fresh" : ""}`, x: left, y: middle - HEIGHT / 2, width: text.length * CHARACTER + 2 * PAD, height: HEIGHT, rx: 4 });
-  const words = svg("text", { class: "run-value-text", x: left + PAD, y: middle + 4.3, "data-item": item });
+  const sign = forced ? LOCK : 0;
+  const body = svg("rect", { class: `run-value${fresh ? " fresh" : ""}${forced ? " forced" : ""}`, x, y: middle - HEIGHT / 2, width: text.length * CHARACTER + 2 * PAD + sign, height: HEIGHT, rx: 4 });
+  const words = svg("text", { class: "run-value-text", x: x + PAD + sign, y: middle + 4.3, "data-item": item });
   words.textContent = text;
-  return [body, words];
+  return [body, ...(forced ? [lock(x + PAD, middle)] : []), words];
 }
+
+const lock = (x: number, y: number): SVGElement => svg("path", { class: "run-lock", d: `M${x} ${y - 1}h9v6h-9zm2 0v-2a2.5 2.5 0 0 1 5 0v2` });
