@@ -217,3 +217,17 @@ def test_every_shipped_plan_is_in_order() -> None:
 def test_a_drawing_is_saved_as_it_is_shown(tmp_path: Path, wall_following: afp.Plan) -> None:
     wall_following.save_svg(tmp_path / "plan.svg")
     assert (tmp_path / "plan.svg").read_text(encoding="utf-8") == wall_following.svg() == wall_following._repr_svg_()
+
+
+def test_a_drawing_has_the_icons_of_the_projects_toolbox(tmp_path: Path) -> None:
+    icon = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24"><path d="M1 2h3v4z"/></svg>'
+    (tmp_path / "icons").mkdir()
+    (tmp_path / "icons" / "bow.svg").write_text(icon)
+    (tmp_path / "gestures.afp").write_text('toolbox gestures version "1"\nactor Bow { icon "bow" state Bowed }\n')
+    (tmp_path / "afp.toml").write_text('[toolboxes]\ngestures = { path = "gestures.afp" }\n')
+    text = "use gestures\nplan P { start bow actor bow: Bow { Bowed -> terminate } }\n"
+    plan = afp.Plan(text, str(tmp_path / "p.afp"))
+    assert plan.ok and "M1 2h3v4z" in plan.svg()
+    (tmp_path / "gestures.afp").write_text('toolbox poses version "1"\n')
+    with pytest.raises(afp.AfpError, match="does not begin with 'toolbox gestures'"):
+        afp.Plan(text, str(tmp_path / "p.afp"))

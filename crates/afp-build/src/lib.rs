@@ -11,14 +11,12 @@ pub mod crate_folder;
 mod kept;
 pub mod origin;
 mod parts;
-mod toolboxes;
 
 use afp_project::ProjectError;
 use afp_run::RunError;
 
 pub use kept::{Product, cache};
 pub use parts::{Parts, no_hardware};
-pub use toolboxes::{OwnToolbox, OwnToolboxes};
 
 /// Why something was not built.
 #[derive(Debug)]

@@ -74,7 +74,7 @@ impl Approaching {
         Approaching {
             speed: speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(now),
+            tracking: Tracking::new(),
             sensor: Guard::new(silent, now),
             odometry: Guard::new(NO_ODOMETRY, now),
             history,

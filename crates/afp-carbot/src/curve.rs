@@ -36,7 +36,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
             radius: inputs.radius.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(now),
+            tracking: Tracking::new(),
             way: 0.0,
             last: None,
         })

@@ -53,7 +53,7 @@ impl<E: Navigator + Odometry + Localisation + ?Sized> Actor<templates::DriveTo, 
             None => {}
             Some(Pursued::Lost) => return Ok(Poll::Ready(State::PathLost)),
             Some(Pursued::Arrived) => {
-                self.turn = Some((Ramp::new(ACCELERATION, now), Tracking::new(now)));
+                self.turn = Some((Ramp::new(ACCELERATION, now), Tracking::new()));
             }
         }
         Ok(Poll::Pending)

@@ -36,7 +36,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
             distance: inputs.distance.si(),
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(now),
+            tracking: Tracking::new(),
             odometry,
             from,
         })

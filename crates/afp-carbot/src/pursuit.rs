@@ -76,7 +76,7 @@ impl Pursuit {
             tolerance: tolerance.si(),
             ramp: Ramp::new(ACCELERATION, now),
             turning: Turning::No,
-            tracking: Tracking::new(now),
+            tracking: Tracking::new(),
             odometry: Guard::new(NO_ODOMETRY, now),
             position: Guard::new(NO_POSITION, now),
             doubt: None,

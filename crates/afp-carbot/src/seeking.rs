@@ -67,7 +67,7 @@ impl Seeking {
             tolerance: tolerance.si(),
             speed: speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(now),
+            tracking: Tracking::new(),
             sensor: Guard::new(silent, now),
             odometry: Guard::new(NO_ODOMETRY, now),
             history,

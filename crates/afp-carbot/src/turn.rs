@@ -26,7 +26,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
             turning: Turning::new(inputs.angle, env, now)?,
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(now),
+            tracking: Tracking::new(),
         })
     }
 

@@ -82,7 +82,7 @@ where
         Ok(WallForward {
             inputs,
             ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(now),
+            tracking: Tracking::new(),
             odometry: Guard::new(NO_ODOMETRY, now),
             range: Guard::of_echoes(now),
             arrival: Arrival::new(now),

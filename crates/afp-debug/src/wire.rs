@@ -15,6 +15,7 @@ pub struct Frames {
 
 /// What arrived is no message; the stream cannot be understood any more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum WireError {
     /// No header with a length stands where a message begins.
     Header,

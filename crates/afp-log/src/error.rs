@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a log cannot be written or read.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum LogError {
     /// The file cannot be created or given its name.
     Create {

@@ -195,8 +195,7 @@ impl Workspace {
 
     /// The icon of a template: `icons/NAME.svg` beside the toolbox of a project, else a built-in one.
     pub fn icon(&self, set: &ToolboxSet, toolbox: &Toolbox, name: &str) -> Option<String> {
-        let plain = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | '_');
-        if name.is_empty() || !name.chars().all(plain) {
+        if !afp_toolboxes::is_icon_name(name) {
             return None;
         }
         match set.folders.get(&toolbox.name) {

@@ -8,6 +8,7 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Disk;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::{CrateLink, ProjectError, ProjectFile};
+use afp_resolve::OwnToolboxes;
 use afp_syntax::source::Source;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -21,7 +22,6 @@ pub struct File {
 }
 
 /// What a plan file is compiled with.
-#[derive(Default)]
 pub struct Available {
     toolboxes: Toolboxes,
     /// The expressions of the texts that were read, the project file's included.
@@ -69,9 +69,8 @@ pub fn compile(
     files: &[(String, String)],
 ) -> Result<(Compiled, Available), TokenStream> {
     let root = root();
-    let toolboxes = afp_toolboxes::sources().collect();
-    let mut all = Available { toolboxes, ..Available::default() };
-    all.add_project(&root).map_err(|error| compile_error(&error.to_string()))?;
+    let mut all =
+        Available::of_project(&root).map_err(|error| compile_error(&error.to_string()))?;
     for (path, module) in files {
         let File { source, text } = read(path)?;
         all.toolboxes.add(source, module);
@@ -83,29 +82,30 @@ pub fn compile(
 }
 
 impl Available {
-    fn add_project(&mut self, root: &Path) -> Result<(), ProjectError> {
-        let project = ProjectFile::find(root)?;
+    fn of_project(root: &Path) -> Result<Available, ProjectError> {
+        let own = OwnToolboxes::read(ProjectFile::find(root)?)?;
+        let project = &own.project;
+        let mut texts = Vec::new();
         if project.exists {
-            self.texts.push(include(&project.path()));
+            texts.push(include(&project.path()));
         }
-        if let Some(name) = project.project.robot.as_ref().and_then(|it| it.toolbox.as_ref()) {
-            self.toolboxes.set_robot(name);
-        }
-        for file in project.toolboxes()? {
-            let name = file.toolbox.name;
-            let path = match file.krate {
-                Ok(krate) => rust_path(&krate, root),
-                Err(mistake) => {
-                    let error = project.wrong(vec![mistake]).to_string();
-                    self.without_crate.push((name.clone(), error));
-                    name
-                }
-            };
-            let shown = file.path.strip_prefix(root).unwrap_or(&file.path).display().to_string();
-            self.toolboxes.add(Source::new(shown, file.text), &path);
-            self.texts.push(include(&file.path));
-        }
-        Ok(())
+        texts.extend(own.files().iter().map(|file| include(&file.path)));
+        let without_crate = own.files().iter().filter_map(|file| {
+            let mistake = file.krate.as_ref().err()?.clone();
+            Some((file.toolbox.name.clone(), project.wrong(vec![mistake]).to_string()))
+        });
+        let without_crate = without_crate.collect();
+        let toolboxes = own.with_built_in_as(
+            |file| {
+                let shown = file.path.strip_prefix(root).unwrap_or(&file.path);
+                Source::new(shown.display().to_string(), &file.text)
+            },
+            |file| match &file.krate {
+                Ok(krate) => rust_path(krate, root),
+                Err(_) => file.toolbox.name.clone(),
+            },
+        )?;
+        Ok(Available { toolboxes, texts, without_crate })
     }
 }
 

@@ -40,6 +40,7 @@ pub struct ToolboxFile {
 
 /// Why a project cannot be used.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum ProjectError {
     /// The project file cannot be read.
     Unreadable {

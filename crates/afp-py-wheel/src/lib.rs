@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use afp_build::{NotBuilt, OwnToolboxes, Parts, Product};
+use afp_build::{NotBuilt, Parts, Product};
 use afp_project::ProjectFile;
 use afp_py::pyo3;
 use afp_py::pyo3::prelude::*;
+use afp_resolve::OwnToolboxes;
 
 /// The native half of the package `afp`.
 #[pymodule]

@@ -140,7 +140,7 @@ impl Plan {
                 return Err(PyValueError::new_err(text));
             }
         };
-        let compiled = self.compiled(py);
+        let (compiled, icon) = (self.compiled(py), self.icons());
         in_background(py, move || {
             let options =
                 Options { theme, sub_plans: !fold, data, icons: Some(&icon), ..Options::default() };
@@ -164,7 +164,7 @@ impl Plan {
         let plans = (0..).map(PlanId).zip(&compiled.outline.plans);
         let main = graph.main().span;
         let own = plans.into_iter().find(|(_, plan)| plan.span.contains(main)).map(|(id, _)| id);
-        let outline = Arc::clone(&compiled);
+        let (outline, icon) = (Arc::clone(&compiled), self.icons());
         in_background(py, move || {
             let usage = Some(&used.usage);
             let options = Options { plan: own, usage, icons: Some(&icon), ..Options::default() };
@@ -174,7 +174,7 @@ impl Plan {
 
     /// The drawing for GraphViz.
     fn dot(&self, py: Python<'_>) -> PyResult<String> {
-        let compiled = self.sound(py)?;
+        let (compiled, icon) = (self.sound(py)?, self.icons());
         in_background(py, move || {
             afp_draw::dot(&compiled.outline, &Options { icons: Some(&icon), ..Options::default() })
         })
@@ -182,7 +182,7 @@ impl Plan {
 
     /// The checked graph as JSON.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let compiled = self.sound(py)?;
+        let (compiled, icon) = (self.sound(py)?, self.icons());
         in_background(py, move || {
             afp_draw::json(&compiled.outline, &Options { icons: Some(&icon), ..Options::default() })
         })
@@ -238,15 +238,19 @@ impl Plan {
 pub type State =
     (String, Option<PathBuf>, Option<String>, Vec<Py<Toolbox>>, BTreeMap<String, String>);
 
-/// The icon of a template, where it is a built-in one.
-fn icon(_: &Declared, name: &str) -> Option<String> {
-    afp_toolboxes::icon(name).map(str::to_owned)
-}
-
 impl Plan {
     fn lock(&self) -> MutexGuard<'_, Workspace> {
         // A text is replaced as a whole: a panic leaves nothing half done.
         self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where the icons of templates are: of the project, where there is one, and built-in ones.
+    fn icons(&self) -> impl Fn(&Declared, &str) -> Option<String> + Send + use<> {
+        let own = self.lock().own();
+        move |toolbox, name| match &own {
+            Some(own) => own.icon(toolbox, name),
+            None => afp_toolboxes::icon(name).map(str::to_owned),
+        }
     }
 
     /// What became of the text, compiled anew only after a change.

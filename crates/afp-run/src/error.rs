@@ -24,6 +24,7 @@ pub const EXIT_PLAN_ERROR: u8 = 3;
 
 /// Why a run cannot begin or go on.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum RunError {
     /// The command line makes no sense or asks for what is not there.
     Usage {

@@ -56,6 +56,7 @@ fn refused(names: &dyn Names, name: &str, text: &str, why: SetError) -> RunError
             let why = refusal(why, names.entry(id(names, name)));
             RunError::usage(format!("'{name}={text}': {why}"), settable(names))
         }
+        other => RunError::usage(format!("'{name}={text}': {other}"), settable(names)),
     }
 }
 

@@ -137,6 +137,7 @@ pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
 
 /// Why an entry cannot be set.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SetError {
     /// There is no such entry.
     Unknown,

@@ -51,6 +51,7 @@ pub struct RequestId(pub u64);
 
 /// Why a request cannot be met.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RequestError {
     /// Its instant is over.
     Over {

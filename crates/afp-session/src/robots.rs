@@ -57,6 +57,7 @@ pub trait AnyRobot: Sync {
 
 /// Why there is no session.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SessionError {
     /// The plan cannot be loaded.
     #[cfg(feature = "load")]

@@ -8,7 +8,7 @@
 //! | [`Footing`] | whatever else touches the floor: friction of all contacts together |
 //! | [`RangeSensor`] | a range sensor with a cone of sound, noise, and echoes that are lost |
 //! | [`Switch`] | a contact that bounces, for a bumper |
-//! | [`WorldOf`] | world files for a robot with such a body |
+//! | [`WorldOf`] | world files for a robot with such a body, and with tables of its own ([`OwnTables`]) |
 //!
 //! The line from a sensor to the plan with its faults, seeded noise and the clock of virtual time are in
 //! [`afp_session::parts`]. What is computed here is the same on every machine.
@@ -20,4 +20,4 @@ pub use crate::simulation::STEP;
 pub use crate::stage::{Met, Stage, Touch};
 pub use crate::truth::Collision;
 pub use crate::vehicle::{Demand, Footing, Motor, Push, Twist, TwoWheels, WheelModel};
-pub use crate::world::{Body, Obstacle, World, WorldOf};
+pub use crate::world::{Body, NoTables, Obstacle, OwnTables, World, WorldOf};

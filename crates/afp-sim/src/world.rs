@@ -22,7 +22,7 @@ pub use path::Path;
 use error::at_key;
 pub(crate) use outline::isometry;
 pub(crate) use session::shape;
-pub use world_of::{Body, WorldOf};
+pub use world_of::{Body, NoTables, OwnTables, WorldOf};
 
 use crate::chassis::Chassis;
 use crate::truth::Pose;
@@ -130,14 +130,19 @@ impl World {
     /// # Errors
     /// As [`World::parse`].
     pub fn parse_for(robot: &Chassis, text: &str) -> Result<World, WorldError> {
-        let world = file::read(text)?;
+        World::parse_with::<NoTables>(robot, text).map(|(world, _)| world)
+    }
+
+    /// The same where files have tables for that robot alone.
+    fn parse_with<O: OwnTables>(robot: &Chassis, text: &str) -> Result<(World, O), WorldError> {
+        let (world, own) = file::read(text)?;
         match world.obstacle_in_way_of(robot, world.start) {
             Some(obstacle) => Err(at_key(
                 text,
                 &["robot", "pose_m_deg"],
                 format!("the robot starts inside of '{}'", obstacle.name),
             )),
-            None => Ok(world),
+            None => Ok((world, own)),
         }
     }
 

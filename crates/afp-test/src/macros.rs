@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use afp_dsl::files::{Disk, read_text};
-use afp_dsl::toolbox::Toolboxes;
-use afp_project::{ProjectError, ProjectFile};
+use afp_resolve::OwnToolboxes;
 use afp_session::Loader;
 use afp_syntax::source::Source;
 
@@ -19,7 +18,8 @@ pub fn check(file: &Path, name: &str, robot: &dyn Loader) {
         panic!("scenario \"{name}\" of {}\n{}", file.display(), anstream::adapter::strip_str(&text))
     };
     let text = read_text(file).unwrap_or_else(|error| failed(error.to_string()));
-    let toolboxes = toolboxes(file).unwrap_or_else(|error| failed(error.to_string()));
+    let toolboxes = OwnToolboxes::of_plan(file).and_then(|own| own.with_built_in());
+    let toolboxes = toolboxes.unwrap_or_else(|error| failed(error.to_string()));
     let source = Source::new(file.display().to_string(), text);
     let compiled = afp_dsl::compile(&source, &toolboxes, &Disk::default());
     let Some(scenario) = compiled.scenarios.iter().find(|each| each.name == name) else {
@@ -32,18 +32,4 @@ pub fn check(file: &Path, name: &str, robot: &dyn Loader) {
         Ok(verdict) => failed(verdict.report()),
         Err(error) => failed(error.to_string()),
     }
-}
-
-/// The built-in toolboxes and those of a file's project.
-fn toolboxes(file: &Path) -> Result<Toolboxes, ProjectError> {
-    let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
-    let project = ProjectFile::of_plan(file)?;
-    for own in project.toolboxes()? {
-        let source = Source::new(own.path.display().to_string(), own.text);
-        toolboxes.add(source, &own.toolbox.name);
-    }
-    if let Some(name) = project.project.robot.and_then(|robot| robot.toolbox) {
-        toolboxes.set_robot(&name);
-    }
-    Ok(toolboxes)
 }

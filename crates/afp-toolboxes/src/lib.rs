@@ -92,6 +92,12 @@ icons! {
     "widest_gap",
 }
 
+/// Whether a text can be the name of an icon, and so of a file: letters, digits, `-` and `_`.
+pub fn is_icon_name(name: &str) -> bool {
+    let plain = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | '_');
+    !name.is_empty() && name.chars().all(plain)
+}
+
 /// The SVG text of an icon; `None` for a name that is not built in.
 pub fn icon(name: &str) -> Option<&'static str> {
     ICONS.iter().find(|(known, _)| *known == name).map(|(_, svg)| *svg)
@@ -99,7 +105,7 @@ pub fn icon(name: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, ICONS, icon};
+    use super::{ALL, ICONS, icon, is_icon_name};
 
     #[test]
     fn every_icon_named_by_a_toolbox_is_embedded() {
@@ -117,6 +123,12 @@ mod tests {
             assert!(svg.contains("viewBox=\"0 0 24 24\""), "{name}");
             assert!(svg.contains("currentColor"), "{name}");
         }
+    }
+
+    #[test]
+    fn no_name_of_an_icon_leads_out_of_its_folder() {
+        assert!(ICONS.iter().all(|(name, _)| is_icon_name(name)));
+        assert!(!["", "../x", "a/b", "a.svg", "é"].iter().any(|name| is_icon_name(name)));
     }
 
     #[test]

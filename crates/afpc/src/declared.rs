@@ -4,12 +4,12 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use afp_build::OwnToolboxes;
 use afp_core::devices::{AmountRow, ControlRow, DeviceRow, FaultRow};
 use afp_dsl::Compiled;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::toolbox::{Amount, Control, Device, Fault};
-use afp_project::{ProjectError, ProjectFile};
+use afp_project::ProjectError;
+use afp_resolve::OwnToolboxes;
 
 use crate::plan_file::PlanFile;
 
@@ -57,7 +57,7 @@ fn one_line(text: &str) -> String {
 }
 
 fn read(plan: &Path) -> Result<Option<&'static [DeviceRow]>, ProjectError> {
-    let own = OwnToolboxes::read(ProjectFile::of_plan(plan)?)?;
+    let own = OwnToolboxes::of_plan(plan)?;
     if own.project.project.robot.is_none() {
         return Ok(None);
     }

@@ -3,12 +3,13 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use afp_build::{NotBuilt, OwnToolboxes};
+use afp_build::NotBuilt;
 use afp_dsl::files::{Disk, Files, read_text};
 use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
-use afp_project::{ProjectError, ProjectFile};
+use afp_project::ProjectError;
+use afp_resolve::OwnToolboxes;
 use afp_run::RunError;
 use afp_session::Recipe;
 use afp_syntax::source::Source;
@@ -102,7 +103,7 @@ impl PlanFile {
         files: &dyn Files,
         plan: Option<&str>,
     ) -> Result<PlanFile, RunError> {
-        let own = OwnToolboxes::read(ProjectFile::of_plan(&path)?)?;
+        let own = OwnToolboxes::of_plan(&path)?;
         let toolboxes = own.with_built_in()?;
         let compiled = compile_plan(source, &toolboxes, files, plan);
         Ok(PlanFile { path, compiled, own })

@@ -9,9 +9,10 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::process::Command;
 
-use afp_build::{OwnToolboxes, Parts, Product};
+use afp_build::{Parts, Product};
 use afp_dsl::graph::Graph;
 use afp_project::ProjectFile;
+use afp_resolve::OwnToolboxes;
 use afp_run::RunError;
 
 use crate::plan_file::NoPlan;

@@ -1,6 +1,6 @@
 //! Drives one case.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt::Write;
 use std::rc::Rc;
 
@@ -11,6 +11,7 @@ use afp_core::{Duration, Instant, Scheduler, Wake};
 use afp_sim::{Pose, Simulation};
 
 use crate::case::Case;
+use crate::push::Pushes;
 use crate::watch::Watch;
 use crate::witness::Witness;
 
@@ -34,6 +35,8 @@ pub struct Outcome {
     pub contacts: Vec<usize>,
     /// For how long it touched something while its drive was told to move.
     pub pushing: Duration,
+    /// When and where it did.
+    pub pushes: Pushes,
     /// When the plan ended, or the case.
     pub at: Instant,
     /// Where the robot is then.
@@ -66,7 +69,7 @@ pub fn run(case: &Case) -> Outcome {
         }
     });
     let clock = sim.clock();
-    let mut robot = Witness { sim, watch: Rc::clone(&watch) };
+    let mut robot = Witness { sim, watch: Rc::clone(&watch), counted: Cell::default() };
     let mut scheduler = Scheduler::new(plan);
     for (entry, value) in &case.inputs {
         scheduler.set_named(entry, value).expect("the plan has such an input");
@@ -75,6 +78,8 @@ pub fn run(case: &Case) -> Outcome {
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
     let (mut pushing, mut at) = (Duration::ZERO, case.until);
+    let things: Vec<String> = case.world.obstacles.iter().map(|it| it.name.clone()).collect();
+    let mut pushes = Pushes::default();
     while robot.sim.now() < end {
         let due = match wake {
             Wake::At(due) => due.max(clock.free()),
@@ -85,7 +90,7 @@ pub fn run(case: &Case) -> Outcome {
         let now = robot.sim.now();
         if now == look {
             watch.borrow_mut().look(&robot.sim);
-            if is_pushing(&robot.sim) {
+            if pushes.look(&robot, &things) {
                 pushing = pushing + LOOK;
             }
             look = look + LOOK;
@@ -107,13 +112,7 @@ pub fn run(case: &Case) -> Outcome {
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
     let broken = watch.into_inner().broken();
-    Outcome { trace, ending, broken, timeline, contacts, pushing, at, pose }
-}
-
-/// Whether the robot touches something while its drive is told to move.
-fn is_pushing(sim: &Simulation) -> bool {
-    let truth = sim.truth();
-    truth.touching().next().is_some() && !truth.is_halted()
+    Outcome { trace, ending, broken, timeline, contacts, pushing, pushes, at, pose }
 }
 
 /// The longest stop time that a template of the plan's toolboxes declares.

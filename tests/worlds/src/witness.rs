@@ -1,12 +1,12 @@
 //! The robot with a witness between it and the plan, who sees every reading and every command.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use afp_carbot::Path;
 use afp_carbot::devices::{
-    Battery, Beam, Belief, Body, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Flow,
-    FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
+    Battery, Beam, Belief, Body, Bump, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo,
+    Flow, FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
     PathPlanner, Reading, RotatingTelemetry, Rotator, Signals, TouchSensor, Trip, Ultrasonic,
 };
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Speed};
@@ -20,6 +20,8 @@ use crate::watch::Watch;
 pub(crate) struct Witness {
     pub(crate) sim: Simulation,
     pub(crate) watch: Rc<RefCell<Watch>>,
+    /// What the odometry said last when it was asked.
+    pub(crate) counted: Cell<Option<Motion>>,
 }
 
 impl Witness {
@@ -72,7 +74,12 @@ impl Odometry for Witness {
             let all = [x.si(), y.si(), heading.si(), speed.si(), turn.si()];
             self.sane(&format!("odometry is {all:?}"), all.iter().all(|value| value.is_finite()));
         }
+        self.counted.set(reading.value.ok());
         reading
+    }
+
+    fn last_bump(&self) -> Option<Bump> {
+        self.sim.last_bump()
     }
 }
 

@@ -85,6 +85,7 @@ fn sent(name: &str, errand: fn(u64) -> Option<Errand>) -> Account {
             let outcome = run(&errand.case);
             if env::var_os("AFP_GOAL").is_some() {
                 println!("{}\n{}\n{}", errand.text, errand.case, outcome.timeline);
+                println!("{}", outcome.pushes);
             }
             account.lock().unwrap_or_else(PoisonError::into_inner).add(&errand, &outcome);
         }

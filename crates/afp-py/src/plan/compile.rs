@@ -7,7 +7,7 @@ use std::sync::Arc;
 use afp_dsl::files::{Disk, Files};
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile_plan};
-use afp_project::{CrateLink, ProjectFile, shown};
+use afp_resolve::OwnToolboxes;
 use afp_run::{RunError, write_whole};
 use afp_syntax::source::Source;
 use pyo3::prelude::*;
@@ -25,6 +25,7 @@ pub struct Workspace {
     /// Which plan of the file runs.
     name: Option<String>,
     known: Toolboxes,
+    own: Option<Arc<OwnToolboxes>>,
     /// Texts of other files that a change has reached, by path.
     others: BTreeMap<String, String>,
     compiled: Option<Arc<Compiled>>,
@@ -43,24 +44,23 @@ impl Workspace {
         name: Option<String>,
         toolboxes: &[Py<Toolbox>],
     ) -> Result<Workspace, RunError> {
-        let mut known: Toolboxes = afp_toolboxes::sources().collect();
-        if let Some(path) = &path {
-            let project = ProjectFile::of_plan(path)?;
-            for file in project.toolboxes()? {
-                let name = &file.toolbox.name;
-                let krate = file.krate.as_ref().map_or_else(|_| name.clone(), CrateLink::rust_path);
-                known.add(Source::new(shown(&file.path).display().to_string(), &file.text), &krate);
-            }
-            if let Some(toolbox) = project.project.robot.and_then(|robot| robot.toolbox) {
-                known.set_robot(&toolbox);
-            }
-        }
+        let own = path.as_deref().map(OwnToolboxes::of_plan).transpose()?;
+        let mut known = match &own {
+            Some(own) => own.with_built_in()?,
+            None => afp_toolboxes::sources().collect(),
+        };
         for toolbox in toolboxes {
             let source = toolbox.get().source();
             known.add(source, "python");
         }
         let others = BTreeMap::new();
-        Ok(Workspace { text, path, name, known, others, compiled: None })
+        let own = own.map(Arc::new);
+        Ok(Workspace { text, path, name, known, own, others, compiled: None })
+    }
+
+    /// The toolboxes of its project; `None` for a plan without a file.
+    pub fn own(&self) -> Option<Arc<OwnToolboxes>> {
+        self.own.clone()
     }
 
     pub fn text(&self) -> &str {

@@ -6,11 +6,16 @@ mod tables;
 use super::error::at_key;
 use super::look::parse_color;
 use super::{
-    Light, Look, Mobility, Obstacle, Outline, Patch, Path, Rgb, Texture, World, WorldError,
+    Light, Look, Mobility, Obstacle, Outline, OwnTables, Patch, Path, Rgb, Texture, World,
+    WorldError,
 };
 use crate::truth::Pose;
+use serde::de::DeserializeOwned;
+use toml_edit::Document;
+use toml_edit::de::{Deserializer, Error};
+
 use check::{Check, Key};
-use tables::File;
+use tables::{File, KEYS};
 
 /// A wall is this thick where the file does not say, metres.
 const THICKNESS: f64 = 0.1;
@@ -27,10 +32,11 @@ const WALL_COLOR: Rgb = [226, 221, 208];
 const BOX_COLOR: Rgb = [176, 141, 87];
 const POLYGON_COLOR: Rgb = [127, 143, 166];
 
-/// Reads a file and checks each value by itself.
-pub(super) fn read(text: &str) -> Result<World, WorldError> {
-    let file: File = toml_edit::de::from_str(text)
-        .map_err(|error| WorldError { span: error.span(), message: error.message().to_owned() })?;
+/// Reads a file and checks each value by itself; gives what it says for its robot alone, too.
+pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
+    let document = Document::parse(text).map_err(|error| wrong(&error.into()))?;
+    known_keys(&document, O::KEYS)?;
+    let (file, own): (File, O) = (tables(&document)?, tables(&document)?);
     let check = Check::new(text);
     let root = Key::root();
     if file.version != 1 {
@@ -60,7 +66,7 @@ pub(super) fn read(text: &str) -> Result<World, WorldError> {
         Some(map) => check.convex(&root.at("map").at("corners_m"), map.corners_m)?,
         None => Vec::new(),
     };
-    Ok(World {
+    let world = World {
         map,
         name: file.name,
         start,
@@ -69,7 +75,27 @@ pub(super) fn read(text: &str) -> Result<World, WorldError> {
         obstacles,
         patches: patches.collect::<Result<_, _>>()?,
         lights: lights.collect::<Result<_, _>>()?,
-    })
+    };
+    Ok((world, own))
+}
+
+/// Looks for a key that neither all worlds have nor those of this robot.
+fn known_keys(document: &Document<&str>, own: &[&str]) -> Result<(), WorldError> {
+    let known = || KEYS.iter().chain(own);
+    let unknown = document.iter().find(|(key, _)| known().all(|name| name != key));
+    let Some((key, _)) = unknown else { return Ok(()) };
+    let names: Vec<_> = known().map(|name| format!("`{name}`")).collect();
+    let message = format!("unknown field `{key}`, expected one of {}", names.join(", "));
+    Err(WorldError { span: document.key(key).and_then(toml_edit::Key::span), message })
+}
+
+/// What a file says in the shape of `T`.
+fn tables<T: DeserializeOwned>(document: &Document<&str>) -> Result<T, WorldError> {
+    T::deserialize(Deserializer::from(document.clone())).map_err(|error| wrong(&error))
+}
+
+fn wrong(error: &Error) -> WorldError {
+    WorldError { span: error.span(), message: error.message().to_owned() }
 }
 
 impl Check<'_> {

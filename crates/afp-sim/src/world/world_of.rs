@@ -1,7 +1,9 @@
 //! Worlds of robots that are no Carbot.
 
 use std::fmt::Debug;
-use std::marker::PhantomData;
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use super::{World, WorldError};
 use crate::chassis::Chassis;
@@ -13,27 +15,75 @@ pub trait Body: Clone + Debug + Send + Sync + 'static {
     const CHASSIS: Chassis;
     /// The text of the world for plans that come without one.
     const DEFAULT: &'static str;
+    /// What files say for this robot alone; [`NoTables`] where that is nothing.
+    type Own: OwnTables;
+}
+
+/// What world files say for one robot alone: keys beside those that all worlds have, read by serde.
+///
+/// ```
+/// #[derive(Clone, Debug, serde::Deserialize)]
+/// struct Dirt {
+///     #[serde(default)]
+///     dirt: Vec<Spot>,
+/// }
+///
+/// #[derive(Clone, Debug, serde::Deserialize)]
+/// #[serde(deny_unknown_fields)]
+/// struct Spot {
+///     at_m: [f64; 2],
+/// }
+///
+/// impl afp_sim::parts::OwnTables for Dirt {
+///     const KEYS: &'static [&'static str] = &["dirt"];
+/// }
+/// ```
+pub trait OwnTables: DeserializeOwned + Clone + Debug + Send + Sync + 'static {
+    /// The keys at the top of a file that are its own. What is none of these and none of all worlds is a mistake.
+    const KEYS: &'static [&'static str];
+
+    /// What is wrong with the values, `None` for nothing.
+    fn wrong(&self) -> Option<String> {
+        None
+    }
+
+    /// Adds to a picture what it shows of them.
+    fn draw(&self, drawing: &mut Drawing) {
+        let _ = drawing;
+    }
+
+    /// What scenes show of them at the start.
+    fn scene(&self) -> Vec<Shape> {
+        Vec::new()
+    }
+}
+
+/// The tables of a robot of which world files say nothing of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub struct NoTables {}
+
+impl OwnTables for NoTables {
+    const KEYS: &'static [&'static str] = &[];
 }
 
 /// A world, written as those of the Carbot are, for a robot with another body.
 #[derive(Clone, Debug)]
-pub struct WorldOf<B> {
+pub struct WorldOf<B: Body> {
     /// The world.
     pub world: World,
-    body: PhantomData<fn() -> B>,
-}
-
-impl<B> WorldOf<B> {
-    fn new(world: World) -> Self {
-        WorldOf { world, body: PhantomData }
-    }
+    /// What the file says for this robot alone.
+    pub own: B::Own,
 }
 
 impl<B: Body> afp_session::World for WorldOf<B> {
     const DEFAULT: &'static str = B::DEFAULT;
 
     fn read(text: &str) -> Result<Self, WorldError> {
-        World::parse_for(&B::CHASSIS, text).map(Self::new)
+        let (world, own) = World::parse_with::<B::Own>(&B::CHASSIS, text)?;
+        match own.wrong() {
+            Some(message) => Err(WorldError { span: None, message }),
+            None => Ok(WorldOf { world, own }),
+        }
     }
 
     fn name(&self) -> &str {
@@ -41,14 +91,19 @@ impl<B: Body> afp_session::World for WorldOf<B> {
     }
 
     fn started_at(&self, start: Pose2) -> Result<Self, String> {
-        self.world.started_with(&B::CHASSIS, start).map(Self::new)
+        let world = self.world.started_with(&B::CHASSIS, start)?;
+        Ok(WorldOf { world, own: self.own.clone() })
     }
 
     fn scene(&self) -> Vec<Shape> {
-        self.world.scene_with(&B::CHASSIS)
+        let mut scene = self.world.scene_with(&B::CHASSIS);
+        scene.extend(self.own.scene());
+        scene
     }
 
     fn drawing(&self) -> Drawing {
-        self.world.drawing_with(&B::CHASSIS)
+        let mut drawing = self.world.drawing_with(&B::CHASSIS);
+        self.own.draw(&mut drawing);
+        drawing
     }
 }

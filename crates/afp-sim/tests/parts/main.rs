@@ -176,3 +176,33 @@ fn its_worlds_are_checked_for_its_own_body() {
     assert!(AnyWorld::drawing(&world).body.len() > 8, "it is drawn round");
     let _: fn(_, _) -> Session<afp::load::LoadedPlan<Rover>, Rover> = Session::loaded;
 }
+
+/// What a world file with these lines says for the rover alone, or what is wrong with it and where.
+fn docks(rest: &str) -> Result<Vec<[f64; 2]>, String> {
+    let text = format!("{ROOM}{rest}");
+    let world = <Rover as Simulated>::World::read(&text).map_err(|error| {
+        let place = error.span.map_or("", |span| &text[span]);
+        format!("{}: {place}", error.message)
+    })?;
+    assert_eq!(
+        afp_session::World::drawing(&world).lights,
+        world.own.docks.iter().map(|it| it.at_m).collect::<Vec<_>>()
+    );
+    Ok(world.own.docks.iter().map(|dock| dock.at_m).collect())
+}
+
+#[test]
+fn world_files_have_tables_of_a_robot_of_ones_own() {
+    assert_eq!(docks(""), Ok(vec![]));
+    assert_eq!(docks("[[dock]]\nat_m = [1, 2]\n"), Ok(vec![[1.0, 2.0]]));
+    let two = "[[dock]]\nat_m = [1, 2]\n[[dock]]\nat_m = [1, 2]\n";
+    assert_eq!(docks(two).unwrap_err(), "2 docks; the rover knows one: ");
+    let misspelt = docks("[[dok]]\nat_m = [1, 2]\n").unwrap_err();
+    assert!(misspelt.starts_with("unknown field `dok`, expected one of `version`"), "{misspelt}");
+    assert!(misspelt.ends_with("`infrared`, `map`, `dock`: dok"), "{misspelt}");
+    let inside = docks("[[dock]]\nat_m = [1, 2]\nname = 3\n").unwrap_err();
+    assert_eq!(inside, "unknown field `name`, expected `at_m`: name");
+    // The Carbot has no docks.
+    let carbot = afp_sim::World::parse(&format!("{ROOM}[[dock]]\nat_m = [1, 2]\n")).unwrap_err();
+    assert!(carbot.message.ends_with("`infrared`, `map`"), "{}", carbot.message);
+}

@@ -13,14 +13,15 @@ use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
 use afp_session::parts::{Line, Noise, VirtualClock};
 use afp_session::{
-    Active, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated, Span,
-    Transform,
+    Active, Drawing, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated,
+    Span, Transform,
 };
 use afp_sim::parts::{
-    Body, Chassis, Footprint, RangeModel, RangeSensor, STEP, Stage, Switch, TwoWheels, WheelModel,
-    WorldOf,
+    Body, Chassis, Footprint, OwnTables, RangeModel, RangeSensor, STEP, Stage, Switch, TwoWheels,
+    WheelModel, WorldOf,
 };
 use afp_syntax::source::Source;
+use serde::Deserialize;
 
 pub mod templates {
     #![allow(missing_docs)]
@@ -65,6 +66,32 @@ impl Body for Round {
     const CHASSIS: Chassis =
         Chassis { shape: Footprint::Round(RADIUS), mass: 2.0, height: 0.1, ranging_height: 0.06 };
     const DEFAULT: &'static str = super::ROOM;
+    type Own = Docks;
+}
+
+/// Where the rover can be charged, which is nothing to other robots.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Docks {
+    #[serde(default, rename = "dock")]
+    pub docks: Vec<Dock>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dock {
+    pub at_m: [f64; 2],
+}
+
+impl OwnTables for Docks {
+    const KEYS: &'static [&'static str] = &["dock"];
+
+    fn wrong(&self) -> Option<String> {
+        (self.docks.len() > 1).then(|| format!("{} docks; the rover knows one", self.docks.len()))
+    }
+
+    fn draw(&self, drawing: &mut Drawing) {
+        drawing.lights.extend(self.docks.iter().map(|dock| dock.at_m));
+    }
 }
 
 /// The drive, as templates know it.

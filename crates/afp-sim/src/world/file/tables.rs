@@ -2,9 +2,12 @@
 
 use serde::Deserialize;
 
-/// A whole file.
+/// The keys of a whole file; those of [`File`].
+pub(super) const KEYS: [&str; 10] =
+    ["version", "name", "robot", "floor", "wall", "box", "polygon", "patch", "infrared", "map"];
+
+/// A whole file. Which other keys it may have depends on the robot.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct File {
     pub(super) version: u32,
     #[serde(default)]

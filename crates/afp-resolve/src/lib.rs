@@ -1,6 +1,12 @@
-//! The toolboxes of the project, with the crates that implement them.
+//! The toolboxes that the plans of a project may use, with the crates that implement them: those that are built
+//! in, and those that `afp.toml` names.
+//!
+//! Command line, macros, tests and Python all ask here, so that a plan means the same to each of them. The language
+//! server alone reads toolboxes otherwise, since its files are those of a client and may be half written.
+#![forbid(unsafe_code)]
 
 use std::fs;
+use std::path::Path;
 use std::sync::Arc;
 
 use afp_dsl::graph::Graph;
@@ -39,18 +45,36 @@ impl OwnToolboxes {
         Ok(OwnToolboxes { project, files })
     }
 
+    /// Those of the project whose `afp.toml` is nearest to a plan.
+    ///
+    /// # Errors
+    /// The project file or one of them cannot be read, or the project file is wrong.
+    pub fn of_plan(plan: &Path) -> Result<Self, ProjectError> {
+        OwnToolboxes::read(ProjectFile::of_plan(plan)?)
+    }
+
     /// The built-in toolboxes and those of the project, which take the place of built-in ones of the
     /// same name.
     ///
     /// # Errors
     /// A toolbox file is that of another toolbox than the project says.
     pub fn with_built_in(&self) -> Result<Toolboxes, ProjectError> {
+        self.with_built_in_as(source, rust_path)
+    }
+
+    /// As [`OwnToolboxes::with_built_in`]; the caller says how messages show the files, and by which paths it
+    /// reaches the crates.
+    ///
+    /// # Errors
+    /// A toolbox file is that of another toolbox than the project says.
+    pub fn with_built_in_as(
+        &self,
+        source: impl Fn(&ToolboxFile) -> Source,
+        rust_path: impl Fn(&ToolboxFile) -> String,
+    ) -> Result<Toolboxes, ProjectError> {
         let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
         for file in &self.files {
-            // Plans can be checked before there is a crate; whoever needs it asks for it.
-            let name = &file.toolbox.name;
-            let path = file.krate.as_ref().map_or_else(|_| name.clone(), CrateLink::rust_path);
-            toolboxes.add(source(file), &path);
+            toolboxes.add(source(file), &rust_path(file));
         }
         if let Some(name) = self.of_robot() {
             toolboxes.set_robot(name);
@@ -61,6 +85,11 @@ impl OwnToolboxes {
             true => Ok(toolboxes),
             false => Err(self.project.wrong(misnamed)),
         }
+    }
+
+    /// The files of the project's toolboxes, in its order.
+    pub fn files(&self) -> &[ToolboxFile] {
+        &self.files
     }
 
     /// Names and texts of the toolboxes.
@@ -123,8 +152,7 @@ impl OwnToolboxes {
     /// The text of an icon: `icons/NAME.svg` beside the file of the project's toolbox, else that of a
     /// built-in one.
     pub fn icon(&self, toolbox: &Toolbox, name: &str) -> Option<String> {
-        let plain = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | '_');
-        if name.is_empty() || !name.chars().all(plain) {
+        if !afp_toolboxes::is_icon_name(name) {
             return None;
         }
         let own = self.files.iter().find(|file| file.toolbox.name == toolbox.name);
@@ -134,6 +162,11 @@ impl OwnToolboxes {
         let built_in = afp_toolboxes::ALL.iter().any(|each| each.name == toolbox.name);
         built_in.then(|| afp_toolboxes::icon(name)).flatten().map(str::to_owned)
     }
+}
+
+/// The path of the crate behind a toolbox. Plans can be checked before there is one; whoever needs it asks for it.
+fn rust_path(file: &ToolboxFile) -> String {
+    file.krate.as_ref().map_or_else(|_| file.toolbox.name.clone(), CrateLink::rust_path)
 }
 
 fn source(file: &ToolboxFile) -> Source {

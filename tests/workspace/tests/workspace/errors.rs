@@ -1,0 +1,57 @@
+//! What may fail in another way tomorrow says so to those who match today.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use afp_workspace::root;
+
+/// Errors that both ends of ours must know: a kind of error that compiler or run time forgot is not to compile.
+const OURS: [&str; 1] = ["afp-number/src/lib.rs: Error"];
+
+/// The Rust files below a folder.
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries
+        .flat_map(|path| match path.is_dir() {
+            true => rust_files(&path),
+            false => vec![path],
+        })
+        .filter(|path| path.extension().is_some_and(|ending| ending == "rs"))
+        .collect()
+}
+
+/// The public enums of a text that are errors and can be matched to the last.
+fn exhaustive(text: &str) -> Vec<&str> {
+    let mut found = Vec::new();
+    let mut open = true;
+    for line in text.lines() {
+        if let Some(rest) = line.strip_prefix("pub enum ") {
+            let name = rest.split([' ', '<']).next().unwrap_or(rest);
+            if open && name.ends_with("Error") {
+                found.push(name);
+            }
+        }
+        open = line != "#[non_exhaustive]";
+    }
+    found
+}
+
+#[test]
+fn errors_may_get_more_kinds() {
+    let crates = root().join("crates");
+    let mut wrong = Vec::new();
+    for file in rust_files(&crates) {
+        let shown = file.strip_prefix(&crates).unwrap().display().to_string();
+        let text = fs::read_to_string(&file).unwrap();
+        wrong.extend(exhaustive(&text).iter().map(|name| format!("{shown}: {name}")));
+    }
+    wrong.retain(|each| !OURS.contains(&each.as_str()));
+    assert!(wrong.is_empty(), "write '#[non_exhaustive]' above: {wrong:#?}");
+}
+
+#[test]
+fn an_error_that_can_be_matched_to_the_last_is_found() {
+    let text =
+        "#[non_exhaustive]\npub enum AError {\n}\npub enum BError<E> {\n}\npub enum Go {\n}\n";
+    assert_eq!(exhaustive(text), ["BError"]);
+}

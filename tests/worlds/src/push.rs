@@ -1,0 +1,65 @@
+//! When and where the robot pushed against something, and what it took itself to be doing.
+
+use std::fmt;
+
+use afp_carbot::devices::Motion;
+use afp_core::{Duration, Instant};
+use afp_sim::Pose;
+
+use crate::witness::Witness;
+
+/// Pushes of one thing that are no farther apart than this are one.
+const APART: Duration = Duration::from_millis(300);
+
+/// A stretch of time in which the robot touched something while its drive was told to move.
+#[derive(Clone, Debug)]
+pub struct Push {
+    /// The name of what it touched.
+    pub what: String,
+    /// When it began and when it was seen last, and where the robot was then, truly and by its odometry.
+    ends: [(Instant, Pose, Option<Motion>); 2],
+}
+
+/// The pushes of a run, oldest first.
+#[derive(Clone, Debug, Default)]
+pub struct Pushes(Vec<Push>);
+
+impl Pushes {
+    /// Whether the robot touches something while its drive is told to move; takes note of it.
+    pub(crate) fn look(&mut self, robot: &Witness, names: &[String]) -> bool {
+        let truth = robot.sim.truth();
+        let Some(touch) = truth.touching().next().filter(|_| !truth.is_halted()) else {
+            return false;
+        };
+        let what = names.get(touch.obstacle).cloned().unwrap_or_default();
+        let end = (robot.sim.now(), truth.pose(), robot.counted.get());
+        match self.0.last_mut() {
+            Some(last) if last.what == what && end.0.since(last.ends[1].0) <= APART => {
+                last.ends[1] = end;
+            }
+            _ => self.0.push(Push { what, ends: [end, end] }),
+        }
+        true
+    }
+}
+
+impl fmt::Display for Pushes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|push| writeln!(f, "{push}"))
+    }
+}
+
+impl fmt::Display for Push {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [(from, a, before), (to, b, after)] = &self.ends;
+        write!(f, "pushes against '{}' from {from} to {to} at {:.2} {:.2}", self.what, a.x, a.y)?;
+        let turned = |a: f64, b: f64| (b - a).to_degrees();
+        let way = (b.x - a.x).hypot(b.y - a.y);
+        write!(f, ", {:.0} deg", a.heading.to_degrees())?;
+        write!(f, ": goes {way:.2} m and turns {:.0} deg", turned(a.heading, b.heading))?;
+        let Some((before, after)) = before.zip(*after) else { return Ok(()) };
+        let way = (after.x - before.x).si().hypot((after.y - before.y).si());
+        let angle = turned(before.heading.si(), after.heading.si());
+        write!(f, "; by odometry {way:.2} m and {angle:.0} deg")
+    }
+}
