@@ -80,9 +80,10 @@ pub fn debugger(data: &[u8]) {
     let mut now = Wall::ZERO;
     for line in text(data).lines() {
         let from = clients[usize::from(line.starts_with(' '))];
-        let kind = serde_json::from_str::<Value>(line).unwrap_or_default();
-        let is_request = serde_json::from_str::<dapts::Request>(line).is_ok();
-        let asked = usize::from(is_request && kind["type"] != "response");
+        let message = serde_json::from_str::<Value>(line).unwrap_or_default();
+        let is_answer = message["type"] == "response";
+        let is_request = serde_json::from_value::<dapts::Request>(message).is_ok();
+        let asked = usize::from(is_request && !is_answer);
         let said = adapter.handle(from, line, now);
         let is_response = |said: &&Told| {
             let message = serde_json::from_str::<Value>(&said.message).unwrap_or_default();

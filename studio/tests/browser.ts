@@ -49,6 +49,23 @@ export async function shows(part: Locator, wanted: RegExp): Promise<void> {
   assert.match(await settled(() => part.innerText(), (now) => wanted.test(now)), wanted);
 }
 
+/** Where a word of the text is on the page, once it is in sight. */
+export const middle = (page: Page, word: string): Promise<[number, number]> =>
+  page.evaluate((word) => {
+    const texts = document.createTreeWalker(document.querySelector(".cm-content")!, NodeFilter.SHOW_TEXT);
+    while (texts.nextNode()) {
+      const at = new RegExp(`\\b${word}\\b`).exec(texts.currentNode.nodeValue ?? "")?.index;
+      if (at === undefined) continue;
+      texts.currentNode.parentElement!.scrollIntoView({ block: "center" });
+      const range = document.createRange();
+      range.setStart(texts.currentNode, at);
+      range.setEnd(texts.currentNode, at + word.length);
+      const { x, y, width, height } = range.getBoundingClientRect();
+      return [x + width / 2, y + height / 2];
+    }
+    throw new Error(`no '${word}' in ${document.querySelector(".cm-content")!.textContent}`);
+  }, word);
+
 let browser: Browser | null = null;
 after(() => browser?.close());
 

@@ -2,10 +2,9 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import type { Page } from "playwright-core";
 import AxeBuilder from "@axe-core/playwright";
 import { moved } from "../page/debug/breakpoints";
-import { inBrowser, shows } from "./browser";
+import { inBrowser, middle, shows } from "./browser";
 
 const PAPER = readFileSync(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 
@@ -33,22 +32,6 @@ plan Outer {
     subplan work: Inner(pause = 3 s, done => worked) { OK -> terminate }
 }
 `;
-
-/** Where a word of the text is on the page. */
-const middle = (page: Page, word: string): Promise<[number, number]> =>
-  page.evaluate((word) => {
-    const texts = document.createTreeWalker(document.querySelector(".cm-content")!, NodeFilter.SHOW_TEXT);
-    while (texts.nextNode()) {
-      const at = new RegExp(`\\b${word}\\b`).exec(texts.currentNode.nodeValue ?? "")?.index;
-      if (at === undefined) continue;
-      const range = document.createRange();
-      range.setStart(texts.currentNode, at);
-      range.setEnd(texts.currentNode, at + word.length);
-      const { x, y, width, height } = range.getBoundingClientRect();
-      return [x + width / 2, y + height / 2];
-    }
-    throw new Error(`no '${word}' in ${document.querySelector(".cm-content")!.textContent}`);
-  }, word);
 
 inBrowser("runs, shows the active element through sub-plans, pauses, steps and ends with a card", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator(".count", { hasText: "warning" }).or(page.locator(".count", { hasText: "ready" })).waitFor();

@@ -1,21 +1,12 @@
 // What people see, compared with pictures that somebody has looked at: the whole page in each look, and the picture of the
-// README, which is made here. `AFP_SCREENS=1` compares; with `AFP_BLESS=1` the pictures are written anew.
-import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
-import { mkdir, readFile, writeFile } from "node:fs/promises";
-import { dirname, join } from "node:path";
-import { tmpdir } from "node:os";
-import { fileURLToPath } from "node:url";
+// README, which is made here.
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { inBrowser } from "./browser";
+import { compared, looksLike } from "./pictures";
 
-const ROOT = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const PICTURES = "studio/tests/screens";
 /** The picture of the README and of the book. */
 const SHOWN = "docs/images/studio.png";
-/** How far a colour may be off before its pixel counts, of 255; and how many pixels may count. */
-const FAR = 40;
-const MOST = 0.01;
 
 const LOOKS: Record<string, BrowserContextOptions> = {
   light: { viewport: { width: 1400, height: 880 } },
@@ -27,48 +18,6 @@ const LOOKS: Record<string, BrowserContextOptions> = {
 
 /** The looks in which an empty folder is looked at, too. */
 const FIRST = ["light", "phone"];
-
-/** The part of all pixels in which two pictures differ; 1 where their sizes do. */
-const differing = (page: Page, one: Buffer, other: Buffer): Promise<number> =>
-  page.evaluate(
-    async ([urls, far]) => {
-      const [a, b] = await Promise.all(
-        urls.map(async (url) => {
-          const image = new Image();
-          image.src = url;
-          await image.decode();
-          const canvas = new OffscreenCanvas(image.width, image.height);
-          const context = canvas.getContext("2d")!;
-          context.drawImage(image, 0, 0);
-          return context.getImageData(0, 0, image.width, image.height);
-        }),
-      );
-      if (a!.width !== b!.width || a!.height !== b!.height) return 1;
-      let count = 0;
-      for (let at = 0; at < a!.data.length; at += 4) {
-        const off = [0, 1, 2].some((channel) => Math.abs(a!.data[at + channel]! - b!.data[at + channel]!) > far);
-        count += off ? 1 : 0;
-      }
-      return (4 * count) / a!.data.length;
-    },
-    [[one, other].map((bytes) => `data:image/png;base64,${bytes.toString("base64")}`), FAR] as const,
-  );
-
-/** Compares what is on the screen with a picture of the checkout. */
-async function looksLike(page: Page, name: string): Promise<void> {
-  await page.evaluate(() => Promise.all(document.getAnimations().map((motion) => motion.finished.catch(() => {}))));
-  const now = await page.screenshot({ animations: "disabled", caret: "hide" });
-  const file = join(ROOT, name);
-  if (process.env.AFP_BLESS) {
-    await mkdir(dirname(file), { recursive: true });
-    return writeFile(file, now);
-  }
-  assert.ok(existsSync(file), `there is no ${name}: AFP_BLESS=1 makes it; look at it`);
-  const part = await differing(page, now, await readFile(file));
-  const found = join(tmpdir(), `afp-${name.split("/").at(-1)}`);
-  if (part > MOST) await writeFile(found, now);
-  assert.ok(part <= MOST, `${(100 * part).toFixed(1)} % of ${name} are other pixels: compare it with ${found}`);
-}
 
 /** The page is at rest: nothing travels, nothing is asked for. */
 async function rests(page: Page): Promise<void> {
@@ -94,8 +43,7 @@ async function held(page: Page, element: string): Promise<void> {
   await page.locator(".clock.held").waitFor({ timeout: 90_000 });
 }
 
-const wanted = Boolean(process.env.AFP_SCREENS || process.env.AFP_BLESS);
-for (const [look, options] of wanted ? Object.entries(LOOKS) : []) {
+for (const [look, options] of compared ? Object.entries(LOOKS) : []) {
   inBrowser(`a plan looks as it should, ${look}`, {}, async ({ page, folder }) => {
     const heading = page.locator("h1");
     await heading.waitFor();
@@ -108,7 +56,7 @@ for (const [look, options] of wanted ? Object.entries(LOOKS) : []) {
   }, options);
 }
 
-if (wanted) {
+if (compared) {
   inBrowser("the picture of the README is what one sees", {}, async ({ page }) => {
     await example(page, "Avoid obstacle");
     await held(page, "arrive");

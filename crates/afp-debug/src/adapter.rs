@@ -23,7 +23,6 @@ use afp_core::Instant;
 use afp_session::{Drawing, Droppable};
 use afp_token::Token;
 use dapts::{IRequest, event, request};
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
@@ -147,8 +146,10 @@ impl<'h> Adapter<'h> {
     /// whenever.
     pub fn handle(&mut self, from: ClientId, message: &str, now: Wall) -> Vec<Told> {
         self.asker = from;
-        let is_answer = serde_json::from_str::<Said>(message).is_ok_and(|it| it.kind == "response");
-        match serde_json::from_str::<dapts::Request>(message) {
+        // Of a key that is there twice the last one counts, whatever is read of the message.
+        let message = serde_json::from_str::<Value>(message);
+        let is_answer = message.as_ref().is_ok_and(|it| it["type"] == "response");
+        match message.and_then(serde_json::from_value::<dapts::Request>) {
             // What it says does not matter: that it comes does.
             _ if is_answer => self.hear_answer(from, now),
             Ok(asked) => self.answer(asked, now),
@@ -289,13 +290,6 @@ impl<'h> Adapter<'h> {
     fn output(&mut self, category: &str, text: &str) {
         self.event::<event::Output>(&output(category, text));
     }
-}
-
-/// What a client says, as far as it says what that is.
-#[derive(Deserialize)]
-struct Said {
-    #[serde(rename = "type")]
-    kind: String,
 }
 
 fn output(category: &str, text: &str) -> dapts::OutputEvent {

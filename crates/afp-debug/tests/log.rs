@@ -7,7 +7,7 @@ use std::sync::Arc;
 use afp_core::{Duration, Instant};
 use afp_debug::{Host, Launch, LogTarget, Target};
 use afp_log::{About, LogData, OwnedNames, SessionLog};
-use afp_session::{Open, Request};
+use afp_session::{EventKind, Miss, Open, Request, RunEvent};
 use common::{Clients, Texted, compiled, session};
 
 /// A plan's text and the file of a log of it.
@@ -180,6 +180,42 @@ fn a_log_is_sought_through_and_cannot_be_changed() {
     past.say(r#"continue {"threadId":1}"#);
     past.tick(None);
     assert!(past.told.contains("event terminated"), "{}", past.told);
+}
+
+#[test]
+fn a_deadline_that_was_missed_holds_a_log_where_that_is_wanted() {
+    let mut log = recorded(SHIPPED, "plan.afp", 5, None);
+    // Simulated supervisors are never late: it is made to seem so.
+    let polled =
+        |event: &RunEvent| event.kind == EventKind::Started && event.component.ends_with(".touch");
+    let place = log.events.iter().position(polled).expect("a supervisor starts");
+    let miss = Miss { lateness: Duration::from_millis(3), cause: None, skipped: 1 };
+    let missed =
+        RunEvent { kind: EventKind::Missed, missed: Some(miss), ..log.events[place].clone() };
+    log.events.insert(place + 1, missed);
+    for wanted in [true, false] {
+        let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log.clone())));
+        past.say(r#"launch {"log":"plan.afp"}"#);
+        let filters = if wanted { r#"["deadlineMissed"]"# } else { "[]" };
+        past.say(&format!(r#"setExceptionBreakpoints {{"filters":{filters}}}"#));
+        past.say("configurationDone");
+        past.tick(None);
+        let stop = past.told.lines().find(|line| line.contains("event stopped"));
+        let stop = stop.expect("it stands still, at the latest in the end");
+        assert_eq!(stop.contains(r#""reason":"exception""#), wanted, "{stop}");
+        past.told.clear();
+        past.say(r#"exceptionInfo {"threadId":1}"#);
+        assert_eq!(
+            past.told.contains(r#""exceptionId":"deadlineMissed""#),
+            wanted,
+            "{}",
+            past.told
+        );
+        if wanted {
+            let seen = look(&mut past);
+            assert!(seen.contains(r#""name":"last lateness","value":"3.000 ms""#), "{seen}");
+        }
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ pub(crate) mod hierarchy;
 mod initialize;
 pub(crate) mod looks;
 pub(crate) mod navigation;
+mod project;
 pub(crate) mod sync;
 
 pub(crate) use initialize::initialize;

@@ -27,15 +27,19 @@
 //! ```
 
 mod file;
+mod keys;
 mod krate;
 mod project;
 mod read;
+mod spot;
 mod time;
 mod tree;
 
 pub use file::{ProjectError, ProjectFile, ToolboxFile, shown};
+pub use keys::{Key, keys};
 pub use krate::{CrateLink, HardwareLink, RobotLink};
 pub use project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
+pub use spot::{Spot, SpotKind, headings, spot};
 pub use time::duration;
 pub use tree::{files, logs};

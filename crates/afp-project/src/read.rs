@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use toml_edit::{Document, Item, TableLike, Value};
 
+use crate::keys::{self, Key, it_has};
 use crate::project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
 use crate::time::duration;
 
@@ -46,11 +47,11 @@ impl Reader {
                 "robot" => robot = Some(pair),
                 "toolboxes" => project.toolboxes = self.each(&pair, Reader::toolbox),
                 "target" => project.targets = self.each(&pair, Reader::target),
-                _ => self.unknown(
-                    &pair,
-                    "a project",
-                    "it has '[run]', '[robot]', '[toolboxes]', '[target.NAME]' and '[afp]'",
-                ),
+                _ => {
+                    // In a file they are headings.
+                    let heads = keys::PROJECT.iter().map(|key| Key { name: key.example, ..*key });
+                    self.unknown(&pair, "a project", &it_has(&heads.collect::<Vec<_>>()));
+                }
             }
         }
         // It names a toolbox, which may stand below it.
@@ -65,7 +66,7 @@ impl Reader {
                     project.world = self.text(&pair, what);
                 }
                 "measures" => project.measures = self.texts(&pair, "names in a list, [\"wall\"]"),
-                _ => self.unknown(&pair, "'[run]'", "it has 'world' and 'measures'"),
+                _ => self.unknown(&pair, "'[run]'", &it_has(keys::RUN)),
             }
         }
     }
@@ -111,7 +112,7 @@ impl Reader {
             match pair.key {
                 "path" => path = self.text(&pair, "the toolbox file, such as \"gripper.afp\""),
                 "crate" => krate = self.krate(&pair),
-                _ => self.unknown(&pair, "a toolbox", "it has 'path' and 'crate'"),
+                _ => self.unknown(&pair, "a toolbox", &it_has(keys::TOOLBOX)),
             }
         }
         if path.is_none() && self.mistakes.len() == before {
@@ -130,10 +131,7 @@ impl Reader {
                 "sim" => sim = self.type_path(&pair),
                 "crate" => krate = Some(self.krate(&pair)),
                 "hardware" => hardware = self.hardware(&pair),
-                _ => {
-                    let help = "it has 'toolbox', 'sim', 'crate' and 'hardware'";
-                    self.unknown(&pair, "'[robot]'", help);
-                }
+                _ => self.unknown(&pair, "'[robot]'", &it_has(keys::ROBOT)),
             }
         }
         if sim.is_none() && self.mistakes.len() == before {
@@ -152,7 +150,7 @@ impl Reader {
                 "type" => ty = self.type_path(&pair),
                 "crate" => krate = Some(self.krate(&pair)),
                 "settings" => settings = self.settings(&pair),
-                _ => self.unknown(&pair, "'hardware'", "it has 'type', 'crate' and 'settings'"),
+                _ => self.unknown(&pair, "'hardware'", &it_has(keys::HARDWARE)),
             }
         }
         if ty.is_none() && self.mistakes.len() == before {
@@ -245,10 +243,7 @@ impl Reader {
                     read.slowdown = self.number(&pair, f64::MAX, "above 0, such as 20");
                 }
                 "budgets" => read.budgets = self.budgets(&pair),
-                _ => {
-                    let help = "it has 'tick', 'capacity', 'slowdown' and 'budgets'";
-                    self.unknown(&pair, "a target", help);
-                }
+                _ => self.unknown(&pair, "a target", &it_has(keys::TARGET)),
             }
         }
         Some(read)

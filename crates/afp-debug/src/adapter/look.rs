@@ -279,7 +279,7 @@ impl Adapter<'_> {
     }
 
     /// The value of a formula; `name = value` writes an entry, but not where a client shows it by itself, again and
-    /// again.
+    /// again; `why PATH` is [`Adapter::why`] for clients that have a console alone.
     pub(super) fn evaluate(
         &mut self,
         asked: dapts::EvaluateArguments,
@@ -288,6 +288,10 @@ impl Adapter<'_> {
         use dapts::EvaluateArgumentsContext as Context;
         if asked.context == Some(Context::Hover) {
             return self.hover(&asked);
+        }
+        if let Some(path) = asked.expression.trim().strip_prefix("why ") {
+            let result = self.why_in_words(path.trim())?;
+            return Ok(dapts::EvaluateResponse { result, ..dapts::EvaluateResponse::default() });
         }
         if let Some((name, value)) = assigned(&asked.expression) {
             if let Some(Context::Watch | Context::Clipboard | Context::Variables) = asked.context {

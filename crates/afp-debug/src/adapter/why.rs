@@ -44,6 +44,42 @@ impl Adapter<'_> {
         }
         Ok(answer)
     }
+
+    /// The same as people read it, a line for each edge.
+    pub(super) fn why_in_words(&mut self, path: &str) -> Answer<String> {
+        let told = self.why(&Why { path: path.to_owned(), at: None })?;
+        let word = |value: &Value, key: &str| value[key].as_str().unwrap_or_default().to_owned();
+        let second = |value: &Value| value.as_f64().map(|at| format!("{at:.3} s"));
+        let mut text = match (told["active"] == true, second(&told["since"])) {
+            (true, Some(since)) => format!("{} is active since {since}", word(&told, "path")),
+            (false, Some(since)) => {
+                format!("{} is not active; it started last at {since}", word(&told, "path"))
+            }
+            // Since when a supervisor watches is not told.
+            (true, None) => format!("{} watches", word(&told, "path")),
+            (false, None) => format!("{} has not started yet", word(&told, "path")),
+        };
+        if !told["because"].is_null() {
+            text += &format!(": {}", word(&told, "because"));
+        }
+        text += &in_words(&told["values"]);
+        for edge in told["edges"].as_array().into_iter().flatten() {
+            let looks = if edge["looks"] == true { "looks now" } else { "does not look now" };
+            let last = second(&edge["last"]);
+            let last = last.map_or("never taken".to_owned(), |at| format!("taken last at {at}"));
+            let (from, outcome) = (word(edge, "from"), word(edge, "outcome"));
+            text += &format!("\n  {from}.{outcome}: {looks}, {last}{}", in_words(&edge["values"]));
+        }
+        Ok(text)
+    }
+}
+
+/// ` (distance -30 cm, speed 20 cm/s)`
+fn in_words(values: &Value) -> String {
+    let values = values.as_object().into_iter().flatten();
+    let all = values.map(|(name, value)| format!("{name} {}", value.as_str().unwrap_or_default()));
+    let all: Vec<_> = all.collect();
+    if all.is_empty() { String::new() } else { format!(" ({})", all.join(", ")) }
 }
 
 impl Run<'_> {

@@ -8,9 +8,14 @@ use serde_json::Value;
 use crate::answer::{Answer, ok};
 use crate::convert::{Places, text_edit};
 use crate::server::Server;
+use crate::standard::project;
 
 /// Everything that can be written at a place.
 pub(crate) fn completion(server: &mut Server, params: lsp::CompletionParams) -> Answer {
+    let at = &params.text_document_position_params;
+    if let Some(text) = project::text(server, &at.text_document.uri) {
+        return project::completion(server, &text, at.position);
+    }
     let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
         return Ok(Value::Null);
     };

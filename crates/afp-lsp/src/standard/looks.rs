@@ -9,9 +9,14 @@ use serde_json::{Value, json};
 use crate::answer::{Answer, ok};
 use crate::convert::Places;
 use crate::server::Server;
+use crate::standard::project;
 
 /// What is to be said of a word.
 pub(crate) fn hover(server: &mut Server, params: lsp::HoverParams) -> Answer {
+    let at = &params.text_document_position_params;
+    if let Some(text) = project::text(server, &at.text_document.uri) {
+        return project::hover(server, &text, at.position);
+    }
     let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
         return Ok(Value::Null);
     };

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use crate::answer::{Answer, ok};
 use crate::convert::Places;
 use crate::server::Server;
+use crate::standard::project;
 use crate::workspace::Analysis;
 
 /// Where a name is declared.
@@ -92,6 +93,9 @@ pub(crate) fn highlights(server: &mut Server, params: lsp::DocumentHighlightPara
 /// What a document is made of.
 pub(crate) fn symbols(server: &mut Server, params: lsp::DocumentSymbolParams) -> Answer {
     let uri = params.text_document.uri;
+    if let Some(text) = project::text(server, &uri) {
+        return project::symbols(server, &text, &uri);
+    }
     let Some(analysis) = server.analysis(&uri) else { return Ok(Value::Null) };
     let places = server.places(&analysis);
     let all = afp_ide::symbols::symbols(&analysis.view());

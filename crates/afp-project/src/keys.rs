@@ -1,0 +1,170 @@
+//! What can stand in a project file, table by table: what readers allow, editors offer and explain.
+
+/// A key of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// What it says, in a sentence.
+    pub help: &'static str,
+    /// How it may be written.
+    pub example: &'static str,
+}
+
+const fn key(name: &'static str, help: &'static str, example: &'static str) -> Key {
+    Key { name, help, example }
+}
+
+/// The tables of a file.
+pub(crate) const PROJECT: &[Key] = &[
+    key("run", "How the plans of the project run.", "[run]"),
+    key("robot", "The robot of the project, where that is not the Carbot.", "[robot]"),
+    key("toolboxes", "Toolboxes of the project, each by its name.", "[toolboxes]"),
+    key("target", "A machine that programs run on: what time means there.", "[target.NAME]"),
+    key("afp", "Where the crates of AFP are, where 'afpc' does not know.", "[afp]"),
+];
+
+/// `[run]`
+pub(crate) const RUN: &[Key] = &[
+    key("world", "The world file in which plans run.", "world = \"worlds/room.toml\""),
+    key("measures", "By what every run is judged, too.", "measures = [\"wall\"]"),
+];
+
+/// `[afp]`, and where a crate comes from.
+pub(crate) const ORIGIN: &[Key] = &[
+    key("path", "A folder on this machine, relative to this file.", "path = \"../afp\""),
+    key("git", "The address of a repository.", "git = \"https://example.org/afp\""),
+    key("version", "A version in the registry.", "version = \"0.1\""),
+];
+
+/// One of `[toolboxes]`.
+pub(crate) const TOOLBOX: &[Key] = &[
+    key("path", "The toolbox file, relative to this file.", "path = \"gripper.afp\""),
+    key(
+        "crate",
+        "The crate that implements it, where it is not the one around its file.",
+        "crate = \"my-gripper\"",
+    ),
+];
+
+/// `[robot]`
+pub(crate) const ROBOT: &[Key] = &[
+    key(
+        "toolbox",
+        "The one of '[toolboxes]' that declares the robot's devices.",
+        "toolbox = \"vacuum\"",
+    ),
+    key(
+        "sim",
+        "The Rust type of the simulated robot, seen from the root of its crate.",
+        "sim = \"Vacuum\"",
+    ),
+    key("crate", "The crate of that type, where it is not the toolbox's.", "crate = \"vacuum\""),
+    key(
+        "hardware",
+        "The robot itself, for '--robot hardware'.",
+        "hardware = { type = \"Board\", crate = { path = \"board\" } }",
+    ),
+];
+
+/// `hardware` of `[robot]`
+pub(crate) const HARDWARE: &[Key] = &[
+    key("type", "The Rust type that drives the robot itself.", "type = \"Board\""),
+    key(
+        "crate",
+        "The crate of that type, where it is not the robot's.",
+        "crate = { path = \"board\" }",
+    ),
+    key(
+        "settings",
+        "What that type is given, by names of its own.",
+        "settings = { port = \"/dev/ttyUSB0\" }",
+    ),
+];
+
+/// What a crate has beside where it comes from.
+pub(crate) const CRATE: &[Key] = &[
+    key("package", "The name of the package.", "package = \"my-gripper\""),
+    key(
+        "module",
+        "The module with 'templates', where that is not the crate's root.",
+        "module = \"gripper::fast\"",
+    ),
+];
+
+/// `[target.NAME]`
+pub(crate) const TARGET: &[Key] = &[
+    key("tick", "How late the target may notice that something is due.", "tick = \"1 ms\""),
+    key("capacity", "The share of the processor that plans get, at most 1.", "capacity = 0.5"),
+    key("slowdown", "How many times longer than declared everything takes.", "slowdown = 4"),
+    key(
+        "budgets",
+        "How long a poll of a template takes there.",
+        "budgets.carbot.Forward = \"30 us\"",
+    ),
+];
+
+/// The keys of a table by the names that lead to it; none where names are free, or of a table that is not known.
+pub fn keys(table: &[&str]) -> Vec<Key> {
+    let lists: &[&[Key]] = match table {
+        [] => &[PROJECT],
+        ["run"] => &[RUN],
+        ["afp"] => &[ORIGIN],
+        ["robot"] => &[ROBOT],
+        ["robot", "hardware"] => &[HARDWARE],
+        ["toolboxes", _] => &[TOOLBOX],
+        ["toolboxes", _, "crate"] | ["robot", "crate"] | ["robot", "hardware", "crate"] => {
+            &[ORIGIN, CRATE]
+        }
+        ["target", _] => &[TARGET],
+        _ => &[],
+    };
+    lists.concat()
+}
+
+/// `it has 'world' and 'measures'`
+pub(crate) fn it_has(keys: &[Key]) -> String {
+    let names: Vec<_> = keys.iter().map(|key| format!("'{}'", key.name)).collect();
+    match names.as_slice() {
+        [all @ .., last] if !all.is_empty() => format!("it has {} and {last}", all.join(", ")),
+        all => format!("it has {}", all.join("")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read;
+
+    #[test]
+    fn every_key_is_read_as_its_example_has_it() {
+        for (head, table) in [
+            ("run", &["run"][..]),
+            ("afp", &["afp"]),
+            ("toolboxes.a", &["toolboxes", "a"]),
+            ("toolboxes.a.crate", &["toolboxes", "a", "crate"]),
+            ("robot", &["robot"]),
+            ("robot.hardware", &["robot", "hardware"]),
+            ("target.a", &["target", "a"]),
+        ] {
+            let all = keys(table);
+            assert!(!all.is_empty(), "{head}");
+            for key in all {
+                let (_, mistakes) = read(&format!("[{head}]\n{}\n", key.example));
+                // Others may be missing, or name what is not there.
+                let unknown = mistakes.iter().find(|it| {
+                    it.message.ends_with(&format!("has no '{}'", key.name))
+                        && it.help.starts_with("it has")
+                        || it.message.contains("cannot have this value")
+                });
+                assert_eq!(unknown, None, "{head}: {}", key.example);
+            }
+        }
+        let heads: Vec<_> = keys(&[]).iter().map(|key| key.example.replace("NAME", "a")).collect();
+        let (_, mistakes) = read(&heads.join("\n"));
+        assert!(
+            mistakes.iter().all(|it| it.message.contains("'[robot]' has no 'sim'")),
+            "{mistakes:?}"
+        );
+    }
+}
