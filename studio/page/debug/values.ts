@@ -27,7 +27,9 @@ export function held(frames: readonly Frame[], plan: string | null, now: Pick<St
   const path = frame.path ? `${frame.path}.${nameOf(item)}` : nameOf(item);
   const text = now.entries[path];
   const forced = now.forced.find((each) => each.path === path && each.value !== undefined);
-  return text === undefined ? null : { text, left: forced ? Math.max(0, Math.ceil(forced.until - now.at)) : null };
+  if (text === undefined) return null;
+  // What is forced while a run stands still is written by its next step.
+  return forced ? { text: forced.value ?? text, left: Math.max(0, Math.ceil(forced.until - now.at)) } : { text, left: null };
 }
 
 const short = (value: string): string => (value.length > LONGEST ? `${value.slice(0, LONGEST - 1)}…` : value);
