@@ -87,6 +87,60 @@ fn a_client_that_is_gone_ends_the_server() {
     assert_eq!(server.child.wait().unwrap().code(), Some(0));
 }
 
+/// A folder whose toolbox has a crate: building it would leave a file behind.
+fn untrusted() -> Place {
+    let place = Place::new();
+    place.write("afp.toml", "[toolboxes]\ngripper = { path = \"gripper/gripper.afp\" }\n");
+    let toolbox = "/// Grips.\ntoolbox gripper\n\n/// Grips.\nactor Grip { state Gripped }\n";
+    place.write("gripper/gripper.afp", toolbox);
+    let manifest =
+        "[package]\nname = \"gripper\"\nversion = \"0.1.0\"\nedition = \"2024\"\n[workspace]\n";
+    place.write("gripper/Cargo.toml", manifest);
+    place.write("gripper/src/lib.rs", "");
+    let marks = "fn main() { std::fs::write(\"../marker\", \"\").unwrap(); }\n";
+    place.write("gripper/build.rs", marks);
+    place.write(
+        "p.afp",
+        "use gripper\n\nplan P {\n    start grip\n    actor grip: Grip { Gripped -> terminate }\n}\n",
+    );
+    place
+}
+
+#[test]
+fn opening_checking_drawing_and_hovering_run_nothing_of_a_folder() {
+    let place = untrusted();
+    place.afpc("check p.afp").succeeds();
+    place.afpc("graph p.afp").succeeds();
+    let mut server = Spoken::new(&place);
+    server.say(r#"{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}"#);
+    server.hear();
+    server.say(r#"{"jsonrpc":"2.0","method":"initialized","params":{}}"#);
+    let uri = format!("file://{}", place.path("p.afp").display());
+    let text = place.read("p.afp").replace('\n', "\\n");
+    server.say(&format!(
+        r#"{{"jsonrpc":"2.0","method":"textDocument/didOpen","params":{{"textDocument":{{"uri":"{uri}","languageId":"afp","version":1,"text":"{text}"}}}}}}"#
+    ));
+    let said = server.hear();
+    assert!(said.contains(r#""diagnostics":[]"#), "{said}");
+    for (id, method, more) in [
+        (2, "textDocument/hover", r#","position":{"line":4,"character":18}"#),
+        (3, "afp/drawing", ""),
+        (4, "textDocument/completion", r#","position":{"line":4,"character":18}"#),
+    ] {
+        server.say(&format!(
+            r#"{{"jsonrpc":"2.0","id":{id},"method":"{method}","params":{{"textDocument":{{"uri":"{uri}"}}{more}}}}}"#
+        ));
+        let said = server.hear();
+        assert!(said.contains("Grip"), "{method}: {said}");
+    }
+    assert!(!place.exists("marker"));
+    // Building it would have left it.
+    let mut build = Command::new(env!("CARGO"));
+    let done = build.args(["check", "--offline", "--quiet"]).current_dir(place.path("gripper"));
+    assert!(done.status().unwrap().success());
+    assert!(place.exists("marker"));
+}
+
 /// What Neovim does with its own client; it writes what it found, one word for each, and ends whatever happens:
 /// without a person at its keyboard it would wait for one after an error.
 const SCRIPT: &str = r#"
