@@ -139,7 +139,7 @@ for (let round = 0; round < Math.max(1, ALL / GESTURES); round++) {
       await leave(page);
       if ((await read("plan.afp")) !== PLAN) texts++;
     }
-    assert.ok(texts > 5, "texts are changed");
+    assert.ok(texts > 0, "texts are changed");
     await isSaved();
     assert.equal(unreadable(folder), "", `${done.join("\n")}\n${await read("plan.afp")}`);
     for (let back = 0; back < 6; back++) await page.keyboard.press("Backspace");

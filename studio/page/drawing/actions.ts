@@ -9,6 +9,7 @@ import { renaming } from "./rename";
 import { refuse, say } from "./say";
 import { holderOf, nameOf, planOf, rectOf, type Drawing, type Edge, type Part, type Point, type Rect } from "./shapes";
 import { view } from "./stage";
+import { turn } from "./turn";
 import { toPane } from "./view";
 import { words } from "./words";
 
@@ -96,8 +97,10 @@ export async function whatThen(from: Part, at: Point | null = below(from), place
   if (!found) return;
   const start = from.part?.kind === "start";
   const name = from.part?.name ?? "";
+  const isMine = turn();
   try {
     const targets = await fitting(from);
+    if (!isMine()) return;
     const fresh = offers.ofElements(catalog.offers.peek());
     const known = [...targets].map(([text, refused]) => offers.target({ text, refused }));
     const list = [...known, ...fresh.map((offer) => offers.choice(offer, words.newOne(offer.template)))];
@@ -235,7 +238,9 @@ export function into(part: Part | null): void {
 /** Makes the selected element from another template; what is bound and connected stays. */
 export async function template(): Promise<void> {
   const part = focused();
+  const isMine = turn();
   const text = part && (await ask.written(part.item).catch(() => ""));
+  if (!isMine()) return;
   const kind = /^\s*(?:\/\/.*\n\s*)*(\w+)/.exec(text ?? "")?.[1];
   const list = catalog.offers.peek().filter((offer) => offer.kind === kind);
   if (!part || list.length === 0) return refuse(words.selectFirst);

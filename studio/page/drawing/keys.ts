@@ -24,6 +24,7 @@ import { refuse, say, spoken } from "./say";
 import { around, nameOf, same, type Part } from "./shapes";
 import { several, toggle } from "./several";
 import { size, view, type Stage } from "./stage";
+import { turn } from "./turn";
 import { editing } from "./value";
 import { fitted, panned, STEP, zoomed } from "./view";
 import { words } from "./words";
@@ -80,7 +81,9 @@ async function parts(): Promise<void> {
   if (!part || !drawn) return go(drawn && home(drawn));
   if (part.part?.kind === "exit" || part.part?.kind === "start") return actions.whatThen(part);
   if (part.part?.kind === "input" || part.part?.kind === "output") return void (editing.value = { part, at: actions.below(part) });
+  const isMine = turn();
   const known = await anatomy(drawn, part.item).catch(() => null);
+  if (!isMine()) return;
   const found = known ? choices(known) : [];
   const list: Choice[] = [{ id: "name", label: nameOf(part.item), hint: words.rename }, ...found.map(({ choice }) => choice)];
   const chosen = await choose(words.whichPart(nameOf(part.item)), list, actions.below(part));

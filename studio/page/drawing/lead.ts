@@ -13,6 +13,7 @@ import { refuse } from "./say";
 import { pathOf } from "./offers";
 import { centre, holderOf, nameOf, planOf, rectOf, type Drawing, type Part, type Point } from "./shapes";
 import { view } from "./stage";
+import { turn } from "./turn";
 import { toPlan } from "./view";
 import { words } from "./words";
 
@@ -83,6 +84,7 @@ async function hand(drawn: Drawing, { item }: Part, to: string): Promise<void> {
 /** Binds a port to an entry; dropped on an element, asks for the port where several fit. */
 async function bind(entry: Part, onto: Part, at: Point): Promise<void> {
   const drawn = drawing.peek();
+  const isMine = turn();
   const found = drawn && (await anatomy(drawn, onto.item).catch(() => null));
   if (!found) return refuse(words.portHint);
   const name = nameOf(entry.item);
@@ -94,6 +96,7 @@ async function bind(entry: Part, onto: Part, at: Point): Promise<void> {
   const fits = dropped.filter((port) => reason(port) === null);
   if (fits.length === 0) return refuse(dropped[0] ? (reason(dropped[0]) ?? words.portHint) : words.portHint);
   const list = choices({ ...found, exits: [], ports: fits }).map(({ choice }) => choice);
+  if (list.length > 1 && !isMine()) return;
   const chosen = list.length === 1 ? list[0] : await choose(words.whichPort(name), list, at);
   const port = fits.find((one) => `port ${one.name}` === chosen?.id);
   if (port) await ask.edit([{ bind: { component: onto.item, port: port.name, to: port.out ? { out: name } : { in: name } } }], {}, [port.part]);

@@ -4,6 +4,7 @@ import * as actions from "./actions";
 import * as ask from "./ask";
 import { refuse } from "./say";
 import type { Point } from "./shapes";
+import { turn } from "./turn";
 import { words } from "./words";
 
 export const noting = signal<{ item: string; text: string; at: Point | null } | null>(null);
@@ -13,8 +14,9 @@ export async function write(): Promise<void> {
   const part = actions.focused();
   if (!part) return refuse(words.selectFirst);
   const { item } = part;
+  const isMine = turn();
   const text = await ask.note(item).catch(() => null);
-  if (text !== null) noting.value = { item, text, at: actions.below({ item }) };
+  if (text !== null && isMine()) noting.value = { item, text, at: actions.below({ item }) };
 }
 
 /** Takes a note over, unless it says what it said. */

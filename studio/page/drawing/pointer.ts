@@ -15,6 +15,7 @@ import { say } from "./say";
 import { several } from "./several";
 import { planOf, same, touches, type Point, type Rect } from "./shapes";
 import { view, type Stage } from "./stage";
+import { pressed } from "./turn";
 import { editing } from "./value";
 import { panned, toPlan, wheelFactor, zoomed } from "./view";
 import { words } from "./words";
@@ -50,6 +51,7 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
     effects.forEach((effect) => run(stage, effect));
   };
   const down = (event: PointerEvent): void => {
+    pressed();
     if (event.button > 1 || (event.target as Element).closest(".over")) return;
     host.setPointerCapture(event.pointerId);
     host.focus({ preventScroll: true });
