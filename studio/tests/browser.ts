@@ -50,7 +50,7 @@ export async function shows(part: Locator, wanted: RegExp): Promise<void> {
 }
 
 /** Where a word of the text is on the page, once it is in sight. */
-export const middle = (page: Page, word: string): Promise<[number, number]> =>
+const middle = (page: Page, word: string): Promise<[number, number]> =>
   page.evaluate((word) => {
     const texts = document.createTreeWalker(document.querySelector(".cm-content")!, NodeFilter.SHOW_TEXT);
     while (texts.nextNode()) {
@@ -65,6 +65,17 @@ export const middle = (page: Page, word: string): Promise<[number, number]> =>
     }
     throw new Error(`no '${word}' in ${document.querySelector(".cm-content")!.textContent}`);
   }, word);
+
+/** Points at a word of the text until the page says something of it; a pane that has just opened may still scroll. */
+export async function explained(page: Page, word: string, wanted: RegExp): Promise<void> {
+  const tooltip = page.locator(".cm-tooltip-hover");
+  for (let tries = 0; tries < 5; tries++) {
+    await page.mouse.move(2, 2);
+    await page.mouse.move(...(await middle(page, word)));
+    if (await tooltip.waitFor({ timeout: 2000 }).then(() => true, () => false)) break;
+  }
+  await shows(tooltip, wanted);
+}
 
 let browser: Browser | null = null;
 after(() => browser?.close());

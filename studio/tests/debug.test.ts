@@ -4,6 +4,7 @@ import { test } from "node:test";
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "playwright-core";
 import { beside, extended, rows, scale, within, zoomed, type Record } from "../page/debug/trace";
+import { held } from "../page/debug/values";
 import { inBrowser, shows } from "./browser";
 
 const PLAN = `use std
@@ -65,6 +66,32 @@ test("windows stay within the run; a scale has round seconds", () => {
   assert.equal(beside([0, 1, 2], 0, -1), null);
 });
 
+test("an entry of the plan that is shown holds what the innermost plan of that name holds", () => {
+  const frames = [{ path: "", plan: "Outer" }, { path: "work", plan: "Inner" }];
+  const now = { at: 2.5, entries: { left: "1", "work.left": "2" }, forced: [{ path: "work.left", value: "3", until: 9 }] };
+  assert.deepEqual(held(frames, "Outer", now, "Outer.left"), { text: "1", left: null });
+  assert.deepEqual(held(frames, "Inner", now, "Inner.left"), { text: "3", left: 7 });
+  assert.equal(held(frames, "Other", now, "Other.left"), null);
+  assert.equal(held(frames, "Outer", now, "Outer.right"), null);
+});
+
+inBrowser("while a plan runs, its entries show what they hold", { "plan.afp": PLAN }, async ({ page }) => {
+  await begun(page);
+  const held = async (): Promise<string[]> => page.locator(".run-value-text").allTextContents();
+  await page.waitForFunction(() => document.querySelectorAll(".run-value-text").length === 2);
+  assert.equal((await held())[0], "1 s");
+  // What is declared makes room, and stands there again without a run.
+  const declared = page.locator(".declared").first();
+  assert.equal(await declared.evaluate((text) => getComputedStyle(text).visibility), "hidden");
+  await page.waitForFunction(() => [...document.querySelectorAll(".run-value-text")].at(-1)?.textContent === "2");
+  await page.keyboard.press("Shift+F5");
+  await page.locator(".end-card").waitFor();
+  await page.locator(".board").focus();
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => document.querySelectorAll(".run-value-text").length === 0);
+  assert.equal(await declared.evaluate((text) => getComputedStyle(text).visibility), "visible");
+});
+
 async function clean(page: Page, within: string): Promise<void> {
   const { violations } = await new AxeBuilder({ page }).include(within).analyze();
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
@@ -122,6 +149,7 @@ inBrowser("why something runs is said; what is forced is shown until it ends", {
   await page.getByLabel("Value of pause").fill("100 ms");
   await page.getByRole("button", { name: "Force", exact: true }).click();
   await page.locator(".forced-bar", { hasText: "pause = 100 ms" }).waitFor();
+  assert.match((await page.locator(".run-value-text").first().textContent())!, /^100 ms, \d+ s$/);
   await clean(page, ".studio");
   await page.getByRole("button", { name: "Release" }).first().click();
   await page.waitForFunction(() => document.querySelectorAll(".forced-bar .one").length === 1);

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import AxeBuilder from "@axe-core/playwright";
 import { moved } from "../page/debug/breakpoints";
-import { inBrowser, middle, shows } from "./browser";
+import { explained, inBrowser, shows } from "./browser";
 
 const PAPER = readFileSync(new URL("../../plans/wall_following.afp", import.meta.url), "utf8");
 
@@ -55,8 +55,7 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
     ["done", /in the run: false/],
     ["first", /in the run: active since 0\.500 s/],
   ] as const) {
-    await page.mouse.move(...(await middle(page, word)));
-    await shows(page.locator(".cm-tooltip-hover"), wanted);
+    await explained(page, word, wanted);
     await page.mouse.move(2, 2);
     await page.locator(".cm-tooltip-hover").waitFor({ state: "detached" });
   }

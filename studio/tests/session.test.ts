@@ -1,6 +1,6 @@
 // The session of the page "Debug a plan" of the book, step by step, and its picture.
 import type { Page } from "playwright-core";
-import { inBrowser, middle, shows } from "./browser";
+import { explained, inBrowser, shows } from "./browser";
 import { compared, looksLike } from "./pictures";
 
 /** Selects an element of the drawing. */
@@ -26,8 +26,7 @@ inBrowser("the session of the book goes as it is told", {}, async ({ page }) => 
   await shows(why, /distance\s+-30 cm/);
   await page.locator(".rail button", { hasText: "Text" }).click();
   await page.locator(".cm-content").waitFor();
-  await page.mouse.move(...(await middle(page, "LaneNotFree")));
-  await shows(page.locator(".cm-tooltip-hover"), /in the run: not taken yet/);
+  await explained(page, "LaneNotFree", /in the run: not taken yet/);
   if (compared) {
     await page.waitForTimeout(800);
     await looksLike(page, "docs/images/debug.png");
@@ -35,6 +34,5 @@ inBrowser("the session of the book goes as it is told", {}, async ({ page }) => 
   await page.mouse.move(2, 2);
   await page.keyboard.press("Shift+F10");
   await page.locator(".run-active.held").waitFor();
-  await page.mouse.move(...(await middle(page, "searchFirstWall")));
-  await shows(page.locator(".cm-tooltip-hover"), /in the run: active since 0\.000 s/);
+  await explained(page, "searchFirstWall", /in the run: active since 0\.000 s/);
 }, { viewport: { width: 1400, height: 880 }, timeout: 120_000 });

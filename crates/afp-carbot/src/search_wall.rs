@@ -1,5 +1,8 @@
 //! Look around, standing still, and find the wall.
 //!
+//! A wide sweep shows, too, what stands where the robot would drive along that wall: then it turns on, into the corner or out of the
+//! nook, until nothing does.
+//!
 //! What stands lower than the range sensor is felt and not heard. So that the robot does not go along the wall that led it there
 //! again and again, what it has just felt counts as a wall where it would be met once more.
 
@@ -18,6 +21,14 @@ const QUARTER: f64 = core::f64::consts::FRAC_PI_2;
 
 /// What was felt is put on the right side, and by this much behind: nothing is heard of it, so it is to be left.
 const AWAY: f64 = 30.0 / 180.0 * core::f64::consts::PI;
+/// What is heard farther to either side than this is no wall that the robot faces, radians.
+const FACED: f64 = 62.0 / 180.0 * core::f64::consts::PI;
+/// Where something was heard in the lane along the wall, nearer than this to the robot's front and within this beside its body, the
+/// robot turns on, in such steps and so far at most: into a corner, and out of a nook. Metres and radians.
+const AHEAD: f64 = 0.25;
+const BESIDE: f64 = 0.03;
+const STEP: f64 = 5.0 / 180.0 * core::f64::consts::PI;
+const STEPS: u32 = 24;
 /// What was felt longer ago than this may be gone, or the odometry be off.
 const RECENT: Duration = Duration::from_secs(15);
 /// What was felt farther away than this is not met before the next look around, metres.
@@ -50,12 +61,17 @@ where
         if !heard.last {
             return Ok(Poll::Pending);
         }
+        let body = env.body();
         let bump = env.last_bump().filter(|bump| now.since(bump.time) <= RECENT);
         let felt = bump.zip(env.motion().value.ok()).map(|(bump, motion)| {
-            let body = env.body();
             Felt::new(&bump, &motion, [body.front.si(), body.half_width.si()])
         });
-        Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0, felt)))
+        let lane = Lane {
+            sensor: env.beam().forward.si(),
+            ahead: body.front.si() + AHEAD,
+            aside: body.half_width.si() + BESIDE,
+        };
+        Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0, felt, lane)))
     }
 
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
@@ -65,12 +81,39 @@ where
 }
 
 impl SearchWall {
-    fn result(&self, half_beam: f64, felt: Option<Felt>) -> State {
-        let Some(wall) = fit(&self.returns, half_beam) else { return State::NoWallFound };
-        let along = wall.bearing + QUARTER;
+    fn result(&self, half_beam: f64, felt: Option<Felt>, lane: Lane) -> State {
+        let ahead: Vec<Return, MOST> =
+            self.returns.iter().filter(|it| it.bearing.abs() <= FACED).copied().collect();
+        let Some(wall) = fit(&ahead, half_beam) else { return State::NoWallFound };
+        let along = lane.free_from(wall.bearing + QUARTER, &self.returns);
         let felt = felt.filter(|felt| felt.is_met(along));
         let angle = felt.map_or(along, |felt| wrap(felt.facing) + QUARTER + AWAY);
         State::WallFound { angle: Angle::from_si(angle) }
+    }
+}
+
+/// What the robot needs ahead of it once it has turned along the wall, metres from its turning centre.
+#[derive(Clone, Copy, Debug)]
+struct Lane {
+    /// Where the range sensor is, ahead of the turning centre.
+    sensor: f64,
+    ahead: f64,
+    aside: f64,
+}
+
+impl Lane {
+    /// The first bearing from this one on to the left in which nothing was heard in the lane; this one if there is none.
+    fn free_from(&self, along: f64, returns: &[Return]) -> f64 {
+        let mut bearings = (0..=STEPS).map(|step| along + f64::from(step) * STEP);
+        bearings.find(|bearing| !returns.iter().any(|it| self.holds(*bearing, it))).unwrap_or(along)
+    }
+
+    fn holds(&self, bearing: f64, heard: &Return) -> bool {
+        let (sin, cos) = libm::sincos(heard.bearing);
+        let (x, y) = (self.sensor + heard.range * cos, heard.range * sin);
+        let (sin, cos) = libm::sincos(bearing);
+        let (along, across) = (x * cos + y * sin, y * cos - x * sin);
+        (0.0..self.ahead).contains(&along) && across.abs() < self.aside
     }
 }
 
@@ -114,7 +157,11 @@ mod tests {
     use afp_core::quantity::{AngularSpeed, Length, Speed};
 
     fn search(robot: &mut Fake) -> Result<Option<State>, Fault> {
-        let inputs = Inputs { sweep: Angle::from_deg(60.0), range: Length::from_si(1.5) };
+        search_to(60.0, robot)
+    }
+
+    fn search_to(degrees: f64, robot: &mut Fake) -> Result<Option<State>, Fault> {
+        let inputs = Inputs { sweep: Angle::from_deg(degrees), range: Length::from_si(1.5) };
         robot.run::<templates::SearchWall, SearchWall>(inputs, || Live {}, 10)
     }
 
@@ -136,6 +183,17 @@ mod tests {
     fn in_a_corner_the_wall_ahead_is_found_and_not_the_one_beside() {
         let turn = found(&[plane(0.0, 0.5), plane(-90.0, 0.475)]);
         assert!((turn - 90.0).abs() < 3.0, "{turn}");
+    }
+
+    #[test]
+    fn in_a_nook_it_turns_on_as_far_as_it_has_looked() {
+        let walls = [plane(0.0, 0.5), plane(90.0, 0.35)];
+        let turn = |degrees| match search_to(degrees, &mut Fake::new(&walls)) {
+            Ok(Some(State::WallFound { angle })) => angle.si().to_degrees(),
+            state => panic!("{state:?}"),
+        };
+        assert!((turn(110.0) - 145.0).abs() < 25.0, "{}: back along the left wall", turn(110.0));
+        assert!((turn(60.0) - 90.0).abs() < 3.0, "{}: it has not looked there", turn(60.0));
     }
 
     /// The turn after a bump at a place straight ahead, with a wall on the right; so long ago.

@@ -30,8 +30,8 @@ const LEVER: f64 = 0.19;
 /// Commands below this are not judged: metres a second at the wheels.
 const SLOWEST: f64 = 0.008;
 /// An error of this share of what is expected is one, as is none below the other; what lies between counts in part.
-const ERROR: f64 = 0.5;
-const SLACK: f64 = 0.25;
+const ERROR: f64 = 0.4;
+const SLACK: f64 = 0.2;
 /// Less than this share of what is expected is a standstill.
 const STANDSTILL: f64 = 0.25;
 /// After so much of a commanded way, metres at the wheels, the odometry must have counted some.
@@ -211,7 +211,7 @@ mod tests {
         });
         assert!(fault.is_some() && robot.millis() < 1000, "{fault:?} {}", robot.millis());
         let mut robot = Fake::new(&[]);
-        robot.follows = (0.75, 0.75);
+        robot.follows = (0.8, 0.8);
         assert_eq!(drive(&mut robot, command, 5), Ok(()));
     }
 

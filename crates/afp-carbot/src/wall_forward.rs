@@ -36,8 +36,7 @@ const FASTEST_TURN: f64 = 1.4;
 const SLOWING: f64 = 20.0 / 180.0 * core::f64::consts::PI;
 /// Driving on for so long without the wall means that it ended, metres.
 const LOST: f64 = 0.35;
-/// Driving on for so long beside nothing that could be the wall, and looking there so often, means that there was none.
-const ABSENT: f64 = 0.15;
+/// Looking so often for a wall that has not been heard yet means that there is none, once the robot has driven far enough.
 const LOOKS: u8 = 3;
 /// The beam may look this far beside the wall's normal for an echo to count, radians.
 const SQUARE: f64 = 25.0 / 180.0 * core::f64::consts::PI;
@@ -218,7 +217,7 @@ impl Course {
             return Some(State::LaneNotFree);
         }
         let absent = self.looks >= LOOKS && self.track.distance(&self.last).is_none();
-        if self.driven - self.heard > if absent { ABSENT } else { LOST } {
+        if self.driven - self.heard > if absent { inputs.absent.si().min(LOST) } else { LOST } {
             return Some(State::WallLost);
         }
         (inputs.step.si() - self.driven < CLOSE).then_some(State::ForwardSuccessful)

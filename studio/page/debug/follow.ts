@@ -36,9 +36,25 @@ export function at(frames: readonly Frame[], plan: string | null, stack: readonl
   return { active, watching: watches.map((path) => `${plan}.${own(path).join(".")}`) };
 }
 
-/** The edge that was taken between two active elements, where only one can have been. */
-export function taken(edges: Iterable<{ id: string; from: string; to: string }>, before: string | null, after: string | null): string | null {
-  if (!after || before === after) return null;
-  const fits = [...edges].filter(({ from, to }) => to === after && before !== null && (from === before || from.startsWith(`${before}.`)));
-  return fits.length === 1 ? fits[0]!.id : null;
+interface Way {
+  id: string;
+  from: string;
+  to: string;
+}
+
+/** Elements that a way goes through at once are no more than these. */
+const THROUGH = 8;
+
+/** The edges from one active element to the next, through computations, where only one way can have been taken. */
+export function taken(edges: Iterable<Way>, before: string | null, after: string | null, isPassed: (item: string) => boolean = () => false): string[] {
+  if (!after || before === null || before === after) return [];
+  const all = [...edges];
+  const ways = (from: (edge: Way) => boolean, left: number): string[][] =>
+    all.filter(from).flatMap(({ id, to }) => {
+      if (to === after) return [[id]];
+      const on = left > 0 && isPassed(to) ? ways((edge) => edge.from === to, left - 1) : [];
+      return on.map((rest) => [id, ...rest]);
+    });
+  const found = ways(({ from }) => from === before || from.startsWith(`${before}.`), THROUGH);
+  return found.length === 1 ? found[0]! : [];
 }

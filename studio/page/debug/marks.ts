@@ -8,6 +8,7 @@ import { at, taken, type At } from "./follow";
 import { onDrawing } from "../results";
 import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
+import { chips, held, type Held } from "./values";
 
 /** Milliseconds that an edge is shown as just taken. */
 const FADES = 600;
@@ -25,9 +26,10 @@ function frame([x, y, width, height]: Rect, name: string): SVGElement {
   return svg("rect", { class: name, x: x - 1.5, y: y - 1.5, width: width + 3, height: height + 3, rx: 10.5 });
 }
 
-/** A triangle in a corner: what is active is told by more than its colour. */
-function sign([x, y]: Rect): SVGElement[] {
-  return [svg("circle", { class: "run-sign", cx: x, cy: y, r: 9 }), svg("path", { class: "run-arrow", d: `M${x - 3} ${y - 4.5}l7 4.5l-7 4.5z` })];
+/** A triangle in a corner, or two bars where the run stands still: what is active is told by more than its colour. */
+function sign([x, y]: Rect, held: boolean): SVGElement[] {
+  const shape = held ? `M${x - 4} ${y - 4}h3v8h-3zm5 0h3v8h-3z` : `M${x - 3} ${y - 4.5}l7 4.5l-7 4.5z`;
+  return [svg("circle", { class: `run-sign${held ? " held" : ""}`, cx: x, cy: y, r: 9 }), svg("path", { class: "run-arrow", d: shape })];
 }
 
 /** An eye in the corner of who watches. */
@@ -59,8 +61,10 @@ export function marks(layers: Layers): () => void {
     if (key === shown && drawn === before) return;
     [shown, before] = [key, drawn];
     const innermost = found.active.find((each) => !each.inside)?.item ?? null;
-    show(layers, borders(drawn, found, phase.value === "held"), signs(drawn, found), new Set(innermost ? [innermost] : []));
-    flash(layers, taken(drawn.edges.values(), last, innermost));
+    const held = phase.value === "held";
+    show(layers, borders(drawn, found, held), signs(drawn, found, held), new Set(innermost ? [innermost] : []));
+    const isPassed = (item: string): boolean => drawn.elements.get(item)?.kind === "computation";
+    flash(layers, drawn, taken(drawn.edges.values(), last, innermost, isPassed));
     last = innermost ?? last;
   });
 }
@@ -97,21 +101,52 @@ export function discs(layer: SVGGElement): () => void {
   });
 }
 
-function signs(drawn: Drawing, found: At): SVGElement[] {
+function signs(drawn: Drawing, found: At, held: boolean): SVGElement[] {
   const watching = found.watching.flatMap((item) => {
     const rect = rectOf(drawn, { item });
     return rect ? eye(rect) : [];
   });
   const active = found.active.flatMap(({ item, inside }) => {
     const rect = rectOf(drawn, { item });
-    return rect && !inside ? sign(rect) : [];
+    return rect && !inside ? sign(rect, held) : [];
   });
   return [...watching, ...active];
 }
 
-function flash({ edges }: Layers, id: string | null): void {
-  const group = id === null ? undefined : edges.get(id);
-  if (!group) return;
-  group.classList.add("taken");
-  setTimeout(() => group.classList.remove("taken"), FADES);
+/** Shows the edges that were just taken: wider, their exits ringed, and a dot that runs along them once. */
+function flash({ over, edges }: Layers, drawn: Drawing, ids: readonly string[]): void {
+  const groups = ids.flatMap((id) => edges.get(id) ?? []);
+  const ways = ids.flatMap((id) => drawn.edges.get(id) ?? []);
+  if (!ways.length) return;
+  const exits = ways.map((way) => rectOf(drawn, { item: way.from, part: way.part })).filter((rect) => rect !== null);
+  const rings = exits.map(([x, y, width, height]) => svg("rect", { class: "run-exit", x: x - 2.5, y: y - 2.5, width: width + 5, height: height + 5, rx: height / 2 + 2.5 }));
+  const dot = svg("circle", { class: "run-dot", r: 5 });
+  const [first, ...rest] = ways.flatMap((way) => way.points);
+  dot.style.offsetPath = `path("M${first!.join(" ")}${rest.map((point) => `L${point.join(" ")}`).join("")}")`;
+  for (const group of groups) group.classList.add("taken");
+  // What is active may change meanwhile, and with it what lies in the layer itself.
+  over.after(dot, ...rings);
+  setTimeout(() => {
+    for (const group of groups) group.classList.remove("taken");
+    for (const each of [dot, ...rings]) each.remove();
+  }, FADES);
+}
+
+/** Keeps what entries hold; what has just been written stands out for a while. */
+export function values(root: Element, layer: SVGGElement): () => void {
+  let before: ReadonlyMap<string, Held> = new Map();
+  let drawnBefore: Drawing | null = null;
+  return effect(() => {
+    const drawn = drawing.value;
+    const now = active.value || phase.value === "over" ? state.value : null;
+    const found = new Map(drawn && now ? drawn.entries.flatMap(({ item }) => {
+      const value = held(frames.value, drawn.plan, now, item);
+      return value === null ? [] : [[item, value] as const];
+    }) : []);
+    if (drawn === drawnBefore && JSON.stringify([...found]) === JSON.stringify([...before])) return;
+    const fresh = new Set([...found].filter(([item, { text }]) => before.has(item) && before.get(item)!.text !== text).map(([item]) => item));
+    [before, drawnBefore] = [found, drawn];
+    root.classList.toggle("holding", found.size > 0);
+    layer.replaceChildren(...(drawn ? chips(drawn, found, fresh) : []));
+  });
 }

@@ -2,7 +2,7 @@
 import { effect, untracked } from "@preact/signals";
 import { render } from "preact";
 import { useRef } from "preact/hooks";
-import { discs, marks as runMarks } from "../debug/marks";
+import { discs, marks as runMarks, values } from "../debug/marks";
 import { isForField, keyName } from "../commands";
 import { origin, selected } from "../selection";
 import * as actions from "./actions";
@@ -51,9 +51,9 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.append(scene.root, over);
   host.append(pane);
   render(<Over />, over);
-  const [below, above, dots, data] = [0, 1, 2, 3].map(() => svg("g", { class: "run-layer", "aria-hidden": "true" })) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement];
+  const [below, above, dots, data, held] = [0, 1, 2, 3, 4].map(() => svg("g", { class: "run-layer", "aria-hidden": "true" })) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement, SVGGElement];
   scene.rings.before(below);
-  scene.marks.before(data, above, dots);
+  scene.marks.before(data, held, above, dots);
   const watch = new ResizeObserver(() => (size.value = { width: pane.clientWidth, height: pane.clientHeight }));
   watch.observe(pane);
   const key = (event: KeyboardEvent): void => {
@@ -75,7 +75,7 @@ export function mountCanvas(host: HTMLElement): () => void {
   pane.addEventListener("pointerdown", settles, true);
   // A press says afterwards that it was one.
   pane.addEventListener("focus", () => (byKeys.value = true));
-  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), farView(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), discs(dots), flows(data), runMarks({ root: scene.root, below, over: above, nodes: scene.nodes, edges: scene.edges })];
+  const ends = [catalog.begin(), messages.begin(), commands(), pointers(pane, scene), farView(pane, scene), ...shows(scene, pane), ...sights(), focuses(pane), discs(dots), flows(data), values(scene.root, held), runMarks({ root: scene.root, below, over: above, nodes: scene.nodes, edges: scene.edges })];
   return () => {
     ends.forEach((end) => end());
     watch.disconnect();

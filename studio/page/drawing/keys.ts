@@ -1,6 +1,7 @@
 // The keys of the drawing, each a command that `Ctrl+K` finds by name as well.
 import { signal } from "@preact/signals";
 import { command, type Command } from "../commands";
+import { active, dismiss, ended } from "../debug/run";
 import * as layout from "../layout";
 import { pen } from "../session";
 import { select, selected } from "../selection";
@@ -161,6 +162,7 @@ async function paste(): Promise<void> {
 /** Leaves the innermost thing: the selection is the last one. */
 function escape(): void {
   if (several.peek()) return toggle(false);
+  if (ended.peek() && !active.peek()) return dismiss();
   select([], "drawing");
   say(words.nothingSelected);
 }

@@ -180,8 +180,9 @@ function click(found: Hit | null, at: Point, add: boolean): void {
   const known = before.some((other) => same(other, part));
   select(add ? (known ? before.filter((other) => !same(other, part)) : [...before, part]) : [part], "drawing");
   if (add || !pen.peek()) return;
-  if (found.on === "exit") void actions.whatThen(part, at);
-  if (found.on === "port") editing.value = { part, at };
+  // Below what was clicked, so that it stays in sight.
+  if (found.on === "exit") void actions.whatThen(part);
+  if (found.on === "port") editing.value = { part, at: actions.below(part) ?? at };
 }
 
 /** Elements are put down: one request, whose answer replaces the preview. */

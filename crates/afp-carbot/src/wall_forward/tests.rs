@@ -12,6 +12,7 @@ fn inputs(step: f64) -> Inputs {
         lanedist: Length::from_si(0.3),
         gain: 1.0,
         tolerance: Length::from_si(0.2),
+        absent: Length::from_si(0.15),
         step: Length::from_si(step),
         speed: Speed::from_si(0.2),
     }
@@ -50,6 +51,18 @@ fn stands_the_lane_distance_before_a_wall_ahead() {
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));
     let front = 2.0 - robot.motion.x.si() - 0.2;
     assert!((0.28..0.36).contains(&front), "{front}");
+}
+
+#[test]
+fn a_wall_that_is_not_there_is_waited_for_as_long_as_wanted() {
+    for absent in [0.15, 0.25] {
+        let mut robot = Fake::new(&[]);
+        let inputs = Inputs { absent: Length::from_si(absent), ..inputs(2.0) };
+        let state = robot.run::<templates::WallForward, WallForward>(inputs, || Live {}, 60);
+        assert_eq!(state, Ok(Some(State::WallLost)));
+        let driven = robot.motion.x.si();
+        assert!((absent..absent + 0.06).contains(&driven), "{absent}: {driven}");
+    }
 }
 
 #[test]
@@ -96,7 +109,7 @@ fn a_wall_that_was_never_there_is_not_waited_for() {
     let mut robot = Fake::new(&[beside(1.175)]);
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::WallLost)));
     let way = robot.motion.x.si();
-    assert!((ABSENT - 0.02..ABSENT + 0.1).contains(&way), "{way}");
+    assert!((0.13..0.25).contains(&way), "{way}");
 }
 
 #[test]

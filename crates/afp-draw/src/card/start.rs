@@ -132,7 +132,8 @@ fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
         let (item, severity) = (entry.item.clone(), view.severity(entry.findings.worst()));
         sketch.pieces.push(Piece { item, part: Part::Whole, rect: pill, severity });
         sketch.mark(severity, (pill.x, pill.y));
-        sketch.labels.push(label((22.0 + KIND + names, base), text, PORT_SIZE, "port"));
+        let place = (22.0 + KIND + names, base);
+        sketch.labels.push(label(place, text, PORT_SIZE, "port declared"));
     }
     rect
 }

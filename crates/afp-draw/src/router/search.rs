@@ -9,7 +9,7 @@ use super::{Axis, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_str
 /// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
 const BEND: u64 = 600;
 const CROSSING: u64 = 250;
-const TOO_MANY: u64 = 4000;
+const TOO_MANY: u64 = 2500;
 
 /// As how many edges a gap counts that has turned out to be too narrow.
 const MANY: u32 = 20;

@@ -1,0 +1,57 @@
+// What each entry holds in a run, on the drawing: a chip in the place of what the plan declares.
+import { svg } from "../drawing/fragment";
+import { nameOf, rectOf, type Drawing, type Entry } from "../drawing/shapes";
+import { frameOf, type Frame } from "./follow";
+import type { State } from "./told";
+
+/** Characters of a value that a chip shows. */
+const LONGEST = 22;
+/** The width of a character, the height of a chip, what stands around its text, and the width of a lock, in units of the plan. */
+const CHARACTER = 7.6;
+const HEIGHT = 18;
+const PAD = 6;
+const LOCK = 14;
+/** From the widest name to the chips. */
+const GAP = 6;
+
+export interface Held {
+  text: string;
+  /** For how many seconds it is still forced; null for what the plan has written. */
+  left: number | null;
+}
+
+/** What an entry of the plan that is shown holds; null where a run says nothing of it. */
+export function held(frames: readonly Frame[], plan: string | null, now: Pick<State, "at" | "entries" | "forced">, item: string): Held | null {
+  const frame = frameOf(frames, plan);
+  if (!frame) return null;
+  const path = frame.path ? `${frame.path}.${nameOf(item)}` : nameOf(item);
+  const text = now.entries[path];
+  const forced = now.forced.find((each) => each.path === path && each.value !== undefined);
+  if (text === undefined) return null;
+  // What is forced while a run stands still is written by its next step.
+  return forced ? { text: forced.value ?? text, left: Math.max(0, Math.ceil(forced.until - now.at)) } : { text, left: null };
+}
+
+const short = (value: string): string => (value.length > LONGEST ? `${value.slice(0, LONGEST - 1)}…` : value);
+
+/** Chips for entries with a value; those of `fresh` have just been written. */
+export function chips(drawn: Drawing, values: ReadonlyMap<string, Held>, fresh: ReadonlySet<string>): SVGElement[] {
+  const rights = drawn.entries.map(({ item }) => rectOf(drawn, { item })).map((rect) => (rect ? rect[0] + rect[2] : 0));
+  const left = Math.max(...rights) + GAP;
+  return drawn.entries.flatMap((entry) => chip(drawn, entry, left, values.get(entry.item), fresh.has(entry.item)));
+}
+
+function chip(drawn: Drawing, { item }: Entry, x: number, value: Held | undefined, fresh: boolean): SVGElement[] {
+  const rect = rectOf(drawn, { item });
+  if (!rect || value === undefined) return [];
+  const forced = value.left !== null;
+  const text = forced ? `${short(value.text)}, ${value.left} s` : short(value.text);
+  const middle = rect[1] + rect[3] / 2;
+  const sign = forced ? LOCK : 0;
+  const body = svg("rect", { class: `run-value${fresh ? " fresh" : ""}${forced ? " forced" : ""}`, x, y: middle - HEIGHT / 2, width: text.length * CHARACTER + 2 * PAD + sign, height: HEIGHT, rx: 4 });
+  const words = svg("text", { class: "run-value-text", x: x + PAD + sign, y: middle + 4.3, "data-item": item });
+  words.textContent = text;
+  return [body, ...(forced ? [lock(x + PAD, middle)] : []), words];
+}
+
+const lock = (x: number, y: number): SVGElement => svg("path", { class: "run-lock", d: `M${x} ${y - 1}h9v6h-9zm2 0v-2a2.5 2.5 0 0 1 5 0v2` });
