@@ -1,8 +1,8 @@
 //! The queue of the search: states by what their path costs at least.
 //!
 //! Most of what a search finds is never looked at again, so it is not worth sorting: states wait in
-//! buckets of nearly the same cost, and only the bucket at hand is a heap. What comes out is in the
-//! order of a single heap.
+//! buckets of nearly the same cost, and only the bucket at hand is sorted. What still comes into it is
+//! a heap. What comes out is in the order of a single heap.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -22,8 +22,10 @@ type Entry = Reverse<u128>;
 /// States to go on from, the cheapest first.
 #[derive(Debug)]
 pub(super) struct Queue {
-    /// What is in the bucket at hand or belongs before it.
-    now: BinaryHeap<Entry>,
+    /// What was in the bucket at hand when its turn came, the last ones first.
+    now: Vec<Entry>,
+    /// What has come since and belongs into it, or before it.
+    late: BinaryHeap<Entry>,
     /// The number of the bucket at hand; bucket `n` is `n % BUCKETS` of `later`.
     at: u64,
     /// The first bucket for which `later` has no room.
@@ -38,7 +40,8 @@ pub(super) struct Queue {
 impl Queue {
     pub(super) fn new() -> Queue {
         Queue {
-            now: BinaryHeap::new(),
+            now: Vec::new(),
+            late: BinaryHeap::new(),
             at: 0,
             end: BUCKETS,
             later: vec![Vec::new(); BUCKETS as usize],
@@ -50,6 +53,7 @@ impl Queue {
     /// Empties the queue.
     pub(super) fn clear(&mut self) {
         self.now.clear();
+        self.late.clear();
         self.beyond.clear();
         if self.waiting > 0 {
             self.later.iter_mut().for_each(Vec::clear);
@@ -68,7 +72,7 @@ impl Queue {
     /// Takes out the cheapest state, with the cost up to it.
     pub(super) fn pop(&mut self) -> Option<(u64, u32)> {
         loop {
-            if let Some(Reverse(entry)) = self.now.pop() {
+            if let Some(Reverse(entry)) = self.next() {
                 let rest = (entry >> u32::BITS) as u64 & MOST;
                 // The lower bits are the state.
                 return Some((least(entry) - rest, entry as u32));
@@ -84,14 +88,25 @@ impl Queue {
             self.at += 1;
             let next = &mut self.later[(self.at % BUCKETS) as usize];
             self.waiting -= next.len();
-            self.now.extend(next.drain(..));
+            self.now.append(next);
+            self.now.sort_unstable();
+        }
+    }
+
+    /// The first entry of the bucket at hand.
+    fn next(&mut self) -> Option<Entry> {
+        // The greatest entry is the first one.
+        match (self.now.last(), self.late.peek()) {
+            (Some(sorted), Some(late)) if sorted < late => self.late.pop(),
+            (None, _) => self.late.pop(),
+            _ => self.now.pop(),
         }
     }
 
     fn put(&mut self, entry: Entry) {
         let bucket = bucket(entry.0);
         if bucket <= self.at {
-            self.now.push(entry);
+            self.late.push(entry);
         } else if bucket < self.end {
             self.later[(bucket % BUCKETS) as usize].push(entry);
             self.waiting += 1;

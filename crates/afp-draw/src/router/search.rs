@@ -4,9 +4,7 @@ use super::bundle::{Junction, Tree};
 use super::gaps::Gaps;
 use super::lines::{DOWN, LEFT, Lines, NONE, RIGHT, UP, axis_of};
 use super::queue::Queue;
-use super::{
-    Axis, BUDGET, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_straight_corners,
-};
+use super::{Axis, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_straight_corners};
 
 /// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
 const BEND: u64 = 600;
@@ -15,10 +13,6 @@ const TOO_MANY: u64 = 2500;
 
 /// As how many edges a gap counts that has turned out to be too narrow.
 const MANY: u32 = 20;
-
-/// How many times what is left to the goal counts once all searches have taken more than their budget: paths become a
-/// little dearer, and an edge across a crowd is found without looking at all of it.
-const HASTE: u64 = 4;
 
 /// A gap that was not looked for yet.
 const UNKNOWN: u32 = NONE - 1;
@@ -50,8 +44,6 @@ pub(super) struct Search<'a> {
     queue: Queue,
     /// How many states all searches have gone on from.
     effort: u64,
-    /// How many times what is left to the goal counts: 1 finds the cheapest path, more the first ones sooner.
-    haste: u64,
 }
 
 /// Where a path may end.
@@ -80,7 +72,6 @@ impl<'a> Search<'a> {
             stamp: 0,
             queue: Queue::new(),
             effort: 0,
-            haste: 1,
         }
     }
 
@@ -155,7 +146,6 @@ impl<'a> Search<'a> {
     /// The state at which the cheapest path ends.
     fn find(&mut self, start: u32, side: usize, goal: &Goal) -> Option<u32> {
         self.stamp += 1;
-        self.haste = if self.effort > BUDGET { HASTE } else { 1 };
         self.queue.clear();
         self.reach(state(start, side), 0, NONE, goal);
         while let Some((cost, at)) = self.queue.pop() {
@@ -191,7 +181,7 @@ impl<'a> Search<'a> {
         }
         *visit = Visit { stamp, cost, from };
         let rest = goal.rest(self.lines.positions[(at / 4) as usize], (at % 4) as usize);
-        self.queue.push(cost, rest * self.haste, at);
+        self.queue.push(cost, rest, at);
     }
 
     /// The gap below a node, or to the right of it.
