@@ -7,7 +7,7 @@ use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId};
 use afp_dsl::graph::{Component, EntryKind, Graph, PlanId};
 use afp_dsl::timing::{SupervisorTiming, timing};
 use afp_dsl::types::Type;
-use afp_dsl::unfold::{ComponentKind, Reaction, places, unfold};
+use afp_dsl::unfold::{self, ComponentKind, Reaction, places, unfold};
 use afp_syntax::source::{Encoding, LineColumn, Lines, Sources, Span};
 
 /// A plan with the places of everything in it.
@@ -157,20 +157,7 @@ impl Program {
             texts: BTreeMap::new(),
         };
         for (number, place) in (0..).zip(&places).skip(1) {
-            let id = ComponentId(number);
-            let kind = program.units[number as usize].kind;
-            let special = if kind == ComponentKind::Supervisor { DEADLINE_MISSED } else { ERROR };
-            program.add(texts.place(place.span), first(id, kind));
-            let outcomes = (0..).zip(&place.edges.outcomes);
-            for (outcome, span) in outcomes.chain([(special, &place.edges.extra)]) {
-                let at = span.map(|span| texts.place(span));
-                at.into_iter().for_each(|at| program.add_edge(at, Spot::Outcome(id, outcome)));
-            }
-            for (edge, _, span) in &place.reactions {
-                let (supervisor, event) = (ComponentId(edge.supervisor), edge.event);
-                let spot = Spot::Reaction(id, supervisor, event.unwrap_or(DEADLINE_MISSED));
-                program.add_edge(texts.place(*span), spot);
-            }
+            program.add_component(ComponentId(number), place, &texts);
         }
         for number in 0..program.entries.len() {
             let entry = &program.entries[number];
@@ -179,6 +166,23 @@ impl Program {
             }
         }
         program
+    }
+
+    /// What can happen where a component and its edges stand.
+    fn add_component(&mut self, id: ComponentId, place: &unfold::Place, texts: &Texts<'_>) {
+        let Some(kind) = self.unit(id).map(|unit| unit.kind) else { return };
+        let special = if kind == ComponentKind::Supervisor { DEADLINE_MISSED } else { ERROR };
+        self.add(texts.place(place.span), first(id, kind));
+        let outcomes = (0..).zip(&place.edges.outcomes);
+        for (outcome, span) in outcomes.chain([(special, &place.edges.extra)]) {
+            let at = span.map(|span| texts.place(span));
+            at.into_iter().for_each(|at| self.add_edge(at, Spot::Outcome(id, outcome)));
+        }
+        for (edge, _, span) in &place.reactions {
+            let (supervisor, event) = (ComponentId(edge.supervisor), edge.event);
+            let spot = Spot::Reaction(id, supervisor, event.unwrap_or(DEADLINE_MISSED));
+            self.add_edge(texts.place(*span), spot);
+        }
     }
 
     /// Keeps the texts for clients that their own files do not show: `is_file` says whether a file of that path has
