@@ -141,6 +141,7 @@ fn follow_wall(config: &Config) -> Result<carbot::wall_forward::Inputs, BadValue
         lanedist: config.walldist(),
         gain: 1.0,
         tolerance: Length::from_si(0.2),
+        absent: Length::from_si(0.15),
         step: Length::from_si(5.0),
         speed: Speed::from_si(0.2),
     })
@@ -850,6 +851,7 @@ pub static NAMES: NameTable = NameTable {
                 PortRow::new("tolerance", "m")
                     .within(0.01, 2.0)
                     .at("wall_following.afp", 38, 99),
+                PortRow::new("absent", "m").within(0.01, 2.0),
                 PortRow::new("step", "m")
                     .within(0.01, 1000.0)
                     .at("wall_following.afp", 38, 113),

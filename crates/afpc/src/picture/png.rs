@@ -1,6 +1,7 @@
 //! Drawings as pixels: the SVG, painted with the fonts that come along, so that a picture is the
 //! same on every machine.
 
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg;
 
@@ -45,5 +46,26 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Failure> {
     }
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| renderer(&error))
+    encoded(&pixels).map_err(|error| renderer(&error))
+}
+
+/// Pixels as a file; without their opacity where all of them are opaque, as those of our pictures are.
+fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, EncodingError> {
+    let opaque = pixels.pixels().iter().all(|pixel| pixel.alpha() == u8::MAX);
+    let bytes: Vec<u8> = pixels
+        .pixels()
+        .iter()
+        .flat_map(|pixel| {
+            let plain = pixel.demultiply();
+            let all = [plain.red(), plain.green(), plain.blue(), plain.alpha()];
+            all.into_iter().take(if opaque { 3 } else { 4 })
+        })
+        .collect();
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
+    encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::High);
+    encoder.write_header()?.write_image_data(&bytes)?;
+    Ok(file)
 }
