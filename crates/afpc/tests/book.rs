@@ -25,6 +25,8 @@ const FOREIGN: &[&str] = &[
     "code",
     "cc",
     "install",
+    "hx",
+    "mkdir",
 ];
 
 fn docs() -> PathBuf {

@@ -48,10 +48,7 @@ pub struct Outcome {
 /// # Panics
 /// The simulator, the scheduler or a template panics, which they should not; or the plan lacks an input of the case.
 pub fn run(case: &Case) -> Outcome {
-    let mut registry = Registry::<Witness>::new();
-    afp_std::templates::register(&mut registry);
-    afp_carbot::templates::register(&mut registry);
-    let plan = LoadedPlan::new(&case.plan.graph, &registry).expect("every template has its Rust");
+    let plan = loaded(case);
     let names = plan.names();
     let sim = Simulation::new(&case.world, case.seed).expect("the room can be built");
     let reach = case.world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
@@ -113,6 +110,14 @@ pub fn run(case: &Case) -> Outcome {
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
     let broken = watch.into_inner().broken();
     Outcome { trace, ending, broken, timeline, contacts, pushing, pushes, at, pose }
+}
+
+/// The plan of a case, with the Rust of its templates.
+fn loaded(case: &Case) -> LoadedPlan<Witness> {
+    let mut registry = Registry::new();
+    afp_std::templates::register(&mut registry);
+    afp_carbot::templates::register(&mut registry);
+    LoadedPlan::new(&case.plan.graph, &registry).expect("every template has its Rust")
 }
 
 /// The longest stop time that a template of the plan's toolboxes declares.
