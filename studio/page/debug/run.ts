@@ -1,7 +1,7 @@
 // A run of the plan: launched, paused, stepped, ended; what the page knows of it.
 import { computed, effect, signal } from "@preact/signals";
 import { connect, type Dap } from "../dap";
-import { current, nameOf, onText, saved } from "../documents";
+import { current, nameOf, onText } from "../documents";
 import { plan as shownPlan, trail, wanted } from "../drawing/model";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
@@ -13,6 +13,7 @@ import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
 import type { Ended, Phase, Said, State } from "./told";
 import { extended, packed, type Record } from "./trace";
+import { isWritten } from "./written";
 
 export const phase = signal<Phase>("idle");
 export const state = signal<State | null>(null);
@@ -57,7 +58,7 @@ export async function start(hold = false): Promise<void> {
     trouble.value = words.notRun(errors);
     return reveal(current.value, problems.value[0]!.range, "other");
   }
-  if (saved.value !== "saved" && !(await isWritten())) {
+  if (!(await isWritten())) {
     trouble.value = words.notRunNotSaved;
     return;
   }
@@ -123,8 +124,12 @@ function hear(own: Dap): void {
   });
 }
 
+/** Who has been told where to stop, and is told again when that changes; before, there is no plan that it could belong to. */
+let ready: Dap | null = null;
+
 async function configure(own: Dap): Promise<void> {
   await own.request("afp/subscribe", { state: true, trace: true });
+  ready = own;
   await send(own);
   if (!log.peek()) for (const { command, args } of arranged.requests()) await own.request(command, args);
   await own.request("configurationDone");
@@ -140,23 +145,6 @@ async function send(own: Dap): Promise<void> {
   const open = sent[files.findIndex(([uri]) => uri === current.peek())];
   const wrong = open?.breakpoints.find(({ message }) => message);
   if (wrong) trouble.value = wrong.message!;
-}
-
-/** Waits a little until the server has written everything. */
-function isWritten(): Promise<boolean> {
-  return new Promise((done) => {
-    let end = (): void => {};
-    const timer = setTimeout(() => {
-      end();
-      done(false);
-    }, 3000);
-    end = saved.subscribe((now) => {
-      if (now !== "saved") return;
-      clearTimeout(timer);
-      queueMicrotask(() => end());
-      done(true);
-    });
-  });
 }
 
 function take(own: Dap, now: State): void {
@@ -291,7 +279,7 @@ export function begin(): () => void {
   effect(() => {
     void [breakpoints.value, filters.value];
     // Lines of a text that is not the one that runs would be others.
-    if (dap && active.peek() && !older.peek()) void send(dap).catch(report);
+    if (dap && dap === ready && active.peek() && !older.peek()) void send(dap).catch(report);
   });
   return onText((uri) => {
     if (active.value && program && program.startsWith(pathOf(uri)) && nameOf(uri).endsWith(".afp")) older.value = true;

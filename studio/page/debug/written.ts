@@ -1,0 +1,19 @@
+// Waits for the disk: what runs is read from there.
+import { saved } from "../documents";
+
+/** Waits a little until the server has written everything. */
+export function isWritten(): Promise<boolean> {
+  return new Promise((done) => {
+    let end = (): void => {};
+    const timer = setTimeout(() => {
+      end();
+      done(false);
+    }, 3000);
+    end = saved.subscribe((now) => {
+      if (now !== "saved") return;
+      clearTimeout(timer);
+      queueMicrotask(() => end());
+      done(true);
+    });
+  });
+}
