@@ -82,8 +82,11 @@ where
 
 impl SearchWall {
     fn result(&self, half_beam: f64, felt: Option<Felt>, lane: Lane) -> State {
-        let ahead: Vec<Return, MOST> =
-            self.returns.iter().filter(|it| it.bearing.abs() <= FACED).copied().collect();
+        let mut ahead = Vec::<Return, MOST>::new();
+        for faced in self.returns.iter().filter(|it| it.bearing.abs() <= FACED) {
+            // They are no more than there is room for.
+            let _ = ahead.push(*faced);
+        }
         let Some(wall) = fit(&ahead, half_beam) else { return State::NoWallFound };
         let along = lane.free_from(wall.bearing + QUARTER, &self.returns);
         let felt = felt.filter(|felt| felt.is_met(along));
