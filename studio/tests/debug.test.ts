@@ -4,7 +4,7 @@ import { test } from "node:test";
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "playwright-core";
 import { beside, extended, rows, scale, within, zoomed, type Record } from "../page/debug/trace";
-import { held } from "../page/debug/values";
+import { holding } from "../page/debug/values";
 import { inBrowser, shows } from "./browser";
 
 const PLAN = `use std
@@ -69,10 +69,10 @@ test("windows stay within the run; a scale has round seconds", () => {
 test("an entry of the plan that is shown holds what the innermost plan of that name holds", () => {
   const frames = [{ path: "", plan: "Outer" }, { path: "work", plan: "Inner" }];
   const now = { at: 2.5, entries: { left: "1", "work.left": "2" }, forced: [{ path: "work.left", value: "3", until: 9 }] };
-  assert.deepEqual(held(frames, "Outer", now, "Outer.left"), { text: "1", left: null });
-  assert.deepEqual(held(frames, "Inner", now, "Inner.left"), { text: "3", left: 7 });
-  assert.equal(held(frames, "Other", now, "Other.left"), null);
-  assert.equal(held(frames, "Outer", now, "Outer.right"), null);
+  assert.deepEqual(holding(frames, "Outer", now, "Outer.left"), { text: "1", left: null });
+  assert.deepEqual(holding(frames, "Inner", now, "Inner.left"), { text: "3", left: 7 });
+  assert.equal(holding(frames, "Other", now, "Other.left"), null);
+  assert.equal(holding(frames, "Outer", now, "Outer.right"), null);
 });
 
 inBrowser("while a plan runs, its entries show what they hold", { "plan.afp": PLAN }, async ({ page }) => {

@@ -8,7 +8,7 @@ import { at, taken, type At } from "./follow";
 import { onDrawing } from "../results";
 import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
-import { chips, held, type Held } from "./values";
+import { chips, holding, type Held } from "./values";
 
 /** Milliseconds that an edge is shown as just taken. */
 const FADES = 600;
@@ -140,7 +140,7 @@ export function values(root: Element, layer: SVGGElement): () => void {
     const drawn = drawing.value;
     const now = active.value || phase.value === "over" ? state.value : null;
     const found = new Map(drawn && now ? drawn.entries.flatMap(({ item }) => {
-      const value = held(frames.value, drawn.plan, now, item);
+      const value = holding(frames.value, drawn.plan, now, item);
       return value === null ? [] : [[item, value] as const];
     }) : []);
     if (drawn === drawnBefore && JSON.stringify([...found]) === JSON.stringify([...before])) return;

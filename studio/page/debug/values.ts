@@ -21,7 +21,7 @@ export interface Held {
 }
 
 /** What an entry of the plan that is shown holds; null where a run says nothing of it. */
-export function held(frames: readonly Frame[], plan: string | null, now: Pick<State, "at" | "entries" | "forced">, item: string): Held | null {
+export function holding(frames: readonly Frame[], plan: string | null, now: Pick<State, "at" | "entries" | "forced">, item: string): Held | null {
   const frame = frameOf(frames, plan);
   if (!frame) return null;
   const path = frame.path ? `${frame.path}.${nameOf(item)}` : nameOf(item);

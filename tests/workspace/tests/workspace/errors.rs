@@ -1,24 +1,13 @@
 //! What may fail in another way tomorrow says so to those who match today.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use afp_workspace::root;
 
+use crate::sources::rust_files;
+
 /// Errors that both ends of ours must know: a kind of error that compiler or run time forgot is not to compile.
 const OURS: [&str; 1] = ["afp-number/src/lib.rs: Error"];
-
-/// The Rust files below a folder.
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries
-        .flat_map(|path| match path.is_dir() {
-            true => rust_files(&path),
-            false => vec![path],
-        })
-        .filter(|path| path.extension().is_some_and(|ending| ending == "rs"))
-        .collect()
-}
 
 /// The public enums of a text that are errors and can be matched to the last.
 fn exhaustive(text: &str) -> Vec<&str> {

@@ -4,4 +4,6 @@ mod arrows;
 mod errors;
 mod rebuilds;
 mod shared;
+mod sizes;
+mod sources;
 mod weight;

@@ -121,3 +121,23 @@ pub(super) struct Infrared {
     pub(super) height_m: Option<f64>,
     pub(super) strength: Option<f64>,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{File, KEYS};
+
+    #[test]
+    fn every_key_is_one_of_the_file() {
+        let whole = "version = 1\nrobot = { pose_m_deg = [0, 0, 0] }\n";
+        assert!(toml_edit::de::from_str::<File>(whole).is_ok());
+        for key in KEYS {
+            // Nothing is a moment of time.
+            let others: String =
+                whole.lines().filter(|line| !line.starts_with(key)).collect::<Vec<_>>().join("\n");
+            let text = format!("{others}\n{key} = 2026-01-01\n");
+            let wrong = toml_edit::de::from_str::<File>(&text).err();
+            let span = wrong.as_ref().and_then(toml_edit::de::Error::span);
+            assert_eq!(span.map(|span| &text[span]), Some("2026-01-01"), "{key}: {wrong:?}");
+        }
+    }
+}

@@ -1,7 +1,10 @@
 //! Files and functions stay small enough to be read at once.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+
+use afp_workspace::root;
+
+use crate::sources::rust_files;
 
 /// Lines of a file.
 const MOST_LINES: usize = 450;
@@ -11,22 +14,6 @@ const MOST_IN_FUNCTION: usize = 60;
 
 /// Where sources are.
 const FOLDERS: [&str; 7] = ["bench", "crates", "examples", "firmware", "fuzz", "tests", "xtask"];
-
-/// Rust that was generated: by our generator, and from the log's messages.
-const GENERATED: [&str; 2] = ["tests/codegen", "src/proto"];
-
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let is_source = path.extension().is_some_and(|extension| extension == "rs");
-        let is_generated = GENERATED.iter().any(|folder| path.ends_with(folder));
-        if path.is_dir() && !path.ends_with("target") && !is_generated {
-            sources(&path, found);
-        } else if is_source {
-            found.push(path);
-        }
-    }
-}
 
 /// The first lines and the lengths of the functions in a text. It is formatted, so a function ends with
 /// the first brace that stands where it began.
@@ -91,14 +78,13 @@ unsafe fn last() {
 
 #[test]
 fn no_file_and_no_function_is_too_long() {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
-    let mut files = Vec::new();
-    FOLDERS.iter().for_each(|folder| sources(&root.join(folder), &mut files));
+    let root = root();
+    let files: Vec<_> = FOLDERS.iter().flat_map(|folder| rust_files(&root.join(folder))).collect();
     assert!(files.len() > 500, "{} files are not all", files.len());
     let mut long = Vec::new();
     for path in files {
         let text = fs::read_to_string(&path).unwrap();
-        let name = path.strip_prefix(root).unwrap().display();
+        let name = path.strip_prefix(&root).unwrap().display();
         let lines = text.lines().count();
         if lines > MOST_LINES {
             long.push(format!("{name}: {lines} lines"));
