@@ -1,6 +1,6 @@
 // The floor from above: what stands on it, the robot at its pose, the path that it has driven; the robot and what is loose can
 // be dragged.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { start } from "../debug/arranged";
 import { active, state } from "../debug/run";
 import { frame, placeOf, points, scaleIn, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
@@ -83,11 +83,13 @@ const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").ma
 /** The robot, moved by one attribute at every frame while there is a way to go; at its nose it is turned. */
 function Robot({ world }: { world: Surroundings }) {
   const host = useRef<SVGGElement>(null);
-  useEffect(() => {
+  // Before it is painted for the first time: it never stands at the origin.
+  useLayoutEffect(() => {
     let motion: Motion | null = null;
     let waiting = 0;
     const set = ([x, y, heading]: Pose): void => host.current!.setAttribute("transform", `translate(${short(x)} ${short(y)}) rotate(${short((heading * 180) / Math.PI)})`);
     const move = (): void => {
+      cancelAnimationFrame(waiting);
       waiting = 0;
       const now = performance.now();
       set(shown(motion!, now));
@@ -99,6 +101,7 @@ function Robot({ world }: { world: Surroundings }) {
       waiting ||= requestAnimationFrame(move);
     };
     const ends = [state.subscribe(told), start.subscribe(told)];
+    move();
     return () => {
       ends.forEach((end) => end());
       cancelAnimationFrame(waiting);

@@ -34,21 +34,22 @@ export function Inspector() {
   );
 }
 
-/** A line that is taken over with `Enter` or when it is left, and put back with `Escape`. */
-function Line({ label, value, take, hint, hidden }: { label: string; value: string; take(text: string): unknown; hint?: string; hidden?: boolean }) {
-  const [text, setText] = useState(value);
-  useEffect(() => setText(value), [value]);
+/** A line that is taken over with `Enter` or when it is left, and put back with `Escape`; null while its value is fetched. */
+function Line({ label, value, take, hint, hidden }: { label: string; value: string | null; take(text: string): unknown; hint?: string; hidden?: boolean }) {
+  // What is typed counts over the value that it was typed over, from the first key on.
+  const [typed, setTyped] = useState({ over: value, text: value ?? "" });
+  const text = typed.over === value ? typed.text : (value ?? "");
   const end = (): void => {
     if (text.trim() !== value) void take(text.trim());
   };
   const key = (event: KeyboardEvent): void => {
     if (event.key === "Enter") end();
-    if (event.key === "Escape") setText(value);
+    if (event.key === "Escape") setTyped({ over: value, text: value ?? "" });
   };
   return (
     <label class="line">
       <span class={hidden ? "hidden" : ""}>{label}</span>
-      <input type="text" value={text} placeholder={hint} spellcheck={false} autocomplete="off" onInput={(event) => setText(event.currentTarget.value)} onKeyDown={key} onBlur={end} />
+      <input type="text" value={text} disabled={value === null} placeholder={hint} spellcheck={false} autocomplete="off" onInput={(event) => setTyped({ over: value, text: event.currentTarget.value })} onKeyDown={key} onBlur={end} />
     </label>
   );
 }
@@ -59,7 +60,7 @@ const Name = ({ item }: { item: string }) => (
 
 /** The help above an item, as one line. */
 function Help({ item, drawn }: { item: string; drawn: Drawing }) {
-  const [text, setText] = useState("");
+  const [text, setText] = useState<string | null>(null);
   useEffect(() => {
     let wanted = true;
     ask.help(item).then((found) => wanted && setText(found.replaceAll("\n", " ")), () => {});
