@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { promisify } from "node:util";
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "playwright-core";
-import { inBrowser } from "./browser";
+import { inBrowser, shows } from "./browser";
 
 const PLAN = `use carbot
 
@@ -34,6 +34,8 @@ inBrowser("a log is shown as a run is, and nothing of it can be changed", { "pla
   await page.locator(".lane.flow rect").nth(1).click();
   await page.waitForFunction((before) => document.querySelector(".floor .robot")!.getAttribute("transform") !== before, begun);
   await page.locator(".run-active").waitFor({ state: "attached" });
+  await page.getByText("What the sensors say").click();
+  await shows(page.locator(".sensors"), /ultrasonic\.echo\s+[\dn][^]*rotator\.bearing\s+-?\d/);
   await page.keyboard.press("Control+Shift+U");
   assert.equal(await page.getByRole("button", { name: /^Force/ }).count(), 0);
 });

@@ -8,6 +8,7 @@ use afp_core::{Duration, Instant};
 use afp_session::{Pose2, Request, RunEvent};
 
 use crate::program::Program;
+use crate::sensed::Sensed;
 use crate::state::State;
 use crate::target::{Advance, Happened, Position, Target};
 
@@ -19,6 +20,9 @@ const READ_ONLY: &str = "a log shows what was: launch its plan to change somethi
 
 /// What a camera had seen last at a time: width, height, and a byte for each of red, green and blue.
 type Pictures = Box<dyn Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send>;
+
+/// What the robot's signals said at a time, when it stood somewhere.
+type Senses = Box<dyn Fn(Instant, Option<Pose2>) -> Vec<Sensed> + Send>;
 
 /// A run that was recorded. All events of an instant are one step.
 pub struct LogTarget {
@@ -34,6 +38,8 @@ pub struct LogTarget {
     poses: Vec<(Instant, Pose2)>,
     /// What its camera had seen last at a time.
     picture: Pictures,
+    /// What its signals said at a time.
+    senses: Senses,
     now: Instant,
     state: State,
 }
@@ -63,7 +69,20 @@ impl LogTarget {
         let (now, state) = (Instant::ZERO, State::default());
         let keyframes = vec![state.clone()];
         let (poses, picture): (_, Pictures) = (Vec::new(), Box::new(|_| None));
-        Ok(LogTarget { program, events, moments, keyframes, passed: 0, poses, picture, now, state })
+        let senses: Senses = Box::new(|_, _| Vec::new());
+        let passed = 0;
+        Ok(LogTarget {
+            program,
+            events,
+            moments,
+            keyframes,
+            passed,
+            poses,
+            picture,
+            senses,
+            now,
+            state,
+        })
     }
 
     /// The same with where the robot was, by time.
@@ -77,6 +96,14 @@ impl LogTarget {
         picture: impl Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send + 'static,
     ) -> LogTarget {
         LogTarget { picture: Box::new(picture), ..self }
+    }
+
+    /// The same with what the robot's signals said at a time, when it stood somewhere.
+    pub fn with_senses(
+        self,
+        senses: impl Fn(Instant, Option<Pose2>) -> Vec<Sensed> + Send + 'static,
+    ) -> LogTarget {
+        LogTarget { senses: Box::new(senses), ..self }
     }
 
     /// The events of the next moment.
@@ -184,6 +211,10 @@ impl Target for LogTarget {
     fn pose(&self) -> Option<Pose2> {
         let later = self.poses.partition_point(|(at, _)| *at <= self.now);
         self.poses.get(later.saturating_sub(1)).map(|(_, pose)| *pose)
+    }
+
+    fn sensed(&self) -> Vec<Sensed> {
+        (self.senses)(self.now, self.pose())
     }
 
     fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {

@@ -11,6 +11,7 @@ use afp_session::{
 };
 
 use crate::program::Program;
+use crate::sensed::{self, Sensed};
 use crate::state::State;
 use crate::target::{Advance, Happened, Position, Target};
 
@@ -224,6 +225,10 @@ impl Target for SessionTarget<'_> {
             });
         }
         all
+    }
+
+    fn sensed(&self) -> Vec<Sensed> {
+        sensed::all(&*self.run.session, self.pose())
     }
 
     fn picture(&self) -> Option<(u32, u32, Vec<u8>)> {

@@ -8,6 +8,7 @@ use afp_core::{Duration, Instant};
 use afp_session::{Figures, Pose2, Request, RunEvent};
 
 use crate::program::Program;
+use crate::sensed::Sensed;
 use crate::state::State;
 use crate::text::Line;
 
@@ -66,6 +67,11 @@ pub trait Target {
 
     /// Outlines of what moves in the robot's world, by the ids of a scene; none where the robot does not signal that.
     fn moving(&self) -> Vec<(String, Vec<[f64; 2]>)> {
+        Vec::new()
+    }
+
+    /// What the robot's signals say now that a plan may know, in the order of its devices, without pictures.
+    fn sensed(&self) -> Vec<Sensed> {
         Vec::new()
     }
 

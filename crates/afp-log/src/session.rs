@@ -201,10 +201,9 @@ impl Observer for SessionLog {
                 self.recorder.image(at, self.device(signal), image);
             }
             SampleRef::Outline(shape) => self.outline(shape),
-            SampleRef::Bool(truth) => self.signal(at, signal, Datum::Truth(truth)),
-            SampleRef::Int(integer) => self.signal(at, signal, Datum::Integer(integer)),
-            SampleRef::Float(number) => self.signal(at, signal, Datum::Number(number)),
-            SampleRef::Text(text) => self.signal(at, signal, Datum::Text(text.to_owned())),
+            SampleRef::Bool(_) | SampleRef::Int(_) | SampleRef::Float(_) | SampleRef::Text(_) => {
+                self.signal(at, signal, value.value().unwrap_or(Datum::Unset));
+            }
         }
     }
 

@@ -5,6 +5,7 @@
 use afp_core::Instant;
 use afp_core::devices::{SignalId, SignalType};
 
+use crate::event::Datum;
 use crate::observer::{Observer, Sampling};
 use crate::robot::Robot;
 
@@ -111,6 +112,20 @@ pub enum SampleRef<'a> {
 }
 
 impl SampleRef<'_> {
+    /// The value of the language that it is; none of what logs and pictures alone show.
+    pub fn value(&self) -> Option<Datum> {
+        match *self {
+            SampleRef::Bool(truth) => Some(Datum::Truth(truth)),
+            SampleRef::Int(number) => Some(Datum::Integer(number)),
+            SampleRef::Float(number) => Some(Datum::Number(number)),
+            SampleRef::Text(text) => Some(Datum::Text(text.to_owned())),
+            SampleRef::Pose(_)
+            | SampleRef::Range(_)
+            | SampleRef::Image(_)
+            | SampleRef::Outline(_) => None,
+        }
+    }
+
     /// Whether it is of a type.
     pub fn is(&self, ty: SignalType) -> bool {
         matches!(

@@ -8,6 +8,7 @@ import { reveal } from "../places";
 import type { Position } from "../positions";
 import { number, problems } from "../problems";
 import { words } from "../words";
+import { sensed, type Sensed } from "../world/sensed";
 import * as arranged from "./arranged";
 import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
@@ -87,6 +88,7 @@ export async function openLog(path: string): Promise<void> {
 
 async function launch(what: { program: string } | { log: string }, plan: string): Promise<void> {
   [phase.value, state.value, ended.value, said.value, older.value, why.value] = ["starting", null, null, [], false, ""];
+  sensed.value = null;
   [records.value, log.value] = [[], "log" in what ? what.log : ""];
   frames.value = [{ path: "", plan }];
   const own = connect(address(), () => dap === own && lost());
@@ -109,6 +111,7 @@ export const launched = signal<{ plan: string; file: string } | null>(null);
 function hear(own: Dap): void {
   own.on("initialized", () => void configure(own).catch(failed));
   own.on("afp/state", (now: State) => dap === own && take(own, now));
+  own.on("afp/sensed", (now: { at: number; sensed: Sensed[] }) => dap === own && (sensed.value = now));
   own.on("afp/trace", (now: { records: Record[] }) => {
     if (dap === own) records.value = extended(records.peek(), now.records.map(packed));
   });
@@ -128,7 +131,7 @@ function hear(own: Dap): void {
 let ready: Dap | null = null;
 
 async function configure(own: Dap): Promise<void> {
-  await own.request("afp/subscribe", { state: true, trace: true });
+  await own.request("afp/subscribe", { state: true, trace: true, sensed: true });
   ready = own;
   await send(own);
   if (!log.peek()) for (const { command, args } of arranged.requests()) await own.request(command, args);
@@ -253,7 +256,7 @@ export async function repeat(run: { seed: number; values: { readonly [input: str
 /** Takes the card of the end away. */
 export function dismiss(): void {
   if (active.value) return;
-  [phase.value, ended.value, state.value, log.value] = ["idle", null, null, ""];
+  [phase.value, ended.value, state.value, log.value, sensed.value] = ["idle", null, null, "", null];
 }
 
 /** Goes to another moment of the run, and stands still there; a run that is over goes back. */

@@ -3,10 +3,11 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { start } from "../debug/arranged";
 import { active, state } from "../debug/run";
-import { frame, placeOf, points, scaleIn, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
+import { frame, placeOf, points, scaleIn, sector, short, viewBox, type Point, type Pose, type Thing } from "../world/geometry";
 import { grab, nudged } from "../world/grab";
 import { ghost, held, poseNow, putDown, reach, robotAt, standing, takeAway, type Held } from "../world/hand";
 import { shown, towards, type Motion } from "../world/motion";
+import { sensed } from "../world/sensed";
 import { path, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
 
@@ -33,6 +34,7 @@ export function Floor({ world }: { world: Surroundings }) {
         {things.map((thing) => <Obstacle thing={thing} world={world} key={thing.id} />)}
         {world.lights.map(([x, y], at) => <circle class="light" cx={short(x)} cy={short(y)} r={pixels(6)} key={at} />)}
         <Driven />
+        <Cones />
         {things.filter(({ labelled }) => labelled).map(({ name, outline, id }) => <Label name={name} at={placeOf(outline, box, [(name.length * LETTER) / scale, TALL / scale])} size={pixels(TALL)} key={id} />)}
         <Robot world={world} />
         <Ghost world={world} />
@@ -74,6 +76,11 @@ const Label = ({ name, at: [x, y], size }: { name: string; at: Point; size: stri
 
 /** In pieces, so that an hour of driving costs no more a frame than the first minute. */
 const Driven = () => <>{path.value.map((piece, at) => <polyline class="driven" points={points(piece)} key={at} />)}</>;
+
+/** What range sensors heard last. */
+const Cones = () => (
+  <>{sensed.value?.sensed.map(({ signal, cone }) => cone && cone.range !== null && <path class="cone" d={sector(cone.pose, cone.half, cone.range)} key={signal} />)}</>
+);
 
 /** Where what is held would be put. */
 const Ghost = ({ world }: { world: Surroundings }) => (held.value ? <polygon class="ghost" points={points(ghost(held.value, world))} /> : null);

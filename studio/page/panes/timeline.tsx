@@ -6,6 +6,7 @@ import { phase, records, seek, state } from "../debug/run";
 import { beside, moments, rows, scale, within, zoomed, type Row, type Window } from "../debug/trace";
 import { Tool } from "../bar";
 import { words } from "../words";
+import { Choose, Plots } from "./plots";
 
 /** What was chosen to be in sight; null follows the run. */
 const chosen = signal<Window | null>(null);
@@ -55,9 +56,11 @@ export function Timeline() {
         <Tool icon="minus" label={words.zoomOut} run={() => zoom(2)} />
         <Tool icon="plus" label={words.zoomIn} run={() => zoom(0.5)} />
         <Tool icon="fit" label={words.wholeRun} run={() => (chosen.value = { from: 0, to: end.value })} />
+        <Choose />
       </div>
       <Ruler x={x} of={of} width={width} />
       <div class="rows" onWheel={(event) => wheel(event, of, width)}>
+        <Plots of={of} x={x} now={now.value} width={width} />
         <div class="names">{all.value.map((row) => <div class={`name ${row.kind}`} title={label(row)} key={key(row)}>{label(row)}</div>)}</div>
         <div class="lanes" ref={host}>
           <svg width={width} height={all.value.length * TALL} role="img" aria-label={words.rowsOf(all.value.length)}>

@@ -9,6 +9,7 @@ import { again, choose, missing, sow, surroundings, type Surroundings } from "..
 import { words } from "../words";
 import { Floor } from "./floor";
 import { Drops, Faults, Stimuli } from "./outside";
+import { Sensors } from "./sensors";
 
 export function WorldPane() {
   const world = surroundings.value;
@@ -18,6 +19,7 @@ export function WorldPane() {
       {world ? <Floor world={world} /> : <Absent />}
       {world && <Hand world={world} />}
       {world?.camera && watched.value && <Camera />}
+      <Sensors />
       <Stimuli />
       <Faults />
     </div>

@@ -79,6 +79,12 @@ export const short = (metres: number): string => String(Math.round(metres * 1e4)
 
 export const points = (all: readonly (readonly number[])[]): string => all.map(([x, y]) => `${short(x!)},${short(y!)}`).join(" ");
 
+/** The view of a range sensor up to what it heard: a sector around where it looks. */
+export function sector([x, y, heading]: Pose, half: number, range: number): string {
+  const end = (angle: number): string => `${short(x + range * Math.cos(angle))} ${short(y + range * Math.sin(angle))}`;
+  return `M${short(x)} ${short(y)}L${end(heading - half)}A${short(range)} ${short(range)} 0 ${half > Math.PI / 2 ? 1 : 0} 1 ${end(heading + half)}Z`;
+}
+
 /** The middle of an outline. */
 export function middle(outline: readonly Point[]): Point {
   const sum = outline.reduce(([x, y], [u, v]) => [x + u, y + v] as const, [0, 0] as const);

@@ -35,6 +35,8 @@ export interface Device {
   help: string;
   stimuli: readonly Stimulus[];
   faults: readonly Fault[];
+  /** What it says of itself and of what is around it. */
+  signals: readonly { words: string; help: string }[];
 }
 
 /** The world; null where it is not known. */

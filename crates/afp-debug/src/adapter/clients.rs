@@ -31,6 +31,8 @@ pub(super) struct Client {
     pub attached: bool,
     /// Whether it wants to be told what is the case.
     pub state: bool,
+    /// Whether it wants to be told what the robot's signals say.
+    pub sensed: bool,
     /// Whether it wants to be told what happens, as records.
     pub trace: bool,
     /// Whether it knows our own requests, and so our own events.
@@ -74,6 +76,7 @@ impl Adapter<'_> {
             sent: 0,
             attached: false,
             state: false,
+            sensed: false,
             trace: false,
             ours: false,
             lease: None,

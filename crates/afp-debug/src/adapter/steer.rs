@@ -81,6 +81,8 @@ struct Subscribe {
     #[serde(default)]
     state: bool,
     #[serde(default)]
+    sensed: bool,
+    #[serde(default)]
     trace: bool,
 }
 
@@ -118,10 +120,10 @@ impl Adapter<'_> {
             "afp/seek" => self.seek(&parse(arguments)?),
             "afp/world" => self.world(parse(arguments)?),
             "afp/subscribe" => {
-                let Subscribe { state, trace } = parse(arguments)?;
+                let Subscribe { state, sensed, trace } = parse(arguments)?;
                 self.run()?;
                 if let Some(client) = self.clients.get_mut(&self.asker) {
-                    client.state = state;
+                    (client.state, client.sensed) = (state, sensed);
                 }
                 self.trace(trace)?;
                 self.tell_state();

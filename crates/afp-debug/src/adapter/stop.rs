@@ -5,10 +5,12 @@ use afp_session::{Done, EndingKind, EventKind, Figure, FigureValue, Requested};
 use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
 
+use super::clients::Client;
 use super::steer::Mode;
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Kind;
 use crate::program::Program;
+use crate::sensed::{Cone, Sensed};
 use crate::target::Happened;
 
 /// So many stretches of time are told one by one.
@@ -157,6 +159,7 @@ impl Adapter<'_> {
 
     /// Tells clients that want it what is the case.
     pub(super) fn tell_state_of(&mut self, run: &Run<'_>) {
+        self.tell_sensed_of(run);
         if !self.clients.values().any(|client| client.attached && client.state) {
             return;
         }
@@ -186,6 +189,16 @@ impl Adapter<'_> {
             body[name] = value;
         }
         self.tell_those(|client| client.attached && client.state, "afp/state", &body);
+    }
+
+    /// Tells clients that want it what the robot's signals say.
+    fn tell_sensed_of(&mut self, run: &Run<'_>) {
+        let wanted = |client: &Client| client.attached && client.sensed;
+        if self.clients.values().any(wanted) {
+            let sensed: Vec<_> = run.target.sensed().iter().map(in_json).collect();
+            let body = json!({"at": run.target.now().as_secs_f64(), "sensed": sensed});
+            self.tell_those(wanted, "afp/sensed", &body);
+        }
     }
 }
 
@@ -225,6 +238,15 @@ pub(super) fn stopped_event(
 fn outline((id, outline): (String, Vec<[f64; 2]>)) -> serde_json::Value {
     let outline: Vec<_> = outline.into_iter().map(|corner| corner.map(rounded)).collect();
     json!({"id": id, "outline": outline})
+}
+
+fn in_json(Sensed { signal, text, cone }: &Sensed) -> serde_json::Value {
+    let cone = cone.map(|cone| {
+        let Cone { pose, half_angle, range } = cone;
+        let pose = [pose.x, pose.y, pose.heading].map(rounded);
+        json!({"pose": pose, "half": rounded(half_angle), "range": range.map(rounded)})
+    });
+    json!({"signal": signal, "text": text, "cone": cone})
 }
 
 /// Four digits behind the point: tenths of a millimetre are enough for pictures.

@@ -1,6 +1,6 @@
 //! The robot of a plan: what can be pressed and broken.
 
-use afp_ide::robot::{Fault, RobotDevice, Stimulus};
+use afp_ide::robot::{Fault, RobotDevice, Signal, Stimulus};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -28,12 +28,17 @@ fn device(device: &RobotDevice) -> Value {
         "name": device.name,
         "help": device.help,
         "stimuli": device.stimuli.iter().map(stimulus).collect::<Vec<_>>(),
+        "signals": device.signals.iter().filter(|it| !it.truth).map(signal).collect::<Vec<_>>(),
         "faults": device.faults.iter().map(fault).collect::<Vec<_>>(),
     })
 }
 
 fn stimulus(it: &Stimulus) -> Value {
     json!({ "words": it.words, "help": it.help, "stops": it.stops })
+}
+
+fn signal(it: &Signal) -> Value {
+    json!({ "words": it.words, "help": it.help })
 }
 
 fn fault(it: &Fault) -> Value {

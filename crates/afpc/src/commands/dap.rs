@@ -1,6 +1,7 @@
 //! `afpc dap`: the debug adapter on standard input and output, or for clients that connect.
 
 mod listen;
+mod senses;
 mod simulator;
 mod talk;
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use afp_core::devices::{SignalType, signals};
+use afp_core::devices::{DeviceRow, SignalType, signals};
 use afp_debug::{Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target};
 use afp_dsl::graph::Graph;
 use afp_run::world;
@@ -12,6 +12,8 @@ use afp_session::{Pose2, Recipe};
 
 use crate::plan_file::PlanFile;
 use crate::{Linked, runner};
+
+use super::senses::Senses;
 
 /// Runs plans of files on the robot that is linked in, simulated.
 pub struct Simulator<'a> {
@@ -69,7 +71,7 @@ impl<'a> Host<'a> for Simulator<'a> {
     fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target + 'a>, String> {
         self.check_all(launch)?;
         if let Some(log) = &launch.log {
-            return Ok(Box::new(recorded(Path::new(log))?));
+            return Ok(Box::new(recorded(Path::new(log), self.linked.robot.kind().devices())?));
         }
         let file = PlanFile::read(&launch.program).map_err(|why| why.to_string())?;
         let shown = file.compiled.render(false);
@@ -138,7 +140,7 @@ impl<'a> Host<'a> for Simulator<'a> {
 }
 
 /// A run that is over.
-fn recorded(path: &Path) -> Result<LogTarget, String> {
+fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, String> {
     let mut log = afp_log::read(path).map_err(|why| why.to_string())?;
     let file = PlanFile::of_log(&log).map_err(|why| why.to_string())?;
     let shown = file.compiled.render(false);
@@ -146,6 +148,8 @@ fn recorded(path: &Path) -> Result<LogTarget, String> {
     let events = std::mem::take(&mut log.events);
     let target = LogTarget::new(Arc::new(program(&graph, &file)), events)?;
     let target = target.with_poses(std::mem::take(&mut log.poses));
+    let senses = Senses::take(&mut log, devices);
+    let target = target.with_senses(move |at, robot| senses.at(at, robot));
     Ok(target.with_pictures(move |at| log.picture(at)))
 }
 

@@ -1,0 +1,66 @@
+//! What the robot says, for people who watch a run: numbers and words, and where its range sensors look.
+
+use afp_core::devices::{DeviceRow, SignalRow, SignalType, signals};
+use afp_session::{AnySession, Datum, Pose2, SampleRef};
+
+/// What a signal says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensed {
+    /// Its device and its name: `touch.touched`.
+    pub signal: String,
+    /// As people write it.
+    pub text: String,
+    /// Where a range sensor looks.
+    pub cone: Option<Cone>,
+}
+
+/// A range sensor's view, in the frame of the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Where the sensor is and which way it looks.
+    pub pose: Pose2,
+    /// Half the opening, radians.
+    pub half_angle: f64,
+    /// Metres; none where no echo came back.
+    pub range: Option<f64>,
+}
+
+impl Sensed {
+    /// What a signal says that is a value.
+    pub fn value(device: &DeviceRow, row: &SignalRow, value: &Datum) -> Sensed {
+        let unit = if let SignalType::Float(unit) = row.ty { unit } else { "" };
+        Sensed::new(device, row, value.in_unit(unit), None)
+    }
+
+    /// What a range sensor says.
+    pub fn range(device: &DeviceRow, row: &SignalRow, cone: Cone) -> Sensed {
+        let heard = cone.range.map(|range| Datum::Number(range).in_unit("m"));
+        Sensed::new(device, row, heard.unwrap_or_else(|| "no echo".to_owned()), Some(cone))
+    }
+
+    fn new(device: &DeviceRow, row: &SignalRow, text: String, cone: Option<Cone>) -> Sensed {
+        Sensed { signal: format!("{}.{}", device.name, row.name), text, cone }
+    }
+}
+
+/// What a robot that stands somewhere says now: what a plan may know, in the order of its devices, without pictures.
+pub(crate) fn all(session: &dyn AnySession, robot: Option<Pose2>) -> Vec<Sensed> {
+    let mut all = Vec::new();
+    for (signal, device, row) in signals(session.devices()).filter(|(.., row)| !row.truth) {
+        let mut take = |sample: SampleRef<'_>| {
+            let heard = match (sample, sample.value()) {
+                (SampleRef::Range(heard), _) => heard,
+                (_, Some(value)) => return all.push(Sensed::value(device, row, &value)),
+                (_, None) => return,
+            };
+            let pose = robot.map_or(heard.pose, |robot| robot.beyond(heard.pose));
+            let cone = Cone { pose, half_angle: heard.half_angle, range: heard.range };
+            all.push(Sensed::range(device, row, cone));
+        };
+        match row.ty {
+            SignalType::Pose | SignalType::Image | SignalType::Outline => {}
+            _ => session.read(signal, &mut take),
+        }
+    }
+    all
+}
