@@ -247,6 +247,12 @@ impl Target for SessionTarget<'_> {
         self.run.session.misses()
     }
 
+    fn requests(&self) -> Vec<(Instant, Stimulus)> {
+        let session = &self.run.session;
+        let named = |request| Stimulus::new(request, session.devices(), session.names());
+        session.requests().iter().map(|(at, request)| (*at, named(request))).collect()
+    }
+
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {
         self.forget_later()?;
         let id = self.program.entries.iter().position(|it| it.path == entry);
@@ -272,10 +278,11 @@ impl Target for SessionTarget<'_> {
         self.run.session.devices()
     }
 
-    fn ask(&mut self, later: Duration, request: Request) -> Result<(), String> {
+    fn ask(&mut self, later: Duration, request: Request) -> Result<Instant, String> {
         self.forget_later()?;
         let at = self.run.session.now() + later;
-        self.run.session.at(at, request).map(|_| ()).map_err(|why| why.to_string())
+        self.run.session.at(at, request).map_err(|why| why.to_string())?;
+        Ok(self.run.session.requests().last().map_or(at, |(at, _)| *at))
     }
 
     fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String> {
@@ -283,7 +290,7 @@ impl Target for SessionTarget<'_> {
         let component = session.names().component(component).path.to_owned();
         let what = Stimulus::Inject { component, outcome: outcome.to_owned(), outputs: Vec::new() };
         let request = what.request(session.devices(), session.names());
-        self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?)
+        self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?).map(|_| ())
     }
 
     fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State)) {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use afp_session::{Figures, Pose2, Request, RunEvent};
+use afp_session::{Figures, Pose2, Request, RunEvent, Stimulus};
 
 use crate::program::Program;
 use crate::state::State;
@@ -84,6 +84,11 @@ pub trait Target {
         0
     }
 
+    /// What came from outside so far, and what is to come, with the instants.
+    fn requests(&self) -> Vec<(Instant, Stimulus)> {
+        Vec::new()
+    }
+
     /// Writes an entry of the outermost plan as people write it; gives the value.
     ///
     /// # Errors
@@ -93,11 +98,12 @@ pub trait Target {
     /// The devices of the robot.
     fn devices(&self) -> &'static [DeviceRow];
 
-    /// Asks for something so much later than now. What was asked for later than now before a step back is forgotten.
+    /// Asks for something so much later than now; gives the instant at which it comes, which is the next one where the
+    /// step of that is over. What was asked for later than now before a step back is forgotten.
     ///
     /// # Errors
     /// Why it cannot be.
-    fn ask(&mut self, later: Duration, request: Request) -> Result<(), String>;
+    fn ask(&mut self, later: Duration, request: Request) -> Result<Instant, String>;
 
     /// Makes a component report a state or an event at its next poll.
     ///

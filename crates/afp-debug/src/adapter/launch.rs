@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::clients::Counting;
+use super::ended::By;
 use super::steer::{Mode, Pace};
 use super::stop::stopped_event;
 use super::{Adapter, Answer, Refusal, Run};
@@ -297,7 +298,8 @@ impl Adapter<'_> {
             said.iter().for_each(|happened| self.say(&run, happened));
             run.keep_trace(&said);
             self.tell_trace(&mut run);
-            self.ended(&run);
+            let by = By::Client(self.name_of(self.asker).to_owned());
+            self.ended(&run, &by);
         }
         self.operator = None;
         self.clients.values_mut().for_each(|client| client.attached = false);
