@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
-use afp_core::trace::{ComponentId, EntryName, TraceEntryId};
+use afp_core::trace::{ComponentId, EntryName, TraceEntryId, TraceHash};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
     AnySession, Applied, Datum, Figures, NamedRecord, Observer, Open, Pose2, Request, RunEvent,
@@ -245,6 +245,10 @@ impl Target for SessionTarget<'_> {
 
     fn misses(&self) -> u64 {
         self.run.session.misses()
+    }
+
+    fn trace(&self) -> Option<TraceHash> {
+        Some(self.run.session.trace())
     }
 
     fn requests(&self) -> Vec<(Instant, Stimulus)> {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::devices::DeviceRow;
-use afp_core::trace::ComponentId;
+use afp_core::trace::{ComponentId, TraceHash};
 use afp_core::{Duration, Instant};
 use afp_session::{Figures, Pose2, Request, RunEvent, Stimulus};
 
@@ -82,6 +82,11 @@ pub trait Target {
     /// How many deadlines were missed so far.
     fn misses(&self) -> u64 {
         0
+    }
+
+    /// The hash of the trace so far, as `afpc run` gives it; none of a log.
+    fn trace(&self) -> Option<TraceHash> {
+        None
     }
 
     /// What came from outside so far, and what is to come, with the instants.

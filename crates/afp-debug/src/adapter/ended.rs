@@ -36,6 +36,8 @@ impl Adapter<'_> {
         let measured = figures.iter().map(|figure| (figure.name.to_owned(), value(figure)));
         let mut summary: Map<_, _> = measured.collect();
         summary.insert("deadline_misses".to_owned(), json!(misses));
+        let trace = run.target.trace();
+        summary.extend(trace.map(|trace| ("trace".to_owned(), json!(trace.to_string()))));
         let ended = json!({
             "ending": ending.word(),
             "by": run.ended_by(by),
