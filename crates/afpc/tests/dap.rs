@@ -36,6 +36,13 @@ fn a_client_that_is_gone_ends_the_adapter() {
 }
 
 #[test]
+fn other_machines_come_through_a_tunnel() {
+    let said = Place::new().afpc("dap --listen 0.0.0.0:4711");
+    said.fails(2, &["would not be encrypted", "'ssh -L 4711:localhost:4711 HOST'"]);
+    assert!(!Place::new().afpc("dap --help").out.contains("--listen"));
+}
+
+#[test]
 fn bytes_that_are_no_protocol_are_said_to_be_none() {
     let long = format!("Content-Length: {}\r\n\r\n", 1 << 30);
     let babble = vec![b'x'; 1 << 16];
