@@ -51,6 +51,8 @@ pub struct Unit {
     pub owner: Option<ComponentId>,
     /// Input ports: name and SI unit, empty for what is no quantity.
     pub inputs: Vec<(String, String)>,
+    /// Output ports that are bound: name, and the path of the entry.
+    pub outputs: Vec<(String, String)>,
     /// States or events: name and target.
     pub outcomes: Vec<(String, String)>,
     /// Its edges that hold instead of those of supervisors of its plan: supervisor, event and target.
@@ -134,6 +136,7 @@ impl Program {
             inputs: (names.inputs.into_iter().map(|port| port.name))
                 .zip(place.inputs.iter().map(unit))
                 .collect(),
+            outputs: (names.outputs.into_iter()).map(|(_, port)| (port.name, port.entry)).collect(),
             outcomes: names.outcomes,
             reactions: names.reactions.into_iter().map(reaction).collect(),
             times: times.get(&place.span).cloned(),

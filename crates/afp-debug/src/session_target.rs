@@ -54,6 +54,11 @@ impl<'m> SessionTarget<'m> {
         Ok(SessionTarget { program, make, run, furthest: 0, keyframes, apart: KEYFRAMES })
     }
 
+    /// The same without copies, as of a robot that cannot be copied: going back always runs again from the start.
+    pub fn never_kept(self) -> Self {
+        SessionTarget { keyframes: Vec::new(), ..self }
+    }
+
     /// Keeps a copy of the run where the last one lies far enough back.
     fn keep(&mut self) {
         let Some(last) = self.keyframes.last() else { return };
@@ -154,6 +159,10 @@ impl Target for SessionTarget<'_> {
 
     fn steps(&self) -> u64 {
         self.run.steps
+    }
+
+    fn is_kept(&self) -> bool {
+        !self.keyframes.is_empty()
     }
 
     fn advance(

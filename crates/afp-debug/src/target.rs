@@ -30,6 +30,11 @@ pub trait Target {
         false
     }
 
+    /// Whether going back begins at a copy of the run; else it begins at the start.
+    fn is_kept(&self) -> bool {
+        true
+    }
+
     /// Lets time pass up to the next instant at which something is done, but not beyond `limit`, and tells what
     /// happened, in order, with what is the case then.
     ///

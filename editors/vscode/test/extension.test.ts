@@ -141,4 +141,7 @@ test("the drawing is saved as a picture", async () => {
   [seen.pick, seen.save] = ["SVG", Uri.file(join(folder, "plan.svg"))];
   await run("afp.graph");
   assert.match(seen.written.get(join(folder, "plan.svg")) ?? "", /^<svg/);
+  [seen.pick, seen.save] = ["PNG", Uri.file(join(folder, "plan.png"))];
+  await run("afp.graph");
+  assert.match(seen.written.get(join(folder, "plan.png")) ?? "", /^.PNG\r\n/s);
 });

@@ -263,7 +263,11 @@ impl Adapter<'_> {
     fn start(&mut self, now: Wall) -> Answer<()> {
         let run = self.run()?;
         run.has_begun = true;
-        match run.launch.stop_on_entry {
+        let (held, kept) = (run.launch.stop_on_entry, run.target.is_kept());
+        if !kept {
+            self.output("console", "the robot, or something of the plan, cannot be copied: going back runs all of it again from the start\n");
+        }
+        match held {
             true => self.stopped(Reason::Entry, "before the first step", Vec::new()),
             false => self.go(Mode::On, now)?,
         }

@@ -119,7 +119,11 @@ fn draw(
 }
 
 /// A plan of a file by name, its first one without a name.
-fn find(outline: &Outline, file: u16, name: Option<&str>) -> Result<Option<PlanId>, Failure> {
+pub(super) fn find(
+    outline: &Outline,
+    file: u16,
+    name: Option<&str>,
+) -> Result<Option<PlanId>, Failure> {
     let mut own = (0..).map(PlanId).zip(&outline.plans).filter(|(_, plan)| plan.file() == file);
     match name {
         None => Ok(own.next().map(|(id, _)| id)),
