@@ -68,6 +68,8 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await shows(card, /afpc run \S*plan\.afp:Outer/);
   await card.getByRole("button", { name: "Show where" }).click();
   await page.locator(".marks .ring").first().waitFor();
+  // Slowly, so that it still runs when it is stopped.
+  await page.getByLabel("Speed").selectOption("1");
   await card.getByRole("button", { name: "Run again" }).click();
   await page.locator(".run-active").first().waitFor();
   await page.keyboard.press("Shift+F5");
