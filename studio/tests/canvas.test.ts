@@ -41,6 +41,27 @@ inBrowser("the menu of what is pressed: by mouse, by key, closed by Escape", { "
   await page.locator(".marks .ring:not(.second, .third)").nth(1).waitFor();
 });
 
+inBrowser("a folded box hides ports and supervisors, leads where it led, and is folded after a reload", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator(name("P.turn")).first().waitFor();
+  const ports = page.locator("text.port");
+  const edges = page.locator("[data-item='P.go.touch'][data-exit]");
+  await page.locator("text.template", { hasText: "CheckTouchSensor" }).waitFor();
+  const before = await ports.count();
+  assert.ok((await edges.count()) >= 1);
+  await page.mouse.click(...(await middle(page, name("P.go"))));
+  await page.keyboard.press("f");
+  await page.locator("text.template", { hasText: "CheckTouchSensor" }).waitFor({ state: "detached" });
+  assert.ok((await ports.count()) < before);
+  assert.ok((await edges.count()) >= 1);
+  await page.reload();
+  await page.locator(name("P.turn")).first().waitFor();
+  assert.equal(await page.locator("text.template", { hasText: "CheckTouchSensor" }).count(), 0);
+  await page.mouse.click(...(await middle(page, name("P.go"))), { button: "right" });
+  await page.getByRole("menuitem", { name: /Fold or unfold/ }).click();
+  await page.locator("text.template", { hasText: "CheckTouchSensor" }).waitFor();
+  assert.equal(await ports.count(), before);
+});
+
 inBrowser("elements become a plan, a sub-plan becomes its elements, undo gives the first bytes", { "plan.afp": PLAN }, async (studio) => {
   const { page, holds } = studio;
   await page.locator(name("P.turn")).first().waitFor();

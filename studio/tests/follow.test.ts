@@ -4,6 +4,16 @@ import { test } from "node:test";
 import type { Socket } from "../page/lsp";
 import { connect } from "../page/dap";
 import { at, taken } from "../page/debug/follow";
+import { differs, hash } from "../page/debug/hash";
+
+test("a text has the hash that the debugger gives it, however its lines end", () => {
+  assert.equal(hash(""), "cbf29ce484222325");
+  assert.equal(hash("foobar"), "85944171f73967e8");
+  assert.equal(hash("\uFEFFuse std\r\nplan P {}\r\n"), hash("use std\nplan P {}\n"));
+  assert.equal(hash("länge → 1"), "4b342ddcb57f390f");
+  assert.deepEqual(["a", "b"].map((text) => differs({ "/p.afp": hash("a") }, "/p.afp", text)), [false, true]);
+  assert.equal(differs({}, "/p.afp", "a"), false);
+});
 
 const outer = { path: "", plan: "Outer" };
 

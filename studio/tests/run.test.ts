@@ -64,6 +64,12 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   const card = page.locator(".end-card");
   await card.waitFor();
   await shows(card, /Outer ended as it says itself, after 6\.5/);
+  await card.locator("summary").click();
+  await shows(card, /afpc run \S*plan\.afp:Outer/);
+  await card.getByRole("button", { name: "Show where" }).click();
+  await page.locator(".marks .ring").first().waitFor();
+  // Slowly, so that it still runs when it is stopped.
+  await page.getByLabel("Speed").selectOption("1");
   await card.getByRole("button", { name: "Run again" }).click();
   await page.locator(".run-active").first().waitFor();
   await page.keyboard.press("Shift+F5");
@@ -90,7 +96,13 @@ inBrowser("a change of the text during a run marks it as older", { "plan.afp": P
   await page.locator(".cm-line", { hasText: "plan Outer" }).click();
   await page.keyboard.press("End");
   await page.keyboard.type(" // now");
-  await page.getByRole("button", { name: /This run is of an older text/ }).click();
+  const older = page.getByRole("button", { name: /This run is of an older text/ });
+  await shows(older, /older text/);
+  // What is taken back is the text that runs.
+  await page.keyboard.press("Control+z");
+  await older.waitFor({ state: "detached" });
+  await page.keyboard.press("Control+Shift+z");
+  await older.click();
   await page.locator(".clock.running").waitFor();
   await page.getByRole("button", { name: /This run is of an older text/ }).waitFor({ state: "detached" });
 });

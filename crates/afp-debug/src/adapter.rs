@@ -1,6 +1,8 @@
 //! The adapter: messages of a client in, messages to it out.
 
+mod again;
 mod clients;
+mod ended;
 mod force;
 mod goto;
 mod hover;

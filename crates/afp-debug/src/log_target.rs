@@ -229,7 +229,7 @@ impl Target for LogTarget {
         &[]
     }
 
-    fn ask(&mut self, _: Duration, _: Request) -> Result<(), String> {
+    fn ask(&mut self, _: Duration, _: Request) -> Result<Instant, String> {
         Err(READ_ONLY.to_owned())
     }
 

@@ -1,9 +1,10 @@
 //! A plan as a program that can be debugged: its components and entries with their places in the texts.
 
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 use afp_core::Duration;
-use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId};
+use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId, TraceHash};
 use afp_dsl::graph::{Component, EntryKind, Graph, PlanId};
 use afp_dsl::timing::{SupervisorTiming, timing};
 use afp_dsl::types::Type;
@@ -29,6 +30,8 @@ pub struct Program {
     pub(crate) graph: Graph,
     /// Texts that files have not, or not any more.
     texts: BTreeMap<usize, String>,
+    /// What tells the texts of the plan from others, by their files.
+    hashes: Vec<(usize, String)>,
 }
 
 /// A component: the plan, an element, a supervisor.
@@ -48,6 +51,8 @@ pub struct Unit {
     pub owner: Option<ComponentId>,
     /// Input ports: name and SI unit, empty for what is no quantity.
     pub inputs: Vec<(String, String)>,
+    /// Output ports that are bound: name, and the path of the entry.
+    pub outputs: Vec<(String, String)>,
     /// States or events: name and target.
     pub outcomes: Vec<(String, String)>,
     /// Its edges that hold instead of those of supervisors of its plan: supervisor, event and target.
@@ -131,6 +136,7 @@ impl Program {
             inputs: (names.inputs.into_iter().map(|port| port.name))
                 .zip(place.inputs.iter().map(unit))
                 .collect(),
+            outputs: (names.outputs.into_iter()).map(|(_, port)| (port.name, port.entry)).collect(),
             outcomes: names.outcomes,
             reactions: names.reactions.into_iter().map(reaction).collect(),
             times: times.get(&place.span).cloned(),
@@ -155,6 +161,9 @@ impl Program {
             lines: BTreeMap::new(),
             graph: graph.clone(),
             texts: BTreeMap::new(),
+            hashes: (graph.sources.iter())
+                .map(|(file, source)| (usize::from(*file), hash(&source.text)))
+                .collect(),
         };
         for (number, place) in (0..).zip(&places).skip(1) {
             program.add_component(ComponentId(number), place, &texts);
@@ -196,6 +205,11 @@ impl Program {
     /// The text of a file that clients have no file for.
     pub fn text_of(&self, file: usize) -> Option<&str> {
         self.texts.get(&file).map(String::as_str)
+    }
+
+    /// The plan's files with the hashes of the texts that run: FNV-1a with 64 bits, over UTF-8, lines ended by LF.
+    pub fn hashes(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.hashes.iter().filter_map(|(file, hash)| Some((&**self.files.get(*file)?, &**hash)))
     }
 
     fn add_edge(&mut self, at: Place, spot: Spot) {
@@ -323,6 +337,14 @@ impl Program {
         let found = inside.or_else(|| self.entries.iter().position(|it| it.path == name))?;
         Some(TraceEntryId(found as u32))
     }
+}
+
+/// What tells a text from others, however its lines end in a file.
+fn hash(text: &str) -> String {
+    let mut hash = TraceHash::default();
+    // A hash takes any text.
+    let _ = hash.write_str(&text.trim_start_matches('\u{feff}').replace("\r\n", "\n"));
+    hash.to_string()
 }
 
 /// The times of all supervisors, by their names' places in the text.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
-use afp_core::trace::{ComponentId, EntryName, TraceEntryId};
+use afp_core::trace::{ComponentId, EntryName, TraceEntryId, TraceHash};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
     AnySession, Applied, Datum, Figures, NamedRecord, Observer, Open, Pose2, Request, RunEvent,
@@ -53,6 +53,11 @@ impl<'m> SessionTarget<'m> {
         let run = Run { session: make()?, state: State::default(), steps: 0 };
         let keyframes = run.keyframe().into_iter().collect();
         Ok(SessionTarget { program, make, run, furthest: 0, keyframes, apart: KEYFRAMES })
+    }
+
+    /// The same without copies, as of a robot that cannot be copied: going back always runs again from the start.
+    pub fn never_kept(self) -> Self {
+        SessionTarget { keyframes: Vec::new(), ..self }
     }
 
     /// Keeps a copy of the run where the last one lies far enough back.
@@ -157,6 +162,10 @@ impl Target for SessionTarget<'_> {
         self.run.steps
     }
 
+    fn is_kept(&self) -> bool {
+        !self.keyframes.is_empty()
+    }
+
     fn advance(
         &mut self,
         limit: Instant,
@@ -252,6 +261,16 @@ impl Target for SessionTarget<'_> {
         self.run.session.misses()
     }
 
+    fn trace(&self) -> Option<TraceHash> {
+        Some(self.run.session.trace())
+    }
+
+    fn requests(&self) -> Vec<(Instant, Stimulus)> {
+        let session = &self.run.session;
+        let named = |request| Stimulus::new(request, session.devices(), session.names());
+        session.requests().iter().map(|(at, request)| (*at, named(request))).collect()
+    }
+
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {
         self.forget_later()?;
         let id = self.program.entries.iter().position(|it| it.path == entry);
@@ -277,10 +296,11 @@ impl Target for SessionTarget<'_> {
         self.run.session.devices()
     }
 
-    fn ask(&mut self, later: Duration, request: Request) -> Result<(), String> {
+    fn ask(&mut self, later: Duration, request: Request) -> Result<Instant, String> {
         self.forget_later()?;
         let at = self.run.session.now() + later;
-        self.run.session.at(at, request).map(|_| ()).map_err(|why| why.to_string())
+        self.run.session.at(at, request).map_err(|why| why.to_string())?;
+        Ok(self.run.session.requests().last().map_or(at, |(at, _)| *at))
     }
 
     fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String> {
@@ -288,7 +308,7 @@ impl Target for SessionTarget<'_> {
         let component = session.names().component(component).path.to_owned();
         let what = Stimulus::Inject { component, outcome: outcome.to_owned(), outputs: Vec::new() };
         let request = what.request(session.devices(), session.names());
-        self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?)
+        self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?).map(|_| ())
     }
 
     fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State)) {

@@ -37,6 +37,8 @@ pub struct State {
     since: BTreeMap<ComponentId, Instant>,
     /// How the plan ended, and in words why where that is `Error`.
     ended: Option<(EndingKind, String)>,
+    /// The edge by which it ended.
+    ended_by: Option<Taken>,
 }
 
 /// An edge that was taken.
@@ -44,6 +46,8 @@ pub struct State {
 pub struct Taken {
     /// The component that led along it.
     pub by: ComponentId,
+    /// The state or event.
+    pub outcome: String,
     /// Where to.
     pub target: String,
     /// In the words of the trace.
@@ -107,7 +111,11 @@ impl State {
         };
         let (target, text) = (event.target.clone(), Line(event).to_string());
         if let Some(unit) = program.unit(by) {
-            self.taken.insert(unit.plan, Taken { by, target, text, at: event.at });
+            let outcome = match event.kind {
+                EventKind::Faulted => "Error".to_owned(),
+                _ => event.outcome.clone(),
+            };
+            self.taken.insert(unit.plan, Taken { by, outcome, target, text, at: event.at });
         }
     }
 
@@ -166,6 +174,7 @@ impl State {
         if event.component_id == ComponentId(0) {
             let ending = event.ending.unwrap_or(EndingKind::Ok);
             self.ended = Some((ending, event.fault_text.clone()));
+            self.ended_by = self.taken.remove(&ComponentId(0)).filter(|led| led.at == event.at);
         }
     }
 
@@ -237,6 +246,11 @@ impl State {
     /// Whether an element is active, a supervisor watches.
     pub fn is_on(&self, id: ComponentId) -> bool {
         self.watching.contains_key(&id) || self.active.values().any(|active| *active == id)
+    }
+
+    /// The edge by which the plan ended; none where it was made to end.
+    pub fn ended_by(&self) -> Option<&Taken> {
+        self.ended_by.as_ref()
     }
 
     /// How the plan ended, and in words why where that is `Error`.

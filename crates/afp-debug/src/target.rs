@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use afp_core::devices::DeviceRow;
-use afp_core::trace::ComponentId;
+use afp_core::trace::{ComponentId, TraceHash};
 use afp_core::{Duration, Instant};
-use afp_session::{Figures, Pose2, Request, RunEvent};
+use afp_session::{Figures, Pose2, Request, RunEvent, Stimulus};
 
 use crate::program::Program;
 use crate::sensed::Sensed;
@@ -29,6 +29,11 @@ pub trait Target {
     /// Whether all of it is over, so that it can be looked at and not changed.
     fn is_recorded(&self) -> bool {
         false
+    }
+
+    /// Whether going back begins at a copy of the run; else it begins at the start.
+    fn is_kept(&self) -> bool {
+        true
     }
 
     /// Lets time pass up to the next instant at which something is done, but not beyond `limit`, and tells what
@@ -90,6 +95,16 @@ pub trait Target {
         0
     }
 
+    /// The hash of the trace so far, as `afpc run` gives it; none of a log.
+    fn trace(&self) -> Option<TraceHash> {
+        None
+    }
+
+    /// What came from outside so far, and what is to come, with the instants.
+    fn requests(&self) -> Vec<(Instant, Stimulus)> {
+        Vec::new()
+    }
+
     /// Writes an entry of the outermost plan as people write it; gives the value.
     ///
     /// # Errors
@@ -99,11 +114,12 @@ pub trait Target {
     /// The devices of the robot.
     fn devices(&self) -> &'static [DeviceRow];
 
-    /// Asks for something so much later than now. What was asked for later than now before a step back is forgotten.
+    /// Asks for something so much later than now; gives the instant at which it comes, which is the next one where the
+    /// step of that is over. What was asked for later than now before a step back is forgotten.
     ///
     /// # Errors
     /// Why it cannot be.
-    fn ask(&mut self, later: Duration, request: Request) -> Result<(), String>;
+    fn ask(&mut self, later: Duration, request: Request) -> Result<Instant, String>;
 
     /// Makes a component report a state or an event at its next poll.
     ///

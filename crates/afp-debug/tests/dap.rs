@@ -7,10 +7,11 @@ mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use afp_debug::{Host, Launch, Target};
+use afp_debug::{Host, Launch, SessionTarget, Target};
 
-use common::{Clients, Texted};
+use common::{Clients, Texted, compiled, session};
 
 /// A case with the answers that are given now.
 fn answered(case: &str) -> String {
@@ -152,4 +153,55 @@ plan Spin {
     clients.say("continue");
     clients.tick(None);
     assert!(clients.told.contains("Spin ended in Error after 0.100 s"), "{}", clients.told);
+}
+
+/// Runs that may be copied, or not.
+struct Copied(bool);
+
+impl Host<'static> for Copied {
+    fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target>, String> {
+        let text = fs::read_to_string(
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../plans/wall_following.afp"),
+        );
+        let (graph, program) = compiled(&text.expect("the plan"), &launch.program)?;
+        let launch = launch.clone();
+        let target =
+            SessionTarget::new(Arc::new(program), Box::new(move || session(&graph, &launch)))?;
+        Ok(Box::new(if self.0 { target } else { target.never_kept() }))
+    }
+
+    fn path(&self, path: &str) -> String {
+        path.to_owned()
+    }
+}
+
+#[test]
+fn a_run_that_cannot_be_copied_goes_back_from_the_start_and_says_so() {
+    let told = [true, false].map(|kept| {
+        let mut clients = Clients::new(Box::new(Copied(kept)));
+        clients.say(r#"launch {"program":"plan.afp"}"#);
+        clients.say(r#"setFunctionBreakpoints {"breakpoints":[{"name":"backupCollision"}]}"#);
+        clients.say("configurationDone");
+        clients.tick(None);
+        for said in [
+            r#"afp/seek {"at":25}"#,
+            r#"stepBack {"threadId":1}"#,
+            r#"afp/seek {"at":12.3}"#,
+            r#"afp/why {"path":"backupCollision","at":3.5}"#,
+            r#"reverseContinue {"threadId":1}"#,
+            r#"stackTrace {"threadId":1}"#,
+            r#"afp/seek {"at":14}"#,
+            "terminate",
+        ] {
+            clients.say(said);
+            clients.tick(None);
+        }
+        clients.told
+    });
+    let why = "cannot be copied: going back runs all of it again from the start";
+    let [kept, not] = &told;
+    assert!(!kept.contains(why) && kept.contains(r#""trace":""#), "{kept}");
+    let without: Vec<_> = not.lines().filter(|line| !line.contains(why)).collect();
+    assert_eq!(without.len() + 1, not.lines().count(), "{not}");
+    assert_eq!(kept.lines().collect::<Vec<_>>(), without);
 }

@@ -6,6 +6,7 @@
 //! and `ignore` end in tags of their own on the card, those to `resume` are hollow arrows back to it, so that only flow
 //! between elements is routed.
 
+mod folded;
 mod parts;
 mod start;
 mod supervisors;
@@ -80,8 +81,8 @@ pub(super) fn element<'a>(
     let exits = states.iter().map(|exit| exit_width(exit) + EXIT_GAP).sum::<f64>() + 16.0;
     let rows = (inputs.len() + outputs.len()) as f64;
     let own = HEAD + rows * ROW + 16.0;
-    let stack = supervisors::Stack::new(view, element.inner());
-    let rect = Rect { x: left, y: 0.0, width: head.max(exits), height: own.max(stack.first) };
+    let hung = Hung::new(view, &element.item, element.inner());
+    let rect = Rect { x: left, y: 0.0, width: head.max(exits), height: own.max(hung.first()) };
     let (shape, class) = look(view, element);
     card.sketch.frames.push(Frame { rect, shape, class, title: title(element, template) });
     heading(view, &mut card, element, template, rect);
@@ -113,8 +114,42 @@ pub(super) fn element<'a>(
     let item = element.item.clone();
     card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
     card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));
-    stack.attach(view, &mut card, rect);
+    hung.attach(view, &mut card, rect);
     card
+}
+
+/// What hangs on the right side of a box: its supervisors, or one tab for all of them where it is folded.
+enum Hung<'a> {
+    Rows(supervisors::Stack<'a>),
+    Tab(folded::Tab<'a>),
+}
+
+impl<'a> Hung<'a> {
+    fn new(
+        view: &View<'a>,
+        item: &Item,
+        supervisors: impl Iterator<Item = &'a Component>,
+    ) -> Hung<'a> {
+        match view.is_folded(item) {
+            true => Hung::Tab(folded::Tab::new(view, supervisors)),
+            false => Hung::Rows(supervisors::Stack::new(view, supervisors)),
+        }
+    }
+
+    /// Height of a box that the first of it leans on as a whole; 0 where nothing does.
+    fn first(&self) -> f64 {
+        match self {
+            Hung::Rows(stack) => stack.first,
+            Hung::Tab(tab) => tab.first(),
+        }
+    }
+
+    fn attach(self, view: &View<'a>, card: &mut Card<'a>, rect: Rect) {
+        match self {
+            Hung::Rows(stack) => stack.attach(view, card, rect),
+            Hung::Tab(tab) => tab.attach(view, card, rect),
+        }
+    }
 }
 
 /// The order in which things stand: those that have a wish by that, in the places that they have together.

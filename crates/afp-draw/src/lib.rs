@@ -31,6 +31,7 @@ use std::fmt;
 use crate::layout_file::Layout;
 use afp_dsl::outline::PlanId;
 use afp_dsl::toolbox::Toolbox;
+use afp_syntax::item::Item;
 use afp_syntax::source::Sources;
 
 pub use dot::dot;
@@ -69,6 +70,9 @@ pub struct Options<'a> {
     pub data: bool,
     /// Whether warnings and notes are marked where they belong, too; errors always are.
     pub warnings: bool,
+    /// Elements, or the start tag, that are drawn without what they read and write, and with one tab for all their
+    /// supervisors.
+    pub folded: &'a [Item],
     /// How often each part was used: an SVG then shows that by colours and numbers, with a legend.
     pub usage: Option<&'a Usage>,
 }
@@ -96,6 +100,7 @@ impl Default for Options<'_> {
             sub_plans: true,
             data: true,
             warnings: false,
+            folded: &[],
             usage: None,
         }
     }
@@ -112,6 +117,7 @@ impl fmt::Debug for Options<'_> {
             .field("theme", &self.theme)
             .field("sub_plans", &self.sub_plans)
             .field("data", &self.data)
+            .field("folded", &self.folded)
             .field("usage", &self.usage.is_some())
             .finish()
     }

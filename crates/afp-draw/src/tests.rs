@@ -9,7 +9,9 @@ use super::{Count, Options, PlanUsage, Theme, Usage, svg};
 use crate::layout_file::Layout;
 use afp_dsl::Compiled;
 use afp_dsl::outline::Outline;
+use afp_dsl::outline::Part;
 use afp_dsl::toolbox::Toolbox;
+use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 
 /// Two lines nearer than this look like one.
@@ -358,6 +360,44 @@ const RESUMING: &str = "use std\nuse carbot\nplan P {\nvar n: int = 0\nin far: l
     supervise flag: CheckEscapeButton { EscapeButtonPressed -> resume }\n\
     ForwardSuccessful -> go }\n\
     computation again: Count(value = n, limit = 3, next => n) { Again -> resume Done -> terminate }\n}\n";
+
+#[test]
+fn a_folded_box_hides_its_details_and_leads_where_it_led() {
+    for text in [EVERY_PART, WALL_FOLLOWING, RESUMING] {
+        let compiled = compiled(text);
+        let plan = compiled.outline.plan(compiled.outline.main.unwrap());
+        let start = Item::inner(plan.item.name(), "start");
+        let all: Vec<_> = plan.elements.iter().map(|it| it.item.clone()).chain([start]).collect();
+        let options = Options { sub_plans: false, ..Options::default() };
+        let folded = Options { folded: &all, ..options };
+        check(&compiled, &folded);
+        let [open, shut] = [&options, &folded].map(|it| Scene::new(&compiled.outline, it, None));
+        let edges = |scene: &Scene| {
+            let mut all: Vec<_> = (scene.plans[0].edges.iter())
+                .map(|edge| (edge.item.clone(), format!("{:?}", edge.part), edge.to.clone()))
+                .collect();
+            all.sort();
+            all
+        };
+        assert_eq!(edges(&open), edges(&shut));
+        // Each supervisor has the place of the tab that hides it, so that marks of a run find it.
+        let pieces = |scene: &Scene| -> Vec<_> {
+            let pieces = scene.plans[0].elements.iter().flat_map(|each| each.pieces.clone());
+            let mut all: Vec<_> =
+                pieces.filter(|it| it.part == Part::Whole).map(|it| it.item).collect();
+            all.retain(|item| plan.entries.iter().all(|entry| entry.item != *item));
+            all.sort();
+            all
+        };
+        assert_eq!(pieces(&open), pieces(&shut));
+        let area = |scene: &Scene| {
+            let outer = scene.plans[0].elements.iter().map(|each| each.outer);
+            outer.map(|it| it.width * it.height).sum::<f64>()
+        };
+        assert!(area(&shut) < 0.8 * area(&open), "{} of {}", area(&shut), area(&open));
+        assert!(!svg(&compiled.outline, &folded).contains(r#"class="port""#));
+    }
+}
 
 #[test]
 fn sub_plans_are_left_out_when_not_wanted() {

@@ -152,11 +152,11 @@ impl<'a> View<'a> {
 
     /// The entries of the plan, if data is shown.
     pub(super) fn entries(&self) -> &'a [Entry] {
-        self.shown(&self.plan.entries)
+        self.shown_of(&self.start_item(), &self.plan.entries)
     }
 
     pub(super) fn inputs(&self, component: &'a Component) -> Vec<Input<'a>> {
-        let inputs = self.shown(&component.inputs).iter().map(|input| {
+        let inputs = self.shown_of(&component.item, &component.inputs).iter().map(|input| {
             let value = input.binding.as_ref().and_then(|binding| binding.value.as_ref());
             let default = input.default.as_ref();
             let default = || default.map(|value| formula::constant(value, input.ty.as_ref()));
@@ -179,21 +179,27 @@ impl<'a> View<'a> {
 
     /// The bound output ports.
     pub(super) fn outputs(&self, component: &'a Component) -> Vec<Output<'a>> {
-        let outputs = self.shown(&component.outputs).iter().filter_map(|output| {
-            let value = output.binding.as_ref()?.value.as_ref();
-            Some(Output {
-                port: &output.name,
-                nth: output.nth,
-                entry: value.map_or("", |value| &value.text),
-                severity: self.severity(output.findings.worst()),
-            })
-        });
+        let outputs =
+            self.shown_of(&component.item, &component.outputs).iter().filter_map(|output| {
+                let value = output.binding.as_ref()?.value.as_ref();
+                Some(Output {
+                    port: &output.name,
+                    nth: output.nth,
+                    entry: value.map_or("", |value| &value.text),
+                    severity: self.severity(output.findings.worst()),
+                })
+            });
         outputs.collect()
     }
 
     /// All or nothing, as the options say.
-    fn shown<'d, T>(&self, data: &'d [T]) -> &'d [T] {
-        if self.options.data { data } else { &[] }
+    fn shown_of<'d, T>(&self, item: &Item, data: &'d [T]) -> &'d [T] {
+        if self.options.data && !self.is_folded(item) { data } else { &[] }
+    }
+
+    /// Whether an element, or the start tag, is drawn without its details.
+    pub(super) fn is_folded(&self, item: &Item) -> bool {
+        self.options.folded.contains(item)
     }
 
     /// What is marked: errors always, the rest where that is wanted.

@@ -14,6 +14,15 @@ pub trait Host: Send {
     /// A path under which an editor finds a built-in toolbox, given by its file name and text; without
     /// one it gets the address `afp:/NAME` and asks the server for the text.
     fn built_in(&self, name: &str, text: &str) -> Option<String>;
+
+    /// A picture as the bytes of a PNG file.
+    ///
+    /// # Errors
+    /// Why there are none, and what to do.
+    fn png(&self, svg: &str) -> Result<Vec<u8>, String> {
+        let _ = svg;
+        Err("this server makes no pixels: take 'svg'".to_owned())
+    }
 }
 
 /// Surroundings without any file: all that there is, clients have open.

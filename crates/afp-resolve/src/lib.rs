@@ -2,7 +2,8 @@
 //! in, and those that `afp.toml` names.
 //!
 //! Command line, macros, tests and Python all ask here, so that a plan means the same to each of them. The language
-//! server alone reads toolboxes otherwise, since its files are those of a client and may be half written.
+//! server alone reads toolboxes otherwise, since its files are those of a client and may be half written
+//! (ARCHITECTURE.md).
 #![forbid(unsafe_code)]
 
 use std::fs;

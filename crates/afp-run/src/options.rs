@@ -104,6 +104,17 @@ pub struct RunOptions {
     /// Reports real-time behaviour (comes with the driver for the Raspberry Pi)
     #[arg(long, hide = true)]
     pub rt_report: bool,
+
+    /// Lets a debugger in at the robot itself (comes with its real-time driver)
+    #[arg(
+        long,
+        hide = true,
+        value_name = "ADDRESS",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = ""
+    )]
+    pub debug: Option<String>,
 }
 
 /// What a plan runs on.
@@ -140,6 +151,12 @@ impl RunOptions {
             return Err(RunError::usage(
                 "'--rt-report' waits for the real-time driver of afp",
                 "'--speed 1x' runs in real time, without guarantees",
+            ));
+        }
+        if self.debug.is_some() {
+            return Err(RunError::usage(
+                "'--debug' waits for the real-time driver of afp: it is for the robot itself",
+                "'afpc dap PLAN.afp', as editors start it, debugs the plan in the simulator, with the same trace, and logs of the robot",
             ));
         }
         match self.robot {

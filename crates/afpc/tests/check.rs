@@ -168,7 +168,8 @@ fn commands_of_later_releases_and_of_other_builds_say_so() {
     let place = Place::new();
     for name in ["replay", "deploy", "attach"] {
         let said = place.afpc(&format!("{name} some --option"));
-        said.fails(2, &[&format!("'afpc {name}' is not in release"), "it comes with"]);
+        let why = [&format!("'afpc {name}' is not in release"), "it comes with", "  help: 'afpc "];
+        said.fails(2, &why);
         assert!(!place.afpc("--help").out.contains(&format!("\n  {name} ")));
     }
     for name in [

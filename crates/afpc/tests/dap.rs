@@ -36,6 +36,13 @@ fn a_client_that_is_gone_ends_the_adapter() {
 }
 
 #[test]
+fn other_machines_come_through_a_tunnel() {
+    let said = Place::new().afpc("dap --listen 0.0.0.0:4711");
+    said.fails(2, &["would not be encrypted", "'ssh -L 4711:localhost:4711 HOST'"]);
+    assert!(!Place::new().afpc("dap --help").out.contains("--listen"));
+}
+
+#[test]
 fn bytes_that_are_no_protocol_are_said_to_be_none() {
     let long = format!("Content-Length: {}\r\n\r\n", 1 << 30);
     let babble = vec![b'x'; 1 << 16];
@@ -234,4 +241,50 @@ fn several_clients_watch_one_run_and_anybody_may_end_it() {
     // A client that is gone takes nobody with it.
     drop(other);
     assert!(one.ask("launch", &launch).contains(r#""success":true"#));
+}
+
+/// What `afp/ended` says.
+fn ended<R: Read, W: Write>(client: &mut Client<R, W>) -> serde_json::Value {
+    let message = client.hear(r#""event":"afp/ended""#);
+    let message: serde_json::Value = serde_json::from_str(message.trim()).unwrap();
+    message["body"].clone()
+}
+
+#[test]
+fn a_run_that_was_debugged_is_had_once_more_by_its_command() {
+    let place = Place::with_plan();
+    let (_server, port, token) = Server::new(&place);
+    let mut client = connected(port);
+    client.ask("initialize", r#"{"adapterID":"afp"}"#);
+    let launch = format!(
+        r#"{{"program":"wall_following.afp","seed":7,"set":{{"walldist":"35cm"}},"token":"{token}"}}"#
+    );
+    client.ask("launch", &launch);
+    client.ask("setFunctionBreakpoints", r#"{"breakpoints":[{"name":"backupCollision"}]}"#);
+    client.ask("configurationDone", "{}");
+    client.hear(r#""event":"stopped""#);
+    client.ask("afp/press", r#"{"control":"touch.touch"}"#);
+    client.ask("afp/fault", r#"{"fault":"wheels.slip","amount":0.2,"seconds":2.5}"#);
+    client.ask("next", r#"{"threadId":1}"#);
+    client.hear(r#""event":"stopped""#);
+    client.ask("stepBack", r#"{"threadId":1}"#);
+    client.hear(r#""event":"stopped""#);
+    client.ask("afp/seek", r#"{"at":12.34}"#);
+    client.hear(r#""event":"stopped""#);
+    client.say("terminate", "{}");
+    let ended = ended(&mut client);
+    assert_eq!(ended["by"]["client"], "client 1", "{ended}");
+    let again = ended["again"].as_str().unwrap();
+    let arguments = again.strip_prefix("afpc ").unwrap();
+    for part in
+        ["--seed 7 --set walldist=35cm --until 12.34s --press touch.touch@", "wheels.slip=0.2@"]
+    {
+        assert!(arguments.contains(part), "{again}");
+    }
+    let ran = place.afpc(&format!("{arguments} --json"));
+    let summary = &ran.succeeds().last_json()["summary"];
+    for key in ["trace", "contacts", "deadline_misses"] {
+        assert_eq!(summary[key], ended["summary"][key], "{key}: {again}");
+    }
+    assert_eq!(summary["time_s"], ended["at"], "{again}");
 }

@@ -167,6 +167,10 @@ fn options_that_wait_for_something_say_for_what() {
     let place = Place::with_plan();
     let why = "'--rt-report' waits for the real-time driver";
     place.afpc("run wall_following.afp --rt-report").fails(2, &[why, "help: "]);
+    for debug in ["--debug", "--debug=0.0.0.0:4711"] {
+        let why = ["'--debug' waits for the real-time driver", "'afpc dap PLAN.afp'"];
+        place.afpc(&format!("run wall_following.afp {debug}")).fails(2, &why);
+    }
     place
         .afpc("run wall_following.afp --press start@1s")
         .fails(2, &["no control 'start'; it has 'touch', 'escape'"]);
@@ -180,7 +184,9 @@ fn options_that_wait_for_something_say_for_what() {
 fn help_lists_what_this_program_can_do() {
     let help = Place::with_plan().afpc("run --help");
     assert_eq!(help.out.contains("--live"), cfg!(feature = "live"), "{}", help.out);
-    assert!(!help.out.contains("--rt-report"), "{}", help.out);
+    for later in ["--rt-report", "--debug"] {
+        assert!(!help.out.contains(later), "{}", help.out);
+    }
 }
 
 #[test]

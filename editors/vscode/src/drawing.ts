@@ -13,6 +13,8 @@ export interface Run {
   plan: string | null;
   stack: readonly string[];
   held: boolean;
+  /** Whether it is of another text than the one that is drawn. */
+  older: boolean;
 }
 
 /** To the page. */

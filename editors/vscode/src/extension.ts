@@ -16,7 +16,7 @@ interface Lens {
 const LENSES = ["afp.run", "afp.debug", "afp.drawing", "afp.test"];
 
 /** What a drawing can be saved as. */
-const FORMATS = { SVG: "svg", GraphViz: "dot", JSON: "json", SCXML: "scxml" };
+const FORMATS = { SVG: "svg", PNG: "png", GraphViz: "dot", JSON: "json", SCXML: "scxml" };
 
 let client: LanguageClient | undefined;
 let panels: Panels;
@@ -70,9 +70,9 @@ async function graph(): Promise<void> {
   const format = uri && (await vscode.window.showQuickPick(Object.keys(FORMATS), { placeHolder: "Save the drawing as" }));
   if (!uri || !format) return;
   const ending = FORMATS[format as keyof typeof FORMATS];
-  const { text } = await client!.sendRequest<{ text: string }>("afp/export", { textDocument: { uri: uri.toString() }, format: ending });
+  const { text, base64 } = await client!.sendRequest<{ text?: string; base64?: string }>("afp/export", { textDocument: { uri: uri.toString() }, format: ending });
   const target = await vscode.window.showSaveDialog({ defaultUri: vscode.Uri.file(uri.fsPath.replace(/\.afp$/, `.${ending}`)) });
-  if (target) await vscode.workspace.fs.writeFile(target, new TextEncoder().encode(text));
+  if (target) await vscode.workspace.fs.writeFile(target, base64 === undefined ? new TextEncoder().encode(text) : Buffer.from(base64, "base64"));
 }
 
 /** What is launched by F5, a lens or launch.json. */

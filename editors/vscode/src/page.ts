@@ -23,6 +23,7 @@ body.dark { color: var(--vscode-editor-foreground, #e6ebf2); --paper: #12161d; -
 #bar select, #bar button { font: inherit; min-height: 26px; color: var(--vscode-dropdown-foreground, inherit); background: var(--vscode-dropdown-background, var(--paper)); border: 1px solid var(--vscode-widget-border, #7d8896); border-radius: 4px; }
 #bar :focus-visible, #board:focus-visible { outline: 2px solid var(--mark); outline-offset: -2px; }
 #why { position: absolute; inset: 40% 16px auto; text-align: center; }
+#older { position: absolute; right: 8px; top: 8px; margin: 0; padding: 3px 8px; color: var(--holds); background: var(--paper); border: 1px solid currentColor; border-radius: 4px; }
 #said { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 .ring { fill: none; stroke: var(--mark); stroke-width: 2; vector-effect: non-scaling-stroke; }
 .runs { fill: none; stroke: var(--runs); stroke-width: 5; }
@@ -50,6 +51,7 @@ export function page({ script, origin, colours, nonce }: Sources): string {
 <body>
 <div id="board" tabindex="0" role="application" aria-label="Drawing of the plan: arrows move it, plus and minus zoom, 0 fits it, N and P go through its elements, Enter shows one in the text"></div>
 <div id="bar"><select id="plans" aria-label="Plan"></select><button id="fit" title="Fit (0)">Fit</button></div>
+<p id="older" role="status" hidden>This run is of an older text.</p>
 <div id="said" role="status" aria-live="polite"></div>
 <p id="why" hidden></p>
 <script nonce="${nonce}" src="${script}"></script>

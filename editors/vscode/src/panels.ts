@@ -2,6 +2,7 @@
 import * as vscode from "vscode";
 import { randomBytes } from "node:crypto";
 import type { Changed } from "../../../studio/page/drawing/shapes";
+import { differs } from "../../../studio/page/debug/hash";
 import type { Range } from "../../../studio/page/positions";
 import { Drawing, type Server } from "./drawing";
 import { programOf } from "./launch";
@@ -21,6 +22,8 @@ interface Open {
 interface Running {
   stack: string[];
   held: boolean;
+  /** The hashes of the texts that run, by their paths. */
+  sources: Record<string, string>;
 }
 
 /** Milliseconds for which a cursor rests before the drawing follows it. */
@@ -31,13 +34,18 @@ export class Panels implements vscode.Disposable {
   private readonly server: Server;
   private readonly ends: vscode.Disposable[];
   private resting: ReturnType<typeof setTimeout> | undefined;
+  /** What runs, by the program, as it was told last. */
+  private readonly running = new Map<string, Running>();
 
   constructor(
     private readonly home: vscode.Uri,
     client: Client,
   ) {
     this.server = { request: (method, params) => client.sendRequest(method, params) };
-    this.ends = [vscode.window.onDidChangeTextEditorSelection((event) => this.moved(event))];
+    this.ends = [
+      vscode.window.onDidChangeTextEditorSelection((event) => this.moved(event)),
+      vscode.workspace.onDidChangeTextDocument(() => this.running.forEach((state, program) => this.show(program, state))),
+    ];
   }
 
   /** Shows the drawing of a plan beside its text. */
@@ -105,9 +113,17 @@ export class Panels implements vscode.Disposable {
   /** Shows what a run of a program is at; `null` at its end. */
   run(program: string | undefined, state: Running | null): void {
     if (!program) return;
+    if (state) this.running.set(program, state);
+    else this.running.delete(program);
+    this.show(program, state);
+  }
+
+  private show(program: string, state: Running | null): void {
     const { file, plan } = programOf(program);
+    const sources = state?.sources ?? {};
+    const older = vscode.workspace.textDocuments.some((each) => differs(sources, each.uri.fsPath, each.getText()));
     for (const { drawing, uri } of this.open_.values()) {
-      if (uri.fsPath === file) drawing.run({ plan, stack: state?.stack ?? [], held: state?.held ?? false });
+      if (uri.fsPath === file) drawing.run({ plan, stack: state?.stack ?? [], held: state?.held ?? false, older });
     }
   }
 

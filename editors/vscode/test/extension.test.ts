@@ -5,6 +5,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, beforeEach, test } from "node:test";
+import { hash } from "../../../studio/page/debug/hash";
 import { activate, deactivate } from "../src/extension";
 import { LanguageClient } from "./client";
 import { AFPC, PLAN, there } from "./server";
@@ -112,13 +113,19 @@ test("the drawing has a panel, which follows cursor and run and closes the subsc
   await there(() => seen.shown[0], "place in the text");
   assert.deepEqual([seen.shown[0]!.options.selection.start.line, seen.shown[0]!.options.preserveFocus], [8, true]);
   const session = { type: "afp", configuration: { program: `${file}:Patrol` }, customRequest: async () => {} };
-  seen.events.custom.fire({ session, event: "afp/state", body: { stack: ["go"], held: false } });
-  assert.deepEqual(panel.posted.at(-1), { kind: "run", plan: "Patrol", stack: ["go"], held: false });
+  let text = "plan Patrol {}\r\n";
+  seen.documents = [{ uri, getText: () => text }];
+  const body = { stack: ["go"], held: false, sources: { [file]: hash("plan Patrol {}\n") } };
+  seen.events.custom.fire({ session, event: "afp/state", body });
+  assert.deepEqual(panel.posted.at(-1), { kind: "run", plan: "Patrol", stack: ["go"], held: false, older: false });
+  text = "plan Patrol {} // now\r\n";
+  seen.events.text.fire({});
+  assert.deepEqual(panel.posted.at(-1), { kind: "run", plan: "Patrol", stack: ["go"], held: false, older: true });
   seen.events.ended.fire(session);
-  assert.deepEqual(panel.posted.at(-1), { kind: "run", plan: "Patrol", stack: [], held: false });
+  assert.deepEqual(panel.posted.at(-1), { kind: "run", plan: "Patrol", stack: [], held: false, older: false });
   panel.close();
   const before = panel.posted.length;
-  seen.events.custom.fire({ session, event: "afp/state", body: { stack: ["go"], held: false } });
+  seen.events.custom.fire({ session, event: "afp/state", body });
   assert.equal(panel.posted.length, before);
 });
 
@@ -134,4 +141,7 @@ test("the drawing is saved as a picture", async () => {
   [seen.pick, seen.save] = ["SVG", Uri.file(join(folder, "plan.svg"))];
   await run("afp.graph");
   assert.match(seen.written.get(join(folder, "plan.svg")) ?? "", /^<svg/);
+  [seen.pick, seen.save] = ["PNG", Uri.file(join(folder, "plan.png"))];
+  await run("afp.graph");
+  assert.match(seen.written.get(join(folder, "plan.png")) ?? "", /^.PNG\r\n/s);
 });

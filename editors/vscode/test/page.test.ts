@@ -84,9 +84,11 @@ test("what is pressed is shown in the text, what is typed in the drawing", { ski
       await page.keyboard.press("n");
       await there(() => revealed[1], "place of the first element");
       await page.keyboard.press("0");
-      drawing.run({ plan: "Patrol", stack: ["go"], held: true });
+      drawing.run({ plan: "Patrol", stack: ["go"], held: true, older: true });
       await page.locator(".runs.held").waitFor();
-      drawing.run({ plan: "Other", stack: ["go"], held: true });
+      await page.getByText("This run is of an older text.").waitFor();
+      drawing.run({ plan: "Other", stack: ["go"], held: true, older: false });
+      await page.getByText("This run is of an older text.").waitFor({ state: "hidden" });
       await page.locator(".runs").waitFor({ state: "detached" });
       if (process.env.AFP_PICTURES) await page.screenshot({ path: `${process.env.AFP_PICTURES}/webview.png` });
       assert.deepEqual(wrong, []);

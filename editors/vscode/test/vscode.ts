@@ -80,7 +80,7 @@ export interface Panel {
   close: () => void;
 }
 
-const events = { selection: event(), started: event(), custom: event(), ended: event() };
+const events = { selection: event(), text: event(), started: event(), custom: event(), ended: event() };
 
 /** What happened, and what a test decides. */
 export const seen = {
@@ -94,6 +94,7 @@ export const seen = {
   shown: [] as { uri: Uri; options: { selection: Range; preserveFocus?: boolean } }[],
   panels: [] as Panel[],
   written: new Map<string, string>(),
+  documents: [] as { uri: Uri; getText(): string }[],
   diagnostics: [] as { severity: number; message: string; range: Range }[],
   command: "afpc",
   trusted: true,
@@ -138,6 +139,10 @@ export const workspace = {
   get isTrusted(): boolean {
     return seen.trusted;
   },
+  get textDocuments(): { uri: Uri; getText(): string }[] {
+    return seen.documents;
+  },
+  onDidChangeTextDocument: events.text.on,
   getConfiguration: () => ({ get: () => seen.command }),
   getWorkspaceFolder: () => undefined,
   createFileSystemWatcher: () => ({}),

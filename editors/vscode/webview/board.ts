@@ -17,7 +17,7 @@ export class Board {
   drawing: Drawing | null = null;
   view: View = { x: 0, y: 0, zoom: 1 };
   private marked: Part | null = null;
-  private run: Run = { plan: null, stack: [], held: false };
+  private run: Run = { plan: null, stack: [], held: false, older: false };
 
   constructor(private readonly host: HTMLElement) {
     const [edges, elements] = this.layers;

@@ -10,7 +10,7 @@ declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
 
 const editor = acquireVsCodeApi();
 const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
-const [host, plans, said, why] = [element("board"), element<HTMLSelectElement>("plans"), element("said"), element("why")];
+const [host, plans, said, why, older] = [element("board"), element<HTMLSelectElement>("plans"), element("said"), element("why"), element("older")];
 const board = new Board(host);
 
 /** So far a press may move and is none of a drag. */
@@ -22,7 +22,10 @@ const take: { [Kind in ToPage["kind"]]: (message: Extract<ToPage, { kind: Kind }
   drawing: ({ uri, answer }) => show(whole(uri, answer)),
   changed: ({ change }) => board.drawing && show(changed(board.drawing, change)),
   select: ({ part }) => board.mark(part),
-  run: (run) => board.runs(run),
+  run: (run) => {
+    board.runs(run);
+    older.hidden = !run.older;
+  },
   nothing: (message) => tell(message.why),
 };
 

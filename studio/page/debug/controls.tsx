@@ -1,12 +1,17 @@
 // Run, pause, step and stop in the bar; the card that says how a run has ended.
-import { number } from "../problems";
-import { command } from "../commands";
+import { useState } from "preact/hooks";
 import { Tool } from "../bar";
+import { command } from "../commands";
+import { reveal } from "../drawing/reveal";
+import { refuse } from "../drawing/say";
+import { words as drawn } from "../drawing/words";
 import { Sign } from "../icons";
+import { number } from "../problems";
+import { select } from "../selection";
 import { words } from "../words";
 import { toggleSelected } from "./breakpoints";
 import { askWhy } from "./why";
-import { active, again, back, dismiss, ended, goOn, into, next, older, out, pause, phase, setSpeed, speed, state, stop } from "./run";
+import { active, again, back, dismiss, ended, frames, goOn, into, next, older, out, pause, phase, setSpeed, speed, state, stop } from "./run";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 20, null] as const;
 
@@ -17,7 +22,12 @@ export function Controls() {
   const at = state.value?.at;
   return (
     <div class="controls" role="group" aria-label={words.runPane}>
-      {older.value && active.value && <Tool icon="again" label={`${words.older} ${words.runAgain}`} run={again} />}
+      {older.value && active.value && (
+        <button class="older" onClick={() => void again()} title={`${words.older} ${words.runAgain}`} aria-label={`${words.older} ${words.runAgain}`}>
+          <Sign name="again" />
+          <span>{words.olderText}</span>
+        </button>
+      )}
       {active.value && <span class={`clock ${now}`}>{at === undefined ? words.starting : words.seconds(at)}</span>}
       {held && <Tool icon="back" label={`${words.stepBack} (Shift+F10)`} run={back} />}
       {held && <Tool icon="next" label={`${words.step} (F10)`} run={next} />}
@@ -44,15 +54,39 @@ export function EndCard() {
   const end = ended.value;
   if (!end || active.value) return null;
   return (
-    <section class={`end-card ${end.ending === "Error" ? "error" : ""}`} role="status" aria-label={words.ended(end.ending)}>
+    <section class={`end-card ${end.ending}`} role="status" aria-label={words.ended(end.ending)}>
       <h2>{words.ended(end.ending)}</h2>
       {end.sentences.map((sentence) => <p key={sentence}>{sentence}</p>)}
+      {end.again && <Again command={end.again} key={end.again} />}
       <div class="choices">
+        {end.by?.edge && <button onClick={() => showEnd(end.by!.edge!)}>{words.endedAt}</button>}
         <button onClick={dismiss}>{words.ok}</button>
         <button class="main" onClick={() => void again()}>{words.runAgain}</button>
       </div>
     </section>
   );
+}
+
+/** The command line of the run, to be taken along. */
+function Again({ command }: { command: string }) {
+  const [copied, setCopied] = useState(false);
+  const copy = () => navigator.clipboard.writeText(command).then(() => setCopied(true), () => refuse(drawn.noClipboard));
+  return (
+    <details>
+      <summary>{words.onceMore}</summary>
+      <code>{command}</code>
+      <button onClick={() => void copy()}>{copied ? words.copied : words.copyIt}</button>
+    </details>
+  );
+}
+
+/** Selects the edge by which the outermost plan has ended. */
+function showEnd(edge: string): void {
+  const plan = frames.value[0]?.plan;
+  const names = edge.split(".");
+  const part = { item: [plan, ...names.slice(0, -1)].join("."), part: { kind: "exit", name: names.at(-1)!, nth: 1 } };
+  select([part], "other");
+  reveal(part);
 }
 
 /** The commands of a run, with their keys. */

@@ -4,7 +4,8 @@ import { drawing, trail, wanted } from "../drawing/model";
 import { show } from "../panes/files";
 import { show as showPane } from "../layout";
 import { files } from "../session";
-import { launched, openLog, pathOf, phase, seek } from "./run";
+import { pathOf } from "./older";
+import { launched, openLog, phase, seek } from "./run";
 
 /** Shows a log at a moment of it. */
 export async function openLogAt(uri: string, at: number): Promise<void> {

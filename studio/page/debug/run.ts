@@ -1,7 +1,7 @@
 // A run of the plan: launched, paused, stepped, ended; what the page knows of it.
 import { computed, effect, signal } from "@preact/signals";
 import { connect, type Dap } from "../dap";
-import { current, nameOf, onText } from "../documents";
+import { current } from "../documents";
 import { plan as shownPlan, trail, wanted } from "../drawing/model";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
@@ -12,6 +12,7 @@ import { sensed, type Sensed } from "../world/sensed";
 import * as arranged from "./arranged";
 import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
+import { olderThan, pathOf } from "./older";
 import type { Ended, Phase, Said, State } from "./told";
 import { extended, packed, type Record } from "./trace";
 import { isWritten } from "./written";
@@ -23,7 +24,7 @@ export const said = signal<readonly Said[]>([]);
 /** The plan that runs, and the sub-plans that are active in it, outermost first. */
 export const frames = signal<readonly Frame[]>([]);
 /** Whether the text is another one than that which runs. */
-export const older = signal(false);
+export const older = olderThan(state);
 /** How fast time passes; null is as fast as it can be computed. */
 export const speed = signal<number | null>(1);
 /** Where the next run takes place; null leaves it to the plan and its project. */
@@ -46,9 +47,7 @@ const FAREWELL = 2000;
 const MOST = 1000;
 
 let dap: Dap | null = null;
-let program = "";
 
-export const pathOf = (uri: string): string => decodeURIComponent(new URL(uri).pathname);
 export const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
 
 /** Runs the plan that is shown, or the one that led to it; with errors it shows the first of them instead. */
@@ -67,7 +66,7 @@ export async function start(hold = false): Promise<void> {
   const uri = current.value;
   // What was chosen last counts, though its drawing may still be on its way.
   const plan = trail.value[0] ?? wanted.value ?? shownPlan.value ?? "";
-  program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
+  const program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
   const world = wantedWorld();
   await launch({ program, ...world, ...{ stopOnEntry: hold, seed: seed.value, set: given.value } }, plan);
 }
@@ -81,13 +80,12 @@ const wantedWorld = (): object => ({
 export async function openLog(path: string): Promise<void> {
   await stop();
   dismiss();
-  program = "";
   const still = { stopOnEntry: true };
   await launch({ log: path, ...still }, "");
 }
 
 async function launch(what: { program: string } | { log: string }, plan: string): Promise<void> {
-  [phase.value, state.value, ended.value, said.value, older.value, why.value] = ["starting", null, null, [], false, ""];
+  [phase.value, state.value, ended.value, said.value, why.value] = ["starting", null, null, [], ""];
   sensed.value = null;
   [records.value, log.value] = [[], "log" in what ? what.log : ""];
   frames.value = [{ path: "", plan }];
@@ -95,7 +93,7 @@ async function launch(what: { program: string } | { log: string }, plan: string)
   dap = own;
   hear(own);
   try {
-    await own.request("initialize", { adapterID: "afp", clientID: "afp-studio", linesStartAt1: true, columnsStartAt1: true });
+    await own.request("initialize", { adapterID: "afp", clientID: "afp-studio", clientName: words.studio, linesStartAt1: true, columnsStartAt1: true });
     const begun = await own.request<{ plan: string; file: string } | null>("launch", { ...what, ...(speed.value === null ? {} : { speed: speed.value }) });
     if (begun) frames.value = [{ path: "", plan: begun.plan }];
     if (begun && "log" in what) launched.value = begun;
@@ -277,14 +275,11 @@ export function revealSaid({ path, line }: Said): void {
   if (path && path === pathOf(uri)) void reveal(uri, { start: place, end: place }, "other");
 }
 
-/** Begins to notice that the text is another one than the one that runs, and where it shall stop. */
+/** Begins to notice where the run shall stop. */
 export function begin(): () => void {
-  effect(() => {
+  return effect(() => {
     void [breakpoints.value, filters.value];
     // Lines of a text that is not the one that runs would be others.
-    if (dap && dap === ready && active.peek() && !older.peek()) void send(dap).catch(report);
-  });
-  return onText((uri) => {
-    if (active.value && program && program.startsWith(pathOf(uri)) && nameOf(uri).endsWith(".afp")) older.value = true;
+    if (!older.value && dap && dap === ready && active.peek()) void send(dap).catch(report);
   });
 }

@@ -20,14 +20,20 @@ export interface State {
   pose: readonly [number, number, number] | null;
   /** What is held in place, and until when; without a value it is a state or event. */
   forced: readonly Forced[];
+  /** The hashes of the texts that run, by their paths. */
+  sources: { readonly [path: string]: string };
   /** Where things are that move, by their ids. */
   moving: readonly { id: string; outline: readonly (readonly [number, number])[] }[];
 }
 
 export interface Ended {
-  ending: string;
+  ending: "ok" | "interrupted" | "error";
+  /** The edge by which the plan ended, as a path; or who or what made it end. */
+  by: { edge?: string; client?: string; until?: number } | null;
   at: number;
   sentences: string[];
+  /** The command line that repeats the run; null where there is none. */
+  again: string | null;
 }
 
 /** A line of what happened, and where the text says so. */

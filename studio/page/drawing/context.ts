@@ -8,10 +8,10 @@ import type { Point } from "./shapes";
 const MENUS: Record<"ground" | Hit["on"], readonly (readonly string[])[]> = {
   element: [
     ["drawing.connect", "drawing.parts", "drawing.rename-item", "drawing.template", "drawing.start", "drawing.note", "drawing.inspect"],
-    ["drawing.into", "drawing.extract", "drawing.inline", "breakpoint"],
+    ["drawing.into", "drawing.fold", "drawing.extract", "drawing.inline", "breakpoint"],
     ["drawing.copy", "drawing.cut", "drawing.duplicate", "drawing.move", "drawing.automatic", "drawing.remove"],
   ],
-  start: [["drawing.connect", "drawing.entry", "drawing.rename-item", "drawing.inspect", "drawing.automatic"]],
+  start: [["drawing.connect", "drawing.entry", "drawing.rename-item", "drawing.inspect", "drawing.fold", "drawing.automatic"]],
   exit: [["drawing.connect", "drawing.remove"]],
   edge: [["drawing.connect", "drawing.remove"]],
   head: [["drawing.connect", "drawing.remove"]],

@@ -12,6 +12,7 @@ import { pressed, type Carrying } from "./carry";
 import { offers } from "./catalog";
 import { choose, type Choice } from "./choose";
 import * as flow from "./flow";
+import { fold } from "./folding";
 import { carry, movable, named, snapped } from "./lift";
 import { drawing, hold, leave, trail } from "./model";
 import { home, reading, step, type Direction } from "./navigate";
@@ -199,6 +200,7 @@ export function commands(): () => void {
     { id: "duplicate", label: words.duplicate, key: "Ctrl+D", enabled: chosen, run: actions.duplicate },
     { id: "extract", label: words.extract, key: "Ctrl+G", enabled: () => may() && elements().length > 0, run: extract },
     { id: "inline", label: words.inline, key: "Ctrl+Shift+G", enabled: () => may() && isSubPlan(), run: inline },
+    { id: "fold", label: words.fold, key: "F", enabled: any, run: fold },
     { id: "note", label: words.writeNote, key: "N", enabled: chosen, run: note.write },
     { id: "flow", label: words.flow, key: "V", run: flow.cycle },
     { id: "paste", label: words.paste, enabled: may, run: paste },

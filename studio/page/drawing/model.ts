@@ -4,6 +4,7 @@ import { current } from "../documents";
 import { lsp } from "../session";
 import { changed, whole } from "./differences";
 import type { Answer, Changed, Drawing } from "./shapes";
+import { folded } from "./folded";
 
 /** What is drawn; null before the first answer. */
 export const drawing = signal<Drawing | null>(null);
@@ -35,10 +36,10 @@ function take(change: Changed): void {
   else drawing.value = changed(before, change);
 }
 
-async function ask(uri: string, plan: string | null): Promise<void> {
+async function ask(uri: string, plan: string | null, folded: readonly string[]): Promise<void> {
   const textDocument = { uri };
   const answer = await lsp()
-    .request<Answer>("afp/drawing", { textDocument, ...(plan ? { plan } : {}), subscribe: true })
+    .request<Answer>("afp/drawing", { textDocument, ...(plan ? { plan } : {}), folded, subscribe: true })
     .catch((why: Error) => {
       console.error(why);
       return null;
@@ -62,7 +63,8 @@ export function follow(): () => void {
     }
     before = uri;
     const plan = wanted.value;
-    if (uri && connected) void ask(uri, plan);
+    const shut = folded.value[uri] ?? [];
+    if (uri && connected) void ask(uri, plan, shut);
   });
   return () => {
     changes();

@@ -53,6 +53,7 @@ export const words = {
   duplicate: "Duplicate the selection",
   into: "Into the plan behind the element",
   out: "Out of this plan",
+  fold: "Fold or unfold the selection",
   copy: "Copy the selection",
   cut: "Cut the selection",
   entryHint: "Its name, type and first value. 'in' before it: given from outside; 'out': given to the outside; 'const': never changes.",

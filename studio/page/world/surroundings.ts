@@ -2,7 +2,8 @@
 import { batch, effect, signal } from "@preact/signals";
 import { connect } from "../dap";
 import { putBack } from "../debug/arranged";
-import { active, address, given, log, pathOf, seed, state, world } from "../debug/run";
+import { pathOf } from "../debug/older";
+import { active, address, given, log, seed, state, world } from "../debug/run";
 import { current } from "../documents";
 import { trouble } from "../panes/files";
 import { files, lsp } from "../session";

@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::clients::Counting;
+use super::ended::By;
 use super::steer::{Mode, Pace};
 use super::stop::stopped_event;
 use super::{Adapter, Answer, Refusal, Run};
@@ -262,7 +263,11 @@ impl Adapter<'_> {
     fn start(&mut self, now: Wall) -> Answer<()> {
         let run = self.run()?;
         run.has_begun = true;
-        match run.launch.stop_on_entry {
+        let (held, kept) = (run.launch.stop_on_entry, run.target.is_kept());
+        if !kept {
+            self.output("console", "the robot, or something of the plan, cannot be copied: going back runs all of it again from the start\n");
+        }
+        match held {
             true => self.stopped(Reason::Entry, "before the first step", Vec::new()),
             false => self.go(Mode::On, now)?,
         }
@@ -297,7 +302,8 @@ impl Adapter<'_> {
             said.iter().for_each(|happened| self.say(&run, happened));
             run.keep_trace(&said);
             self.tell_trace(&mut run);
-            self.ended(&run);
+            let by = By::Client(self.name_of(self.asker).to_owned());
+            self.ended(&run, &by);
         }
         self.operator = None;
         self.clients.values_mut().for_each(|client| client.attached = false);

@@ -27,10 +27,13 @@ pub(super) enum Group {
     Supervisors,
     /// Reports and deadlines of a supervisor.
     Timing,
+    /// What a component writes.
+    Outputs,
 }
 
 impl Group {
-    const ALL: [Group; 4] = [Group::Entries, Group::Inputs, Group::Supervisors, Group::Timing];
+    const ALL: [Group; 5] =
+        [Group::Entries, Group::Inputs, Group::Supervisors, Group::Timing, Group::Outputs];
 
     /// The number by which clients ask for it, of a component.
     pub fn reference(self, id: ComponentId) -> u32 {
@@ -119,19 +122,22 @@ impl Adapter<'_> {
         let id = component(asked.frame_id);
         let program = self.run()?.target.program().clone();
         let unit = program.unit(id).ok_or("there is no such frame")?;
-        let groups = match unit.kind {
+        let mut groups = match unit.kind {
             ComponentKind::Plan => vec![("Entries", Group::Entries, FLOW)],
             ComponentKind::Supervisor => vec![
                 ("Timing", Group::Timing, id),
                 ("Inputs", Group::Inputs, id),
+                ("Outputs", Group::Outputs, id),
                 ("Entries", Group::Entries, unit.plan),
             ],
             ComponentKind::Actor | ComponentKind::SubPlan | ComponentKind::Computation => vec![
                 ("Inputs", Group::Inputs, id),
+                ("Outputs", Group::Outputs, id),
                 ("Entries", Group::Entries, unit.plan),
                 ("Supervisors", Group::Supervisors, id),
             ],
         };
+        groups.retain(|(_, group, _)| *group != Group::Outputs || !unit.outputs.is_empty());
         let scope = |(name, group, of): (&str, Group, ComponentId)| dapts::Scope {
             name: name.to_owned(),
             variables_reference: group.reference(of),
@@ -139,6 +145,7 @@ impl Adapter<'_> {
             presentation_hint: Some(match group {
                 Group::Inputs => dapts::ScopePresentationHint::Arguments,
                 Group::Entries => dapts::ScopePresentationHint::Locals,
+                Group::Outputs => dapts::ScopePresentationHint::ReturnValue,
                 Group::Supervisors | Group::Timing => dapts::ScopePresentationHint::Registers,
             }),
             column: None,
@@ -160,6 +167,7 @@ impl Adapter<'_> {
         let variables = match group {
             Group::Entries => self.entries_of(id)?,
             Group::Inputs => self.inputs_of(id)?,
+            Group::Outputs => self.outputs_of(id)?,
             Group::Supervisors => self.supervisors_of(id)?,
             Group::Timing => self.timing_of(id)?,
         };
@@ -197,6 +205,24 @@ impl Adapter<'_> {
             |name: &str| ports.iter().find(|port| port.0 == name).map_or("", |port| &*port.1);
         let inputs = run.target.state().inputs(id);
         Ok(inputs.map(|(name, value)| variable(name, value.in_unit(unit(name)))).collect())
+    }
+
+    /// What the entries hold that a component writes, by its ports: what it has ready is written when it is done.
+    fn outputs_of(&mut self, id: ComponentId) -> Answer<Vec<dapts::Variable>> {
+        let run = self.run()?;
+        let (program, state) = (run.target.program(), run.target.state());
+        let outputs = program.unit(id).map_or(&[][..], |unit| &unit.outputs);
+        let shown = outputs.iter().filter_map(|(port, path)| {
+            let number = program.entries.iter().position(|entry| entry.path == *path)?;
+            let value = state.entry(TraceEntryId(number as u32));
+            let value = value
+                .map_or("unset".to_owned(), |value| value.in_unit(&program.entries[number].unit));
+            Some(dapts::Variable {
+                evaluate_name: Some(path.clone()),
+                ..variable(&format!("{port} => {path}"), value)
+            })
+        });
+        Ok(shown.collect())
     }
 
     /// The supervisors that watch while an element is active, with what they reported last.

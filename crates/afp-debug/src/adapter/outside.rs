@@ -50,9 +50,10 @@ impl Adapter<'_> {
         let devices = target.devices();
         let unknown = || Refusal(format!("the robot has no control '{}'", press.control));
         let id = find_control(devices, &press.control).ok_or_else(unknown)?;
-        target.ask(Duration::ZERO, Request::Press(id, press.held.unwrap_or(true)))?;
+        let pressed = target.ask(Duration::ZERO, Request::Press(id, press.held.unwrap_or(true)))?;
         if press.held.is_none() {
-            target.ask(HOLD, Request::Press(id, false))?;
+            let later = (pressed + HOLD).since(target.now());
+            target.ask(later, Request::Press(id, false))?;
         }
         Ok(Value::Null)
     }

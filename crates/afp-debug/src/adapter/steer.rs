@@ -9,6 +9,7 @@ use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use super::ended::By;
 use super::goto::is_there;
 use super::{Adapter, Answer, Refusal, Run, parse};
 use crate::breakpoints::Hits;
@@ -229,7 +230,7 @@ impl Adapter<'_> {
                     // One who looks at a log goes back from here.
                     return self.stopped_at(run, Reason::Pause, "the log ends", Vec::new());
                 }
-                Advance::Ended => return self.end(run),
+                Advance::Ended => return self.end(run, &By::Plan),
                 Advance::Limit if limit == run.end => return self.time_up(run),
                 Advance::Limit => break,
                 Advance::On => {}

@@ -1,20 +1,20 @@
 //! What a client is told while a run goes on, and when it stands still.
 
+use std::collections::BTreeMap;
+
 use afp_core::Instant;
-use afp_session::{Done, EndingKind, EventKind, Figure, FigureValue, Requested};
+use afp_session::{Done, EventKind, Requested};
 use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
 
 use super::clients::Client;
+use super::ended::By;
 use super::steer::Mode;
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Kind;
 use crate::program::Program;
 use crate::sensed::{Cone, Sensed};
 use crate::target::Happened;
-
-/// So many stretches of time are told one by one.
-const SPANS: usize = 4;
 
 impl Kind {
     /// Why a run stands still at such a breakpoint.
@@ -105,50 +105,14 @@ impl Adapter<'_> {
         run.target.stop(&mut |happened, _| said.push(happened.clone()));
         said.iter().for_each(|happened| self.say(run, happened));
         run.keep_trace(&said);
-        self.end(run);
+        self.end(run, &By::Until);
     }
 
-    pub(super) fn end(&mut self, run: &mut Run<'_>) {
+    pub(super) fn end(&mut self, run: &mut Run<'_>, by: &By) {
         run.mode = Mode::Over;
         self.tell_trace(run);
         self.tell_state_of(run);
-        self.ended(run);
-    }
-
-    /// Tells how the plan ended.
-    pub(super) fn ended(&mut self, run: &Run<'_>) {
-        let ended = run.target.state().ended();
-        let at = run.target.now().as_secs_f64();
-        let name = run.target.program().units.first().map_or("", |plan| &*plan.name);
-        let sentence = match ended {
-            Some((EndingKind::Ok, _)) => {
-                format!("{name} ended as it says itself, after {at:.3} s")
-            }
-            None if run.target.is_recorded() => {
-                format!("the log of {name} ends after {at:.3} s, before the plan does")
-            }
-            Some((EndingKind::Interrupted, _)) | None => {
-                format!("{name} was interrupted after {at:.3} s")
-            }
-            Some((EndingKind::Error, why)) => {
-                format!("{name} ended in Error after {at:.3} s: {why}")
-            }
-        };
-        let ending = ended.map_or(EndingKind::Interrupted, |(ending, _)| ending);
-        let misses = run.target.misses();
-        let sentences: Vec<_> = std::iter::once(sentence)
-            .chain((misses > 0).then(|| format!("{misses} deadlines were missed")))
-            .chain(run.target.figures().0.iter().filter_map(in_words))
-            .collect();
-        for sentence in &sentences {
-            self.output("important", &format!("{sentence}\n"));
-        }
-        let ended =
-            json!({"ending": ending.word(), "at": at, "sentences": sentences, "misses": misses});
-        self.tell("afp/ended", &ended);
-        let exit_code = if ending == EndingKind::Error { 3 } else { 0 };
-        self.event::<event::Exited>(&dapts::ExitedEvent { exit_code });
-        self.event::<event::Terminated>(&dapts::TerminatedEvent::default());
+        self.ended(run, by);
     }
 
     pub(super) fn tell_state(&mut self) {
@@ -183,6 +147,7 @@ impl Adapter<'_> {
             ("watching", json!(watching)),
             ("entries", json!(entries)),
             ("held", json!(held)),
+            ("sources", json!(program.hashes().collect::<BTreeMap<_, _>>())),
             ("moving", json!(run.target.moving().into_iter().map(outline).collect::<Vec<_>>())),
             ("pose", json!(run.target.pose().map(|it| [it.x, it.y, it.heading].map(rounded)))),
         ] {
@@ -200,21 +165,6 @@ impl Adapter<'_> {
             self.tell_those(wanted, "afp/sensed", &body);
         }
     }
-}
-
-/// What a run came to, where there is something to say.
-fn in_words(figure: &Figure) -> Option<String> {
-    let name = figure.name.replace('_', " ");
-    if !figure.text.is_empty() {
-        return Some(format!("{name}: {}", figure.text));
-    }
-    let FigureValue::Spans { spans, .. } = &figure.value else { return None };
-    let shown = spans.iter().take(SPANS);
-    let shown = shown.map(|span| format!("{} at {:.2} s", span.name, span.begin.as_secs_f64()));
-    let more = spans.len().saturating_sub(SPANS);
-    let more = (more > 0).then(|| format!("{more} more"));
-    let all: Vec<_> = shown.chain(more).collect();
-    (!all.is_empty()).then(|| format!("{name}: {}", all.join(", ")))
 }
 
 /// That a run stands still.

@@ -262,7 +262,8 @@ pub(super) fn part(exit: &Exit) -> Part {
     Part::Exit { name: exit.name.to_owned(), nth: exit.nth }
 }
 
-fn leave(card: &mut Card, of: &Component, at: layout::Exit, exit: &Exit) {
+/// Leads flow from an exit to its element; nothing where it leads to none.
+pub(super) fn leave(card: &mut Card, of: &Component, at: layout::Exit, exit: &Exit) {
     if let To::Element(id) = exit.to {
         let (item, part, severity) = (of.item.clone(), part(exit), exit.severity);
         let class = exit_class(exit);

@@ -8,8 +8,7 @@ use super::super::sketch::{
 use super::super::usage::{Class, Use, times};
 use super::super::view::{To, View, entry_name, entry_type};
 use super::parts::{PORT_SIZE, ROW, pill_width};
-use super::supervisors::Stack;
-use super::{Card, Leaving};
+use super::{Card, Hung, Leaving};
 use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{Entry, Part};
 
@@ -34,11 +33,11 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     let mut card = Card::empty(view.start_item());
     let table = configuration(view, &mut card.sketch);
     let left = if table.width > 0.0 { table.width + GAP } else { 0.0 };
-    let stack = Stack::new(view, plan.supervisors.iter());
+    let hung = Hung::new(view, &card.item, plan.supervisors.iter());
     let below = if plan.forever { FOREVER } else { "" };
     let name = width(view.name(), NAME, true).max(width(below, PORT_SIZE, false));
-    let rect = Rect { x: left, y: 0.0, width: name + 66.0, height: stack.first.max(46.0) };
-    let shape = if stack.height > 0.0 { Shape::Round(9.0) } else { Shape::Round(23.0) };
+    let rect = Rect { x: left, y: 0.0, width: name + 66.0, height: hung.first().max(46.0) };
+    let shape = if hung.first() > 0.0 { Shape::Round(9.0) } else { Shape::Round(23.0) };
     let title = if plan.doc.is_empty() { view.name().to_owned() } else { plan.doc.clone() };
     card.sketch.frames.push(Frame { rect, shape, class: "start".into(), title });
     let middle = rect.height / 2.0;
@@ -65,7 +64,7 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     card.sketch.mark(severity, (rect.x + 4.0, rect.y + 4.0));
     leave(view, &mut card, rect);
     card.entry = (rect.x, rect.right());
-    stack.attach(view, &mut card, rect);
+    hung.attach(view, &mut card, rect);
     card
 }
 

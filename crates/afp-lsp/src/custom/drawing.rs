@@ -4,6 +4,8 @@ use afp_draw::layout_file::Layout;
 use afp_draw::{Options, Scene};
 use afp_dsl::outline::{Outline, Plan, PlanId};
 use afp_dsl::toolbox::Toolbox;
+use afp_ide::edit::item;
+use afp_syntax::item::Item;
 use lsp_server::{Message, Notification};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -23,6 +25,9 @@ pub(crate) struct Drawing {
     /// Without one, the first plan.
     #[serde(default)]
     plan: Option<String>,
+    /// What is drawn without its details: elements, or the start tag, `Plan.start`. What is not there is none of it.
+    #[serde(default)]
+    folded: Vec<String>,
     /// Whether the client wants to hear what changes; `false` ends that.
     #[serde(default)]
     subscribe: Option<bool>,
@@ -32,6 +37,7 @@ pub(crate) struct Drawing {
 #[derive(Clone, Debug)]
 pub(crate) struct Subscription {
     plan: Option<String>,
+    folded: Vec<Item>,
     /// The scene, from which the next one is made.
     scene: Scene,
     facts: Facts,
@@ -44,7 +50,8 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     let path = uri::path(&params.text_document.uri);
     let known = server.subscriptions.remove(&path);
     let before = known.as_ref().filter(|known| known.plan == params.plan).map(|known| &known.scene);
-    let drawn = draw(server, &path, params.plan.as_deref(), before)?;
+    let folded: Vec<_> = params.folded.iter().filter_map(|path| item(path)).collect();
+    let drawn = draw(server, &path, params.plan.as_deref(), &folded, before)?;
     let version = server.workspace.documents.get(&path).map(|document| document.version);
     let mut answer = drawn.shown().whole();
     answer["version"] = json!(version);
@@ -53,7 +60,7 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     answer["plans"] = json!(plans);
     answer["symbols"] = symbols;
     if params.subscribe.unwrap_or(known.is_some()) {
-        let subscription = Subscription { plan: params.plan, scene, facts, made_from };
+        let subscription = Subscription { plan: params.plan, folded, scene, facts, made_from };
         server.subscriptions.insert(path, subscription);
     }
     ok(answer)
@@ -78,6 +85,7 @@ fn draw(
     server: &mut Server,
     path: &str,
     plan: Option<&str>,
+    folded: &[Item],
     before: Option<&Scene>,
 ) -> Result<Drawn, Failure> {
     let made_from = server.workspace.drawn_from(path);
@@ -94,6 +102,7 @@ fn draw(
         positions: &positions,
         sub_plans: false,
         warnings: true,
+        folded,
         ..Options::default()
     };
     let scene = match id {
@@ -101,7 +110,7 @@ fn draw(
         None => Scene::default(),
     };
     let main: Option<&Plan> = id.map(|id| outline.plan(id));
-    let facts = main.map(|plan| Facts::new(plan, outline)).unwrap_or_default();
+    let facts = main.map(|plan| Facts::new(plan, outline, folded)).unwrap_or_default();
     let own = outline.plans.iter().filter(|plan| plan.file() == analysis.file);
     let plans = own.map(|plan| plan.item.name().to_owned()).collect();
     let symbols = scene.symbols.iter().map(|it| json!({ "id": it.id, "svg": it.svg })).collect();
@@ -110,7 +119,11 @@ fn draw(
 }
 
 /// A plan of a file by name, its first one without a name.
-fn find(outline: &Outline, file: u16, name: Option<&str>) -> Result<Option<PlanId>, Failure> {
+pub(super) fn find(
+    outline: &Outline,
+    file: u16,
+    name: Option<&str>,
+) -> Result<Option<PlanId>, Failure> {
     let mut own = (0..).map(PlanId).zip(&outline.plans).filter(|(_, plan)| plan.file() == file);
     match name {
         None => Ok(own.next().map(|(id, _)| id)),
@@ -154,7 +167,7 @@ impl Server {
 
     fn changed_drawing(&mut self, path: &str) -> Option<Message> {
         let known = self.subscriptions.remove(path)?;
-        let drawn = draw(self, path, known.plan.as_deref(), Some(&known.scene));
+        let drawn = draw(self, path, known.plan.as_deref(), &known.folded, Some(&known.scene));
         // A plan that is gone while its name is typed comes back.
         let Ok(drawn) = drawn else {
             self.subscriptions.insert(path.to_owned(), known);
@@ -172,7 +185,8 @@ impl Server {
             params["symbols"] = symbols;
             Notification::new("afp/drawingChanged".to_owned(), params).into()
         });
-        let subscription = Subscription { plan: known.plan, scene, facts, made_from };
+        let Subscription { plan, folded, .. } = known;
+        let subscription = Subscription { plan, folded, scene, facts, made_from };
         self.subscriptions.insert(path.to_owned(), subscription);
         message
     }

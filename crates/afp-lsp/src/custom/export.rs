@@ -2,10 +2,13 @@
 
 use afp_draw::{Options, Theme};
 use afp_dsl::toolbox::Toolbox;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::Document;
+use super::drawing::find;
 use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 
@@ -23,11 +26,13 @@ pub(crate) fn timing(server: &mut Server, params: Timing) -> Answer {
     ok(analysis.compiled.timing().map(|timing| timing.json()))
 }
 
-/// A picture of a plan.
+/// A picture of a plan, of the first one without a name.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Export {
     text_document: Document,
+    #[serde(default)]
+    plan: Option<String>,
     format: String,
     /// Without one, that of the reader's system.
     #[serde(default)]
@@ -44,7 +49,7 @@ enum Colours {
     Dark,
 }
 
-/// The first plan of a document as a picture or for another program; as `css` the style sheet of what `afp/drawing`
+/// A plan of a document as a picture or for another program; as `css` the style sheet of what `afp/drawing`
 /// answers.
 pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
     let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
@@ -55,16 +60,28 @@ pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
         Colours::Light => Theme::Light,
         Colours::Dark => Theme::Dark,
     };
+    let outline = &analysis.compiled.outline;
+    let plan = params.plan.as_deref();
     let options = Options {
+        plan: match plan {
+            Some(_) => find(outline, analysis.file, plan)?,
+            None => None,
+        },
         sources: Some(&analysis.compiled.sources),
         icons: Some(&icons),
         positions: &positions,
         theme,
         ..Options::default()
     };
-    let outline = &analysis.compiled.outline;
     let text = match params.format.as_str() {
         "svg" => afp_draw::svg(outline, &options),
+        "png" => {
+            // Pixels cannot ask for the colours of who looks at them.
+            let theme = if theme == Theme::Auto { Theme::Light } else { theme };
+            let svg = afp_draw::svg(outline, &Options { theme, ..options });
+            let bytes = server.workspace.host.png(&svg).map_err(Failure::Refused)?;
+            return ok(json!({ "base64": STANDARD.encode(bytes) }));
+        }
         "css" => afp_draw::sheet(theme, false),
         "dot" => afp_draw::dot(outline, &options),
         "json" => afp_draw::json(outline, &options),
@@ -74,7 +91,7 @@ pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
             afp_draw::scxml(graph, &options)
         }
         other => {
-            let known = "write 'svg', 'css', 'dot', 'json' or 'scxml'; 'afpc graph' makes pixels";
+            let known = "write 'svg', 'png', 'css', 'dot', 'json' or 'scxml'";
             return Err(Failure::Refused(format!("there is no format '{other}': {known}")));
         }
     };

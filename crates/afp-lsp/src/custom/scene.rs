@@ -27,11 +27,15 @@ struct Fact {
     plan: Option<String>,
     help: String,
     note: String,
+    folded: bool,
 }
 
 impl Facts {
-    pub fn new(plan: &Plan, outline: &Outline) -> Facts {
-        let fact = |one: &Component| (one.item.clone(), Fact::new(one, outline));
+    pub fn new(plan: &Plan, outline: &Outline, folded: &[Item]) -> Facts {
+        let fact = |one: &Component| {
+            let folded = folded.contains(&one.item);
+            (one.item.clone(), Fact { folded, ..Fact::new(one, outline) })
+        };
         Facts {
             elements: plan.elements.iter().map(fact).collect(),
             entries: plan.entries.iter().map(entry).collect(),
@@ -48,6 +52,7 @@ impl Fact {
             plan: used.map(|plan| plan.item.name().to_owned()),
             help: component.doc.clone(),
             note: component.note.clone(),
+            folded: false,
         }
     }
 }
@@ -183,6 +188,7 @@ fn element(one: &ElementScene, fact: Option<&Fact>) -> Value {
         "plan": fact.and_then(|it| it.plan.as_ref()),
         "help": fact.map(|it| &it.help),
         "note": fact.map(|it| &it.note),
+        "folded": fact.is_some_and(|it| it.folded),
     })
 }
 

@@ -9,6 +9,7 @@ use afp_debug::Adapter;
 use afp_run::{EXIT_OK, RunError};
 use clap::Args;
 
+use super::later::Listen;
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, runner};
 
@@ -27,6 +28,8 @@ pub struct Arguments {
     /// Waits for an editor on this port of the machine itself, 0 for a free one, instead of standard input
     #[arg(long, value_name = "PORT")]
     port: Option<u16>,
+    #[command(flatten)]
+    listen: Listen,
 }
 
 /// What the help ends with.
@@ -43,6 +46,7 @@ log, the log of a run that is over";
 /// # Errors
 /// The plan is wrong, the port is taken, what comes on standard input is not the protocol.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
+    arguments.listen.check()?;
     if let Some(plan) = &arguments.plan {
         let file = PlanFile::read(plan)?;
         runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;

@@ -7,6 +7,8 @@ use afp_dsl::files::{self, Files};
 use afp_lsp::Host;
 use afp_run::write_whole;
 
+use crate::picture;
+
 /// The files of this machine.
 #[derive(Debug)]
 pub struct Disk;
@@ -20,6 +22,11 @@ impl Host for Disk {
         let files = afp_project::files(Path::new(folder)).into_iter();
         let plans = files.filter(|path| path.extension().is_some_and(|ending| ending == "afp"));
         plans.filter_map(|path| Some(path.to_str()?.to_owned())).collect()
+    }
+
+    fn png(&self, svg: &str) -> Result<Vec<u8>, String> {
+        let made = picture::pixels(svg, picture::DEFAULT_SCALE);
+        made.map_err(|why| why.to_string().trim_start_matches("error: ").to_owned())
     }
 
     fn built_in(&self, name: &str, text: &str) -> Option<String> {

@@ -1,13 +1,49 @@
 //! Commands that are not in this program: designed for another release, or left out of this build.
 
 use afp_run::RunError;
+#[cfg(feature = "dap")]
+use clap::Args;
 
-/// Name and what it waits for.
-const LATER: &[(&str, &str)] = &[
-    ("replay", "replay of logs"),
-    ("deploy", "the Raspberry Pi driver"),
-    ("attach", "the live server"),
+/// Name, what it waits for, and what there is meanwhile.
+const LATER: &[(&str, &str, &str)] = &[
+    ("replay", "replay of logs", "'afpc run --again RUN.mcap' makes the run of a log once more"),
+    (
+        "deploy",
+        "the Raspberry Pi driver",
+        "'afpc build PLAN.afp --target pi' makes a program that 'scp' takes to the robot",
+    ),
+    (
+        "attach",
+        "the robot's side of the debugger",
+        "'afpc dap --port 4711' serves a simulated run that editors join with 'attach'; from another machine through 'ssh -L 4711:localhost:4711 HOST'",
+    ),
 ];
+
+/// How to be reached from other machines, for those who look for it.
+#[cfg(feature = "dap")]
+#[derive(Args, Debug)]
+pub struct Listen {
+    /// Serves other machines, too (not in this release)
+    #[arg(long, hide = true, value_name = "ADDRESS")]
+    listen: Option<String>,
+}
+
+#[cfg(feature = "dap")]
+impl Listen {
+    /// Refuses to be reached without a tunnel, which encrypts.
+    ///
+    /// # Errors
+    /// Somebody wants to be.
+    pub fn check(&self) -> Result<(), RunError> {
+        match self.listen {
+            None => Ok(()),
+            Some(_) => Err(RunError::usage(
+                "'--listen' is not there: what is said between machines would not be encrypted",
+                "start it with '--port 4711'; 'ssh -L 4711:localhost:4711 HOST' on the other machine then brings it there",
+            )),
+        }
+    }
+}
 
 /// Commands that this program was built without; each is a feature of its name.
 const LEFT_OUT: &[&str] = &[
@@ -21,7 +57,7 @@ const LEFT_OUT: &[&str] = &[
 
 /// The names of such commands.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    LATER.iter().map(|(name, _)| *name).chain(LEFT_OUT.iter().copied())
+    LATER.iter().map(|(name, ..)| *name).chain(LEFT_OUT.iter().copied())
 }
 
 /// What to say to somebody who asks for such a command.
@@ -34,10 +70,10 @@ pub fn refusal(name: &str) -> Option<RunError> {
         };
         return Some(RunError::usage(format!("this afpc was built without '{name}'"), help));
     }
-    let (_, what) = LATER.iter().find(|(later, _)| *later == name)?;
+    let (_, what, help) = LATER.iter().find(|(later, ..)| *later == name)?;
     let version = env!("CARGO_PKG_VERSION");
     Some(RunError::usage(
         format!("'afpc {name}' is not in release {version}: it comes with {what}"),
-        "'afpc --help' lists what there is",
+        *help,
     ))
 }

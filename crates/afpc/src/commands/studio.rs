@@ -13,6 +13,7 @@ use clap::Args;
 
 use super::dap::{Arrived, Simulator, converse};
 use super::disk::Disk;
+use super::later::Listen;
 use super::print;
 use crate::Linked;
 use crate::plan_file::NoPlan;
@@ -32,6 +33,8 @@ pub struct Arguments {
     /// A page beside the studio's own that may talk with it: the near end of a tunnel
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
+    #[command(flatten)]
+    listen: Listen,
 }
 
 /// What the help ends with.
@@ -87,6 +90,7 @@ fn with_end(line: &str) -> String {
 /// # Errors
 /// No such file or folder, the port is taken.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
+    arguments.listen.check()?;
     let (folder, open) = folder(&arguments.path)?;
     let options = Options {
         folder,

@@ -1,0 +1,106 @@
+//! The command line by which a run is had once more, without a debugger.
+
+use afp_core::devices::{DeviceRow, find_fault};
+use afp_core::{Duration, Instant};
+use afp_session::{HOLD, Stimulus};
+
+use super::Launch;
+use super::ended::By;
+use crate::target::Target;
+
+/// So long `afpc run` lets a plan run unless it is told otherwise.
+const USUAL: f64 = 60.0;
+
+/// The command; none where the run had something from outside for which there is no option: a value written or forced on
+/// the way, a hand in the world, a button that is held for as long as somebody likes.
+pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<String> {
+    if let Some(log) = &launch.log {
+        return Some(format!("afpc run --again {}", quoted(log)));
+    }
+    let mut words = vec![launch.program.clone()];
+    let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
+    if let Some(world) = &launch.world {
+        add("--world", world.clone());
+    }
+    if let Some([x, y, heading]) = launch.start {
+        add("--start", format!("{x}m,{y}m,{heading}rad"));
+    }
+    if launch.seed != 0 {
+        add("--seed", launch.seed.to_string());
+    }
+    for (entry, text) in &launch.set {
+        add("--set", format!("{entry}={text}"));
+    }
+    let ended = target.now().as_secs_f64();
+    match (by, launch.until) {
+        (By::Client(_), _) if target.state().ended_by().is_none() => {
+            add("--until", format!("{ended}s"));
+        }
+        (_, Some(until)) => add("--until", format!("{until}s")),
+        (_, None) if ended >= USUAL => add("--until", format!("{}s", ended.floor() + 1.0)),
+        _ => {}
+    }
+    // What is set before the start is asked for first.
+    let requests = target.requests();
+    for (option, value) in options(requests.get(launch.set.len()..)?, target.devices())? {
+        add(option, value);
+    }
+    let words: Vec<_> = words.iter().map(|word| quoted(word)).collect();
+    Some(format!("afpc run {}", words.join(" ")))
+}
+
+/// What came from outside as options.
+fn options(
+    requests: &[(Instant, Stimulus)],
+    devices: &[DeviceRow],
+) -> Option<Vec<(&'static str, String)>> {
+    let mut options = Vec::new();
+    let mut left = requests;
+    while let [(at, what), rest @ ..] = left {
+        left = rest;
+        match what {
+            Stimulus::Press { control, held: true } => {
+                let end = (*at + HOLD, Stimulus::Press { control: control.clone(), held: false });
+                left = rest.strip_prefix(&[end])?;
+                options.push(("--press", format!("{control}@{}", second(*at))));
+            }
+            Stimulus::Break { fault, amount, lasting } => {
+                let amount = match amount {
+                    Some(amount) => format!("={amount}{}", unit(fault, devices)),
+                    None => String::new(),
+                };
+                let to = match *lasting {
+                    Duration::MAX => String::new(),
+                    lasting => format!("..{}", second(*at + lasting)),
+                };
+                options.push(("--fail", format!("{fault}{amount}@{}{to}", second(*at))));
+            }
+            _ => return None,
+        }
+    }
+    Some(options)
+}
+
+/// The unit in which a fault is measured; empty for a plain number.
+fn unit(fault: &str, devices: &[DeviceRow]) -> &'static str {
+    let named = fault.split_once('.');
+    let id = named.and_then(|(device, name)| find_fault(devices, device, name));
+    let row = afp_core::devices::faults(devices).find(|(known, ..)| Some(*known) == id);
+    row.and_then(|(_, _, row)| row.amount).map_or("", |amount| amount.unit)
+}
+
+/// An instant to the nanosecond.
+fn second(at: Instant) -> String {
+    let (whole, rest) = (at.as_nanos() / 1_000_000_000, at.as_nanos() % 1_000_000_000);
+    let digits = format!("{whole}.{rest:09}");
+    format!("{}s", digits.trim_end_matches('0').trim_end_matches('.'))
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./:=@,+%".contains(letter);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}

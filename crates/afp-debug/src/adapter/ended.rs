@@ -1,0 +1,132 @@
+//! How a run has ended: by what, what it came to, and how it is had once more.
+
+use afp_session::{EndingKind, Figure, FigureValue};
+use dapts::event;
+use serde_json::{Map, Value, json};
+
+use super::{Adapter, Run, again};
+
+/// So many stretches of time are told one by one.
+const SPANS: usize = 4;
+
+/// Who or what ended a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum By {
+    /// The plan itself.
+    Plan,
+    /// The time that it was given.
+    Until,
+    /// A client, by its name.
+    Client(String),
+}
+
+impl Adapter<'_> {
+    /// Tells how the plan ended.
+    pub(super) fn ended(&mut self, run: &Run<'_>, by: &By) {
+        let ending = run.target.state().ended().map_or(EndingKind::Interrupted, |it| it.0);
+        let misses = run.target.misses();
+        let figures = run.target.figures().0;
+        let sentences: Vec<_> = std::iter::once(run.ending_in_words(by))
+            .chain((misses > 0).then(|| format!("{misses} deadlines were missed")))
+            .chain(figures.iter().filter_map(in_words))
+            .collect();
+        for sentence in &sentences {
+            self.output("important", &format!("{sentence}\n"));
+        }
+        let measured = figures.iter().map(|figure| (figure.name.to_owned(), value(figure)));
+        let mut summary: Map<_, _> = measured.collect();
+        summary.insert("deadline_misses".to_owned(), json!(misses));
+        let trace = run.target.trace();
+        summary.extend(trace.map(|trace| ("trace".to_owned(), json!(trace.to_string()))));
+        let ended = json!({
+            "ending": ending.word(),
+            "by": run.ended_by(by),
+            "at": run.target.now().as_secs_f64(),
+            "sentences": sentences,
+            "summary": summary,
+            "log": run.launch.log,
+            "again": again::command(&run.launch, &*run.target, by),
+        });
+        self.tell("afp/ended", &ended);
+        let exit_code = if ending == EndingKind::Error { 3 } else { 0 };
+        self.event::<event::Exited>(&dapts::ExitedEvent { exit_code });
+        self.event::<event::Terminated>(&dapts::TerminatedEvent::default());
+    }
+}
+
+impl Run<'_> {
+    /// The edge by which the plan ended, as function breakpoints name it.
+    fn last_edge(&self) -> Option<String> {
+        let led = self.target.state().ended_by()?;
+        let unit = self.target.program().unit(led.by)?;
+        Some(format!("{}.{}", unit.path, led.outcome))
+    }
+
+    /// The same, or who made it end; nothing where a log breaks off.
+    fn ended_by(&self, by: &By) -> Value {
+        match (by, self.last_edge()) {
+            (_, Some(edge)) => json!({ "edge": edge }),
+            (By::Client(name), None) => json!({ "client": name }),
+            (By::Until, None) => json!({ "until": self.launch.until }),
+            (By::Plan, None) => Value::Null,
+        }
+    }
+
+    fn ending_in_words(&self, by: &By) -> String {
+        let at = self.target.now().as_secs_f64();
+        let name = self.target.program().units.first().map_or("", |plan| &*plan.name);
+        let edge = self.last_edge();
+        let by_edge = edge.as_ref().map(|edge| format!(" by {edge}")).unwrap_or_default();
+        match (self.target.state().ended(), by) {
+            (Some((EndingKind::Ok, _)), _) => {
+                let by_edge = edge.map(|edge| format!(", by {edge}")).unwrap_or_default();
+                format!("{name} ended as it says itself, after {at:.3} s{by_edge}")
+            }
+            (Some((EndingKind::Error, why)), _) => {
+                format!("{name} ended in Error after {at:.3} s: {why}")
+            }
+            (None, By::Plan) if self.target.is_recorded() => {
+                format!("the log of {name} ends after {at:.3} s, before the plan does")
+            }
+            (_, By::Client(client)) if by_edge.is_empty() => {
+                format!("{name} was interrupted after {at:.3} s by {client}")
+            }
+            (_, By::Until) if by_edge.is_empty() => {
+                format!("{name} was interrupted after {at:.3} s: that was its time")
+            }
+            _ => format!("{name} was interrupted after {at:.3} s{by_edge}"),
+        }
+    }
+}
+
+/// What a run came to, where there is something to say.
+fn in_words(figure: &Figure) -> Option<String> {
+    let name = figure.name.replace('_', " ");
+    if !figure.text.is_empty() {
+        return Some(format!("{name}: {}", figure.text));
+    }
+    let FigureValue::Spans { spans, .. } = &figure.value else { return None };
+    let shown = spans.iter().take(SPANS);
+    let shown = shown.map(|span| format!("{} at {:.2} s", span.name, span.begin.as_secs_f64()));
+    let more = spans.len().saturating_sub(SPANS);
+    let more = (more > 0).then(|| format!("{more} more"));
+    let all: Vec<_> = shown.chain(more).collect();
+    (!all.is_empty()).then(|| format!("{name}: {}", all.join(", ")))
+}
+
+/// The same for programs, with the keys of `afpc run --json`.
+fn value(figure: &Figure) -> Value {
+    match &figure.value {
+        FigureValue::Count(count) => json!(count),
+        FigureValue::Numbers(all) => {
+            all.iter().map(|(name, number)| ((*name).to_owned(), json!(number))).collect()
+        }
+        FigureValue::Spans { of, spans } => {
+            let row = |span: &afp_session::Span| {
+                let [begin, end] = [span.begin, span.end].map(|at| at.as_secs_f64());
+                json!({ *of: span.name, "begin_s": begin, "end_s": end })
+            };
+            spans.iter().map(row).collect()
+        }
+    }
+}

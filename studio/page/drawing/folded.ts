@@ -1,0 +1,16 @@
+// What is folded, by document; a reload of the page keeps it.
+import { effect, signal } from "@preact/signals";
+
+const KEY = "afp.folded";
+
+export const folded = signal<{ readonly [uri: string]: readonly string[] }>({});
+
+/** Takes up what was folded before, and keeps it from now on. */
+export function begin(store: Pick<Storage, "getItem" | "setItem">): void {
+  try {
+    folded.value = JSON.parse(store.getItem(KEY) ?? "{}");
+  } catch {
+    // What another version kept is no loss.
+  }
+  effect(() => store.setItem(KEY, JSON.stringify(folded.value)));
+}

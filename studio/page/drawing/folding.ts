@@ -1,0 +1,19 @@
+// Which boxes are folded: drawn without what they read and write, and with one tab for all their supervisors.
+import { current } from "../documents";
+import { selected } from "../selection";
+import { drawing } from "./model";
+import { refuse } from "./say";
+import { holderOf } from "./shapes";
+import { folded } from "./folded";
+import { words } from "./words";
+
+/** Folds the boxes that are selected, or unfolds them where all of them are folded. */
+export function fold(): void {
+  const drawn = drawing.peek();
+  const chosen = new Set(drawn ? selected.peek().flatMap((part) => holderOf(drawn, part.item)?.item ?? []) : []);
+  if (chosen.size === 0) return refuse(words.selectFirst);
+  const before = folded.peek()[current.peek()] ?? [];
+  const open = before.filter((item) => !chosen.has(item));
+  const all = [...chosen].every((item) => before.includes(item));
+  folded.value = { ...folded.peek(), [current.peek()]: all ? open : [...open, ...chosen] };
+}
