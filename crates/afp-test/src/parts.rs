@@ -130,6 +130,11 @@ impl<'a> Parts<'a> {
         *self.place(number)?.outcomes.get(usize::from(outcome))?
     }
 
+    /// Where the `Error` of an element leads.
+    pub(crate) fn goal_of_error(&self, element: u32) -> Option<Goal> {
+        self.place(element)?.special
+    }
+
     /// Where an event of a supervisor leads while an element of the same plan is active.
     pub(crate) fn goal_at(&self, element: u32, supervisor: u32, event: u16) -> Option<Goal> {
         let here = self.place(element)?.reaction(supervisor, Some(event));
@@ -250,6 +255,12 @@ impl<'a> Parts<'a> {
             format!("{verb} {}.{}{values}", self.path(number), self.outcome(number, outcome));
         let outcome = Outcome::Declared(outcome);
         Some((Injection { component: number, outcome, outputs }, text))
+    }
+
+    /// The `Error` of an element to be put there, and how a scenario writes it.
+    pub(crate) fn failure(&self, number: u32) -> (Injection, String) {
+        let text = format!("fire {}.Error", self.path(number));
+        (Injection { component: number, outcome: Outcome::Special, outputs: Vec::new() }, text)
     }
 }
 

@@ -135,6 +135,28 @@ fn another_distance_breaks_what_it_concerns_alone() {
 }
 
 #[test]
+fn errors_and_supervisors_of_sub_plans_lead_on_too() {
+    let plan = "use carbot\nplan Errand {
+            start go
+            subplan go: Go { OK -> terminate }
+        }
+        plan Go {
+            start way
+            supervise bump: CheckTouchSensor { TouchSensorPressed -> back }
+            subplan way: Way { OK -> terminate }
+            actor back: Forward(distance = -10 cm) { ForwardSuccessful -> terminate }
+        }
+        plan Way {
+            start on
+            actor on: Forward(distance = 40 cm) { ForwardSuccessful -> terminate, Error -> off }
+            actor off: Forward(distance = -10 cm) { ForwardSuccessful -> terminate }
+        }";
+    let made = Made::of(Path::new("errand.afp"), plan, &robot());
+    assert_eq!(made.generated.left_out, [""; 0]);
+    assert!(made.generated.text.contains("go.back"), "{}", made.generated.text);
+}
+
+#[test]
 fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
     let files = fs::read_dir(root().join("plans")).unwrap().map(|entry| entry.unwrap().path());
     let files: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "afp")).collect();

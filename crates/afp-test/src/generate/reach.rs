@@ -2,7 +2,7 @@
 
 use afp_core::Instant;
 use afp_dsl::graph::Component;
-use afp_dsl::scenario::{Action, Scenario, Stimulus};
+use afp_dsl::scenario::{Action, Outcome, Scenario, Stimulus};
 use afp_dsl::unfold::Goal;
 use afp_run::RunError;
 
@@ -44,11 +44,11 @@ pub(super) struct Reach {
     found: Vec<Option<(usize, Activation)>>,
 }
 
-/// A state or event whose edge a run may take.
+/// A state, event or error whose edge a run may take.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Edge {
     component: u32,
-    outcome: u16,
+    outcome: Outcome,
     /// The element whose own edge it is, where that reacts to a supervisor of its plan by itself.
     during: Option<u32>,
 }
@@ -113,35 +113,55 @@ impl Reach {
 
     /// An outcome of something that is reached, whose edge leads to what is not; not tried yet.
     fn next(&self, parts: &Parts<'_>, tried: &[Edge]) -> Option<Edge> {
-        let reached = |number: u32| self.of(number).is_some();
-        let actors = parts.elements().filter(|number| {
-            reached(*number) && matches!(parts.component(*number), Some(Component::Actor(_)))
-        });
-        let mut edges = actors.flat_map(|actor| {
-            let all = std::iter::once(actor).chain(parts.supervisors_over(actor));
+        let edges = self.declared(parts).chain(self.errors(parts));
+        let mut untried = edges.filter(|edge| !tried.contains(edge));
+        untried.find(|edge| self.leads_on(parts, *edge))
+    }
+
+    /// States of the actors that are reached, and events over them and over the sub-plans that are.
+    fn declared(&self, parts: &Parts<'_>) -> impl Iterator<Item = Edge> {
+        self.reached(parts).flat_map(move |(element, component)| {
+            let own = matches!(component, Component::Actor(_)).then_some(element);
+            let all = own.into_iter().chain(parts.supervisors_over(element));
             all.flat_map(move |component| {
                 let count = parts.place(component).map_or(0, |place| place.outcomes.len());
                 (0..count as u16).map(move |outcome| {
-                    let own = parts.place(actor);
+                    let own = parts.place(element);
                     let own = own.and_then(|place| place.reaction(component, Some(outcome)));
-                    Edge { component, outcome, during: own.map(|_| actor) }
+                    let during = own.map(|_| element);
+                    Edge { component, outcome: Outcome::Declared(outcome), during }
                 })
             })
-        });
-        edges.find(|edge| {
-            let goal = match edge.during {
-                Some(actor) => parts.goal_at(actor, edge.component, edge.outcome),
-                None => parts.goal(edge.component, edge.outcome),
-            };
-            let home = parts.place(edge.component).map(|place| place.plan);
-            let onwards = match goal {
-                Some(Goal::Element(to)) => !reached(to),
-                // It ends a sub-plan, which may lead on.
-                Some(Goal::Terminate) => home.is_some_and(|home| home != 0),
-                Some(Goal::Fail | Goal::Ignore | Goal::Resume) | None => false,
-            };
-            onwards && !tried.contains(edge)
         })
+    }
+
+    /// Errors of the actors that are reached.
+    fn errors(&self, parts: &Parts<'_>) -> impl Iterator<Item = Edge> {
+        let actors = self.reached(parts).filter(|(_, it)| matches!(it, Component::Actor(_)));
+        actors.map(|(component, _)| Edge { component, outcome: Outcome::Special, during: None })
+    }
+
+    /// The elements that some run reaches and that last.
+    fn reached(&self, parts: &Parts<'_>) -> impl Iterator<Item = (u32, Component)> {
+        let reached = parts.elements().filter(|number| self.of(*number).is_some());
+        reached.filter_map(|number| Some((number, parts.component(number)?)))
+    }
+
+    /// Whether an edge may lead to an element that no run reaches.
+    fn leads_on(&self, parts: &Parts<'_>, edge: Edge) -> bool {
+        let goal = match (edge.outcome, edge.during) {
+            (Outcome::Special, _) => parts.goal_of_error(edge.component),
+            (Outcome::Declared(event), Some(actor)) => parts.goal_at(actor, edge.component, event),
+            (Outcome::Declared(outcome), None) => parts.goal(edge.component, outcome),
+        };
+        match goal {
+            Some(Goal::Element(to)) => self.of(to).is_none(),
+            // It ends a sub-plan, which may lead on.
+            Some(Goal::Terminate) => {
+                parts.place(edge.component).is_some_and(|place| place.plan != 0)
+            }
+            Some(Goal::Fail | Goal::Ignore | Goal::Resume) | None => false,
+        }
     }
 
     /// Seed and steps of a run in which a component reports an outcome.
@@ -159,7 +179,10 @@ impl Reach {
         let (way, active) = self.of(element?)?;
         let (from, to) = (active.from.as_nanos(), active.to.as_nanos());
         let at = ((from + to) / 2 / GRAIN * GRAIN).max(from);
-        let (injection, text) = parts.injection(component, outcome)?;
+        let (injection, text) = match outcome {
+            Outcome::Declared(outcome) => parts.injection(component, outcome)?,
+            Outcome::Special => parts.failure(component),
+        };
         let stimulus = Stimulus {
             from: None,
             at,
