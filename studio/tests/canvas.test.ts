@@ -159,3 +159,20 @@ inBrowser("of a large plan what is in sight is in the page; far away it is paint
   });
   assert.ok(painted > 2000, `${painted} pixels are painted`);
 });
+
+inBrowser("an element that no way leads to has a dotted border and a word, until one does", { "plan.afp": `use std
+
+plan P {
+    start go
+
+    actor go: Wait(duration = 1 s) { Elapsed -> terminate }
+    actor lost: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+` }, async ({ page, write, read }) => {
+  await page.locator(".unreached-text", { hasText: "never reached" }).waitFor();
+  assert.equal(await page.locator(".unreached").count(), 1);
+  const [border, box] = [(await page.locator(".unreached").boundingBox())!, (await page.locator('.node [data-item="P.lost"] .box').first().boundingBox())!];
+  assert.ok(Math.abs(border.x - box.x) < 6 && Math.abs(border.y - box.y) < 6, JSON.stringify({ border, box }));
+  await write("plan.afp", (await read("plan.afp")).replace("Elapsed -> terminate", "Elapsed -> lost"));
+  await page.locator(".unreached").waitFor({ state: "detached" });
+});

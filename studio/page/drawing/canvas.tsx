@@ -103,7 +103,7 @@ function shows(scene: ReturnType<typeof stage>, pane: HTMLElement): (() => void)
       const known = connecting.value;
       const fits = known && drawn ? new Set([...drawn.elements.keys()].filter((item) => known.targets.get(item.slice(item.lastIndexOf(".") + 1)) === null)) : null;
       const keys = byKeys.value;
-      mark(scene, drawn, { selected: selected.value, keys, fits: known?.targets.size ? fits : null, over: known?.over ?? null, found: hits.value, target: target.value, box: box.value, line: newLine(), zoom: view.value.zoom });
+      mark(scene, drawn, { selected: selected.value, keys, fits: known?.targets.size ? fits : null, over: known?.over ?? null, unreached: messages.unreached.value, found: hits.value, target: target.value, box: box.value, line: newLine(), zoom: view.value.zoom });
     }),
     effect(() => {
       const last = selected.value.at(-1);

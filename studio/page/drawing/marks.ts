@@ -1,7 +1,8 @@
 // What is drawn over the drawing: rings of selection and focus, handles of exits, what fits, the box and the line being drawn.
 import { svg } from "./fragment";
-import { holderOf, rectOf, type Drawing, type Part, type Point, type Rect } from "./shapes";
+import { holderOf, keyOf, rectOf, type Drawing, type Part, type Point, type Rect } from "./shapes";
 import type { Stage } from "./stage";
+import { words } from "./words";
 
 /** What is to be marked. */
 export interface Marked {
@@ -11,6 +12,8 @@ export interface Marked {
   /** Elements that fit what is being connected, and the one under the pointer. */
   fits: ReadonlySet<string> | null;
   over: string | null;
+  /** Elements that no way leads to. */
+  unreached: ReadonlySet<string>;
   /** What was looked for. */
   found: readonly Part[];
   /** What a template would be dropped onto. */
@@ -32,6 +35,7 @@ export function mark(stage: Stage, drawing: Drawing | null, marked: Marked): voi
       if (rect) (whole ? below : made).push(...ring(rect, marked, part === last));
       if (whole) made.push(...handles(drawing, part.item, marked.zoom));
     }
+    for (const [item, { rect }] of drawing.elements) if (marked.unreached.has(keyOf({ item }))) below.push(...never(rect));
     for (const part of marked.found) {
       const rect = rectOf(drawing, part);
       if (rect) below.push(outline(rect, 2, "found"));
@@ -51,6 +55,13 @@ export function mark(stage: Stage, drawing: Drawing | null, marked: Marked): voi
 
 const outline = ([x, y, width, height]: Rect, more: number, name: string): SVGElement =>
   svg("rect", { class: name, x: x - more, y: y - more, width: width + 2 * more, height: height + 2 * more, rx: more === 0 ? 2 : 9 + more / 2 });
+
+/** A dotted border with what it means. */
+function never(rect: Rect): SVGElement[] {
+  const text = svg("text", { class: "unreached-text", x: rect[0] + rect[2], y: rect[1] - 6 });
+  text.textContent = words.neverReached;
+  return [outline(rect, 2, "unreached"), text];
+}
 
 function ring(rect: Rect, { keys, zoom }: Marked, last: boolean): SVGElement[] {
   const more = 3 / Math.min(zoom, 1);

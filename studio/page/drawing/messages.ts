@@ -1,5 +1,5 @@
 // What is wrong with each part of the drawing, found by the places of the problems in the text.
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { current } from "../documents";
 import { itemAt } from "../places";
 import { problems, said, type Diagnostic } from "../problems";
@@ -26,6 +26,12 @@ export function begin(): () => void {
     });
   });
 }
+
+/** The code of an element that no way from the start leads to. */
+const UNREACHED = "E0302";
+
+/** The elements that no way leads to. */
+export const unreached = computed<ReadonlySet<string>>(() => new Set([...byPart.value].flatMap(([key, all]) => (all.some(({ code }) => code === UNREACHED) ? [key] : []))));
 
 /** The problems of a part; of an element, those of its ports and exits as well. */
 export function about(drawing: Drawing, part: Part): Diagnostic[] {

@@ -23,6 +23,7 @@ export const words = {
   plan: (name: string, elements: number, entries: number) => [`plan ${name}`, many(elements, "element"), entries === 0 ? "" : entries === 1 ? "1 entry" : `${entries} entries`].filter(Boolean).join(", "),
   supervisors: (count: number) => many(count, "supervisor"),
   exits: (count: number) => many(count, "exit"),
+  neverReached: "never reached",
   isStart: "start",
   withError: "with an error",
   withWarning: "with a warning",
