@@ -23,18 +23,27 @@ async function ready(page: Page): Promise<number> {
   return page.waitForFunction(() => document.querySelector(".node text") && performance.now(), undefined, { timeout: 60_000 }).then((handle) => handle.jsonValue() as Promise<number>);
 }
 
+/** The element whose name is nearest to the middle of the drawing, and where that is. */
+const inSight = (page: Page): Promise<{ item: string; x: number; y: number }> =>
+  page.evaluate(() => {
+    const board = document.querySelector(".board")!.getBoundingClientRect();
+    const off = ({ left, top }: DOMRect): number => Math.hypot(left - board.left - board.width / 2, top - board.top - board.height / 2);
+    const names = [...document.querySelectorAll(".node [data-item] text.name")].map((name) => ({ item: name.closest("[data-item]")!.getAttribute("data-item")!, rect: name.getBoundingClientRect() }));
+    const elements = names.filter(({ item }) => /^Large\.element\d+$/.test(item));
+    const { item, rect } = elements.sort((one, other) => off(one.rect) - off(other.rect))[0]!;
+    return { item, x: rect.left + 10, y: rect.top + 6 };
+  });
+
 /** Milliseconds from the release of an element to the frame with its edges routed anew. */
 async function drop(page: Page, nth: number): Promise<number> {
-  const box = await page.locator('.node [data-item="Large.element0"] text.name').first().boundingBox();
-  assert.ok(box);
-  const [x, y] = [box.x + 10, box.y + 6];
+  const { item, x, y } = await inSight(page);
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 40, y + 40, { steps: 8 });
   await page.mouse.move(x + (nth % 2 ? -36 : 36), y + (nth % 2 ? -24 : 24), { steps: 8 });
-  await page.evaluate(() => {
+  await page.evaluate((item) => {
     const board = document.querySelector<HTMLElement>(".board")!;
-    const way = document.querySelector('.way [data-item="Large.element0"]')!.parentElement!;
+    const way = document.querySelector(`.way [data-item="${item}"]`)!.parentElement!;
     const global = window as any;
     board.addEventListener("pointerup", () => (global.released = performance.now()), { once: true, capture: true });
     global.routed = new Promise<number>((done) => {
@@ -43,7 +52,7 @@ async function drop(page: Page, nth: number): Promise<number> {
         requestAnimationFrame(() => setTimeout(() => done(performance.now() - global.released)));
       }).observe(way, { childList: true });
     });
-  });
+  }, item);
   await page.mouse.up();
   const took = await page.evaluate(() => (window as any).routed as Promise<number>);
   await page.waitForTimeout(700);

@@ -29,8 +29,8 @@ test("a value lasts until another one is told, whatever order moments come in", 
 test("a long curve is thinned out and keeps its shape", () => {
   let curve: Curve | undefined;
   for (let nth = 0; nth < 20_000; nth++) curve = extended(curve, nth, String(nth));
-  assert.ok(curve!.points.length <= 4000);
-  for (const at of [0, 5000, 12_000, 19_990]) assert.ok(Math.abs(valueAt(curve!, at)! - at) < 40, String(at));
+  assert.ok(curve!.points.length <= 2000);
+  for (const at of [0, 5000, 12_000, 19_990]) assert.ok(Math.abs(valueAt(curve!, at)! - at) < 80, String(at));
 });
 
 test("a curve is drawn as steps within its window, up to now", () => {

@@ -11,7 +11,7 @@ export interface Curve {
 }
 
 /** Points of a curve that are kept. */
-const MOST = 4000;
+const MOST = 2000;
 
 /** Units of small quantities, in those of larger ones. */
 const PARTS: Record<string, [unit: string, factor: number]> = { cm: ["m", 0.01], "cm/s": ["m/s", 0.01], ms: ["s", 0.001] };
