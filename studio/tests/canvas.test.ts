@@ -53,6 +53,15 @@ inBrowser("a folded box hides ports and supervisors, leads where it led, and is 
   await page.locator("text.template", { hasText: "CheckTouchSensor" }).waitFor({ state: "detached" });
   assert.ok((await ports.count()) < before);
   assert.ok((await edges.count()) >= 1);
+  // Shown small, the word on the tab stays on it.
+  for (let out = 0; out < 3; out++) await page.keyboard.press("-");
+  await page.waitForTimeout(300);
+  const [word, tab] = await page.locator("text.bare").evaluate((word) => {
+    const tab = [...word.closest("g")!.querySelectorAll(".box.supervisor")].at(-1)!;
+    return [word, tab].map((part) => part.getBoundingClientRect()).map(({ left, right }) => ({ left, right }));
+  });
+  assert.ok(word!.left >= tab!.left - 1 && word!.right <= tab!.right + 1, JSON.stringify({ word, tab }));
+  await page.keyboard.press("1");
   await page.reload();
   await page.locator(name("P.turn")).first().waitFor();
   assert.equal(await page.locator("text.template", { hasText: "CheckTouchSensor" }).count(), 0);

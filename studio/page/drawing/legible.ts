@@ -41,9 +41,9 @@ function fit(group: SVGGElement, step: number, width: number): void {
     if (!legible) continue;
     const long = text.getComputedTextLength();
     const supervisor = name && (!own || size < 13);
-    const gained = supervisor ? ICON.supervisor : ICON.element;
+    const gained = text.classList.contains("bare") ? 0 : supervisor ? ICON.supervisor : ICON.element;
     if (name) text.style.transform = `translate(${-gained}px, 4px)`;
-    const room = !name ? long + SPARE : supervisor ? long + gained : Math.max(width - 20, long);
+    const room = !name ? long + SPARE : supervisor ? long + (gained || SPARE / 2) : Math.max(width - 20, long);
     text.style.fontSize = `${wanted}px`;
     if (long * (wanted / size) > room) {
       text.setAttribute("textLength", String(room));

@@ -88,7 +88,8 @@ impl<'a> Tab<'a> {
             size: SIZE,
             bold: false,
             anchor: Anchor::Start,
-            class: "name".into(),
+            // No icon stands before it, into whose place it could grow.
+            class: "name bare".into(),
         });
         // What is hidden is marked at the tab that hides it.
         let mut worst = None;
