@@ -42,16 +42,18 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
     }
     // What is set before the start is asked for first.
     let requests = target.requests();
-    for (option, value) in options(requests.get(launch.set.len()..)?, target.devices())? {
+    let requests = requests.get(launch.set.len()..)?;
+    for (option, value) in options(requests, target.now(), target.devices())? {
         add(option, value);
     }
     let words: Vec<_> = words.iter().map(|word| quoted(word)).collect();
     Some(format!("afpc run {}", words.join(" ")))
 }
 
-/// What came from outside as options.
+/// What came from outside up to the end as options.
 fn options(
     requests: &[(Instant, Stimulus)],
+    ended: Instant,
     devices: &[DeviceRow],
 ) -> Option<Vec<(&'static str, String)>> {
     let mut options = Vec::new();
@@ -61,7 +63,12 @@ fn options(
         match what {
             Stimulus::Press { control, held: true } => {
                 let end = (*at + HOLD, Stimulus::Press { control: control.clone(), held: false });
-                left = rest.strip_prefix(&[end])?;
+                left = match rest.strip_prefix(&[end]) {
+                    Some(later) => later,
+                    // What the press has ended does not see how long it lasts.
+                    None if rest.is_empty() && ended <= *at + HOLD => rest,
+                    None => return None,
+                };
                 options.push(("--press", format!("{control}@{}", second(*at))));
             }
             Stimulus::Break { fault, amount, lasting } => {
