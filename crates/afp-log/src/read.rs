@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use afp_core::Instant;
 use afp_session::{Datum, RunEvent};
@@ -67,8 +68,10 @@ pub struct Configured {
 }
 
 /// A reading of a range sensor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Heard {
+    /// The sensor, by the name of its device.
+    pub device: Arc<str>,
     /// When it was taken.
     pub at: Instant,
     /// Where the sensor was and which way it looked, against the robot.
@@ -207,6 +210,7 @@ impl Reader {
                 let LaserScan { timestamp, pose: at, end_angle, ranges, .. } =
                     LaserScan::decode(data)?;
                 self.log.rangings.extend(pose(at.as_ref()).map(|pose| Heard {
+                    device: topic.strip_prefix("/robot/").unwrap_or(topic).into(),
                     at: instant(&timestamp),
                     pose,
                     half_angle: end_angle,

@@ -151,6 +151,36 @@ fn what_others_write_arrives() {
 }
 
 #[test]
+fn a_file_that_others_empty_before_they_fill_it_is_never_seen_empty() {
+    for typed in [false, true] {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        let mine = PLAN.replace("Elapsed -> terminate", "Elapsed -> go");
+        if typed {
+            place.types(1, 2, &mine);
+        }
+        place.outside("");
+        // A look, and no second one: what is typed is about to be written sooner.
+        let half = place.pass(if typed { 250 } else { 500 });
+        assert_eq!(half.iter().find(|(_, it)| it["method"] == "afp/changed"), None);
+        assert_eq!(place.on_disk(), "", "nothing is written into what somebody writes");
+        place.outside(&format!("// theirs\n{PLAN}"));
+        place.pass(1000);
+        assert_eq!(place.on_disk(), format!("// theirs\n{}", if typed { &mine } else { PLAN }));
+    }
+}
+
+#[test]
+fn a_file_that_stays_empty_is_empty() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.outside("");
+    let out = place.pass(1500);
+    let changed = out.iter().find(|(_, value)| value["method"] == "afp/changed").unwrap();
+    assert_eq!(changed.1["params"]["text"], "");
+}
+
+#[test]
 fn what_somebody_else_has_written_is_saved() {
     let mut place = Place::new(PLAN);
     place.client(1);

@@ -138,6 +138,7 @@ mod tests {
     #[test]
     fn an_echo_lies_ahead_of_the_sensor() {
         let heard = Heard {
+            device: "sonar".into(),
             at: Instant::ZERO,
             pose: Pose2 { x: 0.2, y: 0.0, heading: std::f64::consts::FRAC_PI_2 },
             half_angle: 0.1,

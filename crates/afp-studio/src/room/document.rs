@@ -17,6 +17,8 @@ pub(super) struct Document {
     /// What lies in the file, as far as known: what others change is merged over this.
     kept: Kept,
     stamp: Option<Stamp>,
+    /// Since when the file has been empty, though it was not: somebody may be about to fill it again.
+    emptied: Option<Stamp>,
     /// When it is to be written; none where it is.
     due: Option<Duration>,
     /// What somebody else has written that does not go together with this text: nothing is written before a person
@@ -54,7 +56,8 @@ impl Document {
     pub fn read(file: PathBuf) -> Result<Document, String> {
         let stamp = files::stamp(&file);
         let kept = files::read(&file)?;
-        Ok(Document { text: kept.text.clone(), file, kept, stamp, due: None, theirs: None })
+        let text = kept.text.clone();
+        Ok(Document { text, file, kept, stamp, emptied: None, due: None, theirs: None })
     }
 
     pub fn etag(&self) -> Option<&str> {
@@ -83,6 +86,10 @@ impl Document {
             return Look::Same;
         }
         let Ok(found) = files::read(&self.file) else { return Look::Same };
+        if found.etag.is_some() && self.is_being_written(&found.text, stamp) {
+            self.due = self.due.map(|_| now + SAVES_AFTER);
+            return Look::Same;
+        }
         self.stamp = stamp;
         if found.etag == self.kept.etag {
             return Look::Same;
@@ -112,6 +119,14 @@ impl Document {
                 Look::Conflict(text)
             }
         }
+    }
+
+    /// Whether a file has just been emptied, as most programs do before they write into it: it counts as empty once it
+    /// is found so again.
+    fn is_being_written(&mut self, found: &str, stamp: Option<Stamp>) -> bool {
+        let news = found.is_empty() && !self.kept.text.is_empty() && self.emptied != stamp;
+        self.emptied = stamp.filter(|_| found.is_empty());
+        news
     }
 
     /// Ends a conflict; without one, nothing happens.

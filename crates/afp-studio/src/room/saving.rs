@@ -45,7 +45,7 @@ impl Room {
             // Never over what somebody else has written meanwhile.
             out.extend(self.look_at(&path, now));
             let Some(document) = self.documents.get_mut(&path) else { continue };
-            if document.due().is_none() {
+            if !document.due().is_some_and(&wanted) {
                 continue;
             }
             let saved = document.save(now);

@@ -20,8 +20,10 @@ impl Senses {
     pub fn take(log: &mut LogData, devices: &'static [DeviceRow]) -> Self {
         let all = signals(devices).filter(|(.., row)| !row.truth).filter_map(|(_, device, row)| {
             let said = match row.ty {
-                // A log does not say which of several range sensors heard something: they are all the first one.
-                SignalType::Range => Said::Ranges(std::mem::take(&mut log.rangings)),
+                SignalType::Range => Said::Ranges({
+                    let of_it = |heard: &mut Heard| *heard.device == *device.name;
+                    log.rangings.extract_if(.., of_it).collect()
+                }),
                 _ => Said::Values(log.samples.remove(&format!("{}/{}", device.name, row.name))?),
             };
             Some((device, row, said))
@@ -39,11 +41,45 @@ impl Senses {
             }
             Said::Ranges(all) => {
                 let later = all.partition_point(|heard| heard.at <= at);
-                let Heard { pose, half_angle, range, .. } = *all.get(later.checked_sub(1)?)?;
+                let &Heard { pose, half_angle, range, .. } = all.get(later.checked_sub(1)?)?;
                 let pose = robot.map_or(pose, |robot| robot.beyond(pose));
                 Some(Sensed::range(device, row, Cone { pose, half_angle, range }))
             }
         };
         self.0.iter().filter_map(one).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn range(name: &'static str) -> DeviceRow {
+        const ECHO: &[SignalRow] =
+            &[SignalRow { name: "echo", ty: SignalType::Range, truth: false, help: "" }];
+        DeviceRow { name, help: "", controls: &[], faults: &[], signals: ECHO }
+    }
+
+    static TABLE: [DeviceRow; 2] = [range("front"), range("back")];
+
+    #[test]
+    fn each_of_several_range_sensors_says_what_it_heard_last() {
+        let heard = |second: u64, device: &str, range| Heard {
+            device: device.into(),
+            at: Instant::from_nanos(second * 1_000_000_000),
+            pose: Pose2::default(),
+            half_angle: 0.1,
+            range: Some(range),
+        };
+        let rangings = vec![heard(1, "front", 1.5), heard(2, "back", 0.5), heard(4, "back", 2.0)];
+        let mut log = LogData { rangings, ..LogData::default() };
+        let senses = Senses::take(&mut log, &TABLE);
+        let said = |second: u64| -> Vec<_> {
+            let all = senses.at(Instant::from_nanos(second * 1_000_000_000), None);
+            all.into_iter().map(|it| format!("{} {}", it.signal, it.text)).collect()
+        };
+        assert_eq!(said(0), [""; 0]);
+        assert_eq!(said(3), ["front.echo 1.5 m", "back.echo 50 cm"]);
+        assert_eq!(said(9), ["front.echo 1.5 m", "back.echo 2 m"]);
     }
 }
