@@ -1,6 +1,7 @@
 // The history survives a reload: kept in the browser tab's storage, taken up again where the texts are still the same.
 import { effect } from "@preact/signals";
 import { open, text } from "./documents";
+import { hash } from "./hash";
 import { log, type Entry, type Log } from "./history";
 
 const KEY = "afp-studio-history";
@@ -10,14 +11,7 @@ const MOST = 500_000;
 const PAUSE = 300;
 
 interface Kept extends Log {
-  texts: Record<string, number>;
-}
-
-/** A number that tells texts apart. */
-export function hash(source: string): number {
-  let value = 0x811c9dc5;
-  for (let at = 0; at < source.length; at++) value = Math.imul(value ^ source.charCodeAt(at), 0x01000193);
-  return value >>> 0;
+  texts: Record<string, string>;
 }
 
 const urisOf = ({ past, future }: Log): string[] => [...new Set([...past, ...future].flatMap((entry) => entry.steps.map((step) => step.uri)))];

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import type { Socket } from "../page/lsp";
 import { connect } from "../page/dap";
 import { at, taken } from "../page/debug/follow";
-import { differs, hash } from "../page/debug/hash";
+import { differs, hash } from "../page/hash";
 
 test("a text has the hash that the debugger gives it, however its lines end", () => {
   assert.equal(hash(""), "cbf29ce484222325");

@@ -103,6 +103,16 @@ pub enum SignalType {
     Outline,
 }
 
+impl SignalType {
+    /// The SI unit of its numbers; empty for plain ones and for what is none.
+    pub fn unit(self) -> &'static str {
+        match self {
+            SignalType::Float(unit) => unit,
+            _ => "",
+        }
+    }
+}
+
 /// What can be wrong between a sensor and the plan: the faults that every sensor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Defect {

@@ -28,8 +28,7 @@ pub struct Cone {
 impl Sensed {
     /// What a signal says that is a value.
     pub fn value(device: &DeviceRow, row: &SignalRow, value: &Datum) -> Sensed {
-        let unit = if let SignalType::Float(unit) = row.ty { unit } else { "" };
-        Sensed::new(device, row, value.in_unit(unit), None)
+        Sensed::new(device, row, value.in_unit(row.ty.unit()), None)
     }
 
     /// What a range sensor says.

@@ -224,8 +224,7 @@ impl Observer for SessionLog {
 }
 
 fn channel(device: &DeviceRow, row: &SignalRow) -> (Signal, SignalType, Option<Datum>) {
-    let unit = if let SignalType::Float(unit) = row.ty { unit } else { "" };
-    (Signal { device: device.name, name: row.name, unit }, row.ty, None)
+    (Signal { device: device.name, name: row.name, unit: row.ty.unit() }, row.ty, None)
 }
 
 /// What people who read the log as text want to know, and how much it matters.

@@ -7,7 +7,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use afp_core::{Duration, Instant};
-use afp_session::Pose2;
+use afp_session::{DEFAULT_UNTIL, Pose2};
 use clap::{Args, ValueEnum};
 
 use crate::error::RunError;
@@ -137,9 +137,6 @@ pub(crate) enum TimeKeeper {
     /// The robot, which sleeps.
     Robot,
 }
-
-/// How long a run at full speed lasts unless told otherwise.
-const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
 
 impl RunOptions {
     /// Refuses what this release does not have.

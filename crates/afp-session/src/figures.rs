@@ -1,6 +1,8 @@
 //! What a run came to, by names.
 
 use afp_core::Instant;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
 /// Something that a run came to.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,5 +68,40 @@ impl Figures {
             }
             FigureValue::Count(_) | FigureValue::Spans { .. } => None,
         }
+    }
+}
+
+impl Serialize for FigureValue {
+    /// A count, numbers by their names, stretches of time in a list.
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            FigureValue::Count(count) => count.serialize(to),
+            FigureValue::Numbers(all) => to.collect_map(all.iter().copied()),
+            FigureValue::Spans { of, spans } => {
+                to.collect_seq(spans.iter().map(|span| SpanRow { of, span }))
+            }
+        }
+    }
+}
+
+impl Serialize for Figures {
+    /// By their names.
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(self.0.iter().map(|figure| (figure.name, &figure.value)))
+    }
+}
+
+struct SpanRow<'a> {
+    of: &'a str,
+    span: &'a Span,
+}
+
+impl Serialize for SpanRow<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(3))?;
+        map.serialize_entry(self.of, &self.span.name)?;
+        map.serialize_entry("begin_s", &self.span.begin.as_secs_f64())?;
+        map.serialize_entry("end_s", &self.span.end.as_secs_f64())?;
+        map.end()
     }
 }

@@ -22,6 +22,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod any;
+mod command;
 mod counts;
 mod event;
 mod faults;
@@ -41,6 +42,7 @@ mod track;
 mod world;
 
 pub use any::{AnySession, SetError, refusal};
+pub use command::{DEFAULT_UNTIL, shell_word};
 pub use counts::{Counts, Usage};
 pub use event::{Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
 pub use faults::{Active, Faults};

@@ -6,6 +6,7 @@ use afp_core::Duration;
 use afp_dsl::types::text::duration;
 use afp_run::options::{Failure, Press};
 use afp_run::world::LoadedWorld;
+use afp_session::shell_word;
 
 use crate::ranges::Seeds;
 
@@ -123,20 +124,20 @@ impl Sweep {
 
     /// The command that does a run again.
     pub fn command(&self, row: &Row<'_>) -> String {
-        let mut command = format!("afpc run {}", quoted(&self.plan));
+        let mut command = format!("afpc run {}", shell_word(&self.plan));
         // Writing to a string cannot fail.
         if let Some(world) = row.world.name() {
-            let _ = write!(command, " --world {}", quoted(world));
+            let _ = write!(command, " --world {}", shell_word(world));
         }
         let _ = write!(command, " --seed {}", row.seed);
         for (name, point) in &row.values {
-            let _ = write!(command, " --set {}", quoted(&format!("{name}={}", point.text)));
+            let _ = write!(command, " --set {}", shell_word(&format!("{name}={}", point.text)));
         }
         for press in &self.presses {
-            let _ = write!(command, " --press {}", quoted(&press.to_string()));
+            let _ = write!(command, " --press {}", shell_word(&press.to_string()));
         }
         for failure in &self.failures {
-            let _ = write!(command, " --fail {}", quoted(&failure.to_string()));
+            let _ = write!(command, " --fail {}", shell_word(&failure.to_string()));
         }
         let _ = write!(command, " --until {}", spelled(self.until));
         let caveats = [self.caveat, row.world.caveat()].into_iter().flatten();
@@ -169,15 +170,6 @@ impl Sweep {
 /// A time as the command line takes it, exact.
 fn spelled(time: Duration) -> String {
     duration(time.as_nanos()).replace(' ', "")
-}
-
-/// A word for a shell.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "._-+=:/,@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
-    }
 }
 
 #[cfg(test)]

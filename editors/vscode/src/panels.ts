@@ -2,7 +2,7 @@
 import * as vscode from "vscode";
 import { randomBytes } from "node:crypto";
 import type { Changed } from "../../../studio/page/drawing/shapes";
-import { differs } from "../../../studio/page/debug/hash";
+import { differs } from "../../../studio/page/hash";
 import type { Range } from "../../../studio/page/positions";
 import { Drawing, type Server } from "./drawing";
 import { programOf } from "./launch";

@@ -2,7 +2,7 @@
 import { computed, type ReadonlySignal } from "@preact/signals";
 import { isOpen, text } from "../documents";
 import { files } from "../session";
-import { differs } from "./hash";
+import { differs } from "../hash";
 import type { State } from "./told";
 
 /** The path of a document, as the debugger says it. */

@@ -2,20 +2,18 @@
 
 use afp_core::devices::{DeviceRow, find_fault};
 use afp_core::{Duration, Instant};
-use afp_session::{HOLD, Stimulus};
+use afp_dsl::types::text::duration;
+use afp_session::{DEFAULT_UNTIL, HOLD, Stimulus, shell_word};
 
 use super::Launch;
 use super::ended::By;
 use crate::target::Target;
 
-/// So long `afpc run` lets a plan run unless it is told otherwise.
-const USUAL: f64 = 60.0;
-
 /// The command; none where the run had something from outside for which there is no option: a value written or forced on
 /// the way, a hand in the world, a button that is held for as long as somebody likes.
 pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<String> {
     if let Some(log) = &launch.log {
-        return Some(format!("afpc run --again {}", quoted(log)));
+        return Some(format!("afpc run --again {}", shell_word(log)));
     }
     let mut words = vec![launch.program.clone()];
     let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
@@ -37,7 +35,9 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
             add("--until", format!("{ended}s"));
         }
         (_, Some(until)) => add("--until", format!("{until}s")),
-        (_, None) if ended >= USUAL => add("--until", format!("{}s", ended.floor() + 1.0)),
+        (_, None) if ended >= DEFAULT_UNTIL.as_secs_f64() => {
+            add("--until", format!("{}s", ended.floor() + 1.0))
+        }
         _ => {}
     }
     // What is set before the start is asked for first.
@@ -46,7 +46,7 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
     for (option, value) in options(requests, target.now(), target.devices())? {
         add(option, value);
     }
-    let words: Vec<_> = words.iter().map(|word| quoted(word)).collect();
+    let words: Vec<_> = words.iter().map(|word| shell_word(word)).collect();
     Some(format!("afpc run {}", words.join(" ")))
 }
 
@@ -96,18 +96,7 @@ fn unit(fault: &str, devices: &[DeviceRow]) -> &'static str {
     row.and_then(|(_, _, row)| row.amount).map_or("", |amount| amount.unit)
 }
 
-/// An instant to the nanosecond.
+/// An instant as the command line takes it, exact.
 fn second(at: Instant) -> String {
-    let (whole, rest) = (at.as_nanos() / 1_000_000_000, at.as_nanos() % 1_000_000_000);
-    let digits = format!("{whole}.{rest:09}");
-    format!("{}s", digits.trim_end_matches('0').trim_end_matches('.'))
-}
-
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./:=@,+%".contains(letter);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
-    }
+    duration(at.as_nanos()).replace(' ', "")
 }

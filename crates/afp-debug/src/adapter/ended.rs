@@ -33,7 +33,7 @@ impl Adapter<'_> {
         for sentence in &sentences {
             self.output("important", &format!("{sentence}\n"));
         }
-        let measured = figures.iter().map(|figure| (figure.name.to_owned(), value(figure)));
+        let measured = figures.iter().map(|it| (it.name.to_owned(), json!(it.value)));
         let mut summary: Map<_, _> = measured.collect();
         summary.insert("deadline_misses".to_owned(), json!(misses));
         let trace = run.target.trace();
@@ -112,21 +112,4 @@ fn in_words(figure: &Figure) -> Option<String> {
     let more = (more > 0).then(|| format!("{more} more"));
     let all: Vec<_> = shown.chain(more).collect();
     (!all.is_empty()).then(|| format!("{name}: {}", all.join(", ")))
-}
-
-/// The same for programs, with the keys of `afpc run --json`.
-fn value(figure: &Figure) -> Value {
-    match &figure.value {
-        FigureValue::Count(count) => json!(count),
-        FigureValue::Numbers(all) => {
-            all.iter().map(|(name, number)| ((*name).to_owned(), json!(number))).collect()
-        }
-        FigureValue::Spans { of, spans } => {
-            let row = |span: &afp_session::Span| {
-                let [begin, end] = [span.begin, span.end].map(|at| at.as_secs_f64());
-                json!({ *of: span.name, "begin_s": begin, "end_s": end })
-            };
-            spans.iter().map(row).collect()
-        }
-    }
 }

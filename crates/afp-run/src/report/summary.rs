@@ -10,7 +10,6 @@ use afp_session::{
     Stimulus, Usage,
 };
 use anstyle::{AnsiColor, Style};
-use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::timeline::stimulus;
@@ -57,7 +56,7 @@ pub(crate) struct RunFigures {
     #[serde(serialize_with = "by_time", skip_serializing_if = "Vec::is_empty")]
     requests: Vec<Requested>,
     /// What measures and robot say.
-    #[serde(flatten, serialize_with = "by_name")]
+    #[serde(flatten)]
     measured: Figures,
     /// The hash of the trace.
     trace: String,
@@ -208,22 +207,6 @@ fn outcomes(counts: &Counts, names: &dyn Names) -> Vec<(String, u64)> {
     all
 }
 
-/// Figures by their names: a count, numbers by their names, stretches of time in a list.
-fn by_name<S: Serializer>(figures: &Figures, to: S) -> Result<S::Ok, S::Error> {
-    let mut map = to.serialize_map(None)?;
-    for figure in &figures.0 {
-        match &figure.value {
-            FigureValue::Count(count) => map.serialize_entry(figure.name, count)?,
-            FigureValue::Numbers(all) => map.serialize_entry(figure.name, &Numbers(all))?,
-            FigureValue::Spans { of, spans } => {
-                let rows: Vec<_> = spans.iter().map(|span| SpanRow { of, span }).collect();
-                map.serialize_entry(figure.name, &rows)?;
-            }
-        }
-    }
-    map.end()
-}
-
 fn by_time<S: Serializer>(requests: &[Requested], to: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Row<'a> {
@@ -247,29 +230,6 @@ fn why_not(request: &Requested) -> &str {
         Done::Done => "",
         Done::Refused(why) => why,
         Done::NotReached => "the run was over before",
-    }
-}
-
-struct Numbers<'a>(&'a [(&'static str, f64)]);
-
-impl Serialize for Numbers<'_> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(self.0.iter().copied())
-    }
-}
-
-struct SpanRow<'a> {
-    of: &'a str,
-    span: &'a Span,
-}
-
-impl Serialize for SpanRow<'_> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut map = to.serialize_map(Some(3))?;
-        map.serialize_entry(self.of, &self.span.name)?;
-        map.serialize_entry("begin_s", &self.span.begin.as_secs_f64())?;
-        map.serialize_entry("end_s", &self.span.end.as_secs_f64())?;
-        map.end()
     }
 }
 
