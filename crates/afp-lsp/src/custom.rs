@@ -1,6 +1,7 @@
 //! Requests of our own: drawings, changes of meaning, what can be offered.
 
 pub(crate) mod drawing;
+mod drawings;
 pub(crate) mod edit;
 pub(crate) mod explain;
 pub(crate) mod export;
@@ -10,6 +11,7 @@ pub(crate) mod robot;
 mod scene;
 
 pub(crate) use drawing::Subscription;
+pub use drawings::Drawings;
 
 use serde::Deserialize;
 

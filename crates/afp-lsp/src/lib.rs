@@ -21,6 +21,7 @@ mod standard;
 mod uri;
 mod workspace;
 
+pub use custom::Drawings;
 pub use host::{Host, NoFiles};
 pub use lsp_server::Message;
 pub use server::Server;

@@ -8,7 +8,7 @@ use lsp_server::{Message, Notification, Request};
 use serde_json::Value;
 
 use crate::answer::{Answer, Failure, params, response};
-use crate::custom::Subscription;
+use crate::custom::{Drawings, Subscription};
 use crate::host::Host;
 use crate::uri;
 use crate::workspace::{PROJECT, Workspace};
@@ -20,6 +20,8 @@ pub struct Server {
     pub(crate) client: Client,
     /// The drawings that the client wants to hear of, by path.
     pub(crate) subscriptions: BTreeMap<String, Subscription>,
+    /// What new drawings are made from.
+    pub(crate) drawings: Drawings,
     /// The diagnostics that each document was last said to have.
     published: BTreeMap<String, Value>,
     phase: Phase,
@@ -63,7 +65,13 @@ impl fmt::Debug for Server {
 impl Server {
     /// A server that has not heard of its client yet.
     pub fn new(host: Box<dyn Host>) -> Server {
+        Server::among(host, Drawings::default())
+    }
+
+    /// A server that shares what it draws with others.
+    pub fn among(host: Box<dyn Host>, drawings: Drawings) -> Server {
         Server {
+            drawings,
             workspace: Workspace::new(host),
             client: Client::default(),
             subscriptions: BTreeMap::new(),

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 
-use afp_lsp::{Message, Server, path_of, uri_of};
+use afp_lsp::{Drawings, Message, Server, path_of, uri_of};
 use lsp_server::{Notification, Request};
 use serde_json::{Value, json};
 
@@ -39,6 +39,8 @@ pub struct Room {
     examples: Vec<Example>,
     host: MakeHost,
     clients: BTreeMap<ClientId, Client>,
+    /// What their servers have drawn; it outlives them.
+    drawings: Drawings,
     /// The texts that are open, by path.
     documents: BTreeMap<String, Document>,
     /// Who changes them.
@@ -73,11 +75,21 @@ impl Room {
         let open = open.and_then(|path| folder.inside(path.to_str()?).ok());
         let open = open.and_then(|path| Some(uri_of(path.to_str()?)));
         let files = folder.files();
-        let (clients, documents) = (BTreeMap::new(), BTreeMap::new());
-        let looked = Duration::ZERO;
-        let (trust, jobs) = (Trust::of(folder.root()), Jobs::default());
-        let pen = None;
-        Room { folder, open, examples, host, clients, documents, pen, files, looked, trust, jobs }
+        let trust = Trust::of(folder.root());
+        Room {
+            folder,
+            open,
+            examples,
+            host,
+            clients: BTreeMap::new(),
+            drawings: Drawings::default(),
+            documents: BTreeMap::new(),
+            pen: None,
+            files,
+            looked: Duration::ZERO,
+            trust,
+            jobs: Jobs::default(),
+        }
     }
 
     /// The folder.
@@ -85,9 +97,25 @@ impl Room {
         &self.folder
     }
 
+    /// The folder as clients write it.
+    fn root(&self) -> String {
+        uri_of(&self.folder.root().to_string_lossy())
+    }
+
+    /// Draws the plan that the room was opened for: a large one takes as long as a browser takes to start.
+    pub fn draw_ahead(&self) {
+        let Some(uri) = &self.open else { return };
+        let mut server = self.server();
+        let initialize = json!({ "capabilities": {}, "rootUri": self.root() });
+        let drawing = json!({ "textDocument": { "uri": uri } });
+        for (id, method, params) in [(1, "initialize", initialize), (2, "afp/drawing", drawing)] {
+            server.handle(Request::new(id.into(), method.to_owned(), params).into());
+        }
+    }
+
     /// A client has come.
     pub fn join(&mut self, client: ClientId) {
-        self.clients.insert(client, Client { server: Server::new((self.host)()), busy: false });
+        self.clients.insert(client, Client { server: self.server(), busy: false });
         self.pen.get_or_insert(client);
     }
 
@@ -98,6 +126,10 @@ impl Room {
             true => self.hand_pen(self.clients.keys().next().copied()),
             false => Vec::new(),
         }
+    }
+
+    fn server(&self) -> Server {
+        Server::among((self.host)(), self.drawings.clone())
     }
 
     /// A message of a client.

@@ -92,6 +92,7 @@ pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
 /// The thread of the room: one message after the other, and what is due between.
 pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
     let begin = Instant::now();
+    room.draw_ahead();
     let mut clients = BTreeMap::new();
     loop {
         let event = match arrived.try_recv() {

@@ -355,3 +355,32 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
     let refused = place.ask(1, "afp/job", json!({ "kind": "test" }));
     assert!(refused.unwrap_err().contains("trust"));
 }
+
+#[test]
+fn a_page_that_is_loaded_again_finds_its_drawing_as_it_was() {
+    let mut place = Place::new(PLAN);
+    let document = json!({ "uri": place.uri("p.afp") });
+    let grown = PLAN.replace("start go", "start first").replace(
+        "    actor go",
+        "    actor first: Wait { Elapsed -> second }\n    actor second: Wait { Elapsed -> go }\n    actor go",
+    );
+    place.client(1);
+    let drawing = json!({ "textDocument": document, "subscribe": true });
+    place.ask(1, "afp/drawing", drawing.clone()).unwrap();
+    place.types(1, 2, &grown);
+    let before = place.ask(1, "afp/drawing", drawing.clone()).unwrap();
+    place.room.leave(1);
+    place.client(2);
+    assert_eq!(drawn(&place.ask(2, "afp/drawing", drawing.clone()).unwrap()), drawn(&before));
+
+    // In another room nobody has drawn the shorter plan before.
+    let mut other = Place::new(&grown);
+    other.client(1);
+    let drawing = json!({ "textDocument": { "uri": other.uri("p.afp") } });
+    assert_ne!(drawn(&other.ask(1, "afp/drawing", drawing).unwrap()), drawn(&before));
+}
+
+/// The boxes and edges of a drawing.
+fn drawn(answer: &Value) -> [Value; 2] {
+    [answer["elements"].clone(), answer["edges"].clone()]
+}

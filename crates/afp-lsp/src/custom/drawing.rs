@@ -1,5 +1,7 @@
 //! The drawing of a plan, and what changes of it.
 
+use std::sync::Arc;
+
 use afp_draw::layout_file::Layout;
 use afp_draw::{Options, Scene};
 use afp_dsl::outline::{Outline, Plan, PlanId};
@@ -39,7 +41,7 @@ pub(crate) struct Subscription {
     plan: Option<String>,
     folded: Vec<Item>,
     /// The scene, from which the next one is made.
-    scene: Scene,
+    scene: Arc<Scene>,
     facts: Facts,
     /// What the drawing was made from: the document, and the file of its positions.
     made_from: [u64; 2],
@@ -49,7 +51,8 @@ pub(crate) struct Subscription {
 pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     let path = uri::path(&params.text_document.uri);
     let known = server.subscriptions.remove(&path);
-    let before = known.as_ref().filter(|known| known.plan == params.plan).map(|known| &known.scene);
+    let before =
+        known.as_ref().filter(|known| known.plan == params.plan).map(|known| &*known.scene);
     let folded: Vec<_> = params.folded.iter().filter_map(|path| item(path)).collect();
     let drawn = draw(server, &path, params.plan.as_deref(), &folded, before)?;
     let version = server.workspace.documents.get(&path).map(|document| document.version);
@@ -67,7 +70,7 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
 }
 
 struct Drawn {
-    scene: Scene,
+    scene: Arc<Scene>,
     facts: Facts,
     plan: Option<String>,
     plans: Vec<String>,
@@ -105,11 +108,17 @@ fn draw(
         folded,
         ..Options::default()
     };
-    let scene = match id {
-        Some(_) => Scene::new(outline, &options, before),
-        None => Scene::default(),
-    };
     let main: Option<&Plan> = id.map(|id| outline.plan(id));
+    let scene = match main {
+        Some(main) => {
+            let name = main.item.name();
+            let last = server.drawings.of(path, name);
+            let scene = Arc::new(Scene::new(outline, &options, before.or(last.as_deref())));
+            server.drawings.keep(path, name, &scene);
+            scene
+        }
+        None => Arc::default(),
+    };
     let facts = main.map(|plan| Facts::new(plan, outline, folded)).unwrap_or_default();
     let own = outline.plans.iter().filter(|plan| plan.file() == analysis.file);
     let plans = own.map(|plan| plan.item.name().to_owned()).collect();

@@ -78,7 +78,7 @@ fn hello(room: &Room, client: ClientId) -> Value {
     let examples = room.examples.iter().map(Example::listed);
     json!({
         "client": client,
-        "root": uri_of(&room.folder.root().to_string_lossy()),
+        "root": room.root(),
         "open": room.open,
         "pen": room.pen == Some(client),
         "trusted": room.trust.is_given(),
