@@ -1,7 +1,7 @@
 // Jobs that the server does for the page: what goes on, what it has said, what it came to.
 import { signal } from "@preact/signals";
-import { ask } from "./dialogs";
 import { lsp } from "./session";
+import { trusted } from "./trust";
 import { words } from "./words";
 
 export interface Done {
@@ -29,15 +29,6 @@ const MOST = 2000;
 
 const waiting = new Map<number, (done: Done) => void>();
 const early = new Map<number, Done>();
-
-/** Asks, where it has to be asked, whether what lies in the folder may run; remembers the answer. */
-export async function trusted(always: boolean): Promise<boolean> {
-  const known = await lsp().request<{ trusted: boolean; folder: string; code: string[] }>("afp/trust", {});
-  if (known.trusted || (!always && !known.code.length)) return true;
-  const yes = (await ask(words.trust(known.folder), words.trustBody(known.code), [words.trustIt])) !== null;
-  if (yes) await lsp().request("afp/trust", { give: true });
-  return yes;
-}
 
 /** Does a job and waits for its end; null where the folder is not trusted. */
 export async function run(title: string, order: { kind: string; [more: string]: unknown }): Promise<Done | null> {

@@ -32,6 +32,7 @@ pub use examples::Example;
 pub use files::Folder;
 use lock::Lock;
 pub use room::{ClientId, Room};
+pub use trust::Trusted;
 
 /// Where the language server of a client finds texts that nobody has open.
 pub type MakeHost = fn() -> Box<dyn Host>;
@@ -128,6 +129,11 @@ impl Studio {
     /// The folder, without links.
     pub fn folder(&self) -> PathBuf {
         self.room.folder().root().to_owned()
+    }
+
+    /// Whether what lies in the folder may be run, now and later.
+    pub fn trusted(&self) -> Trusted {
+        self.room.trusted()
     }
 
     /// Serves until the program is asked to end; then everything is saved. Whoever wants to debug is handed over.

@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 use crate::MakeHost;
 use crate::examples::Example;
 use crate::files::{Folder, Stamp};
-use crate::trust::Trust;
+use crate::trust::{Trust, Trusted};
 use document::Document;
 use jobs::Jobs;
 pub(crate) use jobs::{JobId, Order};
@@ -95,6 +95,11 @@ impl Room {
     /// The folder.
     pub fn folder(&self) -> &Folder {
         &self.folder
+    }
+
+    /// Whether what lies in the folder may be run, now and later.
+    pub fn trusted(&self) -> Trusted {
+        self.trust.shared()
     }
 
     /// The folder as clients write it.

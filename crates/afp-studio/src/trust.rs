@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::{fs, io};
 
 use afp_project::ProjectFile;
@@ -14,7 +16,18 @@ pub(crate) struct Trust {
     root: PathBuf,
     /// Where trusted folders are kept, a line each; nowhere where there is no home.
     list: Option<PathBuf>,
-    given: bool,
+    given: Trusted,
+}
+
+/// Whether a folder is trusted by now.
+#[derive(Clone, Debug, Default)]
+pub struct Trusted(Arc<AtomicBool>);
+
+impl Trusted {
+    /// Whether what lies in the folder may be run.
+    pub fn is_given(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
 }
 
 impl Trust {
@@ -26,22 +39,27 @@ impl Trust {
     fn kept(root: &Path, list: Option<PathBuf>) -> Trust {
         let text = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
         let given = text.lines().any(|line| Path::new(line) == root);
+        let given = Trusted(Arc::new(AtomicBool::new(given)));
         Trust { root: root.to_owned(), list, given }
     }
 
     pub fn is_given(&self) -> bool {
-        self.given
+        self.given.is_given()
+    }
+
+    /// What tells it to others, now and later.
+    pub fn shared(&self) -> Trusted {
+        self.given.clone()
     }
 
     /// Gives it, for good where that can be kept.
     ///
     /// # Errors
     /// It cannot be kept: a sentence. It is given all the same until the studio ends.
-    pub fn give(&mut self) -> Result<(), String> {
-        if self.given {
+    pub fn give(&self) -> Result<(), String> {
+        if self.given.0.swap(true, Ordering::Relaxed) {
             return Ok(());
         }
-        self.given = true;
         let Some(list) = &self.list else { return Ok(()) };
         self.keep(list).map_err(|why| {
             format!(
@@ -98,7 +116,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let list = Some(place.path().join("config/afp/trusted"));
         let (one, other) = (place.path().join("one"), place.path().join("other"));
-        let mut trust = Trust::kept(&one, list.clone());
+        let trust = Trust::kept(&one, list.clone());
         assert!(!trust.is_given());
         trust.give().unwrap();
         assert!(Trust::kept(&one, list.clone()).is_given());

@@ -27,7 +27,8 @@ pub use afp_sim::carbot;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// What this program was built with, of what can be left out: the runners that it builds have the same.
+/// What this program was built with, of what can be left out: the runners that it builds have the same, but for the studio,
+/// which asks them over the debug adapter's protocol.
 const FEATURES: &[&str] = &[
     #[cfg(feature = "dap")]
     "dap",
@@ -39,8 +40,6 @@ const FEATURES: &[&str] = &[
     "parquet",
     #[cfg(feature = "png")]
     "png",
-    #[cfg(feature = "studio")]
-    "studio",
 ];
 
 /// What is linked into the program.

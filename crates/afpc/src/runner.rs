@@ -6,7 +6,7 @@
 
 use std::env;
 use std::ffi::OsString;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use afp_build::{Parts, Product};
@@ -65,14 +65,22 @@ pub fn become_one_of(project: &ProjectFile, linked: &Linked<'_>) -> Result<(), N
 
 /// Comes back when this program has all parts; otherwise goes on as one that has.
 fn become_one(parts: Parts<'_>, linked: &Linked<'_>) -> Result<(), NoPlan> {
-    if linked.has(&parts) {
-        return Ok(());
+    match linked.has(&parts) {
+        true => Ok(()),
+        false => Err(turn_into(&built(parts, linked)?).into()),
     }
+}
+
+/// The runner with these parts, built if need be.
+///
+/// # Errors
+/// As [`become_one_for`]; this program is a runner itself.
+pub fn built(parts: Parts<'_>, linked: &Linked<'_>) -> Result<PathBuf, NoPlan> {
     if linked.is_runner() {
         let message = format!("this runner was built for other parts than {}", parts.names());
         return Err(RunError::usage(message, "start 'afpc' instead").into());
     }
-    Err(turn_into(&parts.product(Product::Runner(FEATURES))?).into())
+    Ok(parts.product(Product::Runner(FEATURES))?)
 }
 
 /// Goes on as another program with the same arguments; comes back only when that fails.

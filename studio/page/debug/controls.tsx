@@ -11,9 +11,15 @@ import { select } from "../selection";
 import { words } from "../words";
 import { toggleSelected } from "./breakpoints";
 import { askWhy } from "./why";
-import { active, again, back, dismiss, ended, frames, goOn, into, next, older, out, pause, phase, setSpeed, speed, state, stop } from "./run";
+import { active, again, back, dismiss, ended, frames, goOn, into, next, older, out, pause, phase, said, setSpeed, speed, state, stop } from "./run";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 20, null] as const;
+
+/** The time of the run; before it begins, what it waits for. */
+function Clock({ at }: { at: number | undefined }) {
+  const text = at === undefined ? (said.value.at(-1)?.text ?? words.starting) : words.seconds(at);
+  return <span class={`clock ${phase.value}`} title={at === undefined ? text : undefined}>{text}</span>;
+}
 
 /** The part of the bar that runs the plan. */
 export function Controls() {
@@ -28,7 +34,7 @@ export function Controls() {
           <span>{words.olderText}</span>
         </button>
       )}
-      {active.value && <span class={`clock ${now}`}>{at === undefined ? words.starting : words.seconds(at)}</span>}
+      {active.value && <Clock at={at} />}
       {held && <Tool icon="back" label={`${words.stepBack} (Shift+F10)`} run={back} />}
       {held && <Tool icon="next" label={`${words.step} (F10)`} run={next} />}
       {held && <Tool icon="into" label={`${words.stepInto} (F11)`} run={into} />}

@@ -7,6 +7,7 @@ import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import type { Position } from "../positions";
 import { number, problems } from "../problems";
+import { trusted } from "../trust";
 import { words } from "../words";
 import { sensed, type Sensed } from "../world/sensed";
 import * as arranged from "./arranged";
@@ -63,6 +64,7 @@ export async function start(hold = false): Promise<void> {
     return;
   }
   trouble.value = null;
+  if (!(await trusted())) return;
   const uri = current.value;
   // What was chosen last counts, though its drawing may still be on its way.
   const plan = trail.value[0] ?? wanted.value ?? shownPlan.value ?? "";

@@ -5,7 +5,7 @@ import { active, given, seed, world as chosen } from "../debug/run";
 import { putBack } from "../debug/arranged";
 import { arranged } from "../world/hand";
 import { show, watched } from "../world/camera";
-import { again, choose, missing, sow, surroundings, type Surroundings } from "../world/surroundings";
+import { again, awaited, choose, missing, sow, surroundings, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
 import { Floor } from "./floor";
 import { Drops, Faults, Stimuli } from "./outside";
@@ -33,7 +33,7 @@ const Absent = () =>
       <button onClick={() => void again()}>{words.tryAgain}</button>
     </div>
   ) : (
-    <p class="empty">{words.worldComes}</p>
+    <p class="empty">{awaited.value || words.worldComes}</p>
   );
 
 /** In which world the next run takes place, and with which noise. */

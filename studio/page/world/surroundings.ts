@@ -3,10 +3,11 @@ import { batch, effect, signal } from "@preact/signals";
 import { connect } from "../dap";
 import { putBack } from "../debug/arranged";
 import { pathOf } from "../debug/older";
-import { active, address, given, log, seed, state, world } from "../debug/run";
+import { active, address, given, log, phase, seed, state, world } from "../debug/run";
 import { current } from "../documents";
 import { trouble } from "../panes/files";
 import { files, lsp } from "../session";
+import { trusted } from "../trust";
 import { extended, type Path, type Point, type World } from "./geometry";
 
 export interface Surroundings extends World {
@@ -44,6 +45,8 @@ export interface Device {
 export const surroundings = signal<Surroundings | null>(null);
 /** Why it is not known, as a sentence; empty while it is. */
 export const missing = signal("");
+/** What it waits for, where that takes long. */
+export const awaited = signal("");
 export const devices = signal<readonly Device[]>([]);
 /** The path that the robot has driven in the run that is shown. */
 export const path = signal<Path>([]);
@@ -53,12 +56,14 @@ let asked = 0;
 async function askWorld(uri: string, chosen: string | null, log = ""): Promise<void> {
   const own = ++asked;
   const dap = connect(address(), () => {});
+  dap.on("output", ({ output }) => own === asked && batch(() => ([awaited.value, missing.value] = [String(output).trim(), ""])));
   try {
     const found = await dap.request<Surroundings>("afp/world", { ...(log ? { log } : {}), program: uri ? pathOf(uri) : "", ...(chosen === null ? {} : { world: chosen }) });
     if (own === asked) batch(() => ([surroundings.value, missing.value] = [found, ""]));
   } catch (why) {
     if (own === asked) refuse((why as Error).message, chosen);
   } finally {
+    if (own === asked) awaited.value = "";
     dap.close();
   }
 }
@@ -71,8 +76,8 @@ function refuse(why: string, chosen: string | null): void {
   });
 }
 
-/** Asks once more for what could not be shown. */
-export const again = (): Promise<void> => askWorld(current.peek(), null);
+/** Asks once more for what could not be shown, and whether it may be where that was the reason. */
+export const again = async (): Promise<void> => void ((await trusted()) && (await askWorld(current.peek(), null)));
 
 async function askRobot(uri: string): Promise<void> {
   const found = await lsp().request<{ devices: Device[] }>("afp/robot", { textDocument: { uri } }).catch(() => null);
@@ -88,6 +93,8 @@ export function begin(): () => void {
     void files.value;
     if (connected && shown && !before?.startsWith("log")) void askWorld("", null, shown);
     if (shown) before = `log ${shown}`;
+    // What runs now has a world, though there was none while it was not trusted.
+    if (connected && phase.value === "running" && !shown && missing.peek()) void askWorld(uri, null);
     if (!connected || runs || shown) return;
     const other = before !== uri;
     before = uri;

@@ -24,11 +24,12 @@ const TO_MIDDLE: f64 = 0.08;
 pub(super) fn place(grid: &mut Grid) {
     let count = grid.layers.len();
     let mut wishes = vec![(0.0, 0.0); grid.items.len()];
+    let pulls: Vec<_> = (0..count).map(|layer| pulls(grid, layer)).collect();
     for round in 0..ROUNDS + ROUNDS_IN_LINE {
         let lines = if round < ROUNDS { vec![None; grid.items.len()] } else { lines(grid) };
         for step in 0..count {
             let layer = if round % 2 == 0 { step } else { count - 1 - step };
-            place_layer(grid, layer, &lines, &mut wishes);
+            place_layer(grid, layer, &pulls[layer], &lines, &mut wishes);
         }
     }
     for _ in 0..3 {
@@ -57,30 +58,49 @@ fn lines(grid: &Grid) -> Vec<Option<f64>> {
     lines
 }
 
-/// Places the items of a layer. The wishes are room to count in, for all items: there may be as many layers.
-fn place_layer(grid: &mut Grid, layer: usize, lines: &[Option<f64>], wishes: &mut [(f64, f64)]) {
-    for item in &grid.layers[layer] {
-        wishes[*item] = (0.0, 0.0);
-    }
-    let mut add = |item: usize, weight: f64, x: f64| {
-        wishes[item].0 += weight * x;
-        wishes[item].1 += weight;
-    };
-    for item in &grid.layers[layer] {
-        if let Some(x) = lines[*item] {
-            add(*item, IN_LINE, x);
+/// A net as one of its ends feels it.
+struct Pull {
+    own: Terminal,
+    other: Terminal,
+    weight: f64,
+}
+
+/// What pulls at the items of a layer.
+fn pulls(grid: &Grid, layer: usize) -> Vec<Pull> {
+    let mut pulls = Vec::new();
+    for (channel, above) in [(layer, false), (layer + 1, true)] {
+        for net in &grid.channels[channel] {
+            let [start, end] = grid.nets[*net].ends;
+            let weight = weight(grid, &start, &end);
+            let both = [(start, end), (end, start)].into_iter();
+            let own = both.filter(|(own, _)| own.above == above);
+            pulls.extend(own.map(|(own, other)| Pull { own, other, weight }));
         }
     }
-    for net in grid.channels[layer].iter().chain(&grid.channels[layer + 1]) {
-        let [start, end] = grid.nets[*net].ends;
-        let weight = weight(grid, &start, &end);
-        let x = |end: &Terminal| grid.items[end.item].x;
-        for (own, other) in [(start, end), (end, start)] {
-            let there = x(&other) + offset(grid, &other, &own);
-            add(own.item, weight, there - offset(grid, &own, &other));
-            if own.arrival.or(other.arrival).is_some() {
-                add(own.item, TO_MIDDLE * weight, x(&other) + other.offset - own.offset);
-            }
+    pulls
+}
+
+/// Places the items of a layer. The wishes are room to count in, for all items: there may be as many layers.
+fn place_layer(
+    grid: &mut Grid,
+    layer: usize,
+    pulls: &[Pull],
+    lines: &[Option<f64>],
+    wishes: &mut [(f64, f64)],
+) {
+    for item in &grid.layers[layer] {
+        wishes[*item] = lines[*item].map_or((0.0, 0.0), |x| (IN_LINE * x, IN_LINE));
+    }
+    for Pull { own, other, weight } in pulls {
+        let there = grid.items[other.item].x;
+        let wish = &mut wishes[own.item];
+        let mut add = |weight: f64, x: f64| {
+            wish.0 += weight * x;
+            wish.1 += weight;
+        };
+        add(*weight, there + offset(grid, other, own) - offset(grid, own, other));
+        if own.arrival.or(other.arrival).is_some() {
+            add(TO_MIDDLE * weight, there + other.offset - own.offset);
         }
     }
     let order = grid.layers[layer].clone();

@@ -5,6 +5,8 @@ mod senses;
 mod simulator;
 mod talk;
 
+use std::path::PathBuf;
+
 use afp_debug::Adapter;
 use afp_run::{EXIT_OK, RunError};
 use clap::Args;
@@ -16,7 +18,7 @@ use crate::{Linked, runner};
 pub use simulator::Simulator;
 use talk::serve;
 #[cfg(feature = "studio")]
-pub use talk::{Arrived, converse};
+pub use talk::{Arrived, converse, read};
 
 /// Arguments of `afpc dap`.
 #[derive(Args, Debug)]
@@ -28,6 +30,9 @@ pub struct Arguments {
     /// Waits for an editor on this port of the machine itself, 0 for a free one, instead of standard input
     #[arg(long, value_name = "PORT")]
     port: Option<u16>,
+    /// Runs plans and shows logs of this folder, and no others
+    #[arg(long, value_name = "FOLDER", conflicts_with = "port")]
+    inside: Option<PathBuf>,
     #[command(flatten)]
     listen: Listen,
 }
@@ -53,7 +58,11 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     }
     match arguments.port {
         None => {
-            let adapter = Adapter::new(Box::new(Simulator::new(linked)));
+            let simulator = match &arguments.inside {
+                Some(folder) => Simulator::inside(linked, folder),
+                None => Simulator::new(linked),
+            };
+            let adapter = Adapter::new(Box::new(simulator));
             let served = serve(adapter, std::io::stdin(), std::io::stdout());
             let failed =
                 RunError::file("cannot talk to the editor over", "standard input".as_ref());

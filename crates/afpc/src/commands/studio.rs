@@ -1,22 +1,22 @@
 //! `afpc studio`: plans drawn and edited in the browser.
 
+mod desk;
+
 use std::env;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::channel;
 use std::thread;
-use std::time::Duration;
 
-use afp_debug::Adapter;
 use afp_run::{EXIT_OK, RunError, say};
-use afp_studio::{Debugging, Example, Opened, Options, Studio};
+use afp_studio::{Example, Opened, Options, Studio};
 use clap::Args;
 
-use super::dap::{Arrived, Simulator, converse};
 use super::disk::Disk;
 use super::later::Listen;
 use super::print;
 use crate::Linked;
 use crate::plan_file::NoPlan;
+use desk::Desk;
 
 /// Arguments of `afpc studio`.
 #[derive(Args, Debug)]
@@ -115,12 +115,13 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     };
     show(&studio.address(), arguments.no_open)?;
     say("Ctrl-C ends the studio\n");
-    let folder = studio.folder();
+    let (folder, trusted) = (studio.folder(), studio.trusted());
+    let desk = Desk { linked, folder: &folder, trusted };
     let served = thread::scope(|scope| {
         let (debuggers, arrived) = channel();
         scope.spawn(|| {
             for client in arrived {
-                scope.spawn(|| debug(client, Simulator::inside(linked, &folder)));
+                scope.spawn(|| desk.debug(client));
             }
         });
         studio.serve(debuggers)
@@ -140,26 +141,6 @@ fn show(address: &str, no_open: bool) -> Result<(), NoPlan> {
         say("the studio opens in your browser\n");
     }
     Ok(())
-}
-
-/// Runs and debugs plans for a client until it is gone.
-fn debug(client: Debugging, simulator: Simulator<'_>) {
-    let Debugging { said, told } = client;
-    let next = |due: Option<Duration>| {
-        let message = match due {
-            None => said.recv().map_err(|_| RecvTimeoutError::Disconnected),
-            Some(due) => said.recv_timeout(due),
-        };
-        Ok(match message {
-            Ok(message) => Arrived::Messages(vec![message]),
-            Err(RecvTimeoutError::Timeout) => Arrived::Nothing,
-            Err(RecvTimeoutError::Disconnected) => Arrived::End,
-        })
-    };
-    // Who reads too little loses the connection.
-    let send = |out: &[String]| out.iter().all(|message| told.try_send(message.clone()).is_ok());
-    // It cannot say what is no message: frames are whole.
-    let _ = converse(Adapter::new(Box::new(simulator)), next, send);
 }
 
 /// The folder of what was named, which is that of its project where there is one, and the file in it.

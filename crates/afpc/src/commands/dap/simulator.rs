@@ -29,14 +29,13 @@ impl<'a> Simulator<'a> {
     }
 
     /// Runs plans and shows logs that lie in a folder, and no others.
-    #[cfg(feature = "studio")]
     pub fn inside(linked: &Linked<'a>, folder: &Path) -> Self {
         Simulator { linked: *linked, folder: Some(folder.to_owned()) }
     }
 
     /// # Errors
     /// A path leads out of the folder.
-    fn check_all(&self, launch: &Launch) -> Result<(), String> {
+    pub fn check_all(&self, launch: &Launch) -> Result<(), String> {
         let world = launch.world.as_ref().filter(|world| !world.starts_with(world::RANDOM));
         let paths = [Some(&launch.program), launch.log.as_ref(), world].into_iter().flatten();
         paths.filter(|path| !path.is_empty()).try_for_each(|path| self.check(path))

@@ -94,7 +94,7 @@ fn wait(arrived: &Receiver<Vec<u8>>, due: Option<Duration>) -> Result<Vec<u8>, R
 }
 
 /// Hands on what arrives, until nothing does or nobody wants it.
-pub(super) fn read(mut from: impl Read, mut arrived: impl FnMut(Vec<u8>) -> bool) {
+pub fn read(mut from: impl Read, mut arrived: impl FnMut(Vec<u8>) -> bool) {
     let mut buffer = [0; 1 << 14];
     loop {
         match from.read(&mut buffer) {

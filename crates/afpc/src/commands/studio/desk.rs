@@ -1,0 +1,156 @@
+//! Where a client runs and debugs: in this program, or in one that has the robot of its project.
+
+mod relay;
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use afp_build::Parts;
+use afp_debug::{Adapter, Launch};
+use afp_project::ProjectFile;
+use afp_studio::{Debugging, Trusted};
+use serde_json::{Value, json};
+
+use super::super::dap::{Arrived, Simulator, converse};
+use crate::plan_file::{NoPlan, PlanFile};
+use crate::{Linked, runner};
+use relay::{Conversation, relay};
+
+/// What takes longer is explained.
+const SOON: Duration = Duration::from_millis(500);
+
+/// What the clients of one studio share.
+pub(super) struct Desk<'a> {
+    pub(super) linked: &'a Linked<'a>,
+    /// Nothing outside of it is run.
+    pub(super) folder: &'a Path,
+    /// Whether what lies in it may be built and run.
+    pub(super) trusted: Trusted,
+}
+
+/// What another program has to go on with.
+struct Elsewhere {
+    program: PathBuf,
+    /// What it has missed.
+    said: Conversation,
+}
+
+impl Desk<'_> {
+    /// Runs and debugs plans for a client until it is gone.
+    pub(super) fn debug(&self, client: Debugging) {
+        let Debugging { said, told } = client;
+        // Who reads too little loses the connection.
+        let tell = |message: String| told.try_send(message).is_ok();
+        let mut before = Conversation::default();
+        let mut elsewhere = None;
+        let next = |due: Option<Duration>| {
+            let message = match due {
+                None => said.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some(due) => said.recv_timeout(due),
+            };
+            let message = match message {
+                Ok(message) => message,
+                Err(RecvTimeoutError::Timeout) => return Ok(Arrived::Nothing),
+                Err(RecvTimeoutError::Disconnected) => return Ok(Arrived::End),
+            };
+            let request: Value = serde_json::from_str(&message).unwrap_or_default();
+            if !begins(&request) {
+                before.note(&request, &message);
+                return Ok(Arrived::Messages(vec![message]));
+            }
+            Ok(match self.other(&request, &tell) {
+                Ok(None) => Arrived::Messages(vec![message]),
+                Ok(Some(program)) => {
+                    let mut said = std::mem::take(&mut before);
+                    said.then(message);
+                    elsewhere = Some(Elsewhere { program, said });
+                    Arrived::End
+                }
+                Err(why) => {
+                    tell(refused(&request, &why));
+                    Arrived::Messages(Vec::new())
+                }
+            })
+        };
+        let send = |out: &[String]| out.iter().all(|message| tell(message.clone()));
+        let simulator = Simulator::inside(self.linked, self.folder);
+        // It cannot say what is no message: frames are whole.
+        let _ = converse(Adapter::new(Box::new(simulator)), next, send);
+        if let Some(Elsewhere { program, said: missed }) = elsewhere {
+            relay(&program, self.folder, missed, &said, &tell);
+        }
+    }
+
+    /// The program that has what a request needs; none where this one has. Built if need be, so that it may take minutes.
+    fn other(
+        &self,
+        request: &Value,
+        tell: &(impl Fn(String) -> bool + Sync),
+    ) -> Result<Option<PathBuf>, String> {
+        // What makes no sense is refused by the debugger.
+        let launch: Launch =
+            serde_json::from_value(request["arguments"].clone()).unwrap_or_default();
+        Simulator::inside(self.linked, self.folder).check_all(&launch)?;
+        let file = PlanFile::read(&launch.program).ok();
+        let plan = file.as_ref().and_then(|file| Some((&file.own, file.compiled.graph.as_ref()?)));
+        // Before there is a plan, or while it has mistakes, its robot has a world already.
+        let project = ProjectFile::find(self.folder).map_err(|why| why.to_string())?;
+        let parts = Parts::of_plans(plan)
+            .and_then(|parts| parts.map_or_else(|| Parts::of_robot(&project), Ok));
+        let parts = parts.map_err(|why| why.to_string())?;
+        if self.linked.has(&parts) {
+            return Ok(None);
+        }
+        let names = parts.names();
+        if !self.trusted.is_given() {
+            return Err(format!(
+                "{names} would be built and run: say first that you trust the folder"
+            ));
+        }
+        let what = format!("building {names}: minutes, the first time");
+        match saying(&what, tell, || runner::built(parts, self.linked)) {
+            Ok(program) => Ok(Some(program)),
+            Err(NoPlan::File(why)) => Err(why.to_string()),
+            Err(NoPlan::Wrong) => {
+                Err(format!("{names} cannot be built: the terminal of the studio says why"))
+            }
+        }
+    }
+}
+
+/// Whether there is a robot after a request.
+fn begins(request: &Value) -> bool {
+    request["command"] == "launch" || request["command"] == "afp/world"
+}
+
+fn refused(request: &Value, why: &str) -> String {
+    json!({
+        "seq": 0, "type": "response", "request_seq": request["seq"], "command": request["command"],
+        "success": false, "message": why,
+        "body": { "error": { "id": 1, "format": why, "showUser": true } },
+    })
+    .to_string()
+}
+
+/// Does what may take long; then the client is told what it waits for.
+fn saying<T>(what: &str, tell: &(impl Fn(String) -> bool + Sync), work: impl FnOnce() -> T) -> T {
+    thread::scope(|scope| {
+        let (done, waits) = channel::<()>();
+        scope.spawn(move || {
+            if waits.recv_timeout(SOON) == Err(RecvTimeoutError::Timeout) {
+                tell(output("console", what));
+            }
+        });
+        let made = work();
+        drop(done);
+        made
+    })
+}
+
+/// An event that shows a text.
+fn output(category: &str, text: &str) -> String {
+    let body = json!({ "category": category, "output": format!("{text}\n") });
+    json!({ "seq": 0, "type": "event", "event": "output", "body": body }).to_string()
+}

@@ -1,0 +1,27 @@
+import { chromium } from "playwright-core";
+import { spawn } from "node:child_process";
+const child = spawn("/work/main/target/debug/afpc", ["studio", "/work/main/examples/vacuum/plans/clean.afp", "--no-open"], { env: { ...process.env, XDG_CONFIG_HOME: "/tmp/xdg" } });
+let said = "";
+child.stderr.on("data", (t) => process.stdout.write("ERR " + t));
+const address = await new Promise((done) => child.stdout.on("data", (t) => { said += t; const m = /http:\S+/.exec(said); if (m) done(m[0]); }));
+const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+const page = await browser.newPage({ viewport: { width: 1366, height: 768 } });
+page.on("console", (m) => console.log("PAGE", m.text()));
+page.on("pageerror", (m) => console.log("PAGEERR", String(m)));
+await page.goto(address);
+await page.locator(".node text").first().waitFor();
+await page.screenshot({ path: "/tmp/stu/v1.png" });
+await page.keyboard.press("Control+k"); await page.keyboard.type("world"); await page.keyboard.press("Enter");
+await page.waitForTimeout(1500);
+await page.screenshot({ path: "/tmp/stu/v2.png" });
+await page.keyboard.press("F5");
+await page.waitForTimeout(1000);
+await page.screenshot({ path: "/tmp/stu/v3.png" });
+const trust = page.getByText("Trust it");
+if (await trust.count()) await trust.click();
+await page.waitForTimeout(2500);
+await page.screenshot({ path: "/tmp/stu/v4.png" });
+for (let i = 0; i < 100; i++) { const c = await page.locator(".clock").innerText().catch(() => "-"); if (i % 10 === 0) console.log(c); if (/\d s/.test(c) && !/min/.test(c)) break; await page.waitForTimeout(4000); }
+await page.waitForTimeout(5000);
+await page.screenshot({ path: "/tmp/stu/v5.png" });
+await browser.close(); child.kill("SIGTERM");
