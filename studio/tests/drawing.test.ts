@@ -13,7 +13,7 @@ import { spoken } from "../page/drawing/say";
 import { rectOf } from "../page/drawing/shapes";
 import type { Answer, Drawing, Edge, Element, Point, Rect } from "../page/drawing/shapes";
 import { quantity, slider, spelled, stepped } from "../page/drawing/value";
-import { fitted, shown, toPane, toPlan, zoomed } from "../page/drawing/view";
+import { first, fitted, shown, toPane, toPlan, zoomed } from "../page/drawing/view";
 
 const piece = (item: string, kind: string, rect: Rect, name = "") => ({ item, part: { kind, name, nth: 1 }, rect, severity: null });
 const element = (item: string, [x, y]: Point): Element => ({
@@ -169,6 +169,15 @@ test("ports and heads are read as the engine writes them", () => {
   assert.deepEqual(headed("supervise touch: CheckTouchSensor every 1 ms deadline 500 us {\n}"), { kind: "supervise", template: "CheckTouchSensor", every: "1 ms", deadline: "500 us" });
   assert.deepEqual(headed("/// Drives.\n    actor go: c.Forward(distance = 3 cm) { Done -> go }"), { kind: "actor", template: "c.Forward", every: "", deadline: "" });
   assert.equal(headed("var every: length").template, "");
+});
+
+test("a plan is first shown with where it starts, however large it is", () => {
+  const size = { width: 800, height: 600 };
+  const start: [number, number, number, number] = [9000, 40, 120, 50];
+  const view = first([0, 0, 20_000, 9000], size, start);
+  const [[left, top], [right, bottom]] = [toPane(view, [9000, 40]), toPane(view, [9120, 90])];
+  assert.ok(left >= 0 && top >= 0 && right <= size.width && bottom <= size.height, JSON.stringify(view));
+  assert.deepEqual(first([0, 0, 300, 200], size, [10, 10, 120, 50]), first([0, 0, 300, 200], size, undefined));
 });
 
 test("a list is filtered by all words, what is called so first, then what begins with them, what is refused last", () => {

@@ -53,8 +53,11 @@ export const centred = (view: View, [x, y]: Point, size: Size): View => ({
   y: size.height / 2 - y * view.zoom,
 });
 
-/** What a plan is shown with first: fitted, but legible, and then from its top. */
-export const first = (bounds: Rect, size: Size): View => fitted(bounds, size, Math.min(NEAR, 1));
+/** What a plan is shown with first: fitted, but legible, and then from its top, with where it starts in sight. */
+export function first(bounds: Rect, size: Size, start: Rect | undefined): View {
+  const view = fitted(bounds, size, Math.min(NEAR, 1));
+  return start ? shown(view, start, size) : view;
+}
 
 /** Moved as little as brings a rectangle into sight; the same view when it is. */
 export function shown(view: View, rect: Rect, size: Size): View {

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use afp_build::Parts;
 use afp_debug::{Adapter, Launch};
-use afp_project::ProjectFile;
+use afp_resolve::OwnToolboxes;
 use afp_studio::{Debugging, Trusted};
 use serde_json::{Value, json};
 
@@ -95,11 +95,12 @@ impl Desk<'_> {
         Simulator::inside(self.linked, self.folder).check_all(&launch)?;
         let file = PlanFile::read(&launch.program).ok();
         let plan = file.as_ref().and_then(|file| Some((&file.own, file.compiled.graph.as_ref()?)));
-        // Before there is a plan, or while it has mistakes, its robot has a world already.
-        let project = ProjectFile::find(self.folder).map_err(|why| why.to_string())?;
+        // Before there is a plan, or while it has mistakes, its robot has a world already: of what the next plan will need.
+        let own =
+            OwnToolboxes::of_plan(&self.folder.join("plan.afp")).map_err(|why| why.to_string())?;
         let parts = Parts::of_plans(plan)
-            .and_then(|parts| parts.map_or_else(|| Parts::of_robot(&project), Ok));
-        let parts = parts.map_err(|why| why.to_string())?;
+            .and_then(|parts| parts.map_or_else(|| Parts::of_project(&own), Ok))
+            .map_err(|why| why.to_string())?;
         if self.linked.has(&parts) {
             return Ok(None);
         }

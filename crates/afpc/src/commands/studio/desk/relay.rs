@@ -92,7 +92,7 @@ fn pass(mut to: ChildStdin, before: Conversation, said: &Receiver<String>) {
     let mut send =
         |message: String| to.write_all(&frame(&message)).and_then(|()| to.flush()).is_ok();
     let before = before.greeting.into_iter().chain(before.rest);
-    let _ = before.chain(said.iter()).all(|message| send(message));
+    let _ = before.chain(said.iter()).all(&mut send);
 }
 
 /// Waits for a program whose input has ended; one that goes on is killed.
