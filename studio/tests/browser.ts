@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
-import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { after, test } from "node:test";
 import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 
@@ -81,8 +81,8 @@ let browser: Browser | null = null;
 after(() => browser?.close());
 
 /** Starts the server of a folder; the answer has its address and what ends it. */
-async function serve(folder: string, port = "0"): Promise<{ address: string; end: () => Promise<void>; kill: () => Promise<void> }> {
-  const child = spawn(AFPC, ["studio", folder, "--port", port, "--no-open"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } });
+async function serve(folder: string, port = "0", file = ""): Promise<{ address: string; end: () => Promise<void>; kill: () => Promise<void> }> {
+  const child = spawn(AFPC, ["studio", join(folder, file), "--port", port, "--no-open"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } });
   const gone = new Promise<void>((done) => child.once("close", () => done()));
   const kill = async (): Promise<void> => {
     child.kill("SIGKILL");
@@ -114,13 +114,16 @@ async function serve(folder: string, port = "0"): Promise<{ address: string; end
 }
 
 /** A test in the browser, on a folder with some files. What the page writes to its console as an error fails it. */
-export function inBrowser(name: string, files: Record<string, string>, run: (studio: Studio) => Promise<void>, options: BrowserContextOptions & { ignore?: RegExp; timeout?: number } = {}): void {
+export function inBrowser(name: string, files: Record<string, string>, run: (studio: Studio) => Promise<void>, options: BrowserContextOptions & { ignore?: RegExp; timeout?: number; open?: string } = {}): void {
   test(name, { timeout: options.timeout ?? 120_000, skip: REASON ?? false }, async () => {
     browser ??= await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"] });
     const folder = await mkdtemp(join(tmpdir(), "afp-studio-"));
-    for (const [file, text] of Object.entries(files)) await writeFile(join(folder, file), text);
-    let server = await serve(folder);
-    const { ignore, timeout: _, ...others } = options;
+    for (const [file, text] of Object.entries(files)) {
+      await mkdir(dirname(join(folder, file)), { recursive: true });
+      await writeFile(join(folder, file), text);
+    }
+    const { ignore, timeout: _, open, ...others } = options;
+    let server = await serve(folder, "0", open);
     const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, ...others });
     try {
       context.setDefaultTimeout(PATIENCE);

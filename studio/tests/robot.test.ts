@@ -1,5 +1,7 @@
 // A folder that brings a robot of its own: nothing of it is built or run before somebody trusts it.
 import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 import { inBrowser, shows } from "./browser";
 
 const PLAN = `use std
@@ -46,3 +48,26 @@ inBrowser("a robot of the folder is built and run once it is trusted, and not be
   await question.getByRole("button", { name: "Trust it" }).click();
   await shows(page.locator(".world .empty"), /cannot be (built|shown)/);
 }, { timeout: 200_000 });
+
+/** The example with a robot of its own, which takes minutes to be built: looked at by night. */
+const VACUUM = fileURLToPath(new URL("../../examples/vacuum", import.meta.url));
+
+/** Its files, the crates of AFP by where they are. */
+function vacuum(): Record<string, string> {
+  const names = readdirSync(VACUUM, { recursive: true, encoding: "utf8" }).filter((name) => /\.(afp|rs|toml|txt)$/.test(name) && !name.startsWith("target"));
+  const crates = fileURLToPath(new URL("../../crates/", import.meta.url));
+  return Object.fromEntries(names.map((name) => [name, readFileSync(`${VACUUM}/${name}`, "utf8").replaceAll(/"(\.\.\/)+crates\//g, `"${crates}`)]));
+}
+
+if (process.env.AFP_ROBOT) {
+  inBrowser("the vacuum cleaner of a project drives in its own room", vacuum(), async ({ page }) => {
+    await page.locator(".node text").first().waitFor();
+    await page.keyboard.press("F5");
+    await page.getByRole("dialog").getByRole("button", { name: "Trust it" }).click();
+    await page.waitForFunction(() => /^[\d.]+ s$/.test(document.querySelector(".clock")?.textContent ?? ""), undefined, { timeout: 900_000 });
+    await page.locator(".world svg").first().waitFor();
+    await shows(page.locator(".world"), /cliff[^]*bumper/i);
+    await page.keyboard.press("Shift+F5");
+    await page.locator(".clock").waitFor({ state: "detached" });
+  }, { timeout: 1_000_000, open: "plans/clean.afp" });
+}

@@ -38,13 +38,13 @@ pub fn test() -> Result<(), Failure> {
     tested(&[])
 }
 
-/// The same with many random gestures and with what people see compared; then the figures, and a run of an hour, of an
+/// The same with many random gestures, with what people see compared and with a robot that a project brings; then the figures, and a run of an hour, of an
 /// optimised program with nothing beside it.
 ///
 /// # Errors
 /// As [`test`]; a figure that is worse than its bar.
 pub fn long() -> Result<(), Failure> {
-    tested(&[("AFP_GESTURES", "2000"), ("AFP_SCREENS", "1")])?;
+    tested(&[("AFP_GESTURES", "2000"), ("AFP_SCREENS", "1"), ("AFP_ROBOT", "1")])?;
     let features =
         ["build", "--quiet", "--release", "--package", "afpc", "--features", "studio,lsp"];
     run_command(cargo().args(features))?;
