@@ -28,9 +28,11 @@ const inSight = (page: Page): Promise<{ item: string; x: number; y: number }> =>
   page.evaluate(() => {
     const board = document.querySelector(".board")!.getBoundingClientRect();
     const off = ({ left, top }: DOMRect): number => Math.hypot(left - board.left - board.width / 2, top - board.top - board.height / 2);
-    const names = [...document.querySelectorAll(".node [data-item] text.name")].map((name) => ({ item: name.closest("[data-item]")!.getAttribute("data-item")!, rect: name.getBoundingClientRect() }));
-    const elements = names.filter(({ item }) => /^Large\.element\d+$/.test(item));
-    const { item, rect } = elements.sort((one, other) => off(one.rect) - off(other.rect))[0]!;
+    const groups = [...document.querySelectorAll('.node [data-item^="Large.element"]')].filter((group) => /^Large\.element\d+$/.test(group.getAttribute("data-item")!));
+    // Names of supervisors stand behind that of their element.
+    const named = groups.filter((group) => group.querySelector("text.name"));
+    const names = named.map((group) => ({ item: group.getAttribute("data-item")!, rect: group.querySelector("text.name")!.getBoundingClientRect() }));
+    const { item, rect } = names.sort((one, other) => off(one.rect) - off(other.rect))[0]!;
     return { item, x: rect.left + 10, y: rect.top + 6 };
   });
 

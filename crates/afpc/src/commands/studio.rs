@@ -62,7 +62,7 @@ macro_rules! example {
 const EXAMPLES_TO_COPY: [(&str, &str, &str, &[&str]); 7] = [
     example!("wall_following"),
     example!("patterns"),
-    example!("find_infrared"),
+    example!("find_infrared", "avoid_obstacle"),
     example!("avoid_obstacle"),
     example!("find_object", "avoid_obstacle"),
     example!("navigate_room"),
