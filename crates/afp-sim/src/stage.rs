@@ -2,6 +2,7 @@
 //!
 //! It knows neither wheels nor sensors. Whoever simulates a robot pushes its body, lets a step pass, and looks.
 
+mod alone;
 mod build;
 mod movers;
 mod ray;
@@ -14,6 +15,7 @@ use crate::truth::{Collision, Collisions, Pose};
 use crate::vehicle::{Push, Twist};
 use crate::world::{Obstacle, World, WorldError};
 use afp_core::Instant;
+use alone::Surroundings;
 use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::shape::SharedShape;
 use rapier2d::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle};
@@ -38,6 +40,7 @@ pub struct Stage {
     pub(crate) shapes: Vec<(Isometry, SharedShape)>,
     pub(crate) movers: Vec<Mover>,
     collisions: Collisions,
+    surroundings: Surroundings,
 }
 
 impl Stage {
@@ -47,8 +50,17 @@ impl Stage {
     /// An obstacle without an area; [`World::parse`] lets none through.
     pub fn new(world: &World, chassis: Chassis) -> Result<Stage, WorldError> {
         let Built { physics, body, collider, shapes, movers } = build(world, &chassis)?;
-        let (obstacles, collisions) = (world.obstacles.clone(), Collisions::default());
-        Ok(Stage { physics, body, collider, chassis, obstacles, shapes, movers, collisions })
+        Ok(Stage {
+            physics,
+            body,
+            collider,
+            chassis,
+            obstacles: world.obstacles.clone(),
+            shapes,
+            movers,
+            collisions: Collisions::default(),
+            surroundings: Surroundings::default(),
+        })
     }
 
     /// Where the middle of the robot's body is.
@@ -89,9 +101,13 @@ impl Stage {
         now: Instant,
         moved: impl FnMut(usize, [f64; 2], [f64; 2]),
     ) {
+        if self.step_alone() {
+            return;
+        }
         self.begin_movers(now);
         self.physics.step();
         self.note_movers(moved);
+        self.look_around();
     }
 
     /// Everything that stands in the world, in the order of its file, then what was dropped.

@@ -111,6 +111,7 @@ impl Simulation {
             .stage
             .physics
             .insert(built, collider(&obstacle, body.clone(), index, &self.stage.chassis));
+        self.stage.disturb();
         self.stage.movers.push(Mover::new(index, handle, (start, &body), &obstacle));
         self.scene.add(&obstacle);
         self.stage.shapes.push((start, body));
@@ -151,6 +152,7 @@ impl Simulation {
 
     /// Lets a body stand somewhere, at rest.
     pub(super) fn set_down(&mut self, body: RigidBodyHandle, at: Isometry) {
+        self.stage.disturb();
         let body = &mut self.stage.physics.bodies[body];
         body.set_position(at, true);
         body.set_linvel(Vector::ZERO, true);
