@@ -62,7 +62,7 @@ impl Stage {
         let boxed = self.physics.query_pipeline().bvh.leaf_node(leaf).map(|leaf| leaf.aabb());
         let bodies = &self.physics.bodies;
         let settled = boxed == self.surroundings.boxed
-            && self.movers.iter().all(|mover| bodies[mover.handle()].is_sleeping())
+            && self.movers.iter().all(|mover| mover.rests(&bodies[mover.handle()]))
             && self.physics.narrow_phase.contact_pairs_with(self.collider).next().is_none();
         self.surroundings = Surroundings { boxed, free: boxed.filter(|_| settled) };
     }

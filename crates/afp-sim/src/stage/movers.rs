@@ -72,6 +72,11 @@ impl Mover {
         self.start
     }
 
+    /// Whether it stays where it is until it is pushed. What goes its own way may only be waiting.
+    pub(super) fn rests(&self, body: &RigidBody) -> bool {
+        matches!(self.way, Way::Pushed { .. }) && body.is_sleeping()
+    }
+
     /// Prepares the step that ends at `now`.
     fn step(&self, body: &mut RigidBody, now: Instant) {
         match &self.way {
