@@ -33,6 +33,7 @@ fn nothing_overlaps_in_the_plans_that_are_shipped() {
     let toolboxes: Vec<_> = toolboxes.into_iter().map(|file| file.text).collect();
     assert!(plans.len() >= 2, "plans have moved");
     for plan in plans {
+        println!("{}", plan.name);
         check_all(&compiled_with(&plan, &toolboxes));
     }
 }
@@ -75,6 +76,7 @@ fn nothing_overlaps_in_many_small_plans() {
 /// Folded and unfolded, with and without data.
 fn check_all(compiled: &Compiled) {
     for (sub_plans, data) in [(true, true), (true, false), (false, true), (false, false)] {
+        println!("sub-plans: {sub_plans}, data: {data}");
         check(compiled, &Options { sub_plans, data, ..Options::default() });
     }
 }
