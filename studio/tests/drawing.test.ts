@@ -173,11 +173,12 @@ test("ports and heads are read as the engine writes them", () => {
 
 test("a plan is first shown with where it starts, however large it is", () => {
   const size = { width: 800, height: 600 };
-  const start: [number, number, number, number] = [9000, 40, 120, 50];
-  const view = first([0, 0, 20_000, 9000], size, start);
+  const drawn = (bounds: Rect, start: Rect) => ({ bounds, plan: "P", elements: new Map([["P.start", { rect: start }]]) });
+  const view = first(drawn([0, 0, 20_000, 9000], [9000, 40, 120, 50]), size);
   const [[left, top], [right, bottom]] = [toPane(view, [9000, 40]), toPane(view, [9120, 90])];
   assert.ok(left >= 0 && top >= 0 && right <= size.width && bottom <= size.height, JSON.stringify(view));
-  assert.deepEqual(first([0, 0, 300, 200], size, [10, 10, 120, 50]), first([0, 0, 300, 200], size, undefined));
+  const small = drawn([0, 0, 300, 200], [10, 10, 120, 50]);
+  assert.deepEqual(first(small, size), first({ ...small, elements: new Map() }, size));
 });
 
 test("a list is filtered by all words, what is called so first, then what begins with them, what is refused last", () => {

@@ -39,7 +39,7 @@ export class Board {
     this.fill(0, [...drawing.edges.values()].map((edge) => [edge.id, edge.svg]));
     this.fill(1, [...drawing.elements.values()].map((element) => [element.item, element.svg]));
     this.root.setAttribute("aria-label", drawing.plan ?? "");
-    if (before?.plan !== drawing.plan || before.uri !== drawing.uri) this.look(first(drawing.bounds, this.size));
+    if (before?.plan !== drawing.plan || before.uri !== drawing.uri) this.look(first(drawing, this.size));
     this.rings();
   }
 

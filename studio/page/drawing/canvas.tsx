@@ -129,7 +129,7 @@ function sights(): (() => void)[] {
       if (!drawn || width === 0 || key() === shown) return;
       shown = key();
       const known = views.get(shown);
-      view.value = known ?? untracked(() => first(drawn.bounds, size.value, drawn.elements.get(`${drawn.plan}.start`)?.rect));
+      view.value = known ?? untracked(() => first(drawn, size.value));
     }),
     effect(() => {
       const now = view.value;

@@ -53,10 +53,18 @@ export const centred = (view: View, [x, y]: Point, size: Size): View => ({
   y: size.height / 2 - y * view.zoom,
 });
 
+/** Of a drawing, what decides where one looks first. */
+interface Shown {
+  bounds: Rect;
+  plan: string | null;
+  elements: ReadonlyMap<string, { rect: Rect }>;
+}
+
 /** What a plan is shown with first: fitted, but legible, and then from its top, with where it starts in sight. */
-export function first(bounds: Rect, size: Size, start: Rect | undefined): View {
+export function first({ bounds, plan, elements }: Shown, size: Size): View {
   const view = fitted(bounds, size, Math.min(NEAR, 1));
-  return start ? shown(view, start, size) : view;
+  const start = elements.get(`${plan}.start`);
+  return start ? shown(view, start.rect, size) : view;
 }
 
 /** Moved as little as brings a rectangle into sight; the same view when it is. */

@@ -94,13 +94,22 @@ impl Desk<'_> {
             serde_json::from_value(request["arguments"].clone()).unwrap_or_default();
         Simulator::inside(self.linked, self.folder).check_all(&launch)?;
         let file = PlanFile::read(&launch.program).ok();
-        let plan = file.as_ref().and_then(|file| Some((&file.own, file.compiled.graph.as_ref()?)));
-        // Before there is a plan, or while it has mistakes, its robot has a world already: of what the next plan will need.
-        let own =
-            OwnToolboxes::of_plan(&self.folder.join("plan.afp")).map_err(|why| why.to_string())?;
-        let parts = Parts::of_plans(plan)
-            .and_then(|parts| parts.map_or_else(|| Parts::of_project(&own), Ok))
-            .map_err(|why| why.to_string())?;
+        let of_folder = OwnToolboxes::of_plan(&self.folder.join("plan.afp"));
+        let of_folder = of_folder.map_err(|why| why.to_string())?;
+        let own = file.as_ref().map_or(&of_folder, |file| &file.own);
+        let graph = file.as_ref().and_then(|file| file.compiled.graph.as_ref());
+        let has_robot = own.project.robot().map_err(|why| why.to_string())?.is_some();
+        let parts = match graph {
+            // Toolboxes make no difference to a world.
+            _ if !has_robot && request["command"] == "afp/world" => return Ok(None),
+            Some(graph) => Parts::of_plans([(own, graph)]),
+            // Before there is a plan, or while it has mistakes, its robot has a world already: of what plans will need.
+            None if has_robot => {
+                Parts::of_project(own).or_else(|_| Parts::of_robot(&own.project)).map(Some)
+            }
+            None => return Ok(None),
+        };
+        let Some(parts) = parts.map_err(|why| why.to_string())? else { return Ok(None) };
         if self.linked.has(&parts) {
             return Ok(None);
         }
