@@ -1,0 +1,70 @@
+//! Programs that stand in for one with the robot of a project: one that echoes, one that hangs, one that is not there.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::mpsc::channel;
+
+use super::*;
+
+/// A program that is written while another one is started could be busy.
+static ALONE: Mutex<()> = Mutex::new(());
+
+const GREETING: &str = r#"{"type":"request","command":"initialize"}"#;
+
+/// A program that does what `script` says.
+fn stand_in(folder: &Path, script: &str) -> PathBuf {
+    let path = folder.join("program");
+    fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    path
+}
+
+fn met(script: &str) -> Vec<String> {
+    let _alone = ALONE.lock();
+    let place = tempfile::tempdir().unwrap();
+    let program = stand_in(place.path(), script);
+    let (client, said) = channel();
+    let told = Mutex::new(Vec::new());
+    let mut before = Conversation::default();
+    before.note(&serde_json::from_str(GREETING).unwrap(), GREETING);
+    before.then(r#"{"command":"launch"}"#.to_owned());
+    client.send(r#"{"command":"threads"}"#.to_owned()).unwrap();
+    drop(client);
+    let tell = |message: String| {
+        told.lock().unwrap().push(message);
+        true
+    };
+    relay(&program, place.path(), before, &said, &tell);
+    told.into_inner().unwrap()
+}
+
+#[test]
+fn another_program_hears_everything_and_greets_nobody_twice() {
+    let greets = r#"{"type":"response","command":"initialize"}"#;
+    let script =
+        format!("printf 'Content-Length: {}\\r\\n\\r\\n%s' '{greets}'; exec cat", greets.len());
+    let echoed = [GREETING, r#"{"command":"launch"}"#, r#"{"command":"threads"}"#];
+    assert_eq!(met(&script), echoed);
+}
+
+#[test]
+fn a_program_that_goes_on_without_its_client_is_ended() {
+    let begin = Instant::now();
+    assert!(met("exec sleep 600").is_empty());
+    assert!(begin.elapsed() >= FAREWELL);
+}
+
+#[test]
+fn a_program_that_cannot_be_started_is_named() {
+    let told = Mutex::new(String::new());
+    let tell = |message: String| {
+        *told.lock().unwrap() = message;
+        true
+    };
+    let (_, said) = channel();
+    let nothing = Path::new("/nowhere/runner");
+    relay(nothing, Path::new("/"), Conversation::default(), &said, &tell);
+    assert!(told.into_inner().unwrap().contains("cannot start '/nowhere/runner'"));
+}
