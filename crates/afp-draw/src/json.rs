@@ -126,7 +126,7 @@ fn put_data(object: &mut Map<String, Value>, inputs: &[Input], outputs: &[Output
 
 fn ports(inputs: &[Input], outputs: &[Output]) -> Value {
     let inputs = inputs.iter().filter(|input| !input.missing);
-    let inputs = inputs.map(|input| (input.port.to_owned(), json!(input.text)));
+    let inputs = inputs.map(|input| (input.port.to_owned(), json!(input.value())));
     let outputs = outputs.iter().map(|output| (output.port.to_owned(), json!(output.entry)));
     let mut object = Map::new();
     put(&mut object, "in", Value::Object(inputs.collect()));

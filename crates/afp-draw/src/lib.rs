@@ -13,6 +13,7 @@ mod layout;
 pub mod layout_file;
 mod legend;
 mod metrics;
+mod polyline;
 mod router;
 mod scene;
 mod scxml;

@@ -149,6 +149,12 @@ impl Axis {
         if (a.0 - b.0).abs() < (a.1 - b.1).abs() { Axis::Upright } else { Axis::Level }
     }
 
+    /// Where a straight part of this axis is across, and from where to where it goes.
+    fn part(self, a: Point, b: Point) -> (f64, (f64, f64)) {
+        let (one, two) = (self.along(a), self.along(b));
+        (self.across(a), (one.min(two), one.max(two)))
+    }
+
     /// The coordinate of a point across a line of this axis.
     pub(super) fn across(self, (x, y): Point) -> f64 {
         if self == Axis::Upright { x } else { y }

@@ -8,7 +8,6 @@
 mod lines;
 mod painted;
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::Options;
@@ -26,6 +25,7 @@ use afp_dsl::outline::{Component, Outline, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
 use painted::Painted;
+use rustc_hash::FxHashMap;
 
 /// A place in pixels, y downwards.
 pub type Point = (f64, f64);
@@ -317,7 +317,7 @@ fn cards<'a>(view: &View<'a>, towards: &dyn Fn(&Item, &Part) -> Option<f64>) -> 
 /// The cards with states where they have been; new ones come behind them.
 fn as_before<'a>(view: &View<'a>, before: &PlanScene) -> Vec<Card<'a>> {
     let pieces = before.elements.iter().flat_map(|element| &element.pieces);
-    let known: BTreeMap<_, _> =
+    let known: FxHashMap<_, _> =
         pieces.map(|piece| ((&piece.item, &piece.part), piece.rect.x)).collect();
     cards(view, &|item, part| Some(known.get(&(item, part)).copied().unwrap_or(f64::INFINITY)))
 }
@@ -327,7 +327,7 @@ fn where_they_lead<'a>(view: &View<'a>) -> Vec<Card<'a>> {
     let declared = cards(view, &|_, _| None);
     let exits = exits(&declared);
     let wishes = layout::towards(&nodes(&declared), &links(&exits));
-    let wishes: BTreeMap<_, _> = exits
+    let wishes: FxHashMap<_, _> = exits
         .iter()
         .zip(wishes)
         .map(|((_, exit), wish)| ((&exit.item, &exit.part), wish))
@@ -370,11 +370,11 @@ fn placement(
         Some(corner(card, (position.x.into(), position.y.into())))
     });
     let elements = before.iter().flat_map(|before| &before.elements);
-    let elements: BTreeMap<_, _> =
+    let elements: FxHashMap<_, _> =
         elements.map(|known| (&known.item, (known.rect.x, known.rect.y))).collect();
     let stood = cards.iter().map(|card| Some(corner(card, *elements.get(&card.item)?)));
     let edges = before.iter().flat_map(|before| &before.edges);
-    let edges: BTreeMap<_, _> =
+    let edges: FxHashMap<_, _> =
         edges.map(|known| ((&known.item, &known.part), &known.points)).collect();
     let routes = exits
         .iter()

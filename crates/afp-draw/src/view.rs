@@ -30,15 +30,16 @@ pub(super) struct View<'a> {
 pub(super) struct Input<'a> {
     pub(super) port: &'a str,
     pub(super) nth: u16,
-    /// What it is bound to, else its default; empty when something is missing.
-    pub(super) text: String,
-    /// Whether the plan binds it; otherwise the text is the port's default.
+    /// What it is bound to; empty where it is not, or something is missing.
+    pub(super) text: &'a str,
+    /// Whether the plan binds it.
     pub(super) bound: bool,
     /// Whether it is fed by an entry alone.
     pub(super) plain: bool,
     /// Whether nothing feeds it, although something must.
     pub(super) missing: bool,
     pub(super) severity: Option<Severity>,
+    declared: &'a outline::Input,
 }
 
 /// An output port that is bound.
@@ -76,6 +77,17 @@ pub(super) enum To<'a> {
     Unknown(&'a str),
     /// Nowhere, although it must lead somewhere.
     Nowhere,
+}
+
+impl Input<'_> {
+    /// What it is bound to, else its default.
+    pub(super) fn value(&self) -> Cow<'_, str> {
+        let default = self.declared.default.as_ref().filter(|_| !self.bound);
+        match default {
+            Some(value) => formula::constant(value, self.declared.ty.as_ref()).into(),
+            None => self.text.into(),
+        }
+    }
 }
 
 impl Exit<'_> {
@@ -158,20 +170,17 @@ impl<'a> View<'a> {
     pub(super) fn inputs(&self, component: &'a Component) -> Vec<Input<'a>> {
         let inputs = self.shown_of(&component.item, &component.inputs).iter().map(|input| {
             let value = input.binding.as_ref().and_then(|binding| binding.value.as_ref());
-            let default = input.default.as_ref();
-            let default = || default.map(|value| formula::constant(value, input.ty.as_ref()));
-            let text = match &input.binding {
-                Some(_) => value.map(|value| value.text.clone()),
-                None => default(),
-            };
+            let bound = input.binding.is_some();
+            let is_fed = if bound { value.is_some() } else { input.default.is_some() };
             Input {
                 port: &input.name,
                 nth: input.nth,
-                bound: input.binding.is_some(),
+                text: value.map_or("", |value| &value.text),
+                bound,
                 plain: value.is_some_and(|value| value.entry.is_some()),
-                missing: text.is_none() && (input.required || input.binding.is_some()),
-                text: text.unwrap_or_default(),
+                missing: !is_fed && (input.required || bound),
                 severity: self.severity(input.findings.worst()),
+                declared: input,
             }
         });
         inputs.collect()

@@ -102,8 +102,8 @@ pub(super) fn inflow(
 ) {
     let (text, class) = match input {
         Input { missing: true, .. } => (HOLE, "hole"),
-        Input { plain: true, text, .. } => (text.as_str(), "entry"),
-        Input { text, .. } => (text.as_str(), "formula"),
+        Input { plain: true, text, .. } => (*text, "entry"),
+        Input { text, .. } => (*text, "formula"),
     };
     let rect = data(sketch, at, text, class, side);
     let points = vec![attached(rect, at), at];
@@ -142,7 +142,7 @@ impl Output<'_> {
 impl Input<'_> {
     /// What its datum says.
     pub(super) fn shown(&self) -> &str {
-        if self.missing { HOLE } else { &self.text }
+        if self.missing { HOLE } else { self.text }
     }
 }
 

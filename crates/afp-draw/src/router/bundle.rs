@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::lines::{Lines, axis_of, side_of};
 use super::{Axis, PITCH, Point, TIP, Wire};
+use crate::polyline::{self, distance};
 
 /// From so many edges on they are bundled.
 const MANY: usize = 5;
@@ -96,11 +97,6 @@ pub(super) struct Corner {
     pub(super) junction: Junction,
 }
 
-/// Along right-angled lines.
-fn distance(a: Point, b: Point) -> f64 {
-    (a.0 - b.0).abs() + (a.1 - b.1).abs()
-}
-
 /// What is there of a bundle: who lies at the nodes of the search.
 pub(super) type Tree = BTreeMap<u32, Junction>;
 
@@ -115,6 +111,20 @@ impl Trees {
     pub(super) fn new(wires: &[Wire]) -> Trees {
         let ends = wires.iter().map(|wire| (wire.from, wire.to, wire.kind));
         Trees { bundle_of: bundles(ends), trees: BTreeMap::new() }
+    }
+
+    /// How much of the end of each edge another one of its bundle has already; edges without corners are not there.
+    pub(super) fn shared(&self, corners: &[Vec<Point>]) -> Vec<f64> {
+        let mut groups: BTreeMap<usize, Vec<(usize, &[Point])>> = BTreeMap::new();
+        for (edge, points) in corners.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
+            let Some(bundle) = self.bundle_of[edge] else { continue };
+            groups.entry(bundle).or_default().push((edge, points));
+        }
+        let mut shared = vec![0.0; corners.len()];
+        for common in groups.into_values().flat_map(polyline::common) {
+            shared[common.second] = common.length;
+        }
+        shared
     }
 
     /// Whether an edge belongs to a bundle.

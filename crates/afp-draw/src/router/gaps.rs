@@ -1,6 +1,8 @@
 //! The gaps between boxes, and how many edges fit into each.
 
-use super::{Axis, Bounds, PITCH};
+use std::ops::RangeInclusive;
+
+use super::{Axis, Bounds, PITCH, Point};
 
 /// All gaps that lines of one axis go through: the plane in bands between the borders of boxes,
 /// each band in the intervals that are free.
@@ -11,41 +13,67 @@ pub(super) struct Gaps {
     borders: Vec<f64>,
     /// The first gap of each band; one more at the end.
     starts: Vec<usize>,
-    /// The free intervals across.
-    free: Vec<(f64, f64)>,
-    /// How many edges take each gap, and how many fit into it.
-    taken: Vec<(u32, u32)>,
+    gaps: Vec<Gap>,
+    /// The parts of edges that were there at first, by where they are.
+    kept: Vec<Kept>,
+}
+
+/// A free interval of a band.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    band: usize,
+    /// Where it ends across.
+    right: f64,
+    /// How many edges take it, and how many fit into it.
+    taken: u32,
+    fits: u32,
+    /// Whether those that were there at first are among them: where most edges are kept, few gaps are ever asked for.
+    counted: bool,
+}
+
+/// A part of an edge that goes through a gap in each of some bands.
+#[derive(Clone, Debug)]
+struct Kept {
+    at: f64,
+    bands: RangeInclusive<usize>,
 }
 
 impl Gaps {
-    pub(super) fn new(boxes: &[Bounds], axis: Axis) -> Gaps {
-        let ranges: Vec<_> = boxes.iter().map(|each| each.ranges(axis)).collect();
-        let mut borders: Vec<f64> =
-            ranges.iter().flat_map(|(_, (start, end))| [*start, *end]).collect();
+    /// The gaps between boxes that so far the parts of this axis take of `kept`.
+    pub(super) fn new(boxes: &[Bounds], axis: Axis, kept: &[Vec<Point>]) -> Gaps {
+        let mut ranges: Vec<_> = boxes.iter().map(|each| each.ranges(axis)).collect();
+        ranges.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        let ends = ranges.iter().flat_map(|(_, (start, end))| [*start, *end]);
+        let mut borders: Vec<f64> = ends.collect();
         borders.sort_by(f64::total_cmp);
         borders.dedup();
-        let mut sorted = ranges;
-        sorted.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
-        let mut gaps =
-            Gaps { axis, borders, starts: Vec::new(), free: Vec::new(), taken: Vec::new() };
-        for band in 0..=gaps.borders.len() {
-            gaps.starts.push(gaps.free.len());
-            let start = band.checked_sub(1).map_or(f64::NEG_INFINITY, |index| gaps.borders[index]);
-            let end = gaps.borders.get(band).copied().unwrap_or(f64::INFINITY);
-            let mut free_from = f64::NEG_INFINITY;
-            for ((left, right), along) in &sorted {
-                if along.0 < end && start < along.1 {
-                    if free_from <= *left {
-                        gaps.free.push((free_from, *left));
-                    }
-                    free_from = free_from.max(*right);
-                }
+        let mut beside = vec![Vec::new(); borders.len() + 1];
+        for (across, along) in ranges {
+            for band in bands(&borders, along) {
+                beside[band].push(across);
             }
-            gaps.free.push((free_from, f64::INFINITY));
         }
-        gaps.starts.push(gaps.free.len());
-        gaps.taken = gaps.free.iter().map(|gap| (0, fits(*gap))).collect();
-        gaps
+        let (mut starts, mut gaps) = (Vec::new(), Vec::new());
+        for (band, beside) in beside.into_iter().enumerate() {
+            starts.push(gaps.len());
+            let mut left = f64::NEG_INFINITY;
+            for (begin, end) in beside {
+                if left <= begin {
+                    gaps.push(Gap::new(band, left, begin));
+                }
+                left = left.max(end);
+            }
+            gaps.push(Gap::new(band, left, f64::INFINITY));
+        }
+        starts.push(gaps.len());
+        let pairs = kept.iter().flat_map(|points| points.windows(2));
+        let parts = pairs.filter(|pair| Axis::of(pair[0], pair[1]) == axis).map(|pair| {
+            let (at, span) = axis.part(pair[0], pair[1]);
+            Kept { at, bands: bands(&borders, span) }
+        });
+        let mut kept: Vec<_> = parts.collect();
+        kept.sort_by(|a, b| a.at.total_cmp(&b.at));
+        Gaps { axis, borders, starts, gaps, kept }
     }
 
     /// The gap around a place, given along and across the axis.
@@ -56,25 +84,46 @@ impl Gaps {
     /// The gap of a band around a place across.
     fn within(&self, band: usize, across: f64) -> usize {
         let (first, end) = (self.starts[band], self.starts[band + 1]);
-        let free = &self.free[first..end];
-        let index = free.partition_point(|(_, right)| *right < across);
-        first + index.min(free.len() - 1)
+        let gaps = &self.gaps[first..end];
+        let index = gaps.partition_point(|gap| gap.right < across);
+        first + index.min(gaps.len() - 1)
     }
 
     /// How many more edges a gap has than fit into it, if it gets another one.
-    pub(super) fn excess(&self, gap: usize) -> u32 {
-        let (taken, fits) = self.taken[gap];
+    pub(super) fn excess(&mut self, gap: usize) -> u32 {
+        if !self.gaps[gap].counted {
+            self.gaps[gap].taken += self.kept_in(gap);
+            self.gaps[gap].counted = true;
+        }
+        let Gap { taken, fits, .. } = self.gaps[gap];
         (taken + 1).saturating_sub(fits)
     }
 
+    /// How many of the edges that were there at first take a gap: those up to its right border that take none before it.
+    fn kept_in(&self, gap: usize) -> u32 {
+        let Gap { band, right, .. } = self.gaps[gap];
+        let is_first = gap == self.starts[band];
+        let is_last = gap + 1 == self.starts[band + 1];
+        let first = match is_first {
+            true => 0,
+            false => self.kept.partition_point(|kept| kept.at <= self.gaps[gap - 1].right),
+        };
+        let near = self.kept[first..].iter().take_while(|kept| is_last || kept.at <= right);
+        let count = near.filter(|kept| kept.bands.contains(&band)).count();
+        u32::try_from(count).unwrap_or(u32::MAX)
+    }
+
     /// Takes the gaps from one end of a line to the other for so many edges.
-    pub(super) fn take(&mut self, at: f64, (from, to): (f64, f64), edges: u32) {
-        let first = self.borders.partition_point(|border| *border <= from);
-        let last = self.borders.partition_point(|border| *border < to);
-        for band in first..=last.max(first) {
+    pub(super) fn take(&mut self, at: f64, span: (f64, f64), edges: u32) {
+        for band in bands(&self.borders, span) {
             let gap = self.within(band, at);
-            self.taken[gap].0 += edges;
+            self.gaps[gap].taken += edges;
         }
+    }
+
+    #[cfg(test)]
+    pub(super) fn len(&self) -> usize {
+        self.gaps.len()
     }
 
     pub(super) fn axis(&self) -> Axis {
@@ -82,8 +131,21 @@ impl Gaps {
     }
 }
 
-/// How many edges fit into a gap side by side.
-fn fits((left, right): (f64, f64)) -> u32 {
-    let room = ((right - left) / PITCH).floor();
+impl Gap {
+    fn new(band: usize, left: f64, right: f64) -> Gap {
+        Gap { band, right, taken: 0, fits: fits(right - left), counted: false }
+    }
+}
+
+/// The bands that a line goes through.
+fn bands(borders: &[f64], (from, to): (f64, f64)) -> RangeInclusive<usize> {
+    let first = borders.partition_point(|border| *border <= from);
+    let last = borders.partition_point(|border| *border < to);
+    first..=last.max(first)
+}
+
+/// How many edges fit side by side into so much room.
+fn fits(room: f64) -> u32 {
+    let room = (room / PITCH).floor();
     if room < f64::from(u32::MAX) { room as u32 + 1 } else { u32::MAX }
 }

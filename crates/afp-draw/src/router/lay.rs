@@ -8,6 +8,7 @@ use super::merge::{Join, merged};
 use super::search::Search;
 use super::spread::Spread;
 use super::{BUDGET, Bounds, Crowded, LEAST, PITCH, Point, Routes, Wire};
+use crate::polyline::shortened;
 
 /// How often edges are led elsewhere because they are too near to others.
 const DETOURS: usize = 5;
@@ -40,9 +41,11 @@ impl<'a> Laid<'a> {
         mut trees: Trees,
         corners: Vec<Vec<Point>>,
     ) -> Laid<'a> {
-        let mut search = Search::new(lines, boxes);
-        for (wire, points) in corners.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
-            search.occupy(points);
+        // What is one line counts once.
+        let shared = trees.shared(&corners);
+        let own = corners.iter().zip(shared).map(|(points, shared)| shortened(points, shared));
+        let search = Search::new(lines, boxes, &own.collect::<Vec<_>>());
+        for (wire, points) in corners.iter().enumerate() {
             trees.add(wire, points, lines);
         }
         let joins = vec![Join::None; wires.len()];

@@ -58,13 +58,13 @@ struct Goal<'t> {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(lines: &'a Lines, boxes: &[Bounds]) -> Search<'a> {
-        let (upright, level) = (Gaps::new(boxes, Axis::Upright), Gaps::new(boxes, Axis::Level));
+    /// With edges that are there already.
+    pub(super) fn new(lines: &'a Lines, boxes: &[Bounds], kept: &[Vec<Point>]) -> Search<'a> {
         let nodes = lines.positions.len();
-        Search {
+        let mut search = Search {
             lines,
-            upright,
-            level,
+            upright: Gaps::new(boxes, Axis::Upright, kept),
+            level: Gaps::new(boxes, Axis::Level, kept),
             gap_of: vec![[UNKNOWN; 2]; nodes],
             passing: vec![[0; 2]; nodes],
             arrived: vec![0; boxes.len()],
@@ -72,7 +72,11 @@ impl<'a> Search<'a> {
             stamp: 0,
             queue: Queue::new(),
             effort: 0,
+        };
+        for pair in kept.iter().flat_map(|points| points.windows(2)) {
+            search.pass(pair[0], pair[1]);
         }
+        search
     }
 
     /// The corners of the best path, which is then taken; a plain one where boxes leave no gap. With
@@ -88,7 +92,8 @@ impl<'a> Search<'a> {
         let (left, right) = wire.arrival;
         let goal = Goal { left, right, y: wire.tip - TIP, full: joins, tree };
         let side = if wire.heading == Heading::Down { DOWN } else { RIGHT };
-        let start = self.lines.node(escape);
+        // Where another box stands on where it arrives, all else would be searched in vain.
+        let start = self.lines.node(escape).filter(|_| self.is_free(&goal));
         let end = start.and_then(|node| self.find(node, side, &goal));
         let junction = end.and_then(|end| self.junction(end, &goal));
         let mut points = vec![wire.start];
@@ -106,6 +111,14 @@ impl<'a> Search<'a> {
         (points, junction)
     }
 
+    /// Whether there is a place at which a path may end.
+    fn is_free(&self, goal: &Goal) -> bool {
+        let positions = &self.lines.positions;
+        let first = positions.partition_point(|(x, _)| *x < goal.left);
+        let near = positions[first..].iter().take_while(|(x, _)| *x <= goal.right);
+        goal.tree.is_some() || near.into_iter().any(|at| goal.holds(*at))
+    }
+
     /// How many states all searches so far have gone on from.
     pub(super) fn effort(&self) -> u64 {
         self.effort
@@ -117,15 +130,14 @@ impl<'a> Search<'a> {
     }
 
     /// Notes that an edge goes along these corners.
-    pub(super) fn occupy(&mut self, points: &[Point]) {
+    fn occupy(&mut self, points: &[Point]) {
         for pair in points.windows(2) {
             let [a, b] = pair else { continue };
-            let upright = Axis::of(*a, *b) == Axis::Upright;
-            let gaps = if upright { &mut self.upright } else { &mut self.level };
-            let (at, one, two) =
-                (gaps.axis().across(*a), gaps.axis().along(*a), gaps.axis().along(*b));
-            gaps.take(at, (one.min(two), one.max(two)), 1);
-            self.pass(*a, *b, upright);
+            let axis = Axis::of(*a, *b);
+            let (at, span) = axis.part(*a, *b);
+            let gaps = if axis == Axis::Upright { &mut self.upright } else { &mut self.level };
+            gaps.take(at, span, 1);
+            self.pass(*a, *b);
         }
     }
 
@@ -136,7 +148,8 @@ impl<'a> Search<'a> {
     }
 
     /// Counts an edge at the nodes of a straight part.
-    fn pass(&mut self, a: Point, b: Point, upright: bool) {
+    fn pass(&mut self, a: Point, b: Point) {
+        let upright = Axis::of(a, b) == Axis::Upright;
         for node in self.lines.along(a, b) {
             let passing = &mut self.passing[node as usize][usize::from(!upright)];
             *passing = passing.saturating_add(1);
@@ -209,7 +222,7 @@ impl<'a> Search<'a> {
         let crossed = self.passing[next][usize::from(upright)];
         let first = if side == DOWN || side == RIGHT { node } else { next };
         let gap = self.gap(first, upright);
-        let gaps = if upright { &self.upright } else { &self.level };
+        let gaps = if upright { &mut self.upright } else { &mut self.level };
         let excess = if gap == NONE { 0 } else { gaps.excess(gap as usize) };
         tenths((from.0 - to.0).abs() + (from.1 - to.1).abs())
             + CROSSING * u64::from(crossed)

@@ -1,4 +1,5 @@
-use super::{Bounds, CLEAR, Heading, PITCH, Point, Routes, Wire, bundles, route};
+use super::gaps::Gaps;
+use super::{Axis, Bounds, CLEAR, Heading, PITCH, Point, Routes, Wire, bundles, route};
 
 fn bounds((left, top): Point, (width, height): Point) -> Bounds {
     Bounds { left, top, right: left + width, bottom: top + height }
@@ -172,6 +173,56 @@ fn kept_routes_stay_and_others_go_around_them() {
         match &some[edge] {
             Some(kept) => assert_eq!(corners, kept),
             None => assert!(corners.len() >= 2),
+        }
+    }
+}
+
+/// Each of them counted as an edge of its own as far as its tip: nothing crossed what many had become.
+#[test]
+fn a_kept_bundle_is_crossed_as_one_edge() {
+    let column = |index: usize| bounds((0.0, index as f64 * 100.0), (120.0, 60.0));
+    let mut boxes: Vec<_> = (0..81).map(column).collect();
+    boxes.extend([bounds((-400.0, 7600.0), (120.0, 60.0)), bounds((500.0, 7750.0), (120.0, 60.0))]);
+    let mut edges: Vec<_> = (0..80).map(|from| (from, 80)).collect();
+    edges.push((81, 82));
+    let wires = wires(&boxes, &edges);
+    let all = route(&boxes, &wires, &[]);
+    let mut kept: Vec<_> = all.corners.iter().cloned().map(Some).collect();
+    kept[80] = None;
+    let length = |corners: &[Point]| parts(corners).iter().map(|part| part.3 - part.2).sum::<f64>();
+    let (first, again) =
+        (length(&all.corners[80]), length(&route(&boxes, &wires, &kept).corners[80]));
+    assert!(again < first + 100.0, "{again} px around what was {first} px");
+}
+
+/// All that could be reached was searched first.
+#[test]
+fn an_edge_to_a_covered_box_takes_no_search() {
+    let (mut boxes, _) = sample(25, 5);
+    let (left, top) = (boxes[12].left - 50.0, boxes[12].top - 50.0);
+    boxes.push(bounds((left, top), (400.0, 60.0)));
+    let found = routed(&boxes, &[(0, 12)]);
+    assert_eq!((found.effort, found.corners[0].last().map(|tip| tip.1)), (0, Some(boxes[12].top)));
+}
+
+#[test]
+fn kept_edges_fill_gaps_as_laid_ones_do() {
+    for seed in 1..=6 {
+        let (boxes, edges) = sample(25, seed);
+        let routes = vec![routed(&boxes, &edges).corners; 12].concat();
+        for axis in [Axis::Upright, Axis::Level] {
+            let (mut kept, mut laid) =
+                (Gaps::new(&boxes, axis, &routes), Gaps::new(&boxes, axis, &[]));
+            let parts = routes.iter().flat_map(|points| points.windows(2));
+            for pair in parts.filter(|pair| Axis::of(pair[0], pair[1]) == axis) {
+                let (at, span) = axis.part(pair[0], pair[1]);
+                laid.take(at, span, 1);
+            }
+            let excess =
+                |gaps: &mut Gaps| (0..gaps.len()).map(|gap| gaps.excess(gap)).collect::<Vec<_>>();
+            let (kept, laid) = (excess(&mut kept), excess(&mut laid));
+            assert_eq!(kept, laid);
+            assert!(laid.iter().any(|excess| *excess > 0), "none is full");
         }
     }
 }

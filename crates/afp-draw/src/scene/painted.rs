@@ -3,7 +3,6 @@
 //! Painting takes longer than everything else that a small change brings about, and such a change leaves nearly all
 //! fragments as they are.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{DrawnEdge, EdgeScene, ElementScene, PieceScene, PlanScene, Point};
@@ -12,12 +11,13 @@ use crate::sketch::{Arrow, Rect};
 use crate::svg::paint::{self, Painter};
 use afp_dsl::outline::Part;
 use afp_syntax::item::Item;
+use rustc_hash::FxHashMap;
 
 /// What of a plan has been painted before.
 #[derive(Default)]
 pub(super) struct Painted<'s> {
-    elements: BTreeMap<&'s Item, &'s ElementScene>,
-    edges: BTreeMap<(&'s Item, &'s Part), &'s EdgeScene>,
+    elements: FxHashMap<&'s Item, &'s ElementScene>,
+    edges: FxHashMap<(&'s Item, &'s Part), &'s EdgeScene>,
 }
 
 impl<'s> Painted<'s> {

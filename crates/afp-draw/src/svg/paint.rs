@@ -8,6 +8,7 @@ use super::super::scene::{Point, Symbol};
 use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch, Tip};
 use super::super::usage::Class;
 use super::icon;
+use crate::polyline::{direction, distance, shortened};
 use afp_dsl::outline::Part;
 use afp_syntax::item::Item;
 
@@ -306,28 +307,6 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
     line(out, &format!("<path class=\"{kind} {class}\" d=\"{tip}\"/>"));
 }
 
-/// A polyline without so much of its end.
-fn shortened(points: &[(f64, f64)], mut length: f64) -> Vec<(f64, f64)> {
-    let mut points = points.to_vec();
-    while let [.., before, end] = points[..] {
-        let last = distance(before, end);
-        points.pop();
-        if length < last {
-            let (dx, dy) = direction(end, before);
-            points.push((end.0 + dx * length, end.1 + dy * length));
-            break;
-        }
-        length -= last;
-    }
-    points
-}
-
-/// The unit vector along a vertical or horizontal line.
-fn direction(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-    if dx.abs() > dy.abs() { (dx.signum(), 0.0) } else { (0.0, dy.signum()) }
-}
-
 /// A polyline with rounded corners.
 fn bent_path(points: &[(f64, f64)]) -> String {
     let text = |(x, y): (f64, f64)| format!("{} {}", number(x), number(y));
@@ -357,11 +336,6 @@ fn length_of(points: &[(f64, f64)]) -> f64 {
 /// How round the corner of a polyline is.
 fn radius(before: (f64, f64), at: (f64, f64), after: (f64, f64)) -> f64 {
     BEND.min(distance(before, at) / 2.0).min(distance(at, after) / 2.0)
-}
-
-/// Along right-angled lines.
-fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
-    (a.0 - b.0).abs() + (a.1 - b.1).abs()
 }
 
 /// Text for XML content and attributes; control characters that XML forbids are left out.

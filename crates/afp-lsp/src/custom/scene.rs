@@ -7,6 +7,7 @@ use afp_dsl::outline::{Component, Entry, Outline, Part, Plan};
 use afp_ide::edit::path;
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
+use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
 
 use super::items::part;
@@ -14,7 +15,7 @@ use super::items::part;
 /// What a client is told of a plan beside what is drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Facts {
-    elements: BTreeMap<Item, Fact>,
+    elements: FxHashMap<Item, Fact>,
     entries: Vec<Value>,
 }
 
@@ -65,11 +66,11 @@ pub(super) struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    fn elements(self) -> BTreeMap<&'a Item, &'a ElementScene> {
+    fn elements(self) -> FxHashMap<&'a Item, &'a ElementScene> {
         self.scene.iter().flat_map(|it| &it.elements).map(|one| (&one.item, one)).collect()
     }
 
-    fn edges(self) -> BTreeMap<(&'a Item, &'a Part), &'a EdgeScene> {
+    fn edges(self) -> FxHashMap<(&'a Item, &'a Part), &'a EdgeScene> {
         self.scene
             .iter()
             .flat_map(|it| &it.edges)
@@ -156,7 +157,7 @@ fn is_same_edge(one: &EdgeScene, other: &EdgeScene) -> bool {
     };
     one.svg == other.svg
         && (&one.to, one.kind, one.severity) == (&other.to, other.kind, other.severity)
-        && told(one) == told(other)
+        && (one.points == other.points || told(one) == told(other))
 }
 
 /// In the order of their ids.
