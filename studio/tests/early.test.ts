@@ -25,7 +25,7 @@ inBrowser("a name that is typed as soon as its field is there is taken", { "plan
   await page.locator('.node [data-item="P.go"]').waitFor();
   await page.locator(".inspector-head strong", { hasText: /^P$/ }).waitFor();
   await typeAtOnce(page, ".inspector:has(button.field) .line input", "roll");
-  await page.locator('.node [data-item="P.go"] rect.box.actor').click();
+  await page.locator('.node [data-item="P.go"] rect.box.actor').click({ force: true });
   await becomes("plan.afp", /actor roll: Forward/);
 });
 

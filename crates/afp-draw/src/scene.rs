@@ -91,7 +91,7 @@ pub struct ElementScene {
     /// What belongs to it and has an identity: itself, its supervisors, ports, exits, entries.
     pub pieces: Vec<PieceScene>,
     /// A group, moved to its place.
-    pub svg: String,
+    pub svg: Arc<str>,
     /// What the group was painted from.
     content: Arc<Content>,
 }
@@ -125,7 +125,7 @@ pub struct EdgeScene {
     /// The worst that is wrong with it, where it is marked.
     pub severity: Option<Severity>,
     /// A group with the line and its tip.
-    pub svg: String,
+    pub svg: Arc<str>,
     /// What that was painted from, besides the points.
     class: Class,
     joined: f64,

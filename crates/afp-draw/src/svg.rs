@@ -55,7 +55,7 @@ fn plan_group(out: &mut String, plan: &PlanScene) {
     let (x, y) = (number(plan.offset.0), number(plan.offset.1));
     let item = escaped(&plan.plan.to_string());
     line(out, &format!("<g class=\"plan\" data-item=\"{item}\" transform=\"translate({x} {y})\">"));
-    out.extend(plan.edges.iter().map(|edge| edge.svg.as_str()));
-    out.extend(plan.elements.iter().map(|element| element.svg.as_str()));
+    out.extend(plan.edges.iter().map(|edge| &*edge.svg));
+    out.extend(plan.elements.iter().map(|element| &*element.svg));
     line(out, "</g>");
 }

@@ -76,11 +76,6 @@ impl Documents {
         self.open.get(path).map_or(self.disk, |document| document.stamp)
     }
 
-    /// What changes whenever any text may have changed.
-    pub fn newest(&self) -> u64 {
-        self.stamps
-    }
-
     fn next(&mut self) -> u64 {
         self.stamps += 1;
         self.stamps

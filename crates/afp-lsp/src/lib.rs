@@ -16,6 +16,7 @@ mod diagnostics;
 mod dispatch;
 mod documents;
 mod host;
+mod reads;
 mod server;
 mod standard;
 mod uri;

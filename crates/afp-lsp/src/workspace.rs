@@ -15,13 +15,11 @@ use afp_syntax::source::{Encoding, Source};
 
 use crate::documents::Documents;
 use crate::host::Host;
+use crate::reads::Reads;
 use crate::uri::BUILT_IN;
 
 /// The name of the project file.
 pub(crate) const PROJECT: &str = "afp.toml";
-
-/// What was read, and in which state.
-type Reads = Vec<(String, u64)>;
 
 /// The toolboxes that the files of a folder can use.
 #[derive(Debug)]
@@ -91,16 +89,11 @@ impl Workspace {
         self.analyses.remove(path);
     }
 
-    /// Whether nothing has changed since all of that was read.
-    fn holds(&self, reads: &Reads) -> bool {
-        reads.iter().all(|(path, stamp)| self.documents.stamp(path) == *stamp)
-    }
-
     /// What a file means now; `None` where it cannot be read.
     pub fn analysis(&mut self, path: &str) -> Option<Arc<Analysis>> {
         let known = self.analyses.get(path);
         if let Some(known) =
-            known.filter(|known| self.holds(&known.reads) && self.holds(&known.set.reads))
+            known.filter(|known| known.reads.hold(self) && known.set.reads.hold(self))
         {
             return Some(Arc::clone(known));
         }
@@ -110,8 +103,8 @@ impl Workspace {
     }
 
     fn analyse(&mut self, path: &str) -> Option<Analysis> {
-        let text = self.text(path).ok()?;
-        let reads = RefCell::new(vec![(path.to_owned(), self.documents.stamp(path))]);
+        let reads = RefCell::new(Reads::default());
+        let text = reads.borrow_mut().text(self, path).ok()?;
         if is_toolbox(&text) {
             let set = self.toolboxes_with(path, text);
             // Toolboxes are checked when they are added; an empty plan file brings what they mean.
@@ -122,10 +115,7 @@ impl Workspace {
             return Some(Analysis { compiled, set, file, reads });
         }
         let set = self.toolboxes(path);
-        let read = |used: &str| {
-            reads.borrow_mut().push((used.to_owned(), self.documents.stamp(used)));
-            self.text(used)
-        };
+        let read = |used: &str| reads.borrow_mut().text(self, used);
         let compiled = compile(&Source::new(path, text), &set.toolboxes, &read);
         let file = u16::try_from(compiled.plan_files.start).ok()?;
         Some(Analysis { compiled, set, file, reads: reads.into_inner() })
@@ -134,7 +124,7 @@ impl Workspace {
     /// The toolboxes for a file.
     fn toolboxes(&mut self, path: &str) -> Arc<ToolboxSet> {
         let folder = folder(path).to_owned();
-        if let Some(known) = self.sets.get(&folder).filter(|known| self.holds(&known.reads)) {
+        if let Some(known) = self.sets.get(&folder).filter(|known| known.reads.hold(self)) {
             return Arc::clone(known);
         }
         let set = Arc::new(self.read_toolboxes(path, None));
@@ -150,7 +140,7 @@ impl Workspace {
     }
 
     fn read_toolboxes(&self, path: &str, own: Option<String>) -> ToolboxSet {
-        let mut reads = Vec::new();
+        let mut reads = Reads::default();
         let mut folders = BTreeMap::new();
         let mut toolboxes = Toolboxes::default();
         for built_in in afp_toolboxes::ALL {
@@ -161,8 +151,7 @@ impl Workspace {
         let (home, project) = self.project(path, &mut reads);
         for toolbox in &project.toolboxes {
             let file = afp_dsl::files::normalised(&format!("{home}/{}", toolbox.path));
-            reads.push((file.clone(), self.documents.stamp(&file)));
-            if let Ok(text) = self.text(&file) {
+            if let Ok(text) = reads.text(self, &file) {
                 folders.insert(toolbox.name.clone(), folder(&file).to_owned());
                 toolboxes.add(Source::new(file, text), &toolbox.name);
             }
@@ -171,7 +160,6 @@ impl Workspace {
             toolboxes.set_robot(name);
         }
         if let Some(text) = own {
-            reads.push((path.to_owned(), self.documents.stamp(path)));
             toolboxes.add(Source::new(path, text), "own");
         }
         ToolboxSet { toolboxes, folders, reads }
@@ -182,8 +170,7 @@ impl Workspace {
         let mut home = folder(path);
         loop {
             let file = format!("{home}/{PROJECT}");
-            reads.push((file.clone(), self.documents.stamp(&file)));
-            if let Ok(text) = self.text(&file) {
+            if let Ok(text) = reads.text(self, &file) {
                 return (home.to_owned(), afp_project::read(&text).0);
             }
             if home.is_empty() || !path.starts_with('/') && !home.contains('/') {
@@ -194,12 +181,18 @@ impl Workspace {
     }
 
     /// The icon of a template: `icons/NAME.svg` beside the toolbox of a project, else a built-in one.
-    pub fn icon(&self, set: &ToolboxSet, toolbox: &Toolbox, name: &str) -> Option<String> {
+    pub fn icon(
+        &self,
+        set: &ToolboxSet,
+        toolbox: &Toolbox,
+        name: &str,
+        reads: &mut Reads,
+    ) -> Option<String> {
         if !afp_toolboxes::is_icon_name(name) {
             return None;
         }
         match set.folders.get(&toolbox.name) {
-            Some(folder) => self.text(&format!("{folder}/icons/{name}.svg")).ok(),
+            Some(folder) => reads.text(self, &format!("{folder}/icons/{name}.svg")).ok(),
             None => afp_toolboxes::icon(name).map(str::to_owned),
         }
     }

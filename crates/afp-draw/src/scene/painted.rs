@@ -40,8 +40,8 @@ impl<'s> Painted<'s> {
             paint::alike((known.outer.x, known.outer.y), at) && *known.content == content
         });
         let (svg, content) = match known {
-            Some(known) => (known.svg.clone(), Arc::clone(&known.content)),
-            None => (paint::element(&item, &content, at), Arc::new(content)),
+            Some(known) => (Arc::clone(&known.svg), Arc::clone(&known.content)),
+            None => (paint::element(&item, &content, at).into(), Arc::new(content)),
         };
         let piece = |piece: crate::sketch::Piece| PieceScene {
             item: piece.item,
@@ -69,8 +69,8 @@ impl<'s> Painted<'s> {
         });
         let arrow = Arrow { joined, ..Arrow::flow(points, class) };
         let svg = match known {
-            Some(known) => known.svg.clone(),
-            None => paint::edge(&item, &part, &arrow),
+            Some(known) => Arc::clone(&known.svg),
+            None => paint::edge(&item, &part, &arrow).into(),
         };
         let (kind, points) = (class.name, arrow.points);
         Some(EdgeScene { item, part, to, kind, points, severity, svg, class, joined })

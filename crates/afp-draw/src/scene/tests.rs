@@ -227,8 +227,8 @@ fn painted_anew(scene: &Scene) -> Vec<String> {
 /// The fragments of a scene.
 fn fragments(scene: &Scene) -> Vec<&str> {
     let plans = || scene.plans.iter();
-    let elements = plans().flat_map(|plan| &plan.elements).map(|one| one.svg.as_str());
-    elements.chain(plans().flat_map(|plan| &plan.edges).map(|one| one.svg.as_str())).collect()
+    let elements = plans().flat_map(|plan| &plan.elements).map(|one| &*one.svg);
+    elements.chain(plans().flat_map(|plan| &plan.edges).map(|one| &*one.svg)).collect()
 }
 
 #[test]

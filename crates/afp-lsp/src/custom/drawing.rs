@@ -1,5 +1,6 @@
 //! The drawing of a plan, and what changes of it.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use afp_draw::layout_file::Layout;
@@ -15,6 +16,7 @@ use serde_json::{Value, json};
 use super::Document;
 use super::scene::{Facts, Shown};
 use crate::answer::{Answer, Failure, ok};
+use crate::reads::Reads;
 use crate::server::Server;
 use crate::uri;
 use crate::workspace::{Analysis, Workspace};
@@ -36,15 +38,22 @@ pub(crate) struct Drawing {
 }
 
 /// A drawing that a client has and hears the changes of.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Subscription {
     plan: Option<String>,
     folded: Vec<Item>,
     /// The scene, from which the next one is made.
     scene: Arc<Scene>,
     facts: Facts,
-    /// What the drawing was made from: the document, and the file of its positions.
-    made_from: [u64; 2],
+    made_from: MadeFrom,
+}
+
+/// What a drawing was made from.
+#[derive(Debug)]
+struct MadeFrom {
+    analysis: Arc<Analysis>,
+    /// Positions and icons.
+    reads: Reads,
 }
 
 /// The whole drawing.
@@ -75,7 +84,7 @@ struct Drawn {
     plan: Option<String>,
     plans: Vec<String>,
     symbols: Value,
-    made_from: [u64; 2],
+    made_from: MadeFrom,
 }
 
 impl Drawn {
@@ -91,14 +100,17 @@ fn draw(
     folded: &[Item],
     before: Option<&Scene>,
 ) -> Result<Drawn, Failure> {
-    let made_from = server.workspace.drawn_from(path);
     let analysis = server.workspace.analysis(path);
     let analysis =
         analysis.ok_or_else(|| Failure::Refused("there is no such plan file".to_owned()))?;
     let outline = &analysis.compiled.outline;
     let id = find(outline, analysis.file, plan)?;
-    let positions = server.workspace.positions(&analysis);
-    let icons = |toolbox: &Toolbox, name: &str| server.workspace.icon(&analysis.set, toolbox, name);
+    let mut reads = Reads::default();
+    let positions = server.workspace.positions(&analysis, &mut reads);
+    let reads = RefCell::new(reads);
+    let icons = |toolbox: &Toolbox, name: &str| {
+        server.workspace.icon(&analysis.set, toolbox, name, &mut reads.borrow_mut())
+    };
     let options = Options {
         plan: id,
         icons: Some(&icons),
@@ -124,6 +136,7 @@ fn draw(
     let plans = own.map(|plan| plan.item.name().to_owned()).collect();
     let symbols = scene.symbols.iter().map(|it| json!({ "id": it.id, "svg": it.svg })).collect();
     let plan = main.map(|plan| plan.item.name().to_owned());
+    let made_from = MadeFrom { reads: reads.into_inner(), analysis: Arc::clone(&analysis) };
     Ok(Drawn { scene, facts, plan, plans, symbols, made_from })
 }
 
@@ -146,29 +159,31 @@ pub(super) fn find(
 
 impl Workspace {
     /// The positions of the plans of a compilation, by file.
-    pub(crate) fn positions(&self, analysis: &Analysis) -> Vec<Layout> {
+    pub(crate) fn positions(&self, analysis: &Analysis, reads: &mut Reads) -> Vec<Layout> {
         let plan_files = analysis.compiled.plan_files.clone();
         let read = |(file, source): (usize, &afp_syntax::source::Source)| match plan_files
             .contains(&file)
         {
-            true => self.text(&format!("{}.layout", source.name)).unwrap_or_default(),
+            true => reads.text(self, &format!("{}.layout", source.name)).unwrap_or_default(),
             false => String::new(),
         };
         let texts = analysis.compiled.sources.iter().enumerate().map(read);
         texts.map(|text| Layout::read(&text).0).collect()
     }
 
-    /// What changes whenever a drawing of a document may have changed.
-    fn drawn_from(&self, path: &str) -> [u64; 2] {
-        [self.documents.newest(), self.documents.stamp(&format!("{path}.layout"))]
+    /// Whether a drawing of a document would be the same again.
+    fn is_drawn(&mut self, path: &str, from: &MadeFrom) -> bool {
+        let analysis = self.analysis(path);
+        analysis.is_some_and(|now| Arc::ptr_eq(&now, &from.analysis)) && from.reads.hold(self)
     }
 }
 
 impl Server {
     /// What has changed of the drawings that the client wants to hear of.
     pub(crate) fn changed_drawings(&mut self) -> Vec<Message> {
+        let workspace = &mut self.workspace;
         let stale = |(path, known): (&String, &Subscription)| {
-            (known.made_from != self.workspace.drawn_from(path)).then(|| path.clone())
+            (!workspace.is_drawn(path, &known.made_from)).then(|| path.clone())
         };
         let stale: Vec<_> = self.subscriptions.iter().filter_map(stale).collect();
         stale.into_iter().filter_map(|path| self.changed_drawing(&path)).collect()

@@ -1,5 +1,7 @@
 //! What is known of time, and pictures of plans.
 
+use std::cell::RefCell;
+
 use afp_draw::{Options, Theme};
 use afp_dsl::toolbox::Toolbox;
 use base64::Engine;
@@ -10,6 +12,7 @@ use serde_json::{Value, json};
 use super::Document;
 use super::drawing::find;
 use crate::answer::{Answer, Failure, ok};
+use crate::reads::Reads;
 use crate::server::Server;
 
 /// A document.
@@ -53,8 +56,11 @@ enum Colours {
 /// answers.
 pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
     let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
-    let icons = |toolbox: &Toolbox, name: &str| server.workspace.icon(&analysis.set, toolbox, name);
-    let positions = server.workspace.positions(&analysis);
+    let reads = RefCell::new(Reads::default());
+    let icons = |toolbox: &Toolbox, name: &str| {
+        server.workspace.icon(&analysis.set, toolbox, name, &mut reads.borrow_mut())
+    };
+    let positions = server.workspace.positions(&analysis, &mut Reads::default());
     let theme = match params.theme {
         Colours::Auto => Theme::Auto,
         Colours::Light => Theme::Light,

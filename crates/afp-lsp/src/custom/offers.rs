@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::{Document, items::no_item};
 use crate::answer::{Answer, Failure, ok};
+use crate::reads::Reads;
 use crate::server::Server;
 use crate::standard::completion::snippet;
 
@@ -27,8 +28,9 @@ pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
     let shown = |offer: &Offer| {
         let toolbox = offer.toolbox.as_ref().and_then(|name| analysis.set.toolboxes.get(name));
         let icon = offer.icon.as_ref().zip(toolbox);
-        let icon =
-            icon.and_then(|(name, toolbox)| server.workspace.icon(&analysis.set, toolbox, name));
+        let icon = icon.and_then(|(name, toolbox)| {
+            server.workspace.icon(&analysis.set, toolbox, name, &mut Reads::default())
+        });
         json!({
             "template": offer.name,
             "kind": offer.kind.keyword(),

@@ -1,6 +1,7 @@
 //! A scene in messages, piece by piece; after a change, what is new or different alone.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use afp_draw::{EdgeScene, ElementScene, PieceScene, PlanScene, Rect};
 use afp_dsl::outline::{Component, Entry, Outline, Part, Plan};
@@ -144,7 +145,7 @@ fn is_same_element(one: &ElementScene, other: &ElementScene) -> bool {
         (&one.item, &one.part, one.severity) == (&other.item, &other.part, other.severity)
             && tenths(one.rect) == tenths(other.rect)
     };
-    one.svg == other.svg
+    is_same_svg(&one.svg, &other.svg)
         && [tenths(one.rect), tenths(one.outer)] == [tenths(other.rect), tenths(other.outer)]
         && one.pieces.len() == other.pieces.len()
         && one.pieces.iter().zip(&other.pieces).all(same)
@@ -155,9 +156,14 @@ fn is_same_edge(one: &EdgeScene, other: &EdgeScene) -> bool {
     let told = |edge: &EdgeScene| {
         edge.points.iter().map(|(x, y)| [tenth(*x), tenth(*y)]).collect::<Vec<_>>()
     };
-    one.svg == other.svg
+    is_same_svg(&one.svg, &other.svg)
         && (&one.to, one.kind, one.severity) == (&other.to, other.kind, other.severity)
         && (one.points == other.points || told(one) == told(other))
+}
+
+/// Whether two fragments are the same: most are that of the scene before.
+fn is_same_svg(one: &Arc<str>, other: &Arc<str>) -> bool {
+    Arc::ptr_eq(one, other) || one == other
 }
 
 /// In the order of their ids.
@@ -182,7 +188,7 @@ fn element(one: &ElementScene, fact: Option<&Fact>) -> Value {
         "item": path(&one.item),
         "rect": rect(one.rect),
         "outer": rect(one.outer),
-        "svg": one.svg,
+        "svg": &*one.svg,
         "pieces": one.pieces.iter().map(piece).collect::<Vec<_>>(),
         "kind": fact.map(|it| it.kind),
         "template": fact.and_then(|it| it.template.as_ref()),
@@ -211,7 +217,7 @@ fn edge(edge: &EdgeScene) -> Value {
         "to": path(&edge.to),
         "kind": edge.kind,
         "points": points,
-        "svg": edge.svg,
+        "svg": &*edge.svg,
         "severity": edge.severity.map(Severity::as_str),
     })
 }
