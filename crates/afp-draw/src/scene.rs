@@ -317,6 +317,7 @@ fn cards<'a>(view: &View<'a>, towards: &dyn Fn(&Item, &Part) -> Option<f64>) -> 
 /// The cards with states where they have been; new ones come behind them.
 fn as_before<'a>(view: &View<'a>, before: &PlanScene) -> Vec<Card<'a>> {
     let pieces = before.elements.iter().flat_map(|element| &element.pieces);
+    let pieces = pieces.filter(|piece| matches!(piece.part, Part::Exit { .. }));
     let known: FxHashMap<_, _> =
         pieces.map(|piece| ((&piece.item, &piece.part), piece.rect.x)).collect();
     cards(view, &|item, part| Some(known.get(&(item, part)).copied().unwrap_or(f64::INFINITY)))

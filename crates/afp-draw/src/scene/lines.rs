@@ -22,15 +22,20 @@ pub(super) fn joined(edges: &[DrawnEdge]) -> Vec<f64> {
 pub(super) fn dashes(edges: &[DrawnEdge]) -> Vec<usize> {
     let mut dashes = vec![0; edges.len()];
     let (upright, level) = (segments(edges, true), segments(edges, false));
-    for (along, across) in [(&upright, &level), (&level, &upright)] {
-        for line in along {
-            let first = across.partition_point(|other| other.at <= line.from);
-            let passed = across[first..].iter().take_while(|other| other.at < line.to);
-            let crossed = passed.filter(|other| {
-                other.edge != line.edge && other.from < line.at && line.at < other.to
-            });
-            let places: Vec<f64> = crossed.map(|other| other.at).collect();
-            dashes[line.edge] += places.windows(2).filter(|pair| pair[1] - pair[0] < CLOSE).count();
+    // Where each level piece was crossed last: uprights come from left to right.
+    let mut last = vec![f64::NEG_INFINITY; level.len()];
+    for line in &upright {
+        let first = level.partition_point(|other| other.at <= line.from);
+        let passed = level.iter().enumerate().skip(first);
+        let passed = passed.take_while(|(_, other)| other.at < line.to);
+        let crossed = passed.filter(|(_, other)| {
+            other.edge != line.edge && other.from < line.at && line.at < other.to
+        });
+        let mut above = f64::NEG_INFINITY;
+        for (place, other) in crossed {
+            dashes[line.edge] += usize::from(other.at - above < CLOSE);
+            dashes[other.edge] += usize::from(line.at - last[place] < CLOSE);
+            (above, last[place]) = (other.at, line.at);
         }
     }
     dashes
