@@ -49,7 +49,7 @@ fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     let old = File::open(from).map_err(|error| LogError::Open { path: from.to_owned(), error })?;
     let _ = old.try_lock_shared();
     let failed = |error| LogError::Create { path: to.to_owned(), error };
-    let mut copy = Copy::new(Output::create(to).map_err(failed)?)?;
+    let mut copy = Copy::new(Output::create_beside_part(to).map_err(failed)?)?;
     let mut broken = None;
     let scanned = scan(&bytes, |record| {
         // A failed write must not pass for damage of the old log.

@@ -360,16 +360,16 @@ fn a_log_may_be_recovered_under_the_name_that_its_run_was_to_give_it() {
 }
 
 #[test]
-fn two_logs_of_one_name_at_once_are_both_whole() {
+fn a_second_log_of_a_name_is_refused_while_one_is_written() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
-    let [mut one, mut two] = [create(&path), create(&path)];
-    run(&mut two);
-    assert_eq!(two.finish().unwrap().path, path);
-    assert_eq!(read(&path).unwrap().events.len(), 2009);
-    one.record(at(0), &Record::StopRequested);
+    let mut one = create(&path);
+    let two = Recorder::create(&path, &about(), OwnedNames::new(&Names1), WhenFull::Wait);
+    let why = two.err().unwrap().to_string();
+    assert!(why.contains("another program is writing it"), "{why}");
+    run(&mut one);
     assert_eq!(one.finish().unwrap().path, path);
-    assert_eq!(read(&path).unwrap().events.len(), 1);
+    assert_eq!(read(&path).unwrap().events.len(), 2009);
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
 }
 

@@ -16,7 +16,7 @@ use std::fs::{self, File};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use part::Part;
+use part::{Part, Taken};
 pub use read::{read_bytes, read_text};
 use target::Target;
 
@@ -36,12 +36,25 @@ pub struct Output {
 impl Output {
     /// Begins to write the file `path`.
     ///
-    /// Opening a named pipe waits for its reader. Two outputs of one name at once get parts of
-    /// their own (`run.mcap.part`, `run.2.mcap.part`); the one that ends last gives the file.
+    /// Opening a named pipe waits for its reader.
     ///
     /// # Errors
-    /// The folder is not there or not writable, the file is not writable, or is a folder.
+    /// The folder is not there or not writable, the file is not writable, is a folder, or is being
+    /// written by somebody else ([`io::ErrorKind::ResourceBusy`]).
     pub fn create(path: &Path) -> io::Result<Output> {
+        Output::begin(path, Taken::Refuse)
+    }
+
+    /// The same where `path` with `.part` appended may be what is read meanwhile: then it is written
+    /// under the next name, `run.2.mcap.part` for `run.mcap`.
+    ///
+    /// # Errors
+    /// As of [`Output::create`].
+    pub fn create_beside_part(path: &Path) -> io::Result<Output> {
+        Output::begin(path, Taken::Next)
+    }
+
+    fn begin(path: &Path, taken: Taken) -> io::Result<Output> {
         let target = match Target::of(path)? {
             Target::File(target) => target,
             Target::Stream => {
@@ -49,7 +62,7 @@ impl Output {
                 return Ok(Output { file, path: path.to_owned(), becomes: None });
             }
         };
-        match Part::create(&target) {
+        match Part::create(&target, taken) {
             Ok(Part { file, path }) => Ok(Output { file, path, becomes: Some(target) }),
             Err(error) if takes_no_files(&error) && target.exists() => {
                 let file = File::options().write(true).truncate(true).open(&target)?;
@@ -102,13 +115,14 @@ impl Write for Output {
     }
 }
 
-/// Writes a file at once.
+/// Writes a file at once. Of several at once each writes all of it, one after the other.
 ///
 /// # Errors
-/// The folder is not there or not writable, the disk is full. No file of that name is left half
+/// The folder is not there or not writable, the disk is full, or somebody else has been writing the
+/// file for seconds. No file of that name is left half
 /// written then, and an old one stays as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut output = Output::create(path)?;
+    let mut output = Output::begin(path, Taken::Wait)?;
     match output.write_all(bytes) {
         Ok(()) => output.finish(),
         Err(error) => {
@@ -124,7 +138,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// As of [`Output::create`].
 pub fn check_writable(path: &Path) -> io::Result<()> {
     let Target::File(target) = Target::of(path)? else { return Ok(()) };
-    match Part::create(&target) {
+    match Part::create(&target, Taken::Refuse) {
         Ok(part) => fs::remove_file(part.path),
         Err(error) if takes_no_files(&error) && target.exists() => Ok(()),
         Err(error) => Err(error),

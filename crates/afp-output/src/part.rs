@@ -4,6 +4,8 @@ use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// A part of our own: locked as long as it is open.
 pub(crate) struct Part {
@@ -11,12 +13,28 @@ pub(crate) struct Part {
     pub(crate) path: PathBuf,
 }
 
+/// What to do where the part of a file is open somewhere else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Taken {
+    /// Nobody writes over what another one is at.
+    Refuse,
+    /// Wait for a moment: the other one is done at once, too.
+    Wait,
+    /// Take one of the next name.
+    Next,
+}
+
+/// How long to wait for another one that writes a file at once.
+const PATIENCE: Duration = Duration::from_secs(2);
+const LOOK_AGAIN: Duration = Duration::from_millis(1);
+
 impl Part {
     /// Creates an empty part for a file. What a dead process left of one is overwritten.
     ///
     /// # Errors
-    /// The folder is not there or not writable.
-    pub(crate) fn create(target: &Path) -> io::Result<Part> {
+    /// The folder is not there or not writable; another one writes the file.
+    pub(crate) fn create(target: &Path, taken: Taken) -> io::Result<Part> {
+        let begin = Instant::now();
         let mut number = 1;
         loop {
             let path = name(target, number);
@@ -27,7 +45,11 @@ impl Part {
             let file =
                 File::options().read(true).write(true).create(true).truncate(false).open(&path)?;
             if let Err(TryLockError::WouldBlock) = file.try_lock() {
-                number += 1;
+                match taken {
+                    Taken::Next => number += 1,
+                    Taken::Wait if begin.elapsed() < PATIENCE => thread::sleep(LOOK_AGAIN),
+                    Taken::Wait | Taken::Refuse => return Err(busy()),
+                }
                 continue;
             }
             // Where locks are not to be had, two at once are on their own. The one who had the
@@ -39,6 +61,11 @@ impl Part {
             }
         }
     }
+}
+
+fn busy() -> io::Error {
+    let why = "another program is writing it: wait for its end, or give another name";
+    io::Error::new(io::ErrorKind::ResourceBusy, why)
 }
 
 /// Gives a part the permissions of the old file: what is private is private from the beginning.

@@ -153,17 +153,37 @@ fn a_pipe_is_written_into() {
 }
 
 #[test]
-fn two_at_once_do_not_share_a_part() {
+fn two_at_once_do_not_share_a_file() {
     let folder = folder();
     let path = folder.path().join("run.mcap");
-    let [mut one, mut two] = [(), ()].map(|()| Output::create(&path).unwrap());
+    let mut one = Output::create(&path).unwrap();
     one.write_all(b"one").unwrap();
+    for refused in [Output::create(&path).map(|_| ()), check_writable(&path)] {
+        let why = refused.unwrap_err();
+        assert_eq!(why.kind(), ErrorKind::ResourceBusy);
+        assert!(why.to_string().contains("another name"), "{why}");
+    }
+    let mut two = Output::create_beside_part(&path).unwrap();
     two.write_all(b"two, longer").unwrap();
     assert_eq!(two.path(), folder.path().join("run.2.mcap.part"));
     two.finish().unwrap();
     assert_eq!(text(&path), "two, longer");
     one.finish().unwrap();
     assert_eq!((text(&path).as_str(), files(folder.path())), ("one", vec!["run.mcap".to_owned()]));
+    assert!(Output::create(&path).is_ok());
+}
+
+/// Nor is it waited for without an end.
+#[test]
+fn what_is_written_for_long_is_not_written_at_once() {
+    let folder = folder();
+    let path = folder.path().join("run.mcap");
+    let one = Output::create(&path).unwrap();
+    let why = write_whole(&path, b"two").unwrap_err();
+    assert_eq!(why.kind(), ErrorKind::ResourceBusy);
+    one.finish().unwrap();
+    write_whole(&path, b"two").unwrap();
+    assert_eq!(text(&path), "two");
 }
 
 #[test]
