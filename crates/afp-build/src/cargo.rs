@@ -98,7 +98,8 @@ pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NotBuilt> {
     messages.retain(|message| job.blame.concerns(message));
     let reader = Reader { blame: &job.blame, tools: job.tools };
     reader.tell(job.folder, &messages, status.success())?;
-    if status.success() { Ok(built) } else { Err(NotBuilt::Told) }
+    let first = || messages.iter().find(|message| message.is_error).map(Message::line);
+    if status.success() { Ok(built) } else { Err(NotBuilt::Told { first: first() }) }
 }
 
 /// Who reads what the compiler has said.

@@ -127,7 +127,7 @@ impl Kept {
             no_cargo,
             tools: None,
         })?;
-        let built = built.ok_or(NotBuilt::Told)?;
+        let built = built.ok_or(NotBuilt::Told { first: None })?;
         fresh::done(&self.folder, &built, begun)?;
         Ok(built)
     }

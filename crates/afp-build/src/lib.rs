@@ -24,7 +24,10 @@ pub enum NotBuilt {
     /// This is why.
     Why(RunError),
     /// It has been told, to people or to tools.
-    Told,
+    Told {
+        /// The first error in a line, with its place in Rust; `None` where cargo got to none.
+        first: Option<String>,
+    },
 }
 
 impl From<RunError> for NotBuilt {

@@ -23,8 +23,10 @@ fn _afp(module: &Bound<'_, PyModule>) -> PyResult<()> {
 fn extension(py: Python<'_>, folder: PathBuf) -> PyResult<Option<PathBuf>> {
     py.detach(|| build(&folder)).map_err(|why| match why {
         NotBuilt::Why(why) => afp_py::run_error(&why),
-        NotBuilt::Told => {
-            afp_py::error("the project's Rust does not compile; standard error says why")
+        NotBuilt::Told { first } => {
+            let first = first.map(|first| format!(": {first}")).unwrap_or_default();
+            let more = "standard error has all that the compiler says";
+            afp_py::error(&format!("the project's Rust does not compile{first}; {more}"))
         }
     })
 }

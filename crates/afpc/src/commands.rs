@@ -59,7 +59,7 @@ pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
     match result {
         Ok(code) => ExitCode::from(code),
         Err(NoPlan::File(error)) => error.report(),
-        Err(NoPlan::Wrong) => ExitCode::from(EXIT_FAILED),
+        Err(NoPlan::Wrong | NoPlan::NotBuilt(_)) => ExitCode::from(EXIT_FAILED),
     }
 }
 

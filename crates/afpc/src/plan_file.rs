@@ -33,6 +33,8 @@ pub enum NoPlan {
     File(RunError),
     /// The plan is wrong; it has been said.
     Wrong,
+    /// The Rust that belongs to it does not compile; it has been said, beginning with this line.
+    NotBuilt(Option<String>),
 }
 
 impl fmt::Display for NoPlan {
@@ -40,6 +42,8 @@ impl fmt::Display for NoPlan {
         match self {
             NoPlan::File(error) => error.fmt(f),
             NoPlan::Wrong => f.write_str("the plan has errors"),
+            NoPlan::NotBuilt(Some(first)) => f.write_str(first),
+            NoPlan::NotBuilt(None) => f.write_str("cargo could not build it"),
         }
     }
 }
@@ -54,7 +58,7 @@ impl From<NotBuilt> for NoPlan {
     fn from(why: NotBuilt) -> Self {
         match why {
             NotBuilt::Why(error) => NoPlan::File(error),
-            NotBuilt::Told => NoPlan::Wrong,
+            NotBuilt::Told { first } => NoPlan::NotBuilt(first),
         }
     }
 }

@@ -58,7 +58,7 @@ impl Reader {
     pub fn end(self, why: NoPlan) -> Result<u8, NoPlan> {
         match (self, why) {
             (Reader::Tools, NoPlan::File(error)) => self.error(&error),
-            (Reader::Tools, NoPlan::Wrong) => Ok(EXIT_FAILED),
+            (Reader::Tools, NoPlan::Wrong | NoPlan::NotBuilt(_)) => Ok(EXIT_FAILED),
             (Reader::People, why) => Err(why),
         }
     }

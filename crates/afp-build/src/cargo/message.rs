@@ -65,6 +65,15 @@ impl Message {
         })
     }
 
+    /// It in a line: `src/lib.rs:12:5: mismatched types`.
+    pub fn line(&self) -> String {
+        let place = self.place.as_ref().map(|place| {
+            let (line, column) = place.at;
+            format!("{}:{line}:{column}: ", place.file.display())
+        });
+        format!("{}{}", place.unwrap_or_default(), self.title)
+    }
+
     /// The file that it points at.
     pub fn path(&self) -> Option<PathBuf> {
         Some(self.package.join(&self.place.as_ref()?.file))
@@ -127,6 +136,7 @@ mod tests {
         let message = Message::read(&line).unwrap();
         assert!(message.is_error);
         assert_eq!(message.path().as_deref(), Some(std::path::Path::new("/a/src/lib.rs")));
+        assert_eq!(message.line(), "src/lib.rs:7:3: mismatched types");
         let place = message.place.unwrap();
         assert_eq!(
             (place.at, place.bytes, &*place.line, &*place.label),

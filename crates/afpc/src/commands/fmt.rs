@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
                 error.report();
                 EXIT_FAILED
             }
-            Err(NoPlan::Wrong) => EXIT_FAILED,
+            Err(NoPlan::Wrong | NoPlan::NotBuilt(_)) => EXIT_FAILED,
         });
     }
     Ok(code)

@@ -123,8 +123,8 @@ impl Desk<'_> {
         match saying(&what, tell, || runner::built(parts, self.linked)) {
             Ok(program) => Ok(Some(program)),
             Err(NoPlan::File(why)) => Err(why.to_string()),
-            Err(NoPlan::Wrong) => {
-                Err(format!("{names} cannot be built: the terminal of the studio says why"))
+            Err(why) => {
+                Err(format!("{names} cannot be built: {why} (more in the terminal of the studio)"))
             }
         }
     }
