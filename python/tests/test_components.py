@@ -121,7 +121,7 @@ def test_an_exception_becomes_error_with_its_traceback() -> None:
         ("'Nothing'", "one of Done, Told"),
         ("3", "one of Done, Told"),
         ("'Told'", "without its output"),
-        ("('Told', {'value': 'x'})", "expected a float, not a str"),
+        ("('Told', {'value': 'x'})", "the output 'value' of 'Says': expected a float, not a str"),
         ("('Told', {'value': afp.deg(3)})", "not a quantity in rad"),
         ("('Done', {'value': 1.0})", "carries no output 'value'"),
         ("('Done',)", "one of Done, Told, or a pair"),

@@ -24,7 +24,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
-use crate::component::{AnyRegistry, Components, Host, may_run};
+use crate::component::{AnyRegistry, Components, Host};
 use crate::errors::{error, log_error, plan_error};
 use crate::link::{devices, fits, link};
 use crate::pause::in_background;
@@ -101,18 +101,11 @@ impl Runner {
 
     /// Makes one step of the plan; whether it still runs.
     fn step(&self, py: Python<'_>) -> PyResult<bool> {
-        may_run()?;
-        let mut session = self.lock()?;
         // Components get hold of the interpreter by themselves; without any, letting it go costs more than a step.
-        let stepped = match &self.host {
-            None => session.step(),
-            Some(_) => {
-                let session = &mut *session;
-                session.show();
-                py.detach(|| session.step())
-            }
-        };
-        self.after(py, stepped)
+        if self.host.is_none() {
+            return self.lock()?.step();
+        }
+        self.drive(py, Run::step)
     }
 
     /// Goes on until something has happened after the first `seen` events, or until a time; whether the plan still
