@@ -4,6 +4,7 @@ mod access;
 mod event;
 mod glance;
 mod keeper;
+mod names;
 mod session;
 mod stimuli;
 mod time;
@@ -13,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use afp_core::devices::faults as faults_of;
-use afp_core::trace::{Names, TraceEntryId};
+use afp_core::trace::{Names as _, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::Compiled;
 use afp_run::{SoFar, draw_run};
@@ -36,6 +37,7 @@ use event::line;
 pub use event::{Event, value};
 use glance::Seen;
 pub use keeper::Keeper;
+pub use names::Names;
 use session::no_pose;
 pub use session::{Run, Setting};
 use stimuli::control;
@@ -214,6 +216,12 @@ impl Runner {
         let path: Vec<_> = session.track.path.iter().map(row).collect();
         drop(session);
         table(py, &path)
+    }
+
+    /// The names of the plan.
+    #[getter]
+    fn names(&self) -> PyResult<Names> {
+        Ok(Names(self.lock()?.names.clone()))
     }
 
     /// The path so far over the world, as SVG.

@@ -13,7 +13,7 @@ use afp_session::{AnyWorld, Drawing, Mark, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
-pub use from_log::draw_log;
+pub use from_log::{draw_log, follow};
 use legend::Legend;
 pub use sonar::draw_sonar;
 

@@ -17,6 +17,7 @@ __all__ = [
     "Diagnostic",
     "Event",
     "Judge",
+    "Names",
     "Plan",
     "PlanError",
     "Robot",
@@ -231,6 +232,18 @@ class Event:
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
+class Names:
+    def draw(
+        self,
+        plan: str,
+        world: World,
+        seed: int,
+        time: float,
+        path: NDArray[np.float64],
+        events: Sequence[Event],
+    ) -> str: ...
+
+@final
 class Runner:
     def __new__(
         cls,
@@ -249,6 +262,8 @@ class Runner:
     def fault(self) -> tuple[str, str] | None: ...
     @property
     def stopped_by(self) -> str | None: ...
+    @property
+    def names(self) -> Names: ...
     @property
     def trace_hash(self) -> str: ...
     @property

@@ -210,7 +210,7 @@ class WorldBuilder:
         return hash(self.toml)
 
     def __repr__(self) -> str:
-        return f"<WorldBuilder '{self._name}', {len(self._parts) - 2} parts>"
+        return f"<WorldBuilder '{self._name}': {len(self._parts) - 2} added>"
 
 
 def _surface(color: str | None, texture: str | None, echo: float | None, mapped: bool | None) -> dict[str, Any]:
