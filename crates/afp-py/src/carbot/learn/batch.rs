@@ -107,14 +107,17 @@ impl Round {
         self.batch.len()
     }
 
-    /// Works on places that nobody works on yet, until there are none.
-    pub fn work(&self) {
+    /// Works on places that nobody works on yet, until there are none; how many it were.
+    pub fn work(&self) -> usize {
+        let mut worked = 0;
         while let Some(place) = self.batch.places.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let _done = Done(&self.done);
             if let Ok(mut place) = place.lock() {
                 self.batch.work(&mut place, self.task);
             }
+            worked += 1;
         }
+        worked
     }
 
     /// Waits until all places are done.

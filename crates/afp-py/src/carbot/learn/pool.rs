@@ -2,8 +2,8 @@
 //!
 //! A step of many robots takes a tenth of a millisecond, and waking a thread as long as one of them. So who asks for a round
 //! takes part in it, helpers look for the next one for a moment before they sleep, and nobody waits for a helper that comes late.
-//! Where the cores are busy with others, a helper loses its core in the midst of an episode now and then, for longer than all
-//! episodes take: after such a round some are done without helpers.
+//! Where the cores are busy with others, a helper loses its core in the midst of an episode, for longer than all of them take: after
+//! a round that would have been shorter without helpers, some are done so.
 
 use std::hint::spin_loop;
 use std::io;
@@ -22,9 +22,7 @@ const AWAKE: Duration = Duration::from_micros(50);
 /// The clock is read once for so many looks.
 const LOOKS: u32 = 64;
 
-/// A helper that was waited for so long had lost its core.
-const LATE: Duration = Duration::from_micros(300);
-/// So many rounds are done without helpers after that, twice as many the next time, up to a bound.
+/// So many rounds are done without helpers after one that they made longer, twice as many the next time, up to a bound.
 const ALONE: u32 = 8;
 const MOST_ALONE: u32 = 512;
 
@@ -65,7 +63,7 @@ pub fn run(round: &Arc<Round>) -> io::Result<()> {
     };
     match helpers {
         Some(helpers) if !helpers.rest() => helpers.work(round),
-        _ => round.work(),
+        _ => drop(round.work()),
     }
     Ok(())
 }
@@ -91,18 +89,20 @@ fn helpers() -> io::Result<Option<Arc<Helpers>>> {
 impl Helpers {
     /// Does a round with this thread and those that come.
     fn work(&self, round: &Arc<Round>) {
-        let number = self.post(round);
-        round.work();
         let begin = Instant::now();
+        let number = self.post(round);
+        let own = round.work();
+        let worked = begin.elapsed();
         round.wait();
         self.withdraw(number);
+        // Whoever did a third of it alone would have taken three times as long for all.
+        let alone = worked.as_secs_f64() * round.places() as f64 / own.max(1) as f64;
         let before = self.next_alone.load(Ordering::Relaxed);
-        if begin.elapsed() > LATE {
-            let alone = (before * 2).clamp(ALONE, MOST_ALONE);
-            self.alone.store(alone, Ordering::Relaxed);
-            self.next_alone.store(alone, Ordering::Relaxed);
-        } else {
-            self.next_alone.store(before.saturating_sub(1), Ordering::Relaxed);
+        let longer = begin.elapsed().as_secs_f64() > alone;
+        let next = if longer { (before * 2).clamp(ALONE, MOST_ALONE) } else { before / 2 };
+        self.next_alone.store(next, Ordering::Relaxed);
+        if longer {
+            self.alone.store(next, Ordering::Relaxed);
         }
     }
 
