@@ -34,6 +34,7 @@ def items(text: str) -> Iterator[tuple[Item, str | None, int]]:
 
 def documented(thing: Any) -> str | None:
     """What it says of itself, not what it inherits."""
+    thing = getattr(thing, "__func__", thing)
     return inspect.cleandoc(thing.__doc__) if thing.__doc__ else None
 
 

@@ -209,6 +209,9 @@ class WorldBuilder:
     def __hash__(self) -> int:
         return hash(self.toml)
 
+    def _repr_svg_(self) -> str:
+        return self.build()._repr_svg_()
+
     def __repr__(self) -> str:
         return f"<WorldBuilder '{self._name}': {len(self._parts) - 2} added>"
 
