@@ -47,6 +47,11 @@ impl Pause {
         Pause { host, stop, next: Instant::now() + EVERY, turns: 0, is_long: false }
     }
 
+    /// Whether a component has ended everything.
+    pub fn has_ended_all(&self) -> bool {
+        self.host.as_ref().is_some_and(|host| host.has_ended_all())
+    }
+
     /// Looks whether somebody asked for an end.
     #[inline]
     pub fn asked(&mut self) -> Option<Halt> {

@@ -23,7 +23,7 @@ use pyo3::prelude::*;
 
 use super::glance::{Glance, Seen};
 use super::keeper::Keeper;
-use crate::component::RAISED;
+use crate::component::{ENDED_ALL, RAISED};
 use crate::errors::{error, log_error, run_error};
 use crate::pause::{Halt, Pause};
 
@@ -386,6 +386,9 @@ impl Run {
     /// The code and the text of the fault that ended the plan.
     pub fn fault(&self) -> Option<(&'static str, String)> {
         let Some(Ending::Error(fault)) = self.session.ending() else { return None };
+        if fault == Fault::PANIC && self.pause.has_ended_all() {
+            return Some((ENDED_ALL.code, ENDED_ALL.text.to_owned()));
+        }
         let mut failed = self.keeper.records.iter().rev().filter_map(|record| match record.get() {
             Record::Faulted { fault: of, detail, .. } if of == fault => Some(detail),
             _ => None,
