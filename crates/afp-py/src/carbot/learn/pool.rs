@@ -9,7 +9,7 @@ use std::hint::spin_loop;
 use std::io;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -42,6 +42,8 @@ struct Helpers {
     /// How many rounds are done without helpers, and how many will be when one is late again.
     alone: AtomicU32,
     next_alone: AtomicU32,
+    /// Whether the last round was one of them, so that helpers sleep.
+    asleep: AtomicBool,
 }
 
 /// The latest round and its number; none once it is over.
@@ -99,6 +101,10 @@ impl Helpers {
         let alone = worked.as_secs_f64() * round.places() as f64 / own.max(1) as f64;
         let before = self.next_alone.load(Ordering::Relaxed);
         let longer = begin.elapsed().as_secs_f64() > alone;
+        if self.asleep.swap(false, Ordering::Relaxed) {
+            // It has woken them, which takes longer than a round that finds them awake.
+            return;
+        }
         let next = if longer { (before * 2).clamp(ALONE, MOST_ALONE) } else { before / 2 };
         self.next_alone.store(next, Ordering::Relaxed);
         if longer {
@@ -109,7 +115,11 @@ impl Helpers {
     /// Whether this round is one of those that are done without helpers.
     fn rest(&self) -> bool {
         let less = |alone: u32| alone.checked_sub(1);
-        self.alone.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok()
+        let rests = self.alone.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok();
+        if rests {
+            self.asleep.store(true, Ordering::Relaxed);
+        }
+        rests
     }
 
     /// Lets helpers see a round; its number.
