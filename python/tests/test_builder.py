@@ -62,7 +62,8 @@ def test_a_builder_is_a_value() -> None:
     one, two = (empty.box("crate", (x, 3.0), size=(0.4, 0.4), height=0.5) for x in (2.0, 3.0))
     assert empty.build().obstacles == ["room"] * 4
     assert one != two and one == empty.box("crate", (2.0, 3.0), size=(0.4, 0.4), height=0.5)
-    assert repr(one) == "<WorldBuilder 'hall', 2 parts>"
+    assert repr(one) == "<WorldBuilder 'hall': 2 added>"
+    assert one._repr_svg_() == one.build()._repr_svg_() and ">hall<" in one._repr_svg_()
 
 
 def test_what_is_wrong_is_said_where_it_is_added() -> None:

@@ -121,7 +121,7 @@ def test_an_exception_becomes_error_with_its_traceback() -> None:
         ("'Nothing'", "one of Done, Told"),
         ("3", "one of Done, Told"),
         ("'Told'", "without its output"),
-        ("('Told', {'value': 'x'})", "expected a float, not a str"),
+        ("('Told', {'value': 'x'})", "the output 'value' of 'Says': expected a float, not a str"),
         ("('Told', {'value': afp.deg(3)})", "not a quantity in rad"),
         ("('Done', {'value': 1.0})", "carries no output 'value'"),
         ("('Done',)", "one of Done, Told, or a pair"),
@@ -273,7 +273,11 @@ def test_ctrl_c_in_a_component_ends_the_run() -> None:
     simulation = afp.Simulation(plan)
     with pytest.raises(KeyboardInterrupt):
         simulation.run(until=5.0)
-    assert simulation.ending == "error"
+    # It was told of as a component that panicked.
+    result = simulation.result()
+    assert (result.ending, result.fault) == ("error", "python-ended")
+    with pytest.raises(afp.AfpError, match=r"after 0\.\d+ s: Ctrl-C, or another exception.*\(python-ended\)"):
+        result.check()
 
 
 def test_no_component_is_called_after_ctrl_c() -> None:

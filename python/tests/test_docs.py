@@ -1,8 +1,9 @@
-"""The Python blocks of the documentation, each page one session at the root of a copy of the plans."""
+"""The Python blocks of the documentation, each page one session at the root of a copy of the plans; cells of notebooks."""
 
 from __future__ import annotations
 
 import doctest
+import json
 import re
 import shutil
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 
 from conftest import ROOT
 
+NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))
 PAGES = [ROOT / "docs/python.md", ROOT / "docs/research.md"]
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
@@ -33,3 +35,17 @@ def test_what_a_page_shows_is_so(page: Path, tmp_path: Path, monkeypatch: pytest
     failures: list[str] = []
     doctest.DocTestRunner(optionflags=FLAGS).run(test, out=failures.append)
     assert not failures, "".join(failures)
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
+def test_the_cells_of_a_notebook_run(notebook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a program here; as a notebook at night, where there is a kernel."""
+    pytest.importorskip("matplotlib").use("Agg")
+    for folder in ("plans", "worlds"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    (tmp_path / "python/notebooks").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path / "python/notebooks")
+    known = {"__name__": "__main__"}
+    for number, cell in enumerate(json.loads(notebook.read_text(encoding="utf-8"))["cells"]):
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), f"{notebook.name}, cell {number}", "exec"), known)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from typing import Any, Optional
 
@@ -139,3 +140,71 @@ def test_a_number_in_an_array_of_one_is_a_number() -> None:
     assert entries == {"f": 4.5, "n": 3}
     with pytest.raises(TypeError, match="'f' is a float, not a ndarray"):
         afp.Simulation(plan, set={"f": np.array([1.0, 2.0])})
+
+
+@pytest.mark.parametrize(
+    ("hint", "default", "said"),
+    [
+        (float, float("nan"), "is float, its default nan; give a finite number"),
+        (float, "fast", "is float, its default 'fast': there is no entry 'fast'"),
+        (float, None, "is float, its default None"),
+        (int, 1.5, "is int, its default 1.5"),
+        (bool, 1, "is bool, its default 1"),
+        (str, 3, "is string, its default 3"),
+        (afp.Length, "30", "is length in m, its default '30': expected a length, found a bare number"),
+        (afp.Length, True, "is length in m, its default True"),
+    ],
+)
+def test_a_default_is_of_its_type(hint: Any, default: Any, said: str) -> None:
+    """Each was accepted, or told of by a place in a text that nobody has written."""
+    tools = afp.Toolbox("tools")
+
+    def Far(x: Any = default) -> str:
+        return "Done"
+
+    Far.__annotations__["x"] = hint
+    with pytest.raises((TypeError, ValueError), match="the parameter 'x' of 'Far' " + re.escape(said)):
+        tools.computation(states=["Done"])(Far)
+
+
+def test_what_cannot_be_declared_is_told_with_its_name_and_without_what_else_is_in_the_toolbox() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states=["Done"])
+    def Rounds(x: int = 2) -> str:
+        return "Done"
+
+    def Near(robot: afp.Robot) -> None:
+        return None
+
+    with pytest.raises(afp.AfpError) as raised:
+        tools.supervisor(events=["E"], every="10 parsecs")(Near)
+    assert str(raised.value).startswith("the supervisor 'Near' cannot be declared so:\nerror[E0236]: 'parsecs' is not a unit\n")
+    assert "its declaration:3:14" in str(raised.value) and "Rounds" not in str(raised.value)
+    with pytest.raises(ValueError, match="'E' is there twice among"):
+        tools.supervisor(events=["E", "E"])
+    with pytest.raises(ValueError, match="'near by' is no name of a template"):
+        tools.supervisor(events=["E"], name="near by")(Near)
+
+    def Half(x: float, /) -> str:
+        return "Done"
+
+    with pytest.raises(TypeError, match="'Half' takes 'x' by position alone"):
+        tools.computation(states=["Done"])(Half)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"seeds": 1.5}, "seeds is 1.5; give how many"),
+        ({"seeds": "2"}, "seeds is '2'; give how many"),
+        ({"seeds": [1.5]}, "a seed is a whole number, not 1.5"),
+        ({"worlds": 3}, "worlds are files, texts such as 'random:7', or Worlds"),
+        ({"worlds": [3]}, "a world is a file, a text such as 'random:7', or a World, not 3"),
+        ({"metrics": [len]}, "metrics gives functions names"),
+        ({"on_run": 3}, "on_run is a function that gets the row of a run, not 3"),
+    ],
+)
+def test_a_sweep_names_what_it_cannot_take(given: dict[str, Any], said: str) -> None:
+    with pytest.raises(TypeError, match=re.escape(said)):
+        afp.sweep(afp.load(ROOT / "plans/wall_following.afp"), **given)

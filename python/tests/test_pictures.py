@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import subprocess
 import xml.etree.ElementTree as xml
 from pathlib import Path
@@ -49,6 +50,29 @@ def test_a_run_is_drawn_as_far_as_it_has_come(log: afp.Log, wall_following: afp.
     # A log places what happened between two looks at the robot where it was before.
     drawn = [[line for line in picture.svg.splitlines() if 'class="mark"' not in line] for picture in (simulation.picture(), log.picture())]
     assert drawn[0] == drawn[1] and simulation.picture() != before
+
+
+def test_a_result_has_the_picture_of_its_log_and_shows_it(log: afp.Log, wall_following: afp.Plan) -> None:
+    result = afp.Simulation(wall_following).run(until=6.0)
+    assert result.picture() == log.picture()
+    shown = result._repr_html_()
+    assert "interrupted (until)" in shown and "data:image/svg+xml;base64," in shown
+    kept = pickle.loads(pickle.dumps(result))
+    assert kept == result and "<img" not in kept._repr_html_()
+    with pytest.raises(afp.AfpError, match="a result that was pickled"):
+        kept.picture()
+
+
+def test_a_result_says_why_the_plan_failed() -> None:
+    plan = afp.Plan("use std\nplan P { in a: float = 0 start w actor w: Wait(duration = 1 s / a) { Elapsed -> terminate } }")
+    assert "is infinite; formula at plan.afp:2:" in afp.Simulation(plan).run()._repr_html_()
+
+
+def test_a_map_of_what_is_nowhere_begins_at_nothing(wall_following: afp.Plan) -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    runs = afp.sweep(wall_following, vary={"walldist": [0.2, 0.3]}, seeds=2, until=0.5, progress=False)
+    (image,) = runs.plot_map("walldist", "seed", "collisions").images
+    assert image.get_clim() == (0.0, 1.0)
 
 
 def test_a_film_has_the_pictures_of_the_camera(log: afp.Log, tmp_path: Path) -> None:

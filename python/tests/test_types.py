@@ -48,6 +48,7 @@ known: list[tuple[str, str]] = afp.faults()
 version: str = afp.__version__
 table: afp.Runs = runs.filter(lambda row: row["seed"] == 1)
 picture: afp.Picture = simulation.picture()
+picture = simulation.result().picture()
 log: afp.Log = afp.Log("a.mcap")
 moment: afp.Snapshot = log.simulation(at=afp.ms(300)).save()
 simulation.restore(moment)

@@ -58,8 +58,7 @@ pub fn run() -> Result<(), Failure> {
     run_command(quickly_built(&mut tests).env("AFPC", afpc))?;
     run_command(&mut at_package(&python, &["-m", "mypy"]))?;
     run_command(&mut at_package(&python, &["-m", "mypy.stubtest", "afp._afp"]))?;
-    let sdist = ["-m", "maturin", "sdist", "--out"];
-    run_command(at_package(&python, &sdist).arg(wheels("sdist")?))
+    sdist(&python, &wheels("sdist")?)
 }
 
 /// What takes longer: the bars of the optimised package, the search for what breaks it, a million random steps in its
@@ -84,8 +83,7 @@ pub fn long() -> Result<(), Failure> {
     let cluster = ["-m", "pytest", "--quiet", "tests/test_cluster.py"];
     run_command(at_package(&python, &cluster).env("AFP_RAY", "1"))?;
     let folder = wheels("sdist")?;
-    let sdist = ["-m", "maturin", "sdist", "--out"];
-    run_command(at_package(&python, &sdist).arg(&folder))?;
+    sdist(&python, &folder)?;
     let pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir"];
     let mut built = at_package(&python, &pip);
     built.arg(wheels("from-sdist")?).arg(only(&folder, "gz")?);
@@ -99,6 +97,16 @@ pub fn at_package(python: &Path, arguments: &[&str]) -> Command {
     let mut command = program(python);
     command.args(arguments).current_dir(root().join("python")).env("CARGO_TARGET_DIR", target());
     command
+}
+
+/// Makes the source distribution, as pip asks for it: asked directly, maturin looks for a crate in the package's folder first,
+/// and cargo says that there is none.
+///
+/// # Errors
+/// A file that it needs is not there.
+pub fn sdist(python: &Path, folder: &Path) -> Result<(), Failure> {
+    let sdist = ["-m", "maturin", "pep517", "write-sdist", "--sdist-directory"];
+    run_command(at_package(python, &sdist).arg(folder))
 }
 
 /// Builds the wheel and installs it.

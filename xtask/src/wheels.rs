@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::emulated::PI;
-use crate::python::{at_package, emptied, environment, only};
+use crate::python::{at_package, emptied, environment, only, sdist};
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 use crate::studio;
 
@@ -54,8 +54,7 @@ pub fn run(names: &[String]) -> Result<(), Failure> {
     let python = environment("wheels-python", &PACKAGES)?;
     studio::page()?;
     let folder = emptied(&target().join("wheels"))?;
-    let sdist = ["-m", "maturin", "sdist", "--out"];
-    run_command(at_package(&python, &sdist).arg(&folder))?;
+    sdist(&python, &folder)?;
     let mut said: Option<String> = None;
     for machine in &MACHINES {
         if !names.is_empty() && !names.iter().any(|name| name == machine.name) {

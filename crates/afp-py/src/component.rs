@@ -22,7 +22,7 @@ use call::PyTemplate;
 pub use components::Components;
 pub use depth::{may_run, may_sweep};
 use handles::PyHandle;
-pub use host::{Host, RAISED};
+pub use host::{ENDED_ALL, Host, RAISED};
 pub use registry::AnyRegistry;
 
 /// An object of a plan: whatever Python put there.

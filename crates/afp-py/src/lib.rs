@@ -56,6 +56,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_class::<scenario::Scenario>()?;
     module.add_class::<scenario::Verdict>()?;
     module.add_class::<simulation::Event>()?;
+    module.add_class::<simulation::Names>()?;
     module.add_class::<simulation::Runner>()?;
     module.add_class::<sweep::Sweeper>()?;
     module.add_class::<toolbox::Toolbox>()?;

@@ -47,14 +47,28 @@ impl Pause {
         Pause { host, stop, next: Instant::now() + EVERY, turns: 0, is_long: false }
     }
 
-    /// Looks whether the run goes on; at signals from time to time.
-    pub fn look(&mut self) -> Option<Halt> {
+    /// Whether a component has ended everything.
+    pub fn has_ended_all(&self) -> bool {
+        self.host.as_ref().is_some_and(|host| host.has_ended_all())
+    }
+
+    /// Looks whether somebody asked for an end.
+    #[inline]
+    pub fn asked(&mut self) -> Option<Halt> {
         self.is_long = false;
         if self.stop.load(Ordering::Relaxed) && self.stop.swap(false, Ordering::Relaxed) {
             return Some(Halt::Asked);
         }
         if self.host.as_ref().is_some_and(|host| host.is_aborted()) {
             return Some(Halt::Aborted);
+        }
+        None
+    }
+
+    /// Looks whether the run goes on; at signals from time to time.
+    pub fn look(&mut self) -> Option<Halt> {
+        if let Some(halt) = self.asked() {
+            return Some(halt);
         }
         self.turns += 1;
         // Components take their time: then every turn counts.

@@ -4,6 +4,7 @@ mod access;
 mod event;
 mod glance;
 mod keeper;
+mod names;
 mod session;
 mod stimuli;
 mod time;
@@ -13,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use afp_core::devices::faults as faults_of;
-use afp_core::trace::{Names, TraceEntryId};
+use afp_core::trace::{Names as _, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::Compiled;
 use afp_run::{SoFar, draw_run};
@@ -24,7 +25,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
-use crate::component::{AnyRegistry, Components, Host, may_run};
+use crate::component::{AnyRegistry, Components, Host};
 use crate::errors::{error, log_error, plan_error};
 use crate::link::{devices, fits, link};
 use crate::pause::in_background;
@@ -36,6 +37,7 @@ use event::line;
 pub use event::{Event, value};
 use glance::Seen;
 pub use keeper::Keeper;
+pub use names::Names;
 use session::no_pose;
 pub use session::{Run, Setting};
 use stimuli::control;
@@ -101,18 +103,11 @@ impl Runner {
 
     /// Makes one step of the plan; whether it still runs.
     fn step(&self, py: Python<'_>) -> PyResult<bool> {
-        may_run()?;
-        let mut session = self.lock()?;
         // Components get hold of the interpreter by themselves; without any, letting it go costs more than a step.
-        let stepped = match &self.host {
-            None => session.step(),
-            Some(_) => {
-                let session = &mut *session;
-                session.show();
-                py.detach(|| session.step())
-            }
-        };
-        self.after(py, stepped)
+        if self.host.is_none() {
+            return self.lock()?.step();
+        }
+        self.drive(py, Run::step)
     }
 
     /// Goes on until something has happened after the first `seen` events, or until a time; whether the plan still
@@ -221,6 +216,12 @@ impl Runner {
         let path: Vec<_> = session.track.path.iter().map(row).collect();
         drop(session);
         table(py, &path)
+    }
+
+    /// The names of the plan.
+    #[getter]
+    fn names(&self) -> PyResult<Names> {
+        Ok(Names(self.lock()?.names.clone()))
     }
 
     /// The path so far over the world, as SVG.

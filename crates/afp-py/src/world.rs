@@ -107,6 +107,11 @@ impl World {
         format!("<World '{}', {} obstacles>", self.name(), self.loaded.world.drawing().things.len())
     }
 
+    /// What a notebook shows.
+    fn _repr_svg_(&self) -> String {
+        afp_run::draw_world(&*self.loaded.world)
+    }
+
     /// As it was pickled.
     #[staticmethod]
     fn _again(text: String, path: Option<PathBuf>) -> PyResult<World> {

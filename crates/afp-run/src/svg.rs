@@ -9,11 +9,12 @@ mod sonar;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Names};
+use afp_log::OwnedNames;
 use afp_session::{AnyWorld, Drawing, Mark, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
-pub use from_log::draw_log;
+pub use from_log::{draw_log, follow};
 use legend::Legend;
 pub use sonar::draw_sonar;
 
@@ -79,6 +80,16 @@ pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
     draw(&Picture { world, title: plan.to_owned(), subtitle, figures, path, marks }, names)
 }
 
+/// Draws a world with the robot at its start.
+pub fn draw_world(world: &dyn AnyWorld) -> String {
+    let drawing = &world.drawing();
+    let things = drawing.things.len();
+    let subtitle = format!("{things} obstacle{}", if things == 1 { "" } else { "s" });
+    let (title, figures) = (world.name().to_owned(), Vec::new());
+    let picture = Picture { world: drawing, title, subtitle, figures, path: &[], marks: &[] };
+    draw(&picture, &OwnedNames::default())
+}
+
 /// The line below the title.
 fn subtitle(world: &dyn AnyWorld, seed: &str) -> String {
     format!("{}, seed {seed}", world.name())
@@ -127,9 +138,12 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     canvas.scale_bar();
     let mut legend = Legend::new(view);
     legend.head(&picture.title, &picture.subtitle);
-    legend.actors(actors.iter().map(|id| (names.component(*id).path, color(Some(*id)))));
-    legend.events(marks::counted(marks, &kinds, names));
-    legend.figures(&picture.figures);
+    // A world alone has none.
+    if !picture.figures.is_empty() {
+        legend.actors(actors.iter().map(|id| (names.component(*id).path, color(Some(*id)))));
+        legend.events(marks::counted(marks, &kinds, names));
+        legend.figures(&picture.figures);
+    }
     canvas.finish(legend)
 }
 

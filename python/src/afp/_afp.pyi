@@ -17,6 +17,7 @@ __all__ = [
     "Diagnostic",
     "Event",
     "Judge",
+    "Names",
     "Plan",
     "PlanError",
     "Robot",
@@ -37,29 +38,42 @@ __all__ = [
     "target",
 ]
 
-class AfpError(Exception): ...
+class AfpError(Exception):
+    """What goes wrong with plans, worlds, logs and runs."""
 
 class PlanError(AfpError):
+    """A plan with errors; `diagnostics` has them."""
+
     diagnostics: list[Diagnostic]
 
 @final
 class Diagnostic:
+    """One thing the compiler has to say, as `afpc check` says it."""
+
     @property
-    def code(self) -> str: ...
+    def code(self) -> str:
+        """Which rule it is about: `E0203`."""
     @property
-    def severity(self) -> str: ...
+    def severity(self) -> str:
+        """`error`, `warning` or `note`."""
     @property
-    def message(self) -> str: ...
+    def message(self) -> str:
+        """What is wrong."""
     @property
-    def help(self) -> str: ...
+    def help(self) -> str:
+        """What to do, perhaps empty."""
     @property
-    def file(self) -> str: ...
+    def file(self) -> str:
+        """The file, as it was named."""
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """The line, from 1."""
     @property
-    def column(self) -> int: ...
+    def column(self) -> int:
+        """The column, from 1."""
     @property
-    def fix(self) -> str | None: ...
+    def fix(self) -> str | None:
+        """The text that mends it in place of what is wrong, where there is one."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -71,6 +85,8 @@ class Diagnostic:
 
 @disjoint_base
 class Plan:
+    """A plan: its text, what the compiler says of it, its drawings, and changes of it."""
+
     def __new__(
         cls,
         text: str,
@@ -80,30 +96,47 @@ class Plan:
         toolboxes: Sequence[Toolbox] = ...,
     ) -> Self: ...
     @property
-    def text(self) -> str: ...
+    def text(self) -> str:
+        """The text."""
     @property
-    def path(self) -> Path | None: ...
+    def path(self) -> Path | None:
+        """The file that it came from and is saved to."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The name of the plan that runs."""
     @property
-    def plans(self) -> list[str]: ...
+    def plans(self) -> list[str]:
+        """The names of the plans of the file."""
     @property
-    def toolboxes(self) -> list[Toolbox]: ...
+    def toolboxes(self) -> list[Toolbox]:
+        """The toolboxes that were given with it."""
     @property
-    def diagnostics(self) -> list[Diagnostic]: ...
+    def diagnostics(self) -> list[Diagnostic]:
+        """Everything the compiler has to say, in the order of the text."""
     @property
-    def ok(self) -> bool: ...
+    def ok(self) -> bool:
+        """Whether there are no errors; warnings do not count."""
     @property
-    def scenarios(self) -> list[Scenario]: ...
-    def check(self) -> None: ...
-    def report(self, *, color: bool = False) -> str: ...
-    def formatted(self) -> str: ...
-    def format(self) -> None: ...
-    def save(self, path: str | os.PathLike[str] | None = None) -> None: ...
-    def svg(self, *, theme: str = "auto", fold: bool = False, data: bool = True) -> str: ...
-    def dot(self) -> str: ...
-    def json(self) -> str: ...
-    def scxml(self) -> str: ...
+    def scenarios(self) -> list[Scenario]:
+        """The scenarios of the file; none while it has errors."""
+    def check(self) -> None:
+        """Raises `PlanError` if the plan has errors."""
+    def report(self, *, color: bool = False) -> str:
+        """The diagnostics as `afpc check` prints them."""
+    def formatted(self) -> str:
+        """The text in canonical form; the plan stays as it is."""
+    def format(self) -> None:
+        """Brings the text into canonical form."""
+    def save(self, path: str | os.PathLike[str] | None = None) -> None:
+        """Writes the text, and those of other files that a change has reached, to their files."""
+    def svg(self, *, theme: str = "auto", fold: bool = False, data: bool = True) -> str:
+        """The drawing in the notation of the paper, as SVG, with what is wrong marked where it is."""
+    def dot(self) -> str:
+        """The drawing for GraphViz."""
+    def json(self) -> str:
+        """The checked graph as JSON."""
+    def scxml(self) -> str:
+        """The flow of action as State Chart XML."""
     def _coverage(self, log: str | os.PathLike[str]) -> str: ...
     def _change(self, kind: str, parts: Mapping[str, Any], fits: bool = False) -> None: ...
     def _repr_svg_(self) -> str | None: ...
@@ -112,42 +145,61 @@ class Plan:
 
 @disjoint_base
 class Toolbox:
+    """A toolbox file and the Python classes that implement its templates."""
+
     def __new__(cls, text: str, path: str | os.PathLike[str] | None = None) -> Self: ...
     @property
-    def text(self) -> str: ...
+    def text(self) -> str:
+        """The text of the toolbox file."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The name behind `use`."""
     @property
-    def templates(self) -> list[str]: ...
+    def templates(self) -> list[str]:
+        """The names of the templates."""
     @property
-    def implemented(self) -> list[str]: ...
+    def implemented(self) -> list[str]:
+        """The names of the templates that have an implementation."""
     def _declare(self, name: str, text: str) -> None: ...
     def _implement(self, template: str, maker: Callable[..., Any]) -> None: ...
     def _template(self, name: str) -> dict[str, Any]: ...
 
 @final
 class World:
+    """A room: where the robot starts and what stands, lies, shines and moves around it."""
+
     @staticmethod
-    def load(path: str | os.PathLike[str]) -> World: ...
+    def load(path: str | os.PathLike[str]) -> World:
+        """Reads a world file, or a map of map_server (`.yaml`)."""
     @staticmethod
-    def random(seed: int) -> World: ...
+    def random(seed: int) -> World:
+        """A room made up from a seed, as `--world random:7` is."""
     @staticmethod
-    def parse(text: str) -> World: ...
+    def parse(text: str) -> World:
+        """Reads a world from the text of its file."""
     @staticmethod
-    def of_plan(path: str | os.PathLike[str]) -> World: ...
+    def of_plan(path: str | os.PathLike[str]) -> World:
+        """The world that `afpc run` would take for the plan of this file."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """What it is called."""
     @property
-    def text(self) -> str: ...
+    def text(self) -> str:
+        """The text of its file."""
     @property
-    def path(self) -> Path | None: ...
+    def path(self) -> Path | None:
+        """Its file, or `random:SEED`."""
     @property
-    def start(self) -> tuple[float, float, float]: ...
+    def start(self) -> tuple[float, float, float]:
+        """Where the robot starts: x and y in metres, heading in radians."""
     @property
-    def obstacles(self) -> list[str]: ...
-    def outlines(self) -> list[NDArray[np.float64]]: ...
+    def obstacles(self) -> list[str]:
+        """The names of what stands in it."""
+    def outlines(self) -> list[NDArray[np.float64]]:
+        """The corners of everything that stands in it, metres, each an array of n x 2."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
+    def _repr_svg_(self) -> str: ...
     def __hash__(self) -> int: ...
     @staticmethod
     def _again(text: str, path: str | os.PathLike[str] | None) -> World: ...
@@ -155,74 +207,115 @@ class World:
 
 @final
 class Robot:
+    """The robot as a component in Python has it: devices and time, not the truth.
+
+    It can be used while a component is being called and not between calls."""
+
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """The time of this step, seconds since the start."""
     @property
-    def distance(self) -> float | None: ...
+    def distance(self) -> float | None:
+        """How far it is to the nearest thing ahead of the range sensor, metres; infinity for silence; `None` before the
+        first echo and for one that the sensor cannot measure."""
     @property
-    def bearing(self) -> float: ...
+    def bearing(self) -> float:
+        """Where the range sensor points, radians to the left of the heading."""
     @property
-    def odometry(self) -> NDArray[np.float64]: ...
+    def odometry(self) -> NDArray[np.float64]:
+        """What the wheels have counted: x, y in metres and heading in radians against the start, speed, turn rate."""
     @property
-    def touched(self) -> bool: ...
+    def touched(self) -> bool:
+        """Whether the bumper is pressed."""
     @property
-    def escape(self) -> bool: ...
+    def escape(self) -> bool:
+        """Whether the escape button is held down."""
     @property
-    def battery(self) -> tuple[float, float]: ...
+    def battery(self) -> tuple[float, float]:
+        """The battery's voltage, and the share of its charge that is left."""
     @property
-    def color(self) -> NDArray[np.float64] | None: ...
+    def color(self) -> NDArray[np.float64] | None:
+        """Red, green and blue of the floor, each from 0 to 1; `None` before it was looked at."""
     @property
-    def glow(self) -> tuple[float, float] | None: ...
+    def glow(self) -> tuple[float, float] | None:
+        """Bearing (radians) and strength of the brightest infrared source; `None` where all is dark."""
     @property
-    def camera(self) -> NDArray[np.uint8] | None: ...
-    def drive(self, speed: float, turn: float = 0.0) -> None: ...
-    def stop(self) -> None: ...
-    def point(self, bearing: float) -> None: ...
-    def sense(self, signal: str) -> Any: ...
+    def camera(self) -> NDArray[np.uint8] | None:
+        """The latest picture, rows x columns x 3, a copy; `None` before the first one."""
+    def drive(self, speed: float, turn: float = 0.0) -> None:
+        """Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for half a second at most: ask again."""
+    def stop(self) -> None:
+        """Asks for a standstill."""
+    def point(self, bearing: float) -> None:
+        """Points the range sensor, radians to the left of the heading."""
+    def sense(self, signal: str) -> Any:
+        """What a signal says, by device and name: `robot.sense("bumper.left")`. `None` before it says anything."""
     def __reduce__(self) -> NoReturn: ...
 
 @final
 class Event:
+    """One thing that happened in a run."""
+
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """When, seconds since the start."""
     @property
-    def kind(self) -> str: ...
+    def kind(self) -> str:
+        """What happened: `started`, `event`, `finished`, `interrupted`, `committed`, `faulted`, `ended`, ..."""
     @property
-    def component(self) -> str: ...
+    def component(self) -> str:
+        """Whom it happened to: the path of an element or supervisor; who wrote, for `committed`."""
     @property
-    def outcome(self) -> str | None: ...
+    def outcome(self) -> str | None:
+        """The state or event."""
     @property
-    def target(self) -> str | None: ...
+    def target(self) -> str | None:
+        """Where the outcome leads."""
     @property
-    def supervisor(self) -> str | None: ...
+    def supervisor(self) -> str | None:
+        """The supervisor that diverted a start, or whose event resumed."""
     @property
-    def element(self) -> str | None: ...
+    def element(self) -> str | None:
+        """The element that was active or being entered when an event was taken."""
     @property
-    def on(self) -> bool: ...
+    def on(self) -> bool:
+        """Whether that element answered: the target is one of its `on`, not the supervisor's."""
     @property
-    def entry(self) -> str | None: ...
+    def entry(self) -> str | None:
+        """The entry that was written."""
     @property
-    def port(self) -> str | None: ...
+    def port(self) -> str | None:
+        """The input port that was read."""
     @property
-    def old(self) -> Any: ...
+    def old(self) -> Any:
+        """The value before a commit."""
     @property
-    def value(self) -> Any: ...
+    def value(self) -> Any:
+        """The value of an entry after a commit, or of an input."""
     @property
-    def unit(self) -> str | None: ...
+    def unit(self) -> str | None:
+        """The SI unit of the values."""
     @property
-    def ending(self) -> str | None: ...
+    def ending(self) -> str | None:
+        """How a plan ended: `ok`, `interrupted`, `error`."""
     @property
-    def fault(self) -> str | None: ...
+    def fault(self) -> str | None:
+        """The code of a fault."""
     @property
-    def fault_text(self) -> str | None: ...
+    def fault_text(self) -> str | None:
+        """The fault in words."""
     @property
-    def request(self) -> str | None: ...
+    def request(self) -> str | None:
+        """What came from outside, in the words of scenarios: `press touch.touch`."""
     @property
-    def refused(self) -> str | None: ...
+    def refused(self) -> str | None:
+        """Why what came from outside was not done: a reason, or `not reached`."""
     @property
-    def lateness(self) -> float | None: ...
+    def lateness(self) -> float | None:
+        """By how much a deadline was missed, seconds."""
     @property
-    def cause(self) -> str | None: ...
+    def cause(self) -> str | None:
+        """Why a deadline was missed: `late_release` or `long_poll`."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -231,7 +324,24 @@ class Event:
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
+class Names:
+    """The names of a plan as it ran."""
+
+    def draw(
+        self,
+        plan: str,
+        world: World,
+        seed: int,
+        time: float,
+        path: NDArray[np.float64],
+        events: Sequence[Event],
+    ) -> str:
+        """The path of a run over its world, as SVG: rows of time, x, y, heading, and what happened on the way."""
+
+@final
 class Runner:
+    """A plan in a simulated world. `afp.Simulation` is made of it."""
+
     def __new__(
         cls,
         plan: Plan,
@@ -242,42 +352,72 @@ class Runner:
         camera: bool = False,
     ) -> Self: ...
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """The time, seconds."""
     @property
-    def ending(self) -> str: ...
+    def ending(self) -> str:
+        """How the plan ended: `ok`, `interrupted`, `error`; `running` before."""
     @property
-    def fault(self) -> tuple[str, str] | None: ...
+    def fault(self) -> tuple[str, str] | None:
+        """The code and the text of the fault that ended the plan."""
     @property
-    def stopped_by(self) -> str | None: ...
+    def stopped_by(self) -> str | None:
+        """Why the plan stopped though it did not end by itself: `until` or `stop`."""
     @property
-    def trace_hash(self) -> str: ...
+    def names(self) -> Names:
+        """The names of the plan."""
     @property
-    def deadline_misses(self) -> int: ...
+    def trace_hash(self) -> str:
+        """The hash of the trace so far, as `afpc run` tells it."""
     @property
-    def active(self) -> str | None: ...
+    def deadline_misses(self) -> int:
+        """Deadlines missed so far."""
     @property
-    def event_count(self) -> int: ...
+    def active(self) -> str | None:
+        """The path of the active element, sub-plans left out."""
     @property
-    def timeline(self) -> list[str]: ...
+    def event_count(self) -> int:
+        """How many events there are."""
     @property
-    def pose(self) -> tuple[float, float, float]: ...
+    def timeline(self) -> list[str]:
+        """The timeline as `afpc run` prints it."""
     @property
-    def collisions(self) -> list[tuple[str, float, float]]: ...
-    def run(self, until: float | None, stop: bool) -> bool: ...
-    def step(self) -> bool: ...
-    def listen(self, seen: int, until: float | None) -> bool: ...
-    def request_stop(self) -> None: ...
-    def repeat(self, path: str | os.PathLike[str]) -> None: ...
-    def keyframe(self) -> Runner: ...
-    def restore(self, moment: Runner) -> None: ...
-    def events(self, first: int) -> list[Event]: ...
-    def path(self) -> NDArray[np.float64]: ...
-    def draw(self, plan: str, world: World, seed: int) -> str: ...
-    def sense(self, name: str) -> Any: ...
-    def entries(self) -> dict[str, Any]: ...
-    def get(self, name: str) -> Any: ...
-    def set(self, name: str, value: Any, at: float | None = None) -> None: ...
-    def hold(self, control: str | None, at: float | None, time: float) -> None: ...
+    def pose(self) -> tuple[float, float, float]:
+        """Where the robot is: x, y, heading."""
+    @property
+    def collisions(self) -> list[tuple[str, float, float]]:
+        """What the robot touched: obstacle, first and last time."""
+    def run(self, until: float | None, stop: bool) -> bool:
+        """Runs the plan until it ends or until a time, when it is stopped if `stop` is set; whether it still runs."""
+    def step(self) -> bool:
+        """Makes one step of the plan; whether it still runs."""
+    def listen(self, seen: int, until: float | None) -> bool:
+        """Goes on until something has happened after the first `seen` events, or until a time; whether the plan still
+        runs."""
+    def request_stop(self) -> None:
+        """Asks the plan to stop at its next step; from any thread."""
+    def repeat(self, path: str | os.PathLike[str]) -> None:
+        """Asks for all that came from outside in the run of a log."""
+    def keyframe(self) -> Runner:
+        """The same run at this moment, which goes on by itself; it writes no log."""
+    def restore(self, moment: Runner) -> None:
+        """Goes on from the moment of another run of the same plan."""
+    def events(self, first: int) -> list[Event]:
+        """The events from the `first`-th on."""
+    def path(self) -> NDArray[np.float64]:
+        """Where the robot was every 20 ms: time, x, y, heading."""
+    def draw(self, plan: str, world: World, seed: int) -> str:
+        """The path so far over the world, as SVG."""
+    def sense(self, name: str) -> Any:
+        """What a sensor says."""
+    def entries(self) -> dict[str, Any]:
+        """The entries by name."""
+    def get(self, name: str) -> Any:
+        """The value of an entry."""
+    def set(self, name: str, value: Any, at: float | None = None) -> None:
+        """Writes an entry: before the start an `in` entry, later an `in` or `var` entry at the next step."""
+    def hold(self, control: str | None, at: float | None, time: float) -> None:
+        """Holds a control down for a while."""
     def fail(
         self,
         device: str,
@@ -286,28 +426,42 @@ class Runner:
         lasting: float | None,
         delay: float | None,
         share: float | None,
-    ) -> None: ...
-    def fire(self, component: str, outcome: str, outputs: dict[str, Any], at: float | None) -> None: ...
-    def idle(self, element: str | None, at: float | None) -> None: ...
-    def close(self) -> Path | None: ...
-    def failures(self, seen: int) -> list[tuple[float, str, str, BaseException]]: ...
+    ) -> None:
+        """Breaks something."""
+    def fire(self, component: str, outcome: str, outputs: dict[str, Any], at: float | None) -> None:
+        """Lets a component report an outcome that it did not see, with its outputs."""
+    def idle(self, element: str | None, at: float | None) -> None:
+        """Lets an actor, those of a sub-plan, or all of them do nothing from their next start on."""
+    def close(self) -> Path | None:
+        """Ends the log, where there is one; its path."""
+    def failures(self, seen: int) -> list[tuple[float, str, str, BaseException]]:
+        """The exceptions of components after the first `seen`: time, element or supervisor, template, exception."""
     def __reduce__(self) -> NoReturn: ...
 
 @final
 class Scenario:
+    """A scenario of a file: a world, what happens, what is expected."""
+
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Its name."""
     @property
-    def plan(self) -> str: ...
+    def plan(self) -> str:
+        """The name of its plan."""
     @property
-    def path(self) -> Path: ...
+    def path(self) -> Path:
+        """The file in which it stands."""
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """The line of its name, from 1."""
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """The seed of all noise."""
     @property
-    def until(self) -> float: ...
-    def run(self, *, log: str | os.PathLike[str] | None = None) -> Verdict: ...
+    def until(self) -> float:
+        """When it ends at the latest, seconds."""
+    def run(self, *, log: str | os.PathLike[str] | None = None) -> Verdict:
+        """Runs it; with `log`, records it there. Ctrl-C interrupts it."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -315,18 +469,26 @@ class Scenario:
 
 @final
 class Broken:
+    """An expectation that was not met."""
+
     @property
-    def text(self) -> str: ...
+    def text(self) -> str:
+        """The line of the scenario."""
     @property
-    def file(self) -> str: ...
+    def file(self) -> str:
+        """Its file."""
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """Its line, from 1."""
     @property
-    def column(self) -> int: ...
+    def column(self) -> int:
+        """Its column, from 1."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """When it became clear, seconds."""
     @property
-    def why(self) -> str: ...
+    def why(self) -> str:
+        """What happened instead."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     @staticmethod
@@ -335,20 +497,29 @@ class Broken:
 
 @final
 class Verdict:
+    """What a scenario came to."""
+
     @property
-    def passed(self) -> bool: ...
+    def passed(self) -> bool:
+        """Whether everything was as expected."""
     @property
-    def broken(self) -> list[Broken]: ...
+    def broken(self) -> list[Broken]:
+        """What was not as expected, in order of time."""
     @property
-    def report(self) -> str: ...
+    def report(self) -> str:
+        """What broke, and the timeline around the first of it, as `afpc test` prints it."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """How long it ran, seconds."""
     @property
-    def ending(self) -> str: ...
+    def ending(self) -> str:
+        """How the plan ended: `ok`, `interrupted`, `error`; `running` if it did not."""
     @property
-    def trace_hash(self) -> str: ...
+    def trace_hash(self) -> str:
+        """The hash of the trace, as `afpc test --json` tells it."""
     @property
-    def timeline(self) -> list[str]: ...
+    def timeline(self) -> list[str]:
+        """The timeline."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     @staticmethod
@@ -357,22 +528,32 @@ class Verdict:
 
 @final
 class Carbot:
+    """The simulated robot in its world, without a plan."""
+
     half_length: float
     half_width: float
     def __new__(cls, world: World, seed: int = 0) -> Self: ...
-    def drive(self, speed: float, turn: float, time: float) -> None: ...
-    def stop(self) -> None: ...
+    def drive(self, speed: float, turn: float, time: float) -> None:
+        """Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C interrupts it."""
+    def stop(self) -> None:
+        """Stops the wheels."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """The time, seconds."""
     @property
-    def pose(self) -> tuple[float, float, float]: ...
+    def pose(self) -> tuple[float, float, float]:
+        """Where the robot truly is: x, y in metres, heading in radians."""
     @property
-    def touched(self) -> list[str]: ...
-    def sense(self, name: str) -> Any: ...
+    def touched(self) -> list[str]:
+        """What the robot has run into, in order of time; what it touches at different times counts each time."""
+    def sense(self, name: str) -> Any:
+        """What a sensor says: see `Robot`."""
     def __reduce__(self) -> NoReturn: ...
 
 @final
 class Courses:
+    """Some episodes side by side."""
+
     def __new__(
         cls,
         count: int,
@@ -384,21 +565,36 @@ class Courses:
         steps: int,
     ) -> Self: ...
     @property
-    def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]: ...
+    def bounds(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """The least and the greatest of what is observed."""
     @property
-    def commands(self) -> int: ...
-    def reset(self, starts: Sequence[tuple[int, tuple[Any, ...]]]) -> NDArray[np.float32]: ...
+    def commands(self) -> int:
+        """How many numbers an action has."""
+    def reset(self, starts: Sequence[tuple[int, tuple[Any, ...]]]) -> NDArray[np.float32]:
+        """Lets some of the episodes begin anew; what is observed in all of them."""
     def step(
         self, actions: NDArray[np.float64], again: Sequence[tuple[int, tuple[Any, ...]]]
-    ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]: ...
-    def info(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]: ...
-    def place(self, index: int) -> tuple[str, tuple[float, float] | None]: ...
-    def moving(self, index: int) -> list[tuple[int, NDArray[np.float64]]]: ...
-    def sense(self, index: int, name: str) -> Any: ...
+    ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]:
+        """Makes a step in all of them, an action each; those that are named begin anew instead."""
+    def step_first(
+        self, action: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """Makes a step in the first of them; what came of it, and what `info` tells. Most of the time of a single robot's step
+        would go into arrays otherwise."""
+    def info(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
+        """Of all of them the time, the robot's true pose, and how often it ran into something."""
+    def place(self, index: int) -> tuple[str, tuple[float, float] | None]:
+        """Where an episode takes place, and where there is something to reach."""
+    def moving(self, index: int) -> list[tuple[int, NDArray[np.float64]]]:
+        """What moves in one of them: the numbers of the obstacles, and their corners as they are now."""
+    def sense(self, index: int, name: str) -> Any:
+        """What a sensor of one of them says."""
     def __reduce__(self) -> NoReturn: ...
 
 @final
 class Judge:
+    """Looks at a running plan and says what driving was worth since the last look."""
+
     def __new__(
         cls,
         runner: Runner,
@@ -407,10 +603,13 @@ class Judge:
         reach: tuple[str, tuple[float, float]] | None,
         world: World,
     ) -> Self: ...
-    def look(self, runner: Runner) -> tuple[float, bool]: ...
+    def look(self, runner: Runner) -> tuple[float, bool]:
+        """The reward since the last look, and whether an episode would be over."""
 
 @final
 class Sweeper:
+    """A sweep: its grid, and the outcomes so far."""
+
     def __new__(
         cls,
         plan: Plan,
@@ -421,11 +620,15 @@ class Sweeper:
         mark: str,
     ) -> Self: ...
     @property
-    def total(self) -> int: ...
+    def total(self) -> int:
+        """How many runs there are."""
     @property
-    def identity(self) -> str: ...
-    def open(self, out: str, restart: bool) -> None: ...
-    def left(self) -> list[int]: ...
+    def identity(self) -> str:
+        """What makes it this sweep: program, plan, worlds and grid, as in its journal."""
+    def open(self, out: str, restart: bool) -> None:
+        """Keeps outcomes in a journal beside the table `out`, and takes up those that are there."""
+    def left(self) -> list[int]:
+        """The numbers of the runs that are not done."""
     def run(
         self,
         runs: list[int],
@@ -433,25 +636,42 @@ class Sweeper:
         progress: Callable[[int], Any] | None = None,
         on_run: Callable[[dict[str, Any]], Any] | None = None,
         judge: Callable[[Runner, World, int], dict[str, float]] | None = None,
-    ) -> None: ...
+    ) -> None:
+        """Does runs and keeps their outcomes; tells `progress` how many of this call are done, and `on_run` the row of
+        each. `judge` gives further figures of a run: its number, its end, its world and its seed go in, numbers by name
+        come out."""
     def lines(
         self,
         runs: list[int],
         jobs: int | None = None,
         judge: Callable[[Runner, World, int], dict[str, float]] | None = None,
-    ) -> list[str]: ...
-    def accept(self, lines: list[str], on_run: Callable[[dict[str, Any]], Any] | None = None) -> int: ...
+    ) -> list[str]:
+        """Does runs for another process; their outcomes as lines of JSON."""
+    def accept(self, lines: list[str], on_run: Callable[[dict[str, Any]], Any] | None = None) -> int:
+        """Keeps outcomes of another process, and tells `on_run` their rows; those of runs that are done are dropped. How many
+        were new."""
     def runner(
         self, run: int, log: str | os.PathLike[str] | None = None, camera: bool = False
-    ) -> tuple[Runner, World]: ...
-    def write(self) -> list[Path]: ...
-    def columns(self) -> dict[str, tuple[list[Any], str]]: ...
+    ) -> tuple[Runner, World]:
+        """A run about to begin again, and its world; its log is written to a file, perhaps with what the camera sees."""
+    def write(self) -> list[Path]:
+        """Writes the table, if it has a place, and lets go of the journal; its paths."""
+    def columns(self) -> dict[str, tuple[list[Any], str]]:
+        """The outcomes so far by column, in the order of the runs; the second of a pair is the type."""
     def __reduce__(self) -> NoReturn: ...
 
-def extension(folder: str | os.PathLike[str]) -> str | None: ...
-def alike(runs: list[tuple[str, str, str, int]]) -> list[tuple[str, str, str, int, int]]: ...
-def target(world: World, reach: str, seed: int) -> tuple[float, float]: ...
-def draw_log(path: str | os.PathLike[str], what: str) -> str: ...
-def faults() -> list[tuple[str, str]]: ...
-def read_log(path: str | os.PathLike[str]) -> dict[str, Any]: ...
-def read_recipe(path: str | os.PathLike[str]) -> tuple[list[tuple[str, str]], str, World, int]: ...
+def extension(folder: str | os.PathLike[str]) -> str | None:
+    """The extension with the robot and the toolboxes of the project in a folder, built if need be; `None` where the project
+    has nothing of its own."""
+def alike(runs: list[tuple[str, str, str, int]]) -> list[tuple[str, str, str, int, int]]:
+    """Runs that ended alike, of their endings, places, reasons and numbers: these, how many, and the first; failures last."""
+def target(world: World, reach: str, seed: int) -> tuple[float, float]:
+    """Where there is something to reach in a world: the first infrared source (`light`), or the `goal` that a seed makes up."""
+def draw_log(path: str | os.PathLike[str], what: str) -> str:
+    """A picture of a log, as SVG: `path`, `sonar` or `film`."""
+def faults() -> list[tuple[str, str]]:
+    """Every fault that `fail` knows: device and kind."""
+def read_log(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Reads a log, as far as it goes, into a dictionary."""
+def read_recipe(path: str | os.PathLike[str]) -> tuple[list[tuple[str, str]], str, World, int]:
+    """What the run of a log was made of."""

@@ -209,8 +209,11 @@ class WorldBuilder:
     def __hash__(self) -> int:
         return hash(self.toml)
 
+    def _repr_svg_(self) -> str:
+        return self.build()._repr_svg_()
+
     def __repr__(self) -> str:
-        return f"<WorldBuilder '{self._name}', {len(self._parts) - 2} parts>"
+        return f"<WorldBuilder '{self._name}': {len(self._parts) - 2} added>"
 
 
 def _surface(color: str | None, texture: str | None, echo: float | None, mapped: bool | None) -> dict[str, Any]:

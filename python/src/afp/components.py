@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import math
 import os
 import re
 import types
@@ -148,16 +149,32 @@ class Toolbox(_afp.Toolbox):
     ) -> Callable[[Component], Component]:
         if isinstance(outcomes, str):
             raise TypeError(f"'{outcomes}' is one name; states and events are a list: [{outcomes!r}]")
+        twice = [outcome for outcome in outcomes if list(outcomes).count(outcome) > 1]
+        if twice:
+            raise ValueError(f"'{twice[0]}' is there twice among {list(outcomes)}")
 
         def declare(component: Component) -> Component:
             template = name or _name(component)
+            if not template.isidentifier():
+                raise ValueError(f"{template!r} is no name of a template; give letters, digits and '_'")
             _fits(kind, template, component)
             devices = [uses] if isinstance(uses, str) else uses
             text = _declaration(kind, template, component, outcomes, devices, timing, icon)
-            self._declare(template, text)
+            try:
+                self._declare(template, text)
+            except _afp.AfpError as why:
+                raise _afp.AfpError(f"the {kind} '{template}' cannot be declared so:\n{self._alone(text, why)}") from None
             return self.implement(component, template)
 
         return declare
+
+    def _alone(self, template: str, why: _afp.AfpError) -> str:
+        """What is wrong with a template, without what is said of others; `why` where they are part of it."""
+        try:
+            _afp.Toolbox.__new__(_afp.Toolbox, f"toolbox {self.name}\n{template}", "its declaration")
+        except _afp.AfpError as alone:
+            return str(alone)
+        return str(why)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Toolbox) and (self.text, self.sources) == (other.text, other.sources)
@@ -182,6 +199,11 @@ def _name(component: Callable[..., Any]) -> str:
     if not name.isidentifier():
         raise TypeError(f"the component {component!r} has no name of its own: give name=")
     return name
+
+
+def _named(component: Any) -> str:
+    """The name of a component without that of the function in which it was written."""
+    return re.sub(r".*<locals>\.", "", component.__qualname__)
 
 
 def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
@@ -241,16 +263,32 @@ def _shown(hint: Any) -> str:
 def _constant(value: Any, type: str, where: str) -> str:
     """A default as it stands in a toolbox file."""
     value = plain(value)
-    if isinstance(value, bool):
+    unit = UNITS.get(type, "")
+    what = f"{where} is {type}{f' in {unit}' if unit else ''}, its default"
+    if isinstance(value, Quantity) and value.unit != unit:
+        raise TypeError(f"{what} a quantity in {value.unit}")
+    if type == "bool" and isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return _text(value) if type == "string" else value
-    unit = UNITS.get(type, "")
-    if isinstance(value, Quantity) and value.unit != unit:
-        raise TypeError(f"{where} is {type}{f' in {unit}' if unit else ''}, its default a quantity in {value.unit}")
-    if type in {"int", "float"}:
-        return repr(value)
-    return f"{float(value)!r} {unit}".rstrip()
+        return _text(value) if type == "string" else _literal(value, type, what)
+    if type in {"bool", "string"} or isinstance(value, bool) or not hasattr(value, "__float__"):
+        raise TypeError(f"{what} {value!r}")
+    if not math.isfinite(value):
+        raise ValueError(f"{what} {value!r}; give a finite number")
+    if type == "int" and value != int(value):
+        raise TypeError(f"{what} {value!r}")
+    return repr(int(value)) if type == "int" else f"{float(value)!r} {unit}".rstrip()
+
+
+def _literal(text: str, type: str, what: str) -> str:
+    """A text that stands for a value of a type, `30 cm`; what is none of the known types' is refused."""
+    if type in _TYPES.values() or type in UNITS:
+        try:
+            _afp.Toolbox.__new__(_afp.Toolbox, f"toolbox t\ncomputation C {{\nin x: {type} = {text}\nstate S\n}}\n")
+        except _afp.AfpError as why:
+            message = str(why).splitlines()[0].partition(": ")[2]
+            raise ValueError(f"{what} {text!r}: {message}") from None
+    return text
 
 
 def _hints(function: Callable[..., Any]) -> dict[str, Any]:
@@ -258,7 +296,7 @@ def _hints(function: Callable[..., Any]) -> dict[str, Any]:
     try:
         return get_type_hints(function, include_extras=True)
     except NameError as error:
-        what = f"a hint of '{function.__qualname__}' names '{error.name}', which is not there while the program runs"
+        what = f"a hint of '{_named(function)}' names '{error.name}', which is not there while the program runs"
         raise TypeError(f"{what}: import it outside of 'if TYPE_CHECKING'") from None
 
 
@@ -269,8 +307,10 @@ def _ports(function: Callable[..., Any], live: bool) -> list[str]:
         if name in _GIVEN or name == "self":
             continue
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
-            raise TypeError(f"'{function.__qualname__}' takes *{name}; its parameters are ports and need names")
-        where = f"the parameter '{name}' of '{function.__qualname__}'"
+            raise TypeError(f"'{_named(function)}' takes *{name}; its parameters are ports and need names")
+        if parameter.kind == parameter.POSITIONAL_ONLY:
+            raise TypeError(f"'{_named(function)}' takes '{name}' by position alone; ports are given by name: leave out the '/'")
+        where = f"the parameter '{name}' of '{_named(function)}'"
         type = _type(hints.get(name), where)
         default = parameter.default
         end = "" if default is parameter.empty else f" = {_constant(default, type, where)}"
@@ -322,7 +362,7 @@ def _start(component: type) -> Callable[..., Any] | None:
 def _method(component: type, name: str) -> Callable[..., Any]:
     method = getattr(component, name, None)
     if not callable(method):
-        raise TypeError(f"'{component.__qualname__}' has no method '{name}'")
+        raise TypeError(f"'{_named(component)}' has no method '{name}'")
     return method  # type: ignore[no-any-return]
 
 
@@ -339,7 +379,7 @@ def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live
     if kind == "supervisor":
         return _function_maker(component, inputs, live)
     if not inspect.iscoroutinefunction(component):
-        raise TypeError(f"the actor '{component.__qualname__}' must be a class with 'poll', or 'async def'")
+        raise TypeError(f"the actor '{_named(component)}' must be a class with 'poll', or 'async def'")
     return _coroutine_maker(component, inputs)
 
 
@@ -349,7 +389,7 @@ def _takes(function: Callable[..., Any], ports: Sequence[str], given: Sequence[s
     unknown = [name for name in names if name not in ports and name not in given]
     if unknown:
         known = ", ".join([*given, *ports])
-        raise TypeError(f"'{function.__qualname__}' takes '{unknown[0]}', but there are only: {known}")
+        raise TypeError(f"'{_named(function)}' takes '{unknown[0]}', but there are only: {known}")
     return names
 
 
@@ -447,8 +487,7 @@ def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None
         waits = coroutine.send(None)
     except StopIteration as end:
         if end.value is None:
-            name = re.sub(r".*<locals>\.", "", coroutine.__qualname__)
-            raise TypeError(f"the actor '{name}' returned None, not a state") from None
+            raise TypeError(f"the actor '{_named(coroutine)}' returned None, not a state") from None
         return (end.value,)
     except RuntimeError as why:
         # What asyncio says when it is awaited here.

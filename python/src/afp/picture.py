@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import os
 
-__all__ = ["Picture"]
+__all__ = ["Picture", "address"]
 
 
 class Picture:
@@ -35,3 +36,8 @@ class Picture:
 
     def __repr__(self) -> str:
         return f"<Picture, {len(self.svg) / 1000:.0f} kB of SVG>"
+
+
+def address(svg: str) -> str:
+    """A drawing as the address of an image: its styles are its own there."""
+    return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"

@@ -144,7 +144,10 @@ def _means(
         known = [value for value in values if value is not None]
         if known:
             picture[rows.index(y), columns.index(x)] = sum(known) / len(known)
-    image = ax.imshow(picture, origin="lower", aspect="auto", cmap="cividis")
+    known = picture[~np.isnan(picture)]
+    # What is the same everywhere would get a scale around it that goes below what can be.
+    bounds = {"vmin": known[0], "vmax": known[0] + 1} if known.size and (known == known[0]).all() else {}
+    image = ax.imshow(picture, origin="lower", aspect="auto", cmap="cividis", **bounds)
     ax.figure.colorbar(image, ax=ax, label=label)
     return {}
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import plots, tables
-from ._afp import AfpError, Event, Runner, World
+from ._afp import AfpError, Event, Names, Runner, World
+from .picture import Picture, address
 
 __all__ = ["ComponentError", "Collision", "Result"]
 
@@ -90,6 +91,7 @@ class Result(tables.Events):
         self, runner: Runner, plan: str, world: World, seed: int, errors: Sequence[ComponentError] = ()
     ) -> None:
         self._world = world
+        self._names: Names | None = runner.names
         self.plan = plan
         self.world = world.name
         self.seed = seed
@@ -128,6 +130,18 @@ class Result(tables.Events):
             raise AfpError(f"the plan ended in Error after {self.time:.3f} s: {self.fault_text} ({self.fault})")
         return self
 
+    def picture(self) -> Picture:
+        """The path in its world, as `afpc log --svg` draws that of a log; notebooks show it with the result.
+
+        A result that was pickled or copied has no picture, but `plot_path`.
+        """
+        if self._names is None:
+            raise AfpError("a result that was pickled has no names for a picture; plot_path() draws it without")
+        return Picture(self._names.draw(self.plan, self._world, self.seed, self.time, self.path, self.events))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_names": None}
+
     def plot_path(self, ax: Any = None) -> Any:
         """Draws the robot's path in its world; needs matplotlib."""
         return plots.path(self.path, self._world.outlines(), self.events, self._title(), ax)
@@ -154,14 +168,23 @@ class Result(tables.Events):
         return f"<Result {self.ending}{why} after {self.time:.3f} s, {len(self.events)} events>"
 
     def _repr_html_(self) -> str:
+        why = self.fault or self.stopped_by
         rows = {
             "plan": self.plan,
             "world": f"{self.world}, seed {self.seed}",
-            "ended": self.ending + (f" ({self.fault})" if self.fault else ""),
+            "ended": self.ending + (f" ({why})" if why else ""),
+            "why": self.fault_text,
             "time": f"{self.time:.3f} s",
             "distance": f"{self.distance:.2f} m",
             "collisions": str(len(self.collisions)),
             "deadline misses": str(self.deadline_misses),
         }
-        cells = "".join(f"<tr><th>{key}</th><td>{html.escape(value)}</td></tr>" for key, value in rows.items())
-        return f"<table>{cells}</table>"
+        known = {key: value for key, value in rows.items() if value is not None}
+        cells = "".join(f"<tr><th>{key}</th><td>{html.escape(value)}</td></tr>" for key, value in known.items())
+        return f"<table>{cells}</table>{self._image()}"
+
+    def _image(self) -> str:
+        """The picture as an element of a page, where there is one."""
+        if self._names is None or not len(self.path):
+            return ""
+        return f'<img alt="the path in its world" style="width:560px;max-width:100%" src="{address(self.picture().svg)}">'

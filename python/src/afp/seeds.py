@@ -12,7 +12,10 @@ MOST = 2**64 - 1
 
 def seed_of(seed: int) -> int:
     """A seed; what is none is refused with its value."""
-    number = operator.index(seed)
+    try:
+        number = operator.index(seed)
+    except TypeError:
+        raise TypeError(f"a seed is a whole number, not {seed!r}") from None
     if not 0 <= number <= MOST:
         raise ValueError(f"{number} is no seed; seeds go from 0 to 2**64 - 1")
     return number

@@ -70,6 +70,8 @@ def sweep(
     if backend not in ("local", "ray"):
         raise ValueError(f"no backend '{backend}'; there are: local, ray")
     until = seconds("until", until)
+    if on_run is not None and not callable(on_run):
+        raise TypeError(f"on_run is a function that gets the row of a run, not {on_run!r}")
     if not isinstance(vary, (Mapping, type(None))):
         raise TypeError(f"vary gives entries lists of values, such as {{'walldist': [afp.cm(30), afp.cm(40)]}}, not {vary!r}")
     spec = Spec(
@@ -132,6 +134,8 @@ class Spec:
 
 
 def _metrics(metrics: Mapping[str, Metric] | None) -> dict[str, Metric]:
+    if not isinstance(metrics, (Mapping, type(None))):
+        raise TypeError(f"metrics gives functions names, such as {{'way': lambda result: result.distance}}, not {metrics!r}")
     for name, metric in (metrics or {}).items():
         if not (isinstance(name, str) and name.isidentifier()):
             raise ValueError(f"a metric becomes a column: name it with letters, digits and '_', not {name!r}")
@@ -158,19 +162,23 @@ def _worlds(worlds: Place | Iterable[Place] | None) -> list[World | str | None]:
         return [None]
     if isinstance(worlds, (World, str, os.PathLike)):
         worlds = [worlds]
+    if not isinstance(worlds, Iterable):
+        raise TypeError(f"worlds are files, texts such as 'random:7', or Worlds, one or several, not {worlds!r}")
     return [_world(world) for world in worlds]
 
 
 def _world(world: Place) -> World | str:
-    if not isinstance(world, World):
+    if isinstance(world, (str, os.PathLike)):
         return os.fspath(world)
+    if not isinstance(world, World):
+        raise TypeError(f"a world is a file, a text such as 'random:7', or a World, not {world!r}")
     return world if world.path is None else os.fspath(world.path)
 
 
 def _seeds(seeds: int | Iterable[int]) -> tuple[int, int] | list[int]:
     if isinstance(seeds, range) and seeds.step == 1 and seeds:
         return (seed_of(seeds.start), seed_of(seeds.stop))
-    if not isinstance(seeds, Iterable):
+    if not isinstance(seeds, Iterable) or isinstance(seeds, str):
         return (0, _count(seeds))
     these = [seed_of(seed) for seed in itertools.islice(seeds, MOST_RUNS + 1)]
     if not these:
@@ -181,10 +189,12 @@ def _seeds(seeds: int | Iterable[int]) -> tuple[int, int] | list[int]:
 
 
 def _count(seeds: int) -> int:
-    count = operator.index(seeds)
-    if count < 1:
-        raise ValueError(f"seeds is {count}; give how many, a range or a list")
-    return seed_of(count)
+    wrong = f"seeds is {seeds!r}; give how many, a range or a list of whole numbers"
+    if not hasattr(seeds, "__index__"):
+        raise TypeError(wrong)
+    if seeds < 1:
+        raise ValueError(wrong)
+    return seed_of(seeds)
 
 
 def _values(name: str, values: Any) -> str | list[tuple[str, bool]]:

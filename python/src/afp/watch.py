@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import time
 from typing import TYPE_CHECKING
 
 from . import notebook
+from .picture import address
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -53,7 +53,7 @@ class _View:
         simulation = self._simulation
         active = simulation.active
         words = f"{simulation.plan.name}, {simulation.time:.1f} s, {active or simulation.ending}"
-        world, plan = _image(simulation.picture().svg), _image(self._marked(active))
+        world, plan = address(simulation.picture().svg), address(self._marked(active))
         rows = "".join(
             f"<tr><th>{html.escape(name)}</th><td>{html.escape(_shown(value))}</td></tr>"
             for name, value in simulation.entries.items()
@@ -73,11 +73,6 @@ class _View:
         rule = f'<style>.element[data-item="{html.escape(item)}"]>.box:is({KINDS}){{{ACTIVE}}}</style>'
         head, end, tail = self._plan.rpartition("</svg>")
         return f"{head}{rule}{end}{tail}"
-
-
-def _image(svg: str) -> str:
-    """A drawing as an address: its styles are its own there."""
-    return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
 
 
 def _shown(value: object) -> str:

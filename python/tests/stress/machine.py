@@ -318,7 +318,13 @@ class Stress(RuleBasedStateMachine):
             for way in ways:
                 assert way(thing).text == thing.text, thing
         for thing in [*self.sims[-1:], *self.cars[-1:], *self.robots[-1:]]:
-            for how in (pickle.dumps, copy.copy, copy.deepcopy):
+            # A copy of a simulation is a clone.
+            ways = [pickle.dumps, copy.deepcopy]
+            if isinstance(thing, afp.Simulation):
+                self.attempt("copy", lambda thing=thing: copy.copy(thing).time)
+            else:
+                ways.append(copy.copy)
+            for how in ways:
                 try:
                     how(thing)
                 except TypeError as error:

@@ -268,7 +268,11 @@ fn outputs_of(
         })?;
         let value = match &port.ty {
             Type::Object(_) => Pulled::Object(Arc::new(host.handles.put(value.unbind()))),
-            ty => Pulled::Value(finite(to_port(ty, &value)?, template, &port.name)?),
+            ty => {
+                let read = to_port(ty, &value);
+                let read = read.map_err(|why| of_output(given.py(), &why, template, &port.name));
+                Pulled::Value(finite(read?, template, &port.name)?)
+            }
         };
         outputs.push((number, value));
     }
@@ -282,6 +286,12 @@ fn outputs_of(
         }
     }
     Ok(outputs)
+}
+
+/// An error that also says which output it is about.
+fn of_output(py: Python<'_>, why: &PyErr, template: &Template, output: &str) -> PyErr {
+    let text = format!("the output '{output}' of '{}': {}", template.name, why.value(py));
+    PyErr::from_type(why.get_type(py), text)
 }
 
 /// A value that a plan can go on with.

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::mem;
 use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use afp_core::{Fault, Instant, Reason};
@@ -23,6 +23,12 @@ pub const RAISED: Fault = Fault::new(&Reason {
     text: "a component written in Python raised an exception",
 });
 
+/// What is said of a run that a component ended by Ctrl-C and the like: for the scheduler it is one that panicked.
+pub const ENDED_ALL: Reason = Reason {
+    code: "python-ended",
+    text: "Ctrl-C, or another exception that is no Exception, in a component written in Python",
+};
+
 /// An exception of a component.
 pub struct Failure {
     pub at: Instant,
@@ -38,6 +44,8 @@ pub struct Host {
     failures: Mutex<Vec<Failure>>,
     /// What ends the whole run: Ctrl-C and the like, which no `Error` edge shall catch.
     abort: Mutex<Option<Py<PyBaseException>>>,
+    /// Whether there was such.
+    ended: AtomicBool,
     /// The thread in which a component is being called, as Python numbers threads; 0 for none.
     calling: AtomicU64,
 }
@@ -55,6 +63,7 @@ impl Host {
             handles: Arc::default(),
             failures: Mutex::default(),
             abort: Mutex::default(),
+            ended: AtomicBool::new(false),
             calling: AtomicU64::new(0),
         }
     }
@@ -134,7 +143,13 @@ impl Host {
             return Raised::Exception;
         }
         lock(&self.abort).get_or_insert(error);
+        self.ended.store(true, Ordering::Relaxed);
         Raised::EndOfAll
+    }
+
+    /// Whether a component has ended the run by what it raised, also once that has been passed on.
+    pub fn has_ended_all(&self) -> bool {
+        self.ended.load(Ordering::Relaxed)
     }
 
     /// Whether something was raised that ends the run.

@@ -25,7 +25,17 @@ impl Runner {
     }
 
     /// The session, unless it is in use.
+    #[inline]
     pub(super) fn lock(&self) -> PyResult<MutexGuard<'_, Run>> {
+        match self.session.try_lock() {
+            Ok(session) if self.process == forks::process() => Ok(session),
+            _ => self.no_lock(),
+        }
+    }
+
+    /// Why the session cannot be had; if somebody has let go of it meanwhile, it can.
+    #[cold]
+    fn no_lock(&self) -> PyResult<MutexGuard<'_, Run>> {
         if self.process != forks::process() {
             let text =
                 "this simulation belongs to the process that was forked; make a new one here";
@@ -61,13 +71,19 @@ impl Runner {
         }
     }
 
+    /// Says whether this thread may drive it: without components in Python it goes no deeper.
+    #[inline]
+    pub(super) fn may_run(&self) -> PyResult<()> {
+        if self.host.is_some() { may_run() } else { Ok(()) }
+    }
+
     /// Drives the session with the interpreter free for others.
     pub(super) fn drive(
         &self,
         py: Python<'_>,
         drive: impl FnOnce(&mut Run) -> PyResult<bool> + Send,
     ) -> PyResult<bool> {
-        may_run()?;
+        self.may_run()?;
         let mut session = self.lock()?;
         let session = &mut *session;
         session.show();

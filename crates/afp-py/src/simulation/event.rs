@@ -26,6 +26,11 @@ impl Event {
         Event { event: RunEvent::new(at, &what, names), line: line(record, names) }
     }
 
+    /// What a log would tell of it.
+    pub fn told(&self) -> &RunEvent {
+        &self.event
+    }
+
     /// From a log.
     pub fn logged(event: RunEvent) -> Event {
         let line = event.request.is_some().then(|| afp_run::event_line(&event)).flatten();

@@ -23,7 +23,7 @@ use pyo3::prelude::*;
 
 use super::glance::{Glance, Seen};
 use super::keeper::Keeper;
-use crate::component::RAISED;
+use crate::component::{ENDED_ALL, RAISED};
 use crate::errors::{error, log_error, run_error};
 use crate::pause::{Halt, Pause};
 
@@ -171,7 +171,8 @@ impl Run {
             && self.keeper.records.len() < enough
             && !self.session.is_over(until)
         {
-            self.tick(until)?;
+            let halt = self.look();
+            self.tick(until, halt)?;
         }
         Ok(())
     }
@@ -181,14 +182,17 @@ impl Run {
     /// # Errors
     /// As [`Run::run`].
     pub fn step(&mut self) -> PyResult<bool> {
-        while self.is_running() {
+        // Python looks at signals between two steps; here that is left to one that takes long.
+        let (mut running, mut halt) = (self.is_running(), self.pause.asked());
+        while running {
             let due = self.session.due();
-            self.tick(Instant::MAX)?;
+            running = self.tick(Instant::MAX, halt)?;
             if self.session.now() >= due {
                 break;
             }
+            halt = self.look();
         }
-        self.ended_or_not()
+        if running { Ok(true) } else { self.close().map(|_| false) }
     }
 
     /// Whether the plan still runs; where it does not, the log is finished, too.
@@ -199,15 +203,20 @@ impl Run {
         }
     }
 
-    /// Does the next thing, unless something halts the run.
-    fn tick(&mut self, limit: Instant) -> PyResult<()> {
+    /// What halts the run; from time to time others see how far it is.
+    fn look(&mut self) -> Option<Halt> {
+        let halt = self.pause.look();
+        if self.pause.is_long {
+            self.show();
+        }
+        halt
+    }
+
+    /// Does the next thing, unless something halts the run; whether it still runs.
+    fn tick(&mut self, limit: Instant, mut halt: Option<Halt>) -> PyResult<bool> {
         if self.log.is_none() && self.log_path.is_some() {
             let text = "the simulation was closed with its log; make a new one";
             return Err(PyRuntimeError::new_err(text));
-        }
-        let mut halt = self.pause.look();
-        if self.pause.is_long {
-            self.show();
         }
         if halt.is_none() {
             self.tell(|session, to| {
@@ -224,10 +233,11 @@ impl Run {
             Some(Halt::Raised(why)) => return Err(why),
             Some(Halt::Asked | Halt::Aborted) | None => {}
         }
-        if !self.is_running() {
+        let running = self.is_running();
+        if !running {
             self.session.end();
         }
-        Ok(())
+        Ok(running)
     }
 
     /// Lets the session do something, and everybody hear of it.
@@ -376,6 +386,9 @@ impl Run {
     /// The code and the text of the fault that ended the plan.
     pub fn fault(&self) -> Option<(&'static str, String)> {
         let Some(Ending::Error(fault)) = self.session.ending() else { return None };
+        if fault == Fault::PANIC && self.pause.has_ended_all() {
+            return Some((ENDED_ALL.code, ENDED_ALL.text.to_owned()));
+        }
         let mut failed = self.keeper.records.iter().rev().filter_map(|record| match record.get() {
             Record::Faulted { fault: of, detail, .. } if of == fault => Some(detail),
             _ => None,

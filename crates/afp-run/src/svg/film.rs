@@ -56,7 +56,7 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
         return Err(RunError::usage("the log holds no pictures of the camera", help));
     }
     let names = &log.names;
-    let (path, _) = follow(log, names);
+    let (path, _) = follow(&log.events, &log.poses, names);
     let known = known_actors(&path, names);
     let actor_at = |at: Instant| {
         let behind = log.poses.partition_point(|(time, _)| *time <= at);

@@ -1,8 +1,8 @@
-//! The picture of a run from its log alone.
+//! The picture of a run from its log alone, and where the robot was from what is told of a run.
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Names};
-use afp_log::{LogData, OwnedNames, WORLD};
+use afp_log::{LogData, WORLD};
 use std::sync::Arc;
 
 use afp_session::{AnyRobot, AnyWorld, EventKind, Mark, Pose2, RunEvent, Waypoint};
@@ -17,7 +17,7 @@ use crate::error::RunError;
 pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
     let world = world_of(log, robot)?;
     let names = &log.names;
-    let (path, marks) = follow(log, names);
+    let (path, marks) = follow(&log.events, &log.poses, names);
     let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
     let run = SoFar {
         plan: fact("plan"),
@@ -51,13 +51,18 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
     }
 }
 
-/// The path with the actor at each point, and the events on it.
-pub(super) fn follow(log: &LogData, names: &OwnedNames) -> (Vec<Waypoint>, Vec<Mark>) {
+/// The path with the actor at each point, and the events on it, from what happened and where the robot was when, both in the
+/// order of time.
+pub fn follow<'a>(
+    events: impl IntoIterator<Item = &'a RunEvent>,
+    poses: &[(Instant, Pose2)],
+    names: &dyn Names,
+) -> (Vec<Waypoint>, Vec<Mark>) {
     let (mut path, mut marks) = (Vec::new(), Vec::new());
     let (mut actor, mut last) = (None, Pose2::default());
-    let mut events = log.events.iter().peekable();
+    let mut events = events.into_iter().peekable();
     let after = std::iter::once((Instant::MAX, None));
-    for (at, pose) in log.poses.iter().map(|(at, pose)| (*at, Some(pose))).chain(after) {
+    for (at, pose) in poses.iter().map(|(at, pose)| (*at, Some(pose))).chain(after) {
         // At an instant the robot is looked at before the step; only the start comes first.
         let before = |event: &&RunEvent| event.at < at || event.at == Instant::ZERO;
         while let Some(event) = events.next_if(before) {

@@ -35,7 +35,7 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
         return Err(RunError::usage("the log holds no echoes", help));
     }
     let names = &log.names;
-    let (path, marks) = follow(log, names);
+    let (path, marks) = follow(&log.events, &log.poses, names);
     let view = View::around(bounds(&drawing, &path));
     let mut canvas = room(&drawing, view);
     canvas.robot(&drawing.body, drawing.start, false);

@@ -91,13 +91,12 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
 
     def step(self, action: Any) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Drives for 100 ms."""
-        courses = self._open()
-        if self._start is None:
+        if self._courses is None or self._start is None:
             raise gymnasium.error.ResetNeeded("call reset() before step()")
-        actions = np.asarray(action, np.float64).reshape(1, -1)
-        seen, rewards, ended, late = courses.step(actions, [])
-        self._show()
-        return seen[0], float(rewards[0]), bool(ended[0]), bool(late[0]), self._info(courses)
+        stepped = self._courses.step_first(np.asarray(action, np.float64))
+        if self._screen is not None:
+            self._show()
+        return stepped
 
     def render(self) -> NDArray[np.uint8] | None:
         """The room from above, or what the camera sees; `None` where it is shown at each step, or nothing is."""

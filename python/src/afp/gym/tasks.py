@@ -41,6 +41,9 @@ class Task:
         parts = (self.name, dict(self.reward), self.ends, self.observe, self.reach, self.fan, self.seconds, self.plan)
         return Task, parts
 
+    def __repr__(self) -> str:
+        return f"<Task {self.name}: {dict(self.reward)}, ends with {', '.join(self.ends) or 'time'}, sees {', '.join(self.observe)}>"
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "reward", MappingProxyType(dict(self.reward)))
 

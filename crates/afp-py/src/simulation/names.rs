@@ -1,0 +1,55 @@
+//! `Names`: the names of a plan as it ran, with which a picture of what came of it is drawn.
+
+use std::sync::Arc;
+
+use afp::load::PlanNames;
+use afp_core::Instant;
+use afp_run::{SoFar, draw_run, follow};
+use afp_session::Pose2;
+use numpy::PyReadonlyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use super::event::Event;
+use super::time::instant;
+use crate::pause::in_background;
+use crate::world::World;
+
+/// The names of a plan as it ran.
+#[pyclass(module = "afp", frozen)]
+pub struct Names(pub(super) PlanNames);
+
+#[pymethods]
+impl Names {
+    /// The path of a run over its world, as SVG: rows of time, x, y, heading, and what happened on the way.
+    #[expect(clippy::too_many_arguments, reason = "what a result has")]
+    fn draw(
+        &self,
+        py: Python<'_>,
+        plan: String,
+        world: &World,
+        seed: u64,
+        time: f64,
+        path: PyReadonlyArray2<'_, f64>,
+        events: Vec<Bound<'_, Event>>,
+    ) -> PyResult<String> {
+        let path = path.as_array();
+        if path.ncols() != 4 {
+            return Err(PyValueError::new_err("a path has rows of time, x, y, heading"));
+        }
+        let pose = |[x, y, heading]: [f64; 3]| Pose2 { x, y, heading };
+        let poses = path
+            .rows()
+            .into_iter()
+            .map(|row| Ok::<_, PyErr>((instant(row[0])?, pose([row[1], row[2], row[3]]))));
+        let poses: Vec<(Instant, Pose2)> = poses.collect::<PyResult<_>>()?;
+        let events = events.iter().map(|event| event.get().told());
+        let (path, marks) = follow(events, &poses, &self.0);
+        let (names, time) = (self.0.clone(), instant(time)?);
+        let (world, seed) = (Arc::clone(&world.loaded.world), seed.to_string());
+        in_background(py, move || {
+            let (path, marks) = (&path[..], &marks[..]);
+            draw_run(&SoFar { plan: &plan, world: &*world, seed: &seed, time, path, marks }, &names)
+        })
+    }
+}
