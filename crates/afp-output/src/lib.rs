@@ -138,7 +138,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// As of [`Output::create`].
 pub fn check_writable(path: &Path) -> io::Result<()> {
     let Target::File(target) = Target::of(path)? else { return Ok(()) };
-    match Part::create(&target, Taken::Refuse) {
+    match Part::create(&target, Taken::Wait) {
         Ok(part) => fs::remove_file(part.path),
         Err(error) if takes_no_files(&error) && target.exists() => Ok(()),
         Err(error) => Err(error),
