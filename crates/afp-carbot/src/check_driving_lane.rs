@@ -13,8 +13,9 @@ const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 /// Swings the range sensor over the lane and reports an echo from inside of it.
 ///
 /// An echo is taken to come from the beam's axis; `margin` covers the rest of the beam. A wall
-/// square ahead is so reported up to 4 cm early, when the sensor looks aside. The
-/// sensor looks left, ahead, right, ahead and so on, one ping at least at each.
+/// square ahead is so reported up to 7 cm early, when the sensor looks aside. The
+/// sensor looks left, ahead, right, ahead and so on, one ping at least at each. Aside it looks at the far corners of the lane:
+/// from there on the beam also hears what the lane leads along at a small angle, and which sends no sound back farther ahead.
 #[derive(Clone, Debug)]
 pub struct CheckDrivingLane {
     clearance: f64,
@@ -64,8 +65,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
         let reach = front + live.distance.si() + self.clearance;
         if (echo.bearing.si() - self.target).abs() < ARRIVED {
             self.place = (self.place + 1) % SWING.len();
-            let widest = libm::atan2(self.halfwidth, reach) - beam.opening.si() / 2.0;
-            self.target = SWING[self.place] * widest.max(0.0);
+            self.target = SWING[self.place] * libm::atan2(self.halfwidth, reach);
             env.point(Angle::from_si(self.target), now);
             self.arrival = Arrival::new(now);
         } else {
@@ -120,13 +120,20 @@ mod tests {
     #[test]
     fn the_lane_ends_forty_centimetres_before_the_front() {
         assert!(!free(&[plane(0.0, 0.59)]));
-        assert!(free(&[plane(0.0, 0.65)]));
+        assert!(free(&[plane(0.0, 0.69)]));
     }
 
     #[test]
     fn a_wall_that_runs_beside_the_lane_does_not_block_it() {
         assert!(free(&[plane(-90.0, 0.475)]));
         assert!(free(&[]));
+    }
+
+    #[test]
+    fn what_runs_into_the_lane_at_a_small_angle_is_heard() {
+        for side in [-1.0, 1.0] {
+            assert!(!free(&[plane(side * 75.0, 0.4)]), "{side}");
+        }
     }
 
     #[test]
@@ -146,7 +153,7 @@ mod tests {
         robot.range_dies = 0;
         assert_eq!(watch(&mut robot, 1), Err(NO_RANGE));
         let mut robot = Fake::new(&[plane(0.0, 2.0)]);
-        robot.range_freezes = 500;
+        robot.range_freezes = 0;
         assert_eq!(watch(&mut robot, 1), Err(FROZEN_RANGE));
         let mut robot = Fake::new(&[]);
         robot.rotator = 0.5;

@@ -11,6 +11,7 @@ use afp_core::{Duration, Instant, Scheduler, Wake};
 use afp_sim::{Pose, Simulation};
 
 use crate::case::Case;
+use crate::contact::{Contact, Diary};
 use crate::push::Pushes;
 use crate::watch::Watch;
 use crate::witness::Witness;
@@ -31,8 +32,8 @@ pub struct Outcome {
     pub broken: Vec<(Instant, String)>,
     /// What happened, line by line.
     pub timeline: String,
-    /// What the robot came to touch, each time, by its place in [`World::obstacles`](afp_sim::World::obstacles).
-    pub contacts: Vec<usize>,
+    /// What the robot came to touch, each time, oldest first.
+    pub contacts: Vec<Contact>,
     /// For how long it touched something while its drive was told to move.
     pub pushing: Duration,
     /// When and where it did.
@@ -51,15 +52,13 @@ pub fn run(case: &Case) -> Outcome {
     let plan = loaded(case);
     let names = plan.names();
     let sim = Simulation::new(&case.world, case.seed).expect("the room can be built");
-    let reach = case.world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
-    let reach = reach.flatten().fold(0.0, f64::max);
-    let mut watch = Watch::new(&sim, stop_time(case), reach);
-    watch.happened(&case.chance);
-    let watch = Rc::new(RefCell::new(watch));
+    let watch = Rc::new(RefCell::new(watch(case, &sim)));
     let (mut trace, mut timeline) = (TraceHash::default(), String::new());
+    let diary = RefCell::new(Diary::default());
     let mut sink = Observe(|at: Instant, record: &Record<'_>| {
         trace.record(at, record, &names);
         watch.borrow_mut().hear(at, record, &names);
+        diary.borrow_mut().hear(at, record, &names);
         if !matches!(record, Record::Input { .. } | Record::Polled { verdict: Verdict::Clear, .. })
         {
             let _ = writeln!(timeline, "{}", Line { at, record, names: &names });
@@ -87,6 +86,7 @@ pub fn run(case: &Case) -> Outcome {
         let now = robot.sim.now();
         if now == look {
             watch.borrow_mut().look(&robot.sim);
+            diary.borrow_mut().poses.push(robot.sim.truth().pose());
             if pushes.look(&robot, &things) {
                 pushing = pushing + LOOK;
             }
@@ -104,12 +104,21 @@ pub fn run(case: &Case) -> Outcome {
         }
     }
     let (ending, truth) = (scheduler.ending(), robot.sim.truth());
-    let (contacts, pose) =
-        (truth.collisions().iter().map(|it| it.obstacle).collect(), truth.pose());
+    let contacts = diary.borrow().contacts(&case.world, truth.collisions(), LOOK);
+    let pose = truth.pose();
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
     let broken = watch.into_inner().broken();
     Outcome { trace, ending, broken, timeline, contacts, pushing, pushes, at, pose }
+}
+
+/// Whoever watches a case, before it begins.
+fn watch(case: &Case, sim: &Simulation) -> Watch {
+    let reach = case.world.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
+    let reach = reach.flatten().fold(0.0, f64::max);
+    let mut watch = Watch::new(sim, stop_time(case), reach);
+    watch.happened(&case.chance);
+    watch
 }
 
 /// The plan of a case, with the Rust of its templates.

@@ -11,6 +11,7 @@ use afp_sim::{Pose, World};
 
 use crate::case::Case;
 use crate::chance::Dice;
+use crate::contact::Contact;
 use crate::drive::Outcome;
 use crate::plans::{Plan, part, plan};
 use crate::reach::{Reach, bounds, is_in_sight, room};
@@ -114,12 +115,13 @@ impl Errand {
         }
     }
 
-    /// How often the robot touched what its range sensor hears and what does not walk into it.
-    pub fn touches(&self, outcome: &Outcome) -> usize {
-        let obstacles = &self.case.world.obstacles;
-        let touched = outcome.contacts.iter().filter_map(|place| obstacles.get(*place));
-        let walks = |mobility: &Mobility| matches!(mobility, Mobility::Scripted(_));
-        touched.filter(|it| it.height >= HEARD && !walks(&it.mobility)).count()
+    /// When the robot touched what its range sensor hears and what does not walk into it.
+    pub fn touches<'a>(&self, outcome: &'a Outcome) -> impl Iterator<Item = &'a Contact> {
+        outcome.contacts.iter().filter(|contact| {
+            let obstacle = self.case.world.obstacles.get(contact.obstacle);
+            let walks = |mobility: &Mobility| matches!(mobility, Mobility::Scripted(_));
+            obstacle.is_some_and(|it| it.height >= HEARD && !walks(&it.mobility))
+        })
     }
 }
 

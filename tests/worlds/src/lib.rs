@@ -7,6 +7,7 @@
 
 mod case;
 mod chance;
+mod contact;
 mod drive;
 mod errand;
 mod plans;
@@ -19,6 +20,7 @@ mod witness;
 
 pub use case::Case;
 pub use chance::{Chance, Stimulus};
+pub use contact::Contact;
 pub use drive::{Outcome, run};
 pub use errand::Errand;
 pub use plans::{Plan, plan, plans};

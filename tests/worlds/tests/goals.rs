@@ -2,11 +2,12 @@
 //! seed on the rooms are taken and in how many, as in `AFP_GOALS=5000..100`; `AFP_GOAL` tells everything about one run, as in
 //! `AFP_GOAL=5017`.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::{env, thread};
 
-use afp_worlds::{Errand, Outcome, run};
+use afp_worlds::{Contact, Errand, Outcome, run};
 
 /// Rooms unless told otherwise: the first seed and how many.
 const ROOMS: (u64, usize) = (1000, 12);
@@ -25,8 +26,8 @@ fn rooms() -> (u64, usize) {
 struct Account {
     /// The rooms in which it missed its goal, and why.
     missed: Vec<(u64, String)>,
-    /// The rooms in which it touched what it should not, and how often.
-    touched: Vec<(u64, usize)>,
+    /// The rooms in which it touched what it should not, and by which actors.
+    touched: Vec<(u64, Vec<Contact>)>,
     /// For how long it drove to its goal, seconds.
     took: Vec<f64>,
     /// For how long it pushed at most, seconds, and in which room.
@@ -40,8 +41,8 @@ impl Account {
             Some(why) => self.missed.push((room, why)),
             None => self.took.push(outcome.at.as_secs_f64()),
         }
-        let touches = errand.touches(outcome);
-        if touches > 0 {
+        let touches: Vec<_> = errand.touches(outcome).cloned().collect();
+        if !touches.is_empty() {
             self.touched.push((room, touches));
         }
         if outcome.pushing.as_secs_f64() > self.pushed.0 {
@@ -52,7 +53,7 @@ impl Account {
     /// Puts rooms and times in order and says it all.
     fn tell(&mut self, name: &str) {
         self.missed.sort();
-        self.touched.sort_unstable();
+        self.touched.sort_by_key(|(room, _)| *room);
         self.took.sort_by(f64::total_cmp);
         let (reached, all) = (self.took.len(), self.took.len() + self.missed.len());
         let share = |share: usize| self.took.get(reached * share / 100).copied().unwrap_or(0.0);
@@ -60,7 +61,16 @@ impl Account {
         println!("  after {:.0} s mostly, {:.0} s of nine in ten", share(50), share(90));
         println!("  in a minute: {}", self.took.iter().filter(|took| **took <= 60.0).count());
         let (pushed, room) = self.pushed;
-        println!("  pushed for {pushed:.1} s at most, in {room}; touched {:?}", self.touched);
+        println!("  pushed for {pushed:.1} s at most, in {room}");
+        let mut by: BTreeMap<&str, usize> = BTreeMap::new();
+        for contact in self.touched.iter().flat_map(|(_, contacts)| contacts) {
+            *by.entry(&contact.actor).or_default() += 1;
+        }
+        println!("  touches by actor: {by:?}");
+        for (room, contacts) in &self.touched {
+            let contacts: Vec<_> = contacts.iter().map(Contact::to_string).collect();
+            println!("  touched in random:{room}: {}", contacts.join(", "));
+        }
         for (room, why) in &self.missed {
             println!("  missed in random:{room}: {why}");
         }

@@ -6,8 +6,8 @@ const OFTEN: f64 = 0.25;
 const STARE: f64 = 0.08;
 /// A turn of the rotator there and back takes about this long, seconds.
 const TURN: f64 = 0.5;
-/// Glances go to either side of the heading in turn, radians.
-const ASIDE: f64 = 10.0 / 180.0 * core::f64::consts::PI;
+/// Glances go to either side of the heading in turn, so far that the beam reaches the corners of the body 20 cm before it; radians.
+const ASIDE: f64 = 20.0 / 180.0 * core::f64::consts::PI;
 /// The rotator has arrived when it is nearer than this to where it should be, radians.
 const ARRIVED: f64 = 4.0 / 180.0 * core::f64::consts::PI;
 /// Nothing farther than this is remembered, metres; silence counts as this.

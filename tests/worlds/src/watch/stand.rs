@@ -7,7 +7,7 @@ use afp_sim::{Pose, Simulation};
 const STANDS: (f64, f64) = (0.006, 0.026);
 /// The controller stops by itself when it has heard nothing for so long.
 const DEAD_MAN: Duration = Duration::from_millis(200);
-/// What was pushed comes to rest within this.
+/// What was pushed comes to rest within this, on a floor that grips.
 const PUSHED: Duration = Duration::from_millis(300);
 /// The fastest that the robot goes, metres a second, and what of the weight brakes: the grip of the
 /// two wheels that drive, and the castors.
@@ -82,7 +82,7 @@ impl Stand {
             self.turned = turn;
         }
         let since = self.since.unwrap_or(self.commanded + DEAD_MAN);
-        if then < since + self.allowed(since) || pushed(sim, then) {
+        if then < since + self.allowed(since) || self.pushed(sim, then) {
             return None;
         }
         (speed > STANDS.0 || turn > STANDS.1).then(|| {
@@ -95,22 +95,28 @@ impl Stand {
     fn allowed(&self, since: Instant) -> Duration {
         let deaf = self.deaf.iter().any(|(from, until)| *from <= since && since < *until);
         let heard = if deaf { DEAD_MAN } else { Duration::ZERO };
-        let horizon = since + heard + self.stop + Duration::from_secs(3);
+        let slide = self.slide(since, since + heard + self.stop);
+        heard + self.stop + slide
+    }
+
+    /// For how much longer than until `due` the robot may slide that should stand since an instant; not at all on a floor
+    /// that grips.
+    fn slide(&self, since: Instant, due: Instant) -> Duration {
+        let horizon = due + Duration::from_secs(3);
         let slips =
             self.slippery.iter().filter(|(from, until, _)| *from < horizon && since < *until);
         let grip = slips.map(|(_, _, grip)| *grip).fold(1.0, f64::min);
-        let slide = match grip < 1.0 {
+        match grip < 1.0 {
             true => {
                 Duration::from_secs_f64((FASTEST + TURNING * self.turned) / (GRIP * grip + ROLLING))
             }
             false => Duration::ZERO,
-        };
-        heard + self.stop + slide
+        }
     }
-}
 
-/// Whether something has touched the robot since, or just before.
-fn pushed(sim: &Simulation, then: Instant) -> bool {
-    let touches = sim.truth().collisions();
-    touches.iter().any(|touch| touch.end + PUSHED >= then)
+    /// Whether something has touched the robot since, or so short a time before that it may not have come to rest.
+    fn pushed(&self, sim: &Simulation, then: Instant) -> bool {
+        let mut touches = sim.truth().collisions().iter();
+        touches.any(|touch| touch.end + PUSHED + self.slide(touch.end, touch.end + PUSHED) >= then)
+    }
 }
