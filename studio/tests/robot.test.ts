@@ -66,7 +66,11 @@ if (process.env.AFP_ROBOT) {
     await page.getByRole("dialog").getByRole("button", { name: "Trust it" }).click();
     await page.waitForFunction(() => /^[\d.]+ s$/.test(document.querySelector(".clock")?.textContent ?? ""), undefined, { timeout: 900_000 });
     await page.locator(".world svg").first().waitFor();
-    await shows(page.locator(".world"), /cliff[^]*bumper/i);
+    // What it has is on the page, and nothing of the Carbot.
+    await shows(page.locator(".world"), /halt[^]*left[^]*right/);
+    await page.locator(".sensors summary").click();
+    await shows(page.locator(".sensors"), /cliff/i);
+    assert.doesNotMatch(await page.locator(".world").innerText(), /escape|infrared/i);
     await page.keyboard.press("Shift+F5");
     await page.locator(".clock").waitFor({ state: "detached" });
   }, { timeout: 1_000_000, open: "plans/clean.afp" });

@@ -33,7 +33,8 @@ pub struct Offer {
 }
 
 /// All offers for the file whose name or help holds a text, the best first: those in view before others,
-/// names that begin so before names that hold it before helps.
+/// names that begin so before names that hold it before helps. What another robot than the project's can do is offered
+/// where the file uses it alone.
 pub fn palette(view: &View, query: &str) -> Vec<Offer> {
     let query = query.to_lowercase();
     let is_offered = |kind| matches!(kind, DefinitionKind::Template(_) | DefinitionKind::Plan);
@@ -63,6 +64,9 @@ pub fn palette(view: &View, query: &str) -> Vec<Offer> {
 fn of_template(view: &View, id: DefinitionId, seen: bool) -> Option<Offer> {
     let definition = view.index().definition(id);
     let (toolbox, template) = view.template(definition)?;
+    if !seen && view.toolboxes.is_of_another_robot(toolbox) {
+        return None;
+    }
     let kind = component_kind(template.kind);
     Some(Offer {
         name: template.name.clone(),
@@ -112,4 +116,33 @@ fn item(kind: ComponentKind, template: &str, body: Vec<Piece>) -> Vec<Piece> {
     ];
     pieces.extend(body);
     pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::palette;
+    use crate::View;
+    use afp_dsl::compile;
+    use afp_dsl::toolbox::Toolboxes;
+    use afp_syntax::source::Source;
+
+    const VACUUM: &str = include_str!("../../../examples/vacuum/vacuum.afp");
+
+    /// A vacuum cleaner was offered a camera to look through.
+    #[test]
+    fn another_robots_templates_are_offered_where_they_are_used_alone() {
+        let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+        toolboxes.add(Source::new("vacuum.afp", VACUUM), "vacuum");
+        let offered = |toolboxes: &Toolboxes, plan: &str| {
+            let compiled =
+                compile(&Source::new("p.afp", plan), toolboxes, &|_: &str| Err(String::new()));
+            let file = u16::try_from(compiled.plan_files.start).unwrap();
+            let offers = palette(&View::new(&compiled, toolboxes, file), "");
+            ["Roll", "Wait", "FindObject"].map(|name| offers.iter().any(|offer| offer.name == name))
+        };
+        assert_eq!(offered(&toolboxes, ""), [true; 3], "no robot is said");
+        toolboxes.set_robot("vacuum");
+        assert_eq!(offered(&toolboxes, ""), [true, true, false]);
+        assert_eq!(offered(&toolboxes, "use carbot\n"), [true; 3]);
+    }
 }

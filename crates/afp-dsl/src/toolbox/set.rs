@@ -71,6 +71,12 @@ impl Toolboxes {
         }
     }
 
+    /// Whether a toolbox is that of a robot, and of another one than was said.
+    pub fn is_of_another_robot(&self, toolbox: &Toolbox) -> bool {
+        toolbox.declares_robot()
+            && self.said_robot().is_some_and(|robot| robot.name != toolbox.name)
+    }
+
     /// The devices of the robot's toolbox, then of all others in use; of one name the first.
     pub fn devices<'a>(&'a self, used: &'a [Arc<Toolbox>]) -> Vec<&'a Device> {
         let mut devices: Vec<&Device> = Vec::new();
