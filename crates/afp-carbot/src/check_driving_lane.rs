@@ -29,7 +29,7 @@ pub struct CheckDrivingLane {
 }
 
 /// The places that are looked at in turn, as shares of the largest bearing.
-const SWING: [f64; 4] = [0.0, 1.0, 0.0, -1.0];
+const SWING: [f64; 3] = [0.0, 1.0, -1.0];
 
 impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDrivingLane, E>
     for CheckDrivingLane

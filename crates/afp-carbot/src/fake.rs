@@ -6,6 +6,7 @@ use crate::devices::{
     Rotator, TouchSensor, Trip, Ultrasonic,
 };
 use crate::motion::wrap;
+use crate::trail::Trail;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed, Voltage};
 use afp_core::{
     Actor, ActorTemplate, Duration, Environment, Events, Fault, Instant, Poll, Supervisor,
@@ -41,6 +42,7 @@ pub(crate) struct Fake {
     pub(crate) touched: bool,
     /// What the bumper felt last.
     pub(crate) bump: Option<Bump>,
+    trail: Trail,
     pub(crate) escape: bool,
     pub(crate) dead_odometry: bool,
     /// From this many milliseconds on the range sensor sends no ping.
@@ -108,6 +110,7 @@ impl Fake {
             rotator: 0.0,
             touched: false,
             bump: None,
+            trail: Trail::new(),
             escape: false,
             dead_odometry: false,
             range_dies: u64::MAX,
@@ -172,6 +175,7 @@ impl Fake {
             speed: Speed::from_si(speed),
             turn: AngularSpeed::from_si(turn),
         };
+        self.trail.note(self.motion);
         if !self.stuck_rotator {
             self.rotator += (self.target - self.rotator).clamp(-0.05, 0.05);
         }
@@ -329,6 +333,10 @@ impl Odometry for Fake {
 
     fn last_bump(&self) -> Option<Bump> {
         self.bump
+    }
+
+    fn trail(&self) -> Trail {
+        self.trail
     }
 }
 

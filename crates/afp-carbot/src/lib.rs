@@ -55,6 +55,7 @@ mod path;
 mod plan_path;
 mod press;
 mod pursuit;
+mod retrace;
 mod search_wall;
 mod seeking;
 mod sighting;
@@ -73,6 +74,7 @@ pub mod templates {
     );
 }
 pub mod tracking;
+pub mod trail;
 mod turn;
 mod turn_to_infrared;
 mod turning;
@@ -109,6 +111,7 @@ pub use learn_object::LearnObject;
 pub use look_around::LookAround;
 pub use path::Path;
 pub use plan_path::PlanPath;
+pub use retrace::Retrace;
 pub use search_wall::SearchWall;
 pub use sighting::Sighting;
 pub use signal::Signal;

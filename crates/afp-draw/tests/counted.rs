@@ -19,8 +19,9 @@ const TABLE: &str = "tests/draw/counted.txt";
 const APART: f64 = 12.0;
 
 /// Plans, with the toolboxes beside them.
-const FOLDERS: [(&str, &str); 3] = [
+const FOLDERS: [(&str, &str); 4] = [
     ("plans", ""),
+    ("plans/parts", ""),
     ("examples/peers/plans", "examples/peers/toolboxes"),
     ("examples/vacuum/plans", "examples/vacuum"),
 ];
@@ -137,7 +138,9 @@ fn drawings_stay_calm() {
         let counted = Counted::of(&plan);
         all.add(counted);
         let ratio = plan.bounds.width / plan.bounds.height;
-        assert!((0.5..=2.0).contains(&ratio), "'{}' is {ratio:.2} as wide as high", plan.name);
+        // Two elements with their supervisors have one shape alone. The first of them is the start.
+        let free = plan.elements.len() > 3;
+        assert!(!free || (0.5..=2.0).contains(&ratio), "'{}': {ratio:.2}", plan.name);
         for edge in &plan.edges {
             assert_eq!(
                 jogs(&edge.points),
@@ -159,5 +162,5 @@ fn drawings_stay_calm() {
         fs::write(&path, &table).unwrap();
     }
     assert_eq!(table, fs::read_to_string(&path).unwrap());
-    assert!(bends < 2.4 && crossings < 0.45, "{table}");
+    assert!(bends < 2.1 && crossings < 0.4, "{table}");
 }

@@ -14,7 +14,7 @@ use proptest::prelude::*;
 
 /// Folders of `.afp` files that people read as examples.
 const FOLDERS: &[&str] =
-    &["plans", "crates/afp-toolboxes/toolboxes", "bench/plans", "bench/toolbox"];
+    &["plans", "plans/parts", "crates/afp-toolboxes/toolboxes", "bench/plans", "bench/toolbox"];
 
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);

@@ -33,6 +33,7 @@ use crate::vehicle::drive::Drive;
 use crate::world::{Light, World, WorldError};
 use afp_carbot::devices::{Bump, Color, Echo, Glow, Invalid, Reading};
 use afp_carbot::table::Fault;
+use afp_carbot::trail::Trail;
 use afp_core::quantity::Frequency;
 use afp_core::{Duration, Instant};
 use afp_flow::{FlowJob, FlowSensor, LucasKanade};
@@ -70,6 +71,8 @@ pub struct Simulation {
     switch: Switch,
     /// Where the bumper was pressed last.
     bump: Option<Bump>,
+    /// The way by which the robot came.
+    trail: Trail,
     battery: Battery,
     scene: Scene,
     lights: Vec<Light>,
@@ -134,6 +137,7 @@ impl Simulation {
             echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             switch: Switch::new(Source::Bumper.of(seed)),
             bump: None,
+            trail: Trail::new(),
             battery: Battery::new(world.charge),
             scene: Scene::new(world),
             lights: world.lights.clone(),
@@ -257,7 +261,7 @@ impl Simulation {
         self.battery.step([left.speed(), right.speed()], DT);
         self.now = now;
         self.feel(now);
-        self.note_bump(now);
+        self.note_motion(now);
         self.look_for_edge(now);
         if self.steps.is_multiple_of(PING_STEPS) {
             self.receive();

@@ -16,8 +16,8 @@ pub struct Example {
     pub plan: String,
     /// The text of its world; without one it drives in that of the robot.
     pub world: Option<String>,
-    /// The names of the examples whose files it uses.
-    pub uses: Vec<String>,
+    /// The files that it uses: their paths seen from its own, and their texts.
+    pub uses: Vec<(String, String)>,
 }
 
 impl Example {
@@ -53,16 +53,15 @@ pub(crate) fn copy(
     folder: &Folder,
     plan: &Path,
 ) -> Result<(), String> {
-    let known = |name: &str| examples.iter().find(|example| example.name == name);
-    let example = known(name).ok_or_else(|| format!("there is no example '{name}'"))?;
+    let example = examples.iter().find(|example| example.name == name);
+    let example = example.ok_or_else(|| format!("there is no example '{name}'"))?;
     write(folder, plan, &example.plan)?;
     let place = plan.parent().unwrap_or(folder.root());
     if let Some((text, path)) = example.world.as_ref().zip(world_of(plan)) {
         write_new(folder, &path, text)?;
     }
-    for name in &example.uses {
-        let used = known(name).ok_or_else(|| format!("there is no example '{name}'"))?;
-        write_new(folder, &place.join(&used.name), &used.plan)?;
+    for (path, text) in &example.uses {
+        write_new(folder, &place.join(path), text)?;
     }
     Ok(())
 }
@@ -112,15 +111,17 @@ mod tests {
             name: name.to_owned(),
             plan: format!("plan of {name}"),
             world: Some(format!("world of {name}")),
-            uses: uses.iter().map(|&name| name.to_owned()).collect(),
+            uses: uses.iter().map(|path| ((*path).to_owned(), format!("text of {path}"))).collect(),
         };
-        let examples = [example("one.afp", &[]), example("two.afp", &["one.afp"])];
+        let uses = ["one.afp", "parts/three.afp"];
+        let examples = [example("one.afp", &[]), example("two.afp", &uses)];
         let at = |path: &str| folder.root().join(path);
         let read = |path: &str| fs::read_to_string(at(path)).unwrap();
         copy(&examples, "two.afp", &folder, &at("plans/my.afp")).unwrap();
         assert_eq!(read("plans/my.afp"), "plan of two.afp");
         assert_eq!(read("worlds/my.toml"), "world of two.afp");
-        assert_eq!(read("plans/one.afp"), "plan of one.afp");
+        assert_eq!(read("plans/one.afp"), "text of one.afp");
+        assert_eq!(read("plans/parts/three.afp"), "text of parts/three.afp");
         fs::write(at("plans/one.afp"), "mine").unwrap();
         copy(&examples, "two.afp", &folder, &at("plans/other.afp")).unwrap();
         assert_eq!(read("plans/one.afp"), "mine");

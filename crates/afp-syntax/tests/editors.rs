@@ -12,6 +12,7 @@ use afp_syntax::units::Unit;
 /// Folders of files in which every word of the grammar stands somewhere.
 const FOLDERS: &[&str] = &[
     "plans",
+    "plans/parts",
     "plans/tests",
     "crates/afp-toolboxes/toolboxes",
     "crates/afp-dsl/tests/graph",

@@ -15,12 +15,14 @@ fn read(path: &str) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| error.to_string())
 }
 
+/// Of a plan, by the scenarios of the file with the same name.
 fn judged(plan: &str) -> Vec<Judged> {
     let robot = afp_sim::carbot(|_| {});
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     // Tests run in their crate's folder.
+    let name = plan.rsplit('/').next().unwrap();
     let (path, tests) =
-        (format!("../../plans/{plan}.afp"), format!("../../plans/tests/{plan}.afp"));
+        (format!("../../plans/{plan}.afp"), format!("../../plans/tests/{name}.afp"));
     let source = Source::new(&*tests, read(&tests).unwrap());
     let suite = Suite { file: PathBuf::from(&tests), source };
     let bench = Bench::new(&path, vec![suite], (&toolboxes, &read), &robot, &mut || true);
@@ -67,4 +69,19 @@ fn mutants_of_find_infrared_are_noticed() {
 #[test]
 fn mutants_of_patterns_are_noticed() {
     is_noticed("patterns");
+}
+
+#[test]
+fn mutants_of_following_a_boundary_are_noticed() {
+    is_noticed("parts/boundary");
+}
+
+#[test]
+fn mutants_of_exploring_are_noticed() {
+    is_noticed("parts/explore");
+}
+
+#[test]
+fn mutants_of_going_to_a_place_are_noticed() {
+    is_noticed("parts/go_to");
 }

@@ -79,6 +79,7 @@ icons! {
     "learn_object",
     "log",
     "plan_path",
+    "retrace",
     "row",
     "look_around",
     "search_wall",

@@ -92,7 +92,7 @@ impl Errand {
         let world = parsed(&text);
         let reach = Reach::of(&world);
         let goal = somewhere(&world, number, |place| reach.has(place))?;
-        let plan = GO_TO.get_or_init(|| part("navigate_room", "GoTo"));
+        let plan = GO_TO.get_or_init(|| part("parts/go_to", "GoTo"));
         let mut case = lasting(Case::quiet(plan, world, number), 180);
         case.inputs = ["x", "y"].into_iter().zip(goal.map(|at| format!("{at} m"))).collect();
         Some(Errand { case, text, goal, within: 0.3, beyond: false })

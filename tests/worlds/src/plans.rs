@@ -1,11 +1,11 @@
 //! The plans that are driven: those shipped, and those of this package for what they lack.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use afp_dsl::compile_plan;
-use afp_dsl::files::Texts;
+use afp_dsl::files::Disk;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::source::Source;
@@ -52,50 +52,32 @@ pub fn plan(name: &str) -> &'static Plan {
 /// # Panics
 /// There is none.
 pub fn part(file: &str, name: &str) -> Plan {
-    let (texts, others) = texts(SHIPPED);
-    let text = texts.into_iter().find(|(stem, _)| stem == file);
-    let (stem, text) = text.unwrap_or_else(|| panic!("there is no plan '{file}'"));
-    compiled((stem, text), Some(name), &others, true)
+    let folder = folder(SHIPPED);
+    compiled(&folder, &folder.join(format!("{file}.afp")), Some(name))
 }
 
 /// The plans of a folder.
-fn of(folder: &str) -> Vec<Plan> {
-    let (texts, others) = texts(folder);
-    let shipped = folder == SHIPPED;
-    texts.into_iter().map(|text| compiled(text, None, &others, shipped)).collect()
-}
-
-/// The names and texts of a folder's plans, and the same for those that use each other.
-fn texts(folder: &str) -> (Vec<(String, String)>, Texts) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+fn of(name: &str) -> Vec<Plan> {
+    let folder = folder(name);
     let files = fs::read_dir(&folder).unwrap_or_else(|why| panic!("{}: {why}", folder.display()));
     let paths = files.flatten().map(|file| file.path());
-    let texts: Vec<(String, String)> = paths
-        .filter(|path| path.extension().is_some_and(|end| end == "afp"))
-        .map(|path| read(&path))
-        .collect();
-    let mut others = Texts::default();
-    for (name, text) in &texts {
-        others.add(&format!("{name}.afp"), text.as_str());
-    }
-    (texts, others)
+    let plans = paths.filter(|path| path.extension().is_some_and(|end| end == "afp"));
+    let shipped = name == SHIPPED;
+    plans.map(|path| Plan { shipped, ..compiled(&folder, &path, None) }).collect()
 }
 
-/// The name of a plan's file, and its text.
-fn read(path: &Path) -> (String, String) {
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)
+}
+
+/// The plan of a file, one that AFP ships; that of `part` where the file has several.
+fn compiled(folder: &Path, path: &Path, part: Option<&str>) -> Plan {
     let text = fs::read_to_string(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
-    (path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), text)
-}
-
-fn compiled(
-    (name, text): (String, String),
-    part: Option<&str>,
-    others: &Texts,
-    shipped: bool,
-) -> Plan {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
-    let source = Source::new(format!("{name}.afp"), text);
-    let compiled = compile_plan(&source, &toolboxes, others, part);
+    let seen = path.strip_prefix(folder).unwrap_or(path).display().to_string();
+    let source = Source::new(seen, text);
+    let compiled = compile_plan(&source, &toolboxes, &Disk(folder.to_owned()), part);
     let said = compiled.render(false);
-    Plan { name, shipped, graph: compiled.graph.unwrap_or_else(|| panic!("{said}")) }
+    Plan { name, shipped: true, graph: compiled.graph.unwrap_or_else(|| panic!("{said}")) }
 }

@@ -9,6 +9,7 @@ use afp_carbot::devices::{
     Flow, FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
     PathPlanner, Reading, RotatingTelemetry, Rotator, Signals, TouchSensor, Trip, Ultrasonic,
 };
+use afp_carbot::trail::Trail;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Speed};
 use afp_core::{Environment, Fault, Instant, Poll, Ticket};
 use afp_sim::Simulation;
@@ -80,6 +81,10 @@ impl Odometry for Witness {
 
     fn last_bump(&self) -> Option<Bump> {
         self.sim.last_bump()
+    }
+
+    fn trail(&self) -> Trail {
+        self.sim.trail()
     }
 }
 

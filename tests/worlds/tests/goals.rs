@@ -21,6 +21,9 @@ fn rooms() -> (u64, usize) {
     parts.unwrap_or_else(|| panic!("AFP_GOALS={text}: not FIRST..COUNT"))
 }
 
+/// Rooms in which the robot pushed for longer are listed, seconds.
+const PUSHED: f64 = 1.0;
+
 /// How a plan fared in all rooms.
 #[derive(Debug, Default)]
 struct Account {
@@ -30,8 +33,8 @@ struct Account {
     touched: Vec<(u64, Vec<Contact>)>,
     /// For how long it drove to its goal, seconds.
     took: Vec<f64>,
-    /// For how long it pushed at most, seconds, and in which room.
-    pushed: (f64, u64),
+    /// For how long it pushed, seconds, and in which room.
+    pushed: Vec<(f64, u64)>,
 }
 
 impl Account {
@@ -45,9 +48,7 @@ impl Account {
         if !touches.is_empty() {
             self.touched.push((room, touches));
         }
-        if outcome.pushing.as_secs_f64() > self.pushed.0 {
-            self.pushed = (outcome.pushing.as_secs_f64(), room);
-        }
+        self.pushed.push((outcome.pushing.as_secs_f64(), room));
     }
 
     /// Puts rooms and times in order and says it all.
@@ -60,8 +61,11 @@ impl Account {
         println!("{name}: {reached} of {all} reach their goal, {} touch", self.touched.len());
         println!("  after {:.0} s mostly, {:.0} s of nine in ten", share(50), share(90));
         println!("  in a minute: {}", self.took.iter().filter(|took| **took <= 60.0).count());
-        let (pushed, room) = self.pushed;
-        println!("  pushed for {pushed:.1} s at most, in {room}");
+        self.pushed.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let long: Vec<_> = self.pushed.iter().take_while(|(time, _)| *time > PUSHED).collect();
+        let told: Vec<_> =
+            long.iter().map(|(time, room)| format!("{time:.1} s in {room}")).collect();
+        println!("  pushed for more than {PUSHED} s in {}: {}", long.len(), told.join(", "));
         let mut by: BTreeMap<&str, usize> = BTreeMap::new();
         for contact in self.touched.iter().flat_map(|(_, contacts)| contacts) {
             *by.entry(&contact.actor).or_default() += 1;

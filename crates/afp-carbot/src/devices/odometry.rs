@@ -1,6 +1,7 @@
 //! Motion as counted at the wheels.
 
 use super::Reading;
+use crate::trail::Trail;
 use afp_core::Instant;
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 
@@ -51,5 +52,10 @@ pub trait Odometry {
     /// what was met stays where it is: so the platform keeps it.
     fn last_bump(&self) -> Option<Bump> {
         None
+    }
+
+    /// The way by which the robot came; nothing is known where nobody keeps it, and then what goes back goes straight back.
+    fn trail(&self) -> Trail {
+        Trail::new()
     }
 }

@@ -80,7 +80,7 @@ fn every_question_is_answered_on_every_prefix_of_every_plan() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let step = if env::var_os("AFP_BY_NIGHT").is_some() { 1 } else { STEP };
     let mut asked = 0;
-    for folder in ["plans", "plans/tests", "examples/embed/plans"] {
+    for folder in ["plans", "plans/parts", "plans/tests", "examples/embed/plans"] {
         for entry in fs::read_dir(root.join(folder)).unwrap() {
             let path = entry.unwrap().path();
             if path.extension().is_none_or(|ending| ending != "afp") {

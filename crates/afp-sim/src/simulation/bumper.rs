@@ -1,4 +1,4 @@
-//! Contacts: what the bumper feels, and what the judge counts; and the edge of a map, which nothing feels.
+//! Contacts: what the bumper feels, and what the judge counts; the way that the robot came; and the edge of a map, which nothing feels.
 
 use super::Simulation;
 use crate::vehicle::HALF_LENGTH;
@@ -17,11 +17,11 @@ impl Simulation {
         self.switch.step(touched);
     }
 
-    /// Remembers where the bumper is pressed, as far as the robot can tell.
-    pub(super) fn note_bump(&mut self, now: Instant) {
-        let pressed = self.lines.touch.read(self.raw_touched()).value == Ok(true);
-        let motion = self.lines.odometry.read(self.raw_motion()).value;
-        if let Some(at) = motion.ok().filter(|_| pressed) {
+    /// Remembers by what way the robot came and where the bumper is pressed, as far as it can tell.
+    pub(super) fn note_motion(&mut self, now: Instant) {
+        let Ok(at) = self.lines.odometry.read(self.raw_motion()).value else { return };
+        self.trail.note(at);
+        if self.lines.touch.read(self.raw_touched()).value == Ok(true) {
             self.bump = Some(Bump { at, time: now });
         }
     }

@@ -10,6 +10,7 @@ use afp_carbot::devices::{
     Flow, FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
     PathPlanner, Reading, RotatingTelemetry, Rotator, Signals, TouchSensor, Trip, Ultrasonic,
 };
+use afp_carbot::trail::Trail;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed};
 use afp_core::{Environment, Fault, Instant, Poll, Ticket};
 use afp_session::parts::Line;
@@ -107,6 +108,10 @@ impl Odometry for Simulation {
 
     fn last_bump(&self) -> Option<Bump> {
         self.bump
+    }
+
+    fn trail(&self) -> Trail {
+        self.trail
     }
 }
 

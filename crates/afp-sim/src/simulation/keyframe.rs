@@ -19,6 +19,7 @@ impl Simulation {
             echo: self.echo,
             switch: self.switch.clone(),
             bump: self.bump,
+            trail: self.trail,
             battery: self.battery.clone(),
             scene: self.scene.clone(),
             lights: self.lights.clone(),

@@ -46,37 +46,46 @@ Examples:
 
 It listens on this machine alone, and its address works once: whoever does not know it is not let in.";
 
-/// A shipped plan with its world, and those that it uses.
+/// A file with plans that AFP ships: its name, and its text.
+macro_rules! shipped {
+    ($name:literal) => {
+        (concat!($name, ".afp"), include_str!(concat!("../../../../plans/", $name, ".afp")))
+    };
+}
+
+/// A shipped plan with its world, and the files that it uses, those too that they use.
 macro_rules! example {
     ($name:literal $(, $uses:literal)*) => {
         (
-            concat!($name, ".afp"),
-            include_str!(concat!("../../../../plans/", $name, ".afp")),
+            shipped!($name),
             include_str!(concat!("../../../../worlds/", $name, ".toml")),
-            &[$(concat!($uses, ".afp")),*],
+            &[$(shipped!($uses)),*],
         )
     };
 }
 
+/// The name of a file, and its text.
+type File = (&'static str, &'static str);
+
 /// Plans to begin with.
-const EXAMPLES_TO_COPY: [(&str, &str, &str, &[&str]); 7] = [
+const EXAMPLES_TO_COPY: [(File, &str, &[File]); 7] = [
     example!("wall_following"),
     example!("patterns"),
-    example!("find_infrared", "avoid_obstacle"),
-    example!("avoid_obstacle"),
-    example!("find_object", "avoid_obstacle"),
-    example!("navigate_room"),
-    example!("patrol", "avoid_obstacle", "navigate_room"),
+    example!("find_infrared", "parts/explore", "parts/boundary", "avoid_obstacle"),
+    example!("avoid_obstacle", "parts/boundary"),
+    example!("find_object", "parts/explore", "parts/boundary", "avoid_obstacle"),
+    example!("navigate_room", "parts/go_to"),
+    example!("patrol", "avoid_obstacle", "navigate_room", "parts/boundary", "parts/go_to"),
 ];
 
 /// The examples as the studio copies them.
 fn examples() -> Vec<Example> {
-    let made = EXAMPLES_TO_COPY.into_iter().map(|(name, plan, world, uses)| Example {
+    let made = EXAMPLES_TO_COPY.into_iter().map(|((name, plan), world, uses)| Example {
         name: name.to_owned(),
         plan: plan.to_owned(),
         // The schema lies in the checkout alone.
         world: Some(world.lines().filter(|line| !line.starts_with("#:")).map(with_end).collect()),
-        uses: uses.iter().map(|&name| name.to_owned()).collect(),
+        uses: uses.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect(),
     });
     made.collect()
 }

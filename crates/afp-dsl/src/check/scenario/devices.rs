@@ -100,6 +100,11 @@ fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault),
     let (names, written) = (path.names(), path.text());
     let error = match (robot.find::<Fault>(&names), names.as_slice()) {
         (Found::Row(device, fault, 2), [_, _]) => return Ok((device, fault)),
+        (Found::Row(device, fault, 2), [_, _, more, ..]) => {
+            let whole = format!("{}.{}", device.name, fault.name);
+            let message = format!("'{whole}' has no part '{}'", more.text);
+            Diagnostic::new(Code::E0606, more.span, message).help(format!("write '{whole}'"))
+        }
         // Which device it is of is always said, as on the command line.
         (Found::Row(device, ..), [name]) => {
             let message = format!("what fails as '{written}' is not said");

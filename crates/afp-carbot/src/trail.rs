@@ -1,0 +1,144 @@
+//! The way by which the robot came: where nothing stood a moment ago.
+
+use crate::devices::Motion;
+use crate::history::Pose;
+use afp_core::quantity::{Angle, Length};
+
+/// A turn by a radian counts as so many metres of a way: it carries the robot's corners about so far.
+pub(crate) const LEVER: f64 = 0.2;
+
+/// So many places are remembered, no closer than this, metres: 60 cm of way, or half a turn in place.
+const KEPT: usize = 40;
+const APART: f64 = 0.015;
+/// Wheels do not carry a robot this far between two readings: it has begun to count anew.
+const JUMP: f64 = 0.3;
+
+/// The latest places of a robot by its odometry. What it goes back is taken off again, so that the trail leads on to
+/// where it was before.
+#[derive(Clone, Copy, Debug)]
+pub struct Trail {
+    /// The newest is before `next`.
+    places: [Pose; KEPT],
+    next: usize,
+    known: usize,
+}
+
+impl Default for Trail {
+    fn default() -> Self {
+        Trail::new()
+    }
+}
+
+impl Trail {
+    /// Nothing is known yet.
+    pub const fn new() -> Self {
+        Trail { places: [Pose { x: 0.0, y: 0.0, heading: 0.0 }; KEPT], next: 0, known: 0 }
+    }
+
+    /// Remembers where the robot is, if that is far enough from where it was. To be called for every reading.
+    pub fn note(&mut self, motion: Motion) {
+        let here = motion.into();
+        let far = |newest: Pose, way| newest.way_to(&here) > way;
+        if self.place(1).is_some_and(|newest| far(newest, JUMP)) {
+            self.known = 0;
+        }
+        while let Some(newest) = self.place(1) {
+            if !far(newest, APART) {
+                return;
+            }
+            // Nearer to the place before the newest than that one is, it went back.
+            let went_back = |before: Pose| before.way_to(&here) < before.way_to(&newest);
+            if !self.place(2).is_some_and(went_back) {
+                break;
+            }
+            self.drop_newest();
+        }
+        self.places[self.next] = here;
+        self.next = (self.next + 1) % KEPT;
+        self.known = (self.known + 1).min(KEPT);
+    }
+
+    /// Where it leads back to from a place: the newest that is not about there.
+    pub(crate) fn back_from(mut self, here: &Pose) -> Self {
+        if self.place(1).is_some_and(|newest| newest.way_to(here) <= APART) {
+            self.drop_newest();
+        }
+        self
+    }
+
+    /// The place that the robot came by last, the one before it, and so on, counted from 1; none where nothing is known.
+    pub(crate) fn place(&self, ago: usize) -> Option<Pose> {
+        (ago <= self.known).then(|| self.places[(self.next + KEPT - ago) % KEPT])
+    }
+
+    pub(crate) fn drop_newest(&mut self) {
+        self.next = (self.next + KEPT - 1) % KEPT;
+        self.known = self.known.saturating_sub(1);
+    }
+}
+
+impl Pose {
+    /// How far it is to another place, metres; a turn counts by [`LEVER`].
+    pub(crate) fn way_to(&self, other: &Pose) -> f64 {
+        let turn = LEVER * (other.heading - self.heading);
+        let (x, y) = (other.x - self.x, other.y - self.y);
+        libm::sqrt(x * x + y * y + turn * turn)
+    }
+
+    /// The place so far straight behind.
+    pub(crate) fn behind(&self, way: f64) -> Pose {
+        let (sin, cos) = libm::sincos(self.heading);
+        Pose { x: self.x - way * cos, y: self.y - way * sin, heading: self.heading }
+    }
+
+    /// As a motion of a robot that stands there.
+    pub(crate) fn standing(&self) -> Motion {
+        Motion {
+            x: Length::from_si(self.x),
+            y: Length::from_si(self.y),
+            heading: Angle::from_si(self.heading),
+            ..Motion::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    fn noted(places: &[(f64, f64)]) -> Trail {
+        let mut trail = Trail::new();
+        for &(x, heading) in places {
+            trail.note(Pose { x, y: 0.0, heading }.standing());
+        }
+        trail
+    }
+
+    fn known(trail: &Trail) -> Vec<(f64, f64)> {
+        (1..).map_while(|ago| trail.place(ago)).map(|at| (at.x, at.heading)).collect()
+    }
+
+    #[test]
+    fn remembers_places_apart_newest_first() {
+        let trail = noted(&[(0.0, 0.0), (0.01, 0.0), (0.02, 0.0), (0.02, 0.05), (0.02, 0.1)]);
+        assert_eq!(known(&trail), [(0.02, 0.1), (0.02, 0.0), (0.0, 0.0)]);
+    }
+
+    #[test]
+    fn what_is_gone_back_is_taken_off() {
+        let out = (0..20).map(|n| (0.02 * f64::from(n), 0.0));
+        let back = (10..19).rev().map(|n| (0.02 * f64::from(n), 0.0));
+        let places: Vec<_> = out.chain(back).collect();
+        let ahead: Vec<_> = known(&noted(&places)).iter().map(|at| at.0).collect();
+        assert!(ahead[0] < 0.23 && ahead.is_sorted_by(|a, b| a > b), "{ahead:?}");
+    }
+
+    #[test]
+    fn the_oldest_make_room_and_a_jump_forgets_all() {
+        let mut places: Vec<_> = (0..100).map(|n| (0.02 * f64::from(n), 0.0)).collect();
+        assert_eq!(known(&noted(&places)).len(), KEPT);
+        places.push((5.0, 0.0));
+        assert_eq!(known(&noted(&places)), [(5.0, 0.0)]);
+    }
+}
