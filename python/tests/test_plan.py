@@ -172,6 +172,23 @@ def test_what_is_plain_can_be_pickled_and_copied(wall_following: afp.Plan) -> No
         assert (str(why), why.diagnostics) == (str(error.value), broken.diagnostics)
 
 
+def test_a_verdict_shows_what_broke_and_how_it_is_run_again(tmp_path: Path) -> None:
+    go = "use carbot\nplan Go { start go actor go: Forward(distance = 20 cm) { ForwardSuccessful -> terminate } }\n"
+    file = tmp_path / "a plan.afp"
+    file.write_text(go + 'scenario "it\'s <fast>" for Go {\n    expect end by OK before 100 ms\n}\n', encoding="utf-8")
+    verdict = afp.load(file).scenarios[0].run()
+    assert not verdict.passed and verdict.command == rf"afpc test '{file}' 'it'\''s <fast>'"
+    shown = verdict._repr_html_()
+    assert "failed" in shown and "expect end by OK before 100 ms" in shown and "&lt;fast&gt;" in shown
+    again = pickle.loads(pickle.dumps(verdict))
+    assert again == verdict and again._repr_html_() == shown
+    plan = afp.load(file)
+    plan.rename("go", "ahead")
+    assert plan.scenarios[0].run().command.endswith("  # the plan has been changed and not saved")
+    passed = afp.load(ROOT / "plans/tests/wall_following.afp").scenarios[0].run()._repr_html_()
+    assert "passed" in passed and "<pre>" not in passed
+
+
 def test_scenarios_are_pickled_with_their_text() -> None:
     plan = afp.load(ROOT / "plans/tests/wall_following.afp")
     for scenario in plan.scenarios[:2]:
@@ -206,7 +223,7 @@ def test_a_drawing_that_takes_long_is_interrupted_and_leaves_others_their_turn()
     )
     plan = afp.Plan(f"use carbot\nplan P {{ start a0\n{ring} }}")
     assert plan.name == "P"
-    assert interrupted(plan.svg) < 0.5
+    assert interrupted(plan.svg, after=0.05) < 0.5
 
 
 def test_every_shipped_plan_is_in_order() -> None:

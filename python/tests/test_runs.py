@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import afp
+from afp.picture import address
 
 from conftest import ROOT
 
@@ -120,6 +121,35 @@ def test_runs_are_cut_and_filtered() -> None:
     with pytest.raises(KeyError, match="no column 'sed'"):
         runs.where(sed=3)
     assert "afpc run" in runs._repr_html_()
+
+
+def test_a_notebook_shows_the_first_run_of_each_group() -> None:
+    runs = swept(worlds=["random:1"], vary={"way": [0.1, 20.0], "world.robot.charge": [0.5]})
+    assert [group["ending"] for group in runs.groups] == ["ok", "time_limit"]
+    shown = runs._repr_html_()
+    assert shown.count("data:image/svg+xml;base64,") == 2
+    assert address(runs.result(1).picture().svg) in shown and "run 1: time_limit" in shown
+    assert "<img" not in pickle.loads(pickle.dumps(runs))._repr_html_(), "what cannot be done again is not shown"
+    runs.columns["took_s"] = [100.0, 0.1]
+    assert runs._repr_html_().count("<img") == 1, "what takes long is not done again"
+    runs.columns["ending"] = ["not_started", "not_started"]
+    assert "<img" not in runs._repr_html_()
+
+
+def test_what_components_of_the_user_run_is_not_done_again_to_be_shown() -> None:
+    tools = afp.Toolbox("tools")
+    called: list[int] = []
+
+    @tools.actor(states=["Done"])
+    class Done:
+        def poll(self) -> str:
+            called.append(1)
+            return "Done"
+
+    plan = afp.Plan("use tools\nplan P { start go actor go: Done { Done -> terminate } }", toolboxes=[tools])
+    runs = afp.sweep(plan, progress=False)
+    times = len(called)
+    assert "<img" not in runs._repr_html_() and len(called) == times
 
 
 def test_a_row_leads_back_to_its_run() -> None:

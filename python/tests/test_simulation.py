@@ -247,3 +247,38 @@ def test_a_forked_process_is_refused(wall_following: afp.Plan) -> None:
             os._exit(0 if "forked" in str(error) else 1)
         os._exit(2)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+
+
+def test_a_class_of_ones_own_builds_on_it(wall_following: afp.Plan) -> None:
+    class Counted(afp.Simulation):
+        def __init__(self, steps: int) -> None:
+            if steps:
+                super().__init__(wall_following, seed=steps)
+            self.steps = 0
+
+        def step(self) -> bool:
+            self.steps += 1
+            return super().step()
+
+    counted = Counted(3)
+    assert counted.step() and counted.step() and (counted.steps, counted.seed) == (2, 3)
+    with pytest.raises(RuntimeError, match="made once"):
+        counted.__init__(4)  # type: ignore[misc]
+    with pytest.raises(RuntimeError, match="has not been made"):
+        Counted(0).step()
+    assert "next step" in (afp.Simulation.step.__doc__ or "")
+
+
+def test_single_steps_are_those_of_a_run_also_once_it_has_ended(tmp_path: Path) -> None:
+    plan = afp.Plan("use carbot\nplan P { start go actor go: Forward(distance = 5 cm) { ForwardSuccessful -> terminate } }")
+    whole = afp.Simulation(plan).run(until=30.0)
+    with afp.Simulation(plan, log=tmp_path / "run.mcap") as simulation:
+        while simulation.step():
+            pass
+        assert simulation.result().trace_hash == whole.trace_hash and simulation.ending == "ok"
+        assert not simulation.step() and simulation.time == whole.time
+    assert len(afp.Log(tmp_path / "run.mcap").events) > 2
+    stopped = afp.Simulation(plan)
+    stopped.step()
+    stopped.request_stop()
+    assert not stopped.step() and stopped.result().stopped_by == "stop"

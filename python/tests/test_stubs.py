@@ -12,7 +12,7 @@ from afp import _afp
 
 from conftest import ROOT
 
-STUB = ROOT / "python/src/afp/_afp.pyi"
+STUBS = [ROOT / f"python/src/afp/{name}.pyi" for name in ("_afp", "_afp_plans", "_afp_runs")]
 
 Item = ast.ClassDef | ast.FunctionDef
 
@@ -61,11 +61,13 @@ def with_documentation(text: str) -> str:
 
 
 def test_stubs_have_the_documentation_of_the_native_half() -> None:
-    text = STUB.read_text(encoding="utf-8")
-    if os.environ.get("AFP_BLESS"):
-        text = with_documentation(text)
-        STUB.write_text(text, encoding="utf-8", newline="\n")
-    told = [(node.name, ast.get_docstring(node), words) for node, words, _ in items(text)]
+    told: list[tuple[str, str | None, str | None]] = []
+    for stub in STUBS:
+        text = stub.read_text(encoding="utf-8")
+        if os.environ.get("AFP_BLESS"):
+            text = with_documentation(text)
+            stub.write_text(text, encoding="utf-8", newline="\n")
+        told += [(node.name, ast.get_docstring(node), words) for node, words, _ in items(text)]
     assert len(told) > 150
     wrong = [name for name, stub, words in told if stub != words and words is not None]
     assert not wrong, f"AFP_BLESS=1 pytest {__file__} writes them: {wrong}"

@@ -40,6 +40,7 @@ def test_pictures(result: afp.Result) -> None:
     path.figure.canvas.draw()
 
 
+EXTRAS = {"pandas": "pandas", "polars": "polars", "pyarrow": "arrow", "matplotlib": "plot", "gymnasium": "gym", "ray": "ray"}
 MISSING = {
     "pandas": ["result.to_pandas()", "runs.to_pandas()", "log.to_pandas()"],
     "polars": ["result.to_polars()", "runs.to_polars()", "log.to_polars()"],
@@ -71,5 +72,14 @@ for call in {calls!r}:
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-    said = f"this needs {module}; install it with: pip install {module}"
+    said = f"this needs {module}; install it with: pip install 'action-flow-plans[{EXTRAS[module]}]'"
     assert done.stdout.splitlines() == [said] * len(calls)
+
+
+def test_the_extras_that_are_named_are_there() -> None:
+    project = (ROOT / "python/pyproject.toml").read_text(encoding="utf-8")
+    assert 'name = "action-flow-plans"' in project
+    packages = {"matplotlib": "plot", "stable-baselines3": "sb3", **EXTRAS}
+    for package, extra in packages.items():
+        [line] = [line for line in project.splitlines() if line.startswith(f"{extra} = [")]
+        assert f'"{package}>=' in line

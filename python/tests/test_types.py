@@ -59,6 +59,8 @@ errors: list[afp.ComponentError] = watched.errors
 said: list[afp.Diagnostic] = plan.diagnostics
 scenario: afp.Scenario = plan.scenarios[0]
 came: afp.Verdict = scenario.run(log="c.mcap")
+line: str = came.command
+runs_on: bool = simulation.step()
 broken: list[afp.Broken] = came.broken
 quantities: list[afp.Quantity] = [afp.m(1), afp.mm(1), afp.s(1), afp.rad(1), afp.kmh(1), afp.rad_per_s(1), afp.deg_per_s(1)]
 far: afp.Quantity = afp.m(2) * 2 + afp.cm(3)

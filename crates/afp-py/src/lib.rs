@@ -55,6 +55,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_class::<scenario::Broken>()?;
     module.add_class::<scenario::Scenario>()?;
     module.add_class::<scenario::Verdict>()?;
+    module.add_class::<simulation::Driven>()?;
     module.add_class::<simulation::Event>()?;
     module.add_class::<simulation::Names>()?;
     module.add_class::<simulation::Runner>()?;

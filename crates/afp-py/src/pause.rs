@@ -52,7 +52,14 @@ impl Pause {
         self.host.as_ref().is_some_and(|host| host.has_ended_all())
     }
 
-    /// Looks whether somebody asked for an end.
+    /// Whether somebody asked for an end.
+    #[inline]
+    pub fn is_asked(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+            || self.host.as_ref().is_some_and(|host| host.is_aborted())
+    }
+
+    /// Looks whether somebody asked for an end, which is asked for once.
     #[inline]
     pub fn asked(&mut self) -> Option<Halt> {
         self.is_long = false;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario as Checked;
+use afp_session::shell_word;
 use afp_syntax::source::Span;
 use afp_test::Setting;
 use pyo3::IntoPyObjectExt;
@@ -33,6 +34,8 @@ pub struct Scenario {
     index: usize,
     file: PathBuf,
     toolboxes: Vec<Py<Toolbox>>,
+    /// Why `afpc test` does something else than this does.
+    caveat: Option<&'static str>,
     /// What the plan is pickled as, with the text that this is a scenario of.
     source: Py<PyAny>,
 }
@@ -100,7 +103,8 @@ impl Scenario {
             return Err(why);
         }
         let came = came.map_err(|why| run_error(&why))?;
-        Ok(verdict(&self.compiled, came.ok_or_else(|| error("the scenario was called off"))?))
+        let came = came.ok_or_else(|| error("the scenario was called off"))?;
+        Ok(verdict(&self.compiled, came, self.command()?))
     }
 
     /// Whether it is the same one of the same text.
@@ -137,6 +141,13 @@ impl Scenario {
         let found = self.compiled.scenarios.get(self.index);
         found.ok_or_else(|| PyIndexError::new_err("there is no such scenario"))
     }
+
+    /// The line that runs it again, with what it does otherwise.
+    fn command(&self) -> PyResult<String> {
+        let file = shell_word(&self.file.display().to_string());
+        let command = format!("afpc test {file} {}", shell_word(&self.checked()?.name));
+        Ok(self.caveat.map_or_else(|| command.clone(), |why| format!("{command}  # {why}")))
+    }
 }
 
 /// The scenarios of a plan's file.
@@ -148,6 +159,7 @@ pub fn scenarios(py: Python<'_>, plan: &Plan) -> PyResult<Vec<Scenario>> {
         index,
         file: plan.file(),
         toolboxes: plan.python_toolboxes(py),
+        caveat: plan.caveat(),
         source: source.clone_ref(py),
     };
     Ok((0..compiled.scenarios.len()).map(one).collect())

@@ -1,11 +1,13 @@
 //! `Runner`: a plan in a simulated world, driven from Python.
 
 mod access;
+mod driven;
 mod event;
 mod glance;
 mod keeper;
 mod names;
 mod session;
+mod setting;
 mod stimuli;
 mod time;
 
@@ -33,13 +35,15 @@ use crate::plan::Plan;
 use crate::value::{Given, no_pickle, to_python};
 use crate::world::{World, table};
 
+pub use driven::Driven;
 use event::line;
 pub use event::{Event, value};
 use glance::Seen;
 pub use keeper::Keeper;
 pub use names::Names;
+pub use session::Run;
 use session::no_pose;
-pub use session::{Run, Setting};
+pub use setting::Setting;
 use stimuli::control;
 pub use stimuli::fault;
 pub use time::{duration, instant};
@@ -102,6 +106,7 @@ impl Runner {
     }
 
     /// Makes one step of the plan; whether it still runs.
+    #[inline]
     fn step(&self, py: Python<'_>) -> PyResult<bool> {
         // Components get hold of the interpreter by themselves; without any, letting it go costs more than a step.
         if self.host.is_none() {

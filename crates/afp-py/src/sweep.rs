@@ -111,6 +111,12 @@ impl Sweeper {
         self.sweep.len()
     }
 
+    /// Whether its runs call nothing that is written in Python.
+    #[getter]
+    fn is_quiet(&self) -> bool {
+        self.toolboxes.is_empty()
+    }
+
     /// What makes it this sweep: program, plan, worlds and grid, as in its journal.
     #[getter]
     fn identity(&self) -> String {

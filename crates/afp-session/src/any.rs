@@ -82,6 +82,13 @@ pub trait AnySession: Send {
         to: &mut [&mut dyn Observer],
     ) -> Result<Go, StartError>;
 
+    /// Does the next thing, as [`AnySession::tick`] does without a limit or a gate. Whether the plan still runs, once that
+    /// was its next step or where it has ended; none where it was something that comes before the step.
+    ///
+    /// # Errors
+    /// The plan cannot start.
+    fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Option<bool>, StartError>;
+
     /// Runs the plan until `until`, until it has ended and the robot has come to rest, or until the gate stops it;
     /// whether it did. A plan that still runs goes on with the next call.
     ///

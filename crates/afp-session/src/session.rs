@@ -13,7 +13,7 @@ use afp_core::{Duration, Fault, Instant, Scheduler, StartError, Wake};
 
 use crate::faults::Faults;
 use crate::figures::Figures;
-use crate::observer::{Gate, Go, Observer};
+use crate::observer::{Gate, Go, Observer, Open};
 use crate::record::{Keep, Kept};
 use crate::request::{Request, Requests};
 use crate::robot::{FaultOf, Measure, Robot};
@@ -238,6 +238,22 @@ where
     ) -> Result<Go, StartError> {
         self.fit(to);
         self.guarded(to, |session, to| session.tick_fitted(limit, gate, to))
+    }
+
+    /// Does the next thing, as [`Session::tick`] does without a limit or a gate. Whether the plan still runs, once that was
+    /// its next step or where it has ended; none where it was something that comes before the step.
+    ///
+    /// # Errors
+    /// The plan cannot start.
+    pub fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Option<bool>, StartError> {
+        if self.ending().is_some() {
+            return Ok(Some(false));
+        }
+        self.fit(to);
+        let due = self.due();
+        self.guarded(to, |session, to| session.tick_fitted(Instant::MAX, &mut Open, to))?;
+        let running = self.ending().is_none();
+        Ok((self.robot.now() >= due || !running).then_some(running))
     }
 
     #[inline]

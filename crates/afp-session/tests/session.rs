@@ -353,3 +353,36 @@ fn measures_see_the_robot_and_come_out_as_figures() {
     assert_eq!(figures.number("tally", "events"), Some(1.0));
     assert!(figures.number("way", "way_m").unwrap() > 0.0);
 }
+
+#[test]
+fn step_by_step_it_is_the_same_run_and_each_call_says_whether_it_was_a_step() {
+    let begun = || {
+        let mut session = session();
+        session.at(at(305), Request::Press(FRONT, true)).unwrap();
+        session
+    };
+    let notes =
+        || Notes { sampling: Some(Sampling::Every(Duration::from_millis(7))), ..Notes::default() };
+    let (mut whole, mut told) = (begun(), notes());
+    whole.run(at(3000), &mut Open, &mut [&mut told]).unwrap();
+    assert_eq!(whole.ending(), Some(Ending::Ok));
+    let (mut single, mut heard, mut before) = (begun(), notes(), 0);
+    loop {
+        let steps = heard.steps.len();
+        match single.next_step(&mut [&mut heard]).unwrap() {
+            Some(runs) => {
+                assert_eq!((heard.steps.len() - steps, runs), (1, single.ending().is_none()));
+                if !runs {
+                    break;
+                }
+            }
+            None => {
+                assert_eq!(heard.steps.len(), steps);
+                before += 1;
+            }
+        }
+    }
+    assert_eq!((single.trace(), &heard.steps), (whole.trace(), &told.steps));
+    assert!(before > 100, "{before} samples and requests between steps");
+    assert_eq!(single.next_step(&mut [&mut heard]), Ok(Some(false)));
+}

@@ -22,25 +22,20 @@ from __future__ import annotations
 
 import functools
 import inspect
-import math
 import os
-import re
 import types
-from collections.abc import Awaitable, Callable, Generator, Mapping, Sequence, Set
+from collections.abc import Awaitable, Callable, Generator, Sequence, Set
 from pathlib import Path
-from typing import Any, TypeVar, get_type_hints
+from typing import Any, TypeVar
 
 from . import _afp
 from ._afp import Robot
-from .units import UNITS, Quantity, plain, spelled_time
+from .declaration import GIVEN, Outcomes, declaration, method_of, named, start_of, text_of
+from .units import spelled_time
 
 __all__ = ["Toolbox", "tick"]
 
 Component = TypeVar("Component", bound=Callable[..., Any])
-Outcomes = Sequence[str] | Mapping[str, Mapping[str, Any]]
-
-# What a component may ask for by name besides its ports.
-_GIVEN = ("robot", "wanted")
 
 
 class _Tick:
@@ -58,7 +53,7 @@ class Toolbox(_afp.Toolbox):
 
     def __new__(cls, name: str, *, version: str | None = None, doc: str = "") -> Toolbox:
         lines = "".join(f"/// {line}\n" for line in doc.splitlines())
-        head = f'{lines}toolbox {name}{f" version {_text(version)}" if version else ""}\n'
+        head = f'{lines}toolbox {name}{f" version {text_of(version)}" if version else ""}\n'
         return super().__new__(cls, head)
 
     @classmethod
@@ -159,7 +154,7 @@ class Toolbox(_afp.Toolbox):
                 raise ValueError(f"{template!r} is no name of a template; give letters, digits and '_'")
             _fits(kind, template, component)
             devices = [uses] if isinstance(uses, str) else uses
-            text = _declaration(kind, template, component, outcomes, devices, timing, icon)
+            text = declaration(kind, template, component, outcomes, devices, timing, icon)
             try:
                 self._declare(template, text)
             except _afp.AfpError as why:
@@ -201,11 +196,6 @@ def _name(component: Callable[..., Any]) -> str:
     return name
 
 
-def _named(component: Any) -> str:
-    """The name of a component without that of the function in which it was written."""
-    return re.sub(r".*<locals>\.", "", component.__qualname__)
-
-
 def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
     """Says so at once if a component can never work."""
     steps = component.__dict__.get("poll", component) if isinstance(component, type) else component
@@ -232,140 +222,6 @@ def source_of(component: Callable[..., Any]) -> str:
         return repr(code.co_code if code else component)
 
 
-def _text(value: str) -> str:
-    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
-
-
-# Declarations from signatures
-
-_TYPES = {bool: "bool", int: "int", float: "float", str: "string"}
-
-
-def _type(hint: Any, where: str) -> str:
-    """The type of the language that a hint stands for."""
-    for extra in getattr(hint, "__metadata__", ()):
-        if isinstance(extra, str):
-            return extra
-    if hint in _TYPES:
-        return _TYPES[hint]
-    if isinstance(hint, str):
-        return hint
-    known = "bool, int, float, str, afp.Length, afp.Angle, afp.Duration, afp.Speed, afp.AngularSpeed"
-    if hint is not None:
-        raise TypeError(f"{where} has the hint {_shown(hint)}, and no type of the language is like it; there are: {known}")
-    raise TypeError(f"{where} needs a type hint: one of {known}, or Annotated[float, 'force'] and the like")
-
-
-def _shown(hint: Any) -> str:
-    return hint.__name__ if isinstance(hint, type) else str(hint).replace("typing.", "")
-
-
-def _constant(value: Any, type: str, where: str) -> str:
-    """A default as it stands in a toolbox file."""
-    value = plain(value)
-    unit = UNITS.get(type, "")
-    what = f"{where} is {type}{f' in {unit}' if unit else ''}, its default"
-    if isinstance(value, Quantity) and value.unit != unit:
-        raise TypeError(f"{what} a quantity in {value.unit}")
-    if type == "bool" and isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return _text(value) if type == "string" else _literal(value, type, what)
-    if type in {"bool", "string"} or isinstance(value, bool) or not hasattr(value, "__float__"):
-        raise TypeError(f"{what} {value!r}")
-    if not math.isfinite(value):
-        raise ValueError(f"{what} {value!r}; give a finite number")
-    if type == "int" and value != int(value):
-        raise TypeError(f"{what} {value!r}")
-    return repr(int(value)) if type == "int" else f"{float(value)!r} {unit}".rstrip()
-
-
-def _literal(text: str, type: str, what: str) -> str:
-    """A text that stands for a value of a type, `30 cm`; what is none of the known types' is refused."""
-    if type in _TYPES.values() or type in UNITS:
-        try:
-            _afp.Toolbox.__new__(_afp.Toolbox, f"toolbox t\ncomputation C {{\nin x: {type} = {text}\nstate S\n}}\n")
-        except _afp.AfpError as why:
-            message = str(why).splitlines()[0].partition(": ")[2]
-            raise ValueError(f"{what} {text!r}: {message}") from None
-    return text
-
-
-def _hints(function: Callable[..., Any]) -> dict[str, Any]:
-    """The hints of a function, those that are written as texts too."""
-    try:
-        return get_type_hints(function, include_extras=True)
-    except NameError as error:
-        what = f"a hint of '{_named(function)}' names '{error.name}', which is not there while the program runs"
-        raise TypeError(f"{what}: import it outside of 'if TYPE_CHECKING'") from None
-
-
-def _ports(function: Callable[..., Any], live: bool) -> list[str]:
-    hints = _hints(function)
-    lines = []
-    for name, parameter in inspect.signature(function).parameters.items():
-        if name in _GIVEN or name == "self":
-            continue
-        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
-            raise TypeError(f"'{_named(function)}' takes *{name}; its parameters are ports and need names")
-        if parameter.kind == parameter.POSITIONAL_ONLY:
-            raise TypeError(f"'{_named(function)}' takes '{name}' by position alone; ports are given by name: leave out the '/'")
-        where = f"the parameter '{name}' of '{_named(function)}'"
-        type = _type(hints.get(name), where)
-        default = parameter.default
-        end = "" if default is parameter.empty else f" = {_constant(default, type, where)}"
-        lines.append(f"in {'live ' if live else ''}{name}: {type}{end}")
-    return lines
-
-
-def _declaration(
-    kind: str,
-    name: str,
-    component: Callable[..., Any],
-    outcomes: Outcomes,
-    uses: Sequence[str],
-    timing: str,
-    icon: str | None,
-) -> str:
-    """The text of a template."""
-    if isinstance(component, type):
-        start = _start(component)
-        ports = _ports(start, False) if start else []
-        ports += _ports(_method(component, "poll"), True)
-    else:
-        ports = _ports(component, kind == "supervisor")
-    by_state: Mapping[str, Mapping[str, Any]]
-    by_state = outcomes if isinstance(outcomes, Mapping) else {outcome: {} for outcome in outcomes}
-    carried: dict[str, tuple[str, list[str]]] = {}
-    for state, outputs in by_state.items():
-        for port, hint in outputs.items():
-            type_ = _type(hint, f"the output '{port}' of '{name}'")
-            carried.setdefault(port, (type_, []))[1].append(state)
-    lines = [f"icon {_text(icon)}"] if icon else []
-    lines += [f"uses {device}" for device in uses]
-    lines += ports
-    lines += [f"out {port}: {type_} on {' | '.join(states)}" for port, (type_, states) in carried.items()]
-    lines += [timing] if timing else []
-    word = "event" if kind == "supervisor" else "state"
-    lines += [f"{word} {state}" for state in by_state]
-    doc = "".join(f"/// {line.strip()}\n" for line in (inspect.getdoc(component) or "").splitlines() if line.strip())
-    body = "".join(f"    {line}\n" for line in lines)
-    return f"{doc}{kind} {name} {{\n{body}}}\n"
-
-
-def _start(component: type) -> Callable[..., Any] | None:
-    """What makes an instance, if the class says so itself."""
-    start: Callable[..., Any] = getattr(component, "__init__")
-    return None if start is object.__init__ else start
-
-
-def _method(component: type, name: str) -> Callable[..., Any]:
-    method = getattr(component, name, None)
-    if not callable(method):
-        raise TypeError(f"'{_named(component)}' has no method '{name}'")
-    return method  # type: ignore[no-any-return]
-
-
 # Making components run
 
 
@@ -379,7 +235,7 @@ def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live
     if kind == "supervisor":
         return _function_maker(component, inputs, live)
     if not inspect.iscoroutinefunction(component):
-        raise TypeError(f"the actor '{_named(component)}' must be a class with 'poll', or 'async def'")
+        raise TypeError(f"the actor '{named(component)}' must be a class with 'poll', or 'async def'")
     return _coroutine_maker(component, inputs)
 
 
@@ -389,7 +245,7 @@ def _takes(function: Callable[..., Any], ports: Sequence[str], given: Sequence[s
     unknown = [name for name in names if name not in ports and name not in given]
     if unknown:
         known = ", ".join([*given, *ports])
-        raise TypeError(f"'{_named(function)}' takes '{unknown[0]}', but there are only: {known}")
+        raise TypeError(f"'{named(function)}' takes '{unknown[0]}', but there are only: {known}")
     return names
 
 
@@ -416,9 +272,9 @@ def _poll(method: Callable[..., Any], takes: Sequence[str], robot: Robot, has_li
 
 
 def _class_maker(kind: str, component: type, inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
-    begins = _start(component)
-    start = _takes(begins, inputs, _GIVEN) if begins else []
-    poll = _takes(_method(component, "poll"), live, ("robot",))
+    begins = start_of(component)
+    start = _takes(begins, inputs, GIVEN) if begins else []
+    poll = _takes(method_of(component, "poll"), live, ("robot",))
 
     def make(robot: Robot, values: dict[str, Any], wanted: Set[str] = frozenset()) -> _Running:
         all = {"robot": robot, "wanted": wanted, **values}
@@ -444,7 +300,7 @@ def _nothing() -> None:
 
 
 def _function_maker(function: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
-    takes = _takes(function, [*inputs, *live], _GIVEN)
+    takes = _takes(function, [*inputs, *live], GIVEN)
 
     def make(robot: Robot, values: dict[str, Any], wanted: Set[str] = frozenset()) -> _Running:
         all = {"robot": robot, "wanted": wanted, **values}
@@ -487,7 +343,7 @@ def _advance(coroutine: types.CoroutineType[Any, Any, Any]) -> tuple[Any] | None
         waits = coroutine.send(None)
     except StopIteration as end:
         if end.value is None:
-            raise TypeError(f"the actor '{_named(coroutine)}' returned None, not a state") from None
+            raise TypeError(f"the actor '{named(coroutine)}' returned None, not a state") from None
         return (end.value,)
     except RuntimeError as why:
         # What asyncio says when it is awaited here.

@@ -6,16 +6,24 @@ import html
 import json
 import operator
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, overload
 
 from . import plots, tables
 from ._afp import Plan, Sweeper, alike
+from .picture import address
 from .result import Result
 from .simulation import Simulation
 from .units import UNITS
 
 __all__ = ["Runs"]
+
+SHOWN = 4
+"""So many runs a notebook shows pictures of,"""
+SHOWN_S = 2.0
+"""if doing them again takes no longer, seconds."""
+BROKEN = ("not_started", "panicked")
+"""Endings of what cannot be done again."""
 
 
 class Runs:
@@ -190,12 +198,28 @@ class Runs:
     def _repr_html_(self) -> str:
         commands = dict(zip(self.columns["run"], self.columns["command"], strict=True))
         heads = ("count", "ending", "where", "why", "the first")
-        lines = [
-            [*(str(group[key]) for key in heads[:-1]), str(commands[group["run"]])] for group in self.groups
-        ]
+        groups = self.groups
+        lines = [[*(str(group[key]) for key in heads[:-1]), str(commands[group["run"]])] for group in groups]
         cells = ["".join(f"<td>{html.escape(cell)}</td>" for cell in line) for line in lines]
         head = "".join(f"<th>{head}</th>" for head in ("runs", *heads[1:]))
-        return f"<table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
+        table = f"<table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
+        return table + "".join(self._images(groups))
+
+    def _images(self, groups: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+        """The first run of each group done again, failures first, as elements of a page; what takes long is left out."""
+        if self._again is None or not self._again.is_quiet:
+            return
+        left = SHOWN_S
+        for group in groups[::-1][:SHOWN]:
+            row = self.columns["run"].index(group["run"])
+            left -= self.columns["took_s"][row]
+            if left < 0:
+                return
+            if group["ending"] in BROKEN:
+                continue
+            what = html.escape(f"run {group['run']}: {group['ending']} {group['where']}".rstrip())
+            image = f'<img alt="{what}" style="width:100%" src="{address(self.result(row).picture().svg)}">'
+            yield f'<figure style="display:inline-block;width:320px;margin:4px">{image}<figcaption>{what}</figcaption></figure>'
 
 
 class _Again:
@@ -205,6 +229,11 @@ class _Again:
         self.until = until
         self._plan = plan
         self._sweeper = sweeper
+
+    @property
+    def is_quiet(self) -> bool:
+        """Whether a run calls nothing of the user's, so that it may be done again to be looked at."""
+        return self._sweeper.is_quiet
 
     def simulation(self, run: int, seed: int, log: str | os.PathLike[str] | None, camera: bool) -> Simulation:
         runner, world = self._sweeper.runner(run, log, camera)

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from ._afp import Event, Plan, Runner, World
+from ._afp import Driven, Event, Plan, Runner, World
 from .picture import Picture
 from .result import ComponentError, Result
 from .seeds import seed_of
@@ -22,7 +22,7 @@ from .watch import watch
 __all__ = ["Simulation"]
 
 
-class Simulation:
+class Simulation(Driven):
     """A plan in a world. The same plan, world, seed and stimuli give the same run, bit for bit.
 
     `world` is a `World`, the path of its file, or `None` for the one that `afpc run` would take. `set` gives `in`
@@ -80,10 +80,6 @@ class Simulation:
     def run_to(self, time: float) -> bool:
         """Lets time pass up to `time` (seconds since the start) and leaves the plan running; whether it still runs."""
         return self._runner.run(seconds("time", time), False)
-
-    def step(self) -> bool:
-        """Makes the next step of the plan, which may be a while later; whether the plan still runs."""
-        return self._runner.step()
 
     def watch(self, until: float = 60.0, *, speed: float = 1.0) -> Result:
         """Runs the plan as `run` does and shows it meanwhile in the cell of a notebook: robot, plan and entries.

@@ -30,13 +30,18 @@ NUMBERS = ("time", "lateness", "value")
 """The columns of numbers; all others are of texts."""
 
 
+EXTRAS = {"pyarrow": "arrow", "matplotlib": "plot", "gymnasium": "gym", "stable_baselines3": "sb3"}
+"""The extra that a package comes with, where that has another name."""
+
+
 def need(module: str) -> Any:
     """A module of another package."""
     try:
         return importlib.import_module(module)
     except ImportError as error:
         needed = module.partition(".")[0]
-        raise ImportError(f"this needs {needed}; install it with: pip install {needed}") from error
+        extra = EXTRAS.get(needed, needed)
+        raise ImportError(f"this needs {needed}; install it with: pip install 'action-flow-plans[{extra}]'") from error
 
 
 def columns(events: Sequence[Event]) -> dict[str, list[Any]]:

@@ -1,5 +1,7 @@
 //! `Verdict`: what a scenario came to, and `Broken`: what was not as expected.
 
+use std::fmt::Write as _;
+
 use afp_dsl::Compiled;
 use afp_test::Verdict as Came;
 use pyo3::prelude::*;
@@ -43,12 +45,14 @@ pub struct Verdict {
     trace_hash: String,
     /// The timeline.
     timeline: Vec<String>,
+    /// The line that runs the scenario again; it says where none does.
+    command: String,
 }
 
 /// What, where, when and why.
 type BrokenFacts = (String, (String, usize, usize), f64, String);
-/// Whether it passed, what broke, report, time, ending, hash, timeline.
-type VerdictFacts = (bool, Vec<Broken>, String, f64, String, String, Vec<String>);
+/// Whether it passed, what broke, report, time, ending, hash, timeline, command.
+type VerdictFacts = (bool, Vec<Broken>, String, f64, String, String, Vec<String>, String);
 
 #[pymethods]
 impl Broken {
@@ -78,22 +82,44 @@ impl Verdict {
         format!("<Verdict {came} after {:.3} s, {} broken>", self.time, self.broken.len())
     }
 
+    /// A table of what it came to, and the report.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let came = if self.passed { "passed" } else { "failed" };
+        let time = format!("{:.3} s", self.time);
+        let rows = [
+            ("scenario", came),
+            ("plan ended", &self.ending),
+            ("time", &time),
+            ("again", &self.command),
+        ];
+        let mut page = String::from("<table>");
+        for (head, cell) in rows {
+            let _ = write!(page, "<tr><th>{head}</th><td>{}</td></tr>", escaped(py, cell)?);
+        }
+        page.push_str("</table>");
+        if !self.report.is_empty() {
+            let _ = write!(page, "<pre>{}</pre>", escaped(py, self.report.trim_end())?);
+        }
+        Ok(page)
+    }
+
     /// As it was pickled.
     #[staticmethod]
     fn _again(facts: VerdictFacts) -> Verdict {
-        let (passed, broken, report, time, ending, trace_hash, timeline) = facts;
-        Verdict { passed, broken, report, time, ending, trace_hash, timeline }
+        let (passed, broken, report, time, ending, trace_hash, timeline, command) = facts;
+        Verdict { passed, broken, report, time, ending, trace_hash, timeline, command }
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, (VerdictFacts,)> {
-        let Verdict { passed, broken, report, time, ending, trace_hash, timeline } = self.clone();
         let again = py.get_type::<Verdict>().getattr("_again")?;
-        Ok((again, ((passed, broken, report, time, ending, trace_hash, timeline),)))
+        let Verdict { passed, broken, report, time, ending, trace_hash, timeline, command } =
+            self.clone();
+        Ok((again, ((passed, broken, report, time, ending, trace_hash, timeline, command),)))
     }
 }
 
-/// The verdict as Python has it.
-pub fn verdict(compiled: &Compiled, came: Came) -> Verdict {
+/// The verdict as Python has it, with the line that comes to it again.
+pub fn verdict(compiled: &Compiled, came: Came, command: String) -> Verdict {
     let broken = came.broken.iter().map(|broken| {
         let (file, line, column) = place(compiled, broken.span);
         let (text, why) = (broken.text.clone(), broken.why.clone());
@@ -113,7 +139,13 @@ pub fn verdict(compiled: &Compiled, came: Came) -> Verdict {
         ending: ending.to_owned(),
         trace_hash: format!("{:016x}", came.trace),
         timeline: came.timeline.iter().map(|(_, line)| plain(line)).collect(),
+        command,
     }
+}
+
+/// A text as HTML has it.
+fn escaped(py: Python<'_>, text: &str) -> PyResult<String> {
+    py.import("html")?.call_method1("escape", (text,))?.extract()
 }
 
 /// A text without colours.

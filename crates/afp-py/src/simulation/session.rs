@@ -10,35 +10,20 @@ use std::thread;
 use afp::load::{Injection, PlanNames};
 use afp_core::devices::find_signal;
 use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, Record, TraceEntryId};
-use afp_core::{Fault, Instant, Value};
+use afp_core::{Fault, Instant, StartError, Value};
 use afp_dsl::graph::Graph;
-use afp_log::{About, OwnedNames, SessionLog};
+use afp_log::{OwnedNames, SessionLog};
 use afp_run::inputs::missing;
-use afp_run::world::LoadedWorld;
-use afp_session::{
-    AnySession, Build, Go, Observer, Pose2, Recipe, Request, SampleRef, TextFile, Track, refusal,
-};
+use afp_session::{AnySession, Go, Observer, Pose2, Request, SampleRef, Track, refusal};
 use pyo3::exceptions::{PyIsADirectoryError, PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use super::glance::{Glance, Seen};
 use super::keeper::Keeper;
+use super::setting::Setting;
 use crate::component::{ENDED_ALL, RAISED};
 use crate::errors::{error, log_error, run_error};
 use crate::pause::{Halt, Pause};
-
-/// What a run begins with.
-pub struct Setting<'a> {
-    pub graph: &'a Graph,
-    pub world: &'a LoadedWorld,
-    pub seed: u64,
-    pub file: &'a Path,
-    /// Path and text of the plan's file and of those that it uses.
-    pub texts: Vec<(String, String)>,
-    pub log: Option<&'a Path>,
-    /// Whether the log gets what the camera sees.
-    pub camera: bool,
-}
 
 /// A run.
 pub struct Run {
@@ -84,7 +69,7 @@ impl Run {
         }
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
-            let (about, names) = (about(setting), OwnedNames::new(session.names()));
+            let (about, names) = (setting.about(), OwnedNames::new(session.names()));
             SessionLog::create(
                 path,
                 &about,
@@ -181,18 +166,33 @@ impl Run {
     ///
     /// # Errors
     /// As [`Run::run`].
+    #[inline]
     pub fn step(&mut self) -> PyResult<bool> {
         // Python looks at signals between two steps; here that is left to one that takes long.
-        let (mut running, mut halt) = (self.is_running(), self.pause.asked());
-        while running {
-            let due = self.session.due();
-            running = self.tick(Instant::MAX, halt)?;
-            if self.session.now() >= due {
-                break;
+        let mut halt = if self.pause.is_asked() { self.pause.asked() } else { None };
+        loop {
+            if halt.is_some() {
+                self.tick(Instant::MAX, halt)?;
+                return self.ended_or_not();
             }
-            halt = self.look();
+            self.is_open()?;
+            match self.tell(|session, to| session.next_step(to)) {
+                Err(why) => return Err(self.no_start(why)),
+                Ok(_) if self.keeper.refused.is_some() => {
+                    return self.keeper.refused.take().map_or(Ok(true), Err);
+                }
+                Ok(Some(true)) => return Ok(true),
+                Ok(Some(false)) => return self.end(),
+                Ok(None) => halt = self.look(),
+            }
         }
-        if running { Ok(true) } else { self.close().map(|_| false) }
+    }
+
+    /// The plan has ended.
+    #[cold]
+    fn end(&mut self) -> PyResult<bool> {
+        self.session.end();
+        self.ended_or_not()
     }
 
     /// Whether the plan still runs; where it does not, the log is finished, too.
@@ -214,15 +214,12 @@ impl Run {
 
     /// Does the next thing, unless something halts the run; whether it still runs.
     fn tick(&mut self, limit: Instant, mut halt: Option<Halt>) -> PyResult<bool> {
-        if self.log.is_none() && self.log_path.is_some() {
-            let text = "the simulation was closed with its log; make a new one";
-            return Err(PyRuntimeError::new_err(text));
-        }
+        self.is_open()?;
         if halt.is_none() {
             self.tell(|session, to| {
                 session.tick(limit, &mut afp_session::Open, to).map(|_: Go| ())
             })
-            .map_err(|why| run_error(&missing(why, &self.names)))?;
+            .map_err(|why| self.no_start(why))?;
             halt = self.keeper.refused.take().map(Halt::Raised);
         }
         match halt {
@@ -240,7 +237,24 @@ impl Run {
         Ok(running)
     }
 
+    /// Refuses to go on with a plan whose log is closed.
+    #[inline]
+    fn is_open(&self) -> PyResult<()> {
+        if self.log_path.is_some() && self.log.is_none() && self.is_running() {
+            let text = "the simulation was closed with its log; make a new one";
+            return Err(PyRuntimeError::new_err(text));
+        }
+        Ok(())
+    }
+
+    /// Why the plan cannot start.
+    #[cold]
+    fn no_start(&self, why: StartError) -> PyErr {
+        run_error(&missing(why, &self.names))
+    }
+
     /// Lets the session do something, and everybody hear of it.
+    #[inline]
     fn tell<T>(
         &mut self,
         drive: impl FnOnce(&mut dyn AnySession, &mut [&mut dyn Observer]) -> T,
@@ -418,31 +432,9 @@ pub fn no_pose() -> PyErr {
     error("the robot does not say where it is: it declares no 'robot.pose'")
 }
 
-fn text_file(name: &str, text: &str) -> TextFile {
-    TextFile { name: name.to_owned(), text: text.to_owned() }
-}
-
 impl Drop for Run {
     fn drop(&mut self) {
         // Nobody is left to tell of a failure; whoever wants to know closes the simulation.
         let _ = self.close();
     }
-}
-
-/// What the log says of the run.
-fn about(setting: &Setting<'_>) -> About {
-    let LoadedWorld { world, text, start, .. } = setting.world;
-    let mut about = About::new(&Recipe {
-        plan: setting.graph.main().name.clone(),
-        file: setting.file.display().to_string(),
-        texts: setting.texts.iter().map(|(name, text)| text_file(name, text)).collect(),
-        robot: "sim".to_owned(),
-        world: text_file(world.name(), text),
-        start: *start,
-        seed: setting.seed,
-        build: Build::this(),
-        ..Recipe::default()
-    });
-    about.facts.push(("clock".to_owned(), "virtual".to_owned()));
-    about
 }

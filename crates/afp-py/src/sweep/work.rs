@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use afp_dsl::Compiled;
 use afp_run::RunError;
@@ -24,10 +24,13 @@ use crate::pause::attached;
 
 /// How often signals are looked at while no outcome comes.
 const EVERY: Duration = Duration::from_millis(15);
-/// For so many looks a run may go on when it is called off; then its component is interrupted.
-const PATIENCE: u32 = 2;
-/// After so many a component that does not hear of that is left to itself.
-const LEFT: u32 = 5;
+/// For so long a run may go on when it is called off; then its component is interrupted.
+const PATIENCE: Duration = Duration::from_millis(15);
+/// After so long a component that does not hear of that is left to itself. Each time this thread wants the interpreter, every
+/// component that is called keeps it for some milliseconds more.
+const LEFT: Duration = Duration::from_millis(35);
+/// How often that is looked at.
+const LOOK: Duration = Duration::from_millis(2);
 /// Outcomes that may wait until this thread has told of them: those with runs of which figures are taken are large.
 const WAITING: usize = 64;
 
@@ -127,16 +130,18 @@ fn drive(
     })
 }
 
-/// Waits a moment for what was called off; a component that hangs does not look at that, and is interrupted.
+/// Waits a moment for what was called off; a component that hangs does not look at that, and is interrupted once.
 fn leave<T>(working: &JoinHandle<T>, components: &Components) -> PyResult<()> {
-    for waited in 0..LEFT {
-        if working.is_finished() {
-            break;
+    let begun = Instant::now();
+    let wait_until = |end: Duration| {
+        while !working.is_finished() && begun.elapsed() < end {
+            thread::sleep(LOOK);
         }
-        if waited >= PATIENCE {
-            attached(|py| components.interrupt(py))?;
-        }
-        thread::sleep(EVERY);
+        working.is_finished()
+    };
+    if !wait_until(PATIENCE) {
+        attached(|py| components.interrupt(py))?;
+        wait_until(LEFT);
     }
     Ok(())
 }

@@ -91,6 +91,10 @@ where
         self.tick(limit, gate, to)
     }
 
+    fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Option<bool>, StartError> {
+        self.next_step(to)
+    }
+
     fn run(
         &mut self,
         until: Instant,

@@ -156,9 +156,7 @@ impl Helpers {
     /// Waits for a round after the one that was seen last; none where that is over already.
     fn next(&self, seen: &mut u64) -> Option<Arc<Round>> {
         let begin = Instant::now();
-        while self.latest.load(Ordering::Acquire) == *seen && begin.elapsed() < AWAKE {
-            (0..LOOKS).for_each(|_| spin_loop());
-        }
+        while !self.is_there(*seen) && begin.elapsed() < AWAKE {}
         let mut posted = self.posted();
         while posted.number == *seen {
             posted.asleep += 1;
@@ -167,6 +165,14 @@ impl Helpers {
         }
         *seen = posted.number;
         posted.round.clone()
+    }
+
+    /// Whether there is a round after that one, at one of some looks: each takes as long as a processor rests between two.
+    fn is_there(&self, seen: u64) -> bool {
+        (0..LOOKS).any(|_| {
+            spin_loop();
+            self.latest.load(Ordering::Acquire) != seen
+        })
     }
 
     fn posted(&self) -> MutexGuard<'_, Posted> {

@@ -1,0 +1,157 @@
+"""What the templates of components in Python look like: the texts of their declarations, from signatures and type hints."""
+
+from __future__ import annotations
+
+import inspect
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, get_type_hints
+
+from . import _afp
+from .units import UNITS, Quantity, plain
+
+__all__ = ["GIVEN", "Outcomes", "declaration", "method_of", "named", "start_of", "text_of"]
+
+Outcomes = Sequence[str] | Mapping[str, Mapping[str, Any]]
+
+# What a component may ask for by name besides its ports.
+GIVEN = ("robot", "wanted")
+
+_TYPES = {bool: "bool", int: "int", float: "float", str: "string"}
+
+
+def declaration(
+    kind: str,
+    name: str,
+    component: Callable[..., Any],
+    outcomes: Outcomes,
+    uses: Sequence[str],
+    timing: str,
+    icon: str | None,
+) -> str:
+    """The text of a template."""
+    if isinstance(component, type):
+        start = start_of(component)
+        ports = _ports(start, False) if start else []
+        ports += _ports(method_of(component, "poll"), True)
+    else:
+        ports = _ports(component, kind == "supervisor")
+    by_state: Mapping[str, Mapping[str, Any]]
+    by_state = outcomes if isinstance(outcomes, Mapping) else {outcome: {} for outcome in outcomes}
+    carried: dict[str, tuple[str, list[str]]] = {}
+    for state, outputs in by_state.items():
+        for port, hint in outputs.items():
+            type_ = _type(hint, f"the output '{port}' of '{name}'")
+            carried.setdefault(port, (type_, []))[1].append(state)
+    lines = [f"icon {text_of(icon)}"] if icon else []
+    lines += [f"uses {device}" for device in uses]
+    lines += ports
+    lines += [f"out {port}: {type_} on {' | '.join(states)}" for port, (type_, states) in carried.items()]
+    lines += [timing] if timing else []
+    word = "event" if kind == "supervisor" else "state"
+    lines += [f"{word} {state}" for state in by_state]
+    doc = "".join(f"/// {line.strip()}\n" for line in (inspect.getdoc(component) or "").splitlines() if line.strip())
+    body = "".join(f"    {line}\n" for line in lines)
+    return f"{doc}{kind} {name} {{\n{body}}}\n"
+
+
+def start_of(component: type) -> Callable[..., Any] | None:
+    """What makes an instance, if the class says so itself."""
+    start: Callable[..., Any] = getattr(component, "__init__")
+    return None if start is object.__init__ else start
+
+
+def method_of(component: type, name: str) -> Callable[..., Any]:
+    """A method that a class must have."""
+    method = getattr(component, name, None)
+    if not callable(method):
+        raise TypeError(f"'{named(component)}' has no method '{name}'")
+    return method  # type: ignore[no-any-return]
+
+
+def named(component: Any) -> str:
+    """The name of a component without that of the function in which it was written."""
+    return re.sub(r".*<locals>\.", "", component.__qualname__)
+
+
+def _type(hint: Any, where: str) -> str:
+    """The type of the language that a hint stands for."""
+    for extra in getattr(hint, "__metadata__", ()):
+        if isinstance(extra, str):
+            return extra
+    if hint in _TYPES:
+        return _TYPES[hint]
+    if isinstance(hint, str):
+        return hint
+    known = "bool, int, float, str, afp.Length, afp.Angle, afp.Duration, afp.Speed, afp.AngularSpeed"
+    if hint is not None:
+        raise TypeError(f"{where} has the hint {_shown(hint)}, and no type of the language is like it; there are: {known}")
+    raise TypeError(f"{where} needs a type hint: one of {known}, or Annotated[float, 'force'] and the like")
+
+
+def _shown(hint: Any) -> str:
+    return hint.__name__ if isinstance(hint, type) else str(hint).replace("typing.", "")
+
+
+def _constant(value: Any, type: str, where: str) -> str:
+    """A default as it stands in a toolbox file."""
+    value = plain(value)
+    unit = UNITS.get(type, "")
+    what = f"{where} is {type}{f' in {unit}' if unit else ''}, its default"
+    if isinstance(value, Quantity) and value.unit != unit:
+        raise TypeError(f"{what} a quantity in {value.unit}")
+    if type == "bool" and isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return text_of(value) if type == "string" else _literal(value, type, what)
+    if type in {"bool", "string"} or isinstance(value, bool) or not hasattr(value, "__float__"):
+        raise TypeError(f"{what} {value!r}")
+    if not math.isfinite(value):
+        raise ValueError(f"{what} {value!r}; give a finite number")
+    if type == "int" and value != int(value):
+        raise TypeError(f"{what} {value!r}")
+    return repr(int(value)) if type == "int" else f"{float(value)!r} {unit}".rstrip()
+
+
+def _literal(text: str, type: str, what: str) -> str:
+    """A text that stands for a value of a type, `30 cm`; what is none of the known types' is refused."""
+    if type in _TYPES.values() or type in UNITS:
+        try:
+            _afp.Toolbox.__new__(_afp.Toolbox, f"toolbox t\ncomputation C {{\nin x: {type} = {text}\nstate S\n}}\n")
+        except _afp.AfpError as why:
+            message = str(why).splitlines()[0].partition(": ")[2]
+            raise ValueError(f"{what} {text!r}: {message}") from None
+    return text
+
+
+def _hints(function: Callable[..., Any]) -> dict[str, Any]:
+    """The hints of a function, those that are written as texts too."""
+    try:
+        return get_type_hints(function, include_extras=True)
+    except NameError as error:
+        what = f"a hint of '{named(function)}' names '{error.name}', which is not there while the program runs"
+        raise TypeError(f"{what}: import it outside of 'if TYPE_CHECKING'") from None
+
+
+def _ports(function: Callable[..., Any], live: bool) -> list[str]:
+    hints = _hints(function)
+    lines = []
+    for name, parameter in inspect.signature(function).parameters.items():
+        if name in GIVEN or name == "self":
+            continue
+        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+            raise TypeError(f"'{named(function)}' takes *{name}; its parameters are ports and need names")
+        if parameter.kind == parameter.POSITIONAL_ONLY:
+            raise TypeError(f"'{named(function)}' takes '{name}' by position alone; ports are given by name: leave out the '/'")
+        where = f"the parameter '{name}' of '{named(function)}'"
+        type = _type(hints.get(name), where)
+        default = parameter.default
+        end = "" if default is parameter.empty else f" = {_constant(default, type, where)}"
+        lines.append(f"in {'live ' if live else ''}{name}: {type}{end}")
+    return lines
+
+
+def text_of(value: str) -> str:
+    """A text as the language quotes it."""
+    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
