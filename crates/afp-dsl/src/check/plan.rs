@@ -2,6 +2,8 @@
 
 mod component;
 
+use std::rc::Rc;
+
 use crate::check::edges::{Elements, Leads};
 use crate::check::entries::EntryDraft;
 use crate::check::formula::Scope;
@@ -9,10 +11,11 @@ use crate::check::names::{self, DeclaredNames, Indices};
 use crate::check::places::Ranges;
 use crate::check::reactions::Watchers;
 use crate::check::resources::Users;
+use crate::check::signature::Signature;
 use crate::check::{Context, PlanHead, Program, edges, resume, size};
 use crate::graph::{self, Element, ElementId, Formula, Supervisor, SupervisorId};
 use crate::index::Recorder;
-use crate::outline::ComponentKind;
+use crate::outline::Component;
 use crate::rows::Table;
 use crate::types::Type;
 use afp_syntax::ast;
@@ -40,40 +43,15 @@ pub(crate) struct CheckedPlan {
 #[derive(Default)]
 pub(crate) struct Members {
     /// The global supervisors.
-    pub globals: Vec<Member>,
-    /// The elements.
-    pub elements: Vec<Member>,
+    pub globals: Vec<Component>,
+    /// The elements, each with its supervisors and reactions.
+    pub elements: Vec<Component>,
+    /// What each supervisor is made from: the global ones, then those of each element.
+    pub of_supervisors: Vec<Option<Rc<Signature>>>,
+    /// What each element is made from.
+    pub of_elements: Vec<Option<Rc<Signature>>>,
     /// Where which element stands.
     pub indices: Indices,
-}
-
-/// An element or supervisor.
-pub(crate) struct Member {
-    /// Its name.
-    pub name: Option<ast::Name>,
-    /// What its keyword says.
-    pub kind: ComponentKind,
-    /// What it is made from.
-    pub made: Made,
-    /// Its parts as written.
-    pub written: WrittenParts,
-    /// Its own supervisors.
-    pub locals: Vec<Member>,
-    /// Its reactions to supervisors of the plan.
-    pub reactions: Vec<Member>,
-}
-
-impl Member {
-    fn supervisor(node: &ast::Guard, made: Made, written: WrittenParts) -> Member {
-        let (name, kind) = (node.name(), ComponentKind::Supervisor);
-        Member { name, kind, made, written, locals: Vec::new(), reactions: Vec::new() }
-    }
-
-    /// Reactions to a supervisor, which are made from nothing.
-    pub fn reactions(name: Option<ast::Name>, written: WrittenParts) -> Member {
-        let (kind, made) = (ComponentKind::Reactions, Made::default());
-        Member { name, kind, made, written, locals: Vec::new(), reactions: Vec::new() }
-    }
 }
 
 /// Checks a plan.
@@ -96,35 +74,52 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     let mut users = Users::default();
     let mut members = Members::default();
     members.elements.reserve(elements.len());
+    members.of_elements.reserve(elements.len());
     // Most elements have one.
     let mut supervisors = Vec::with_capacity(elements.len());
     for guard in head.node.guards() {
         let checked = components.supervisor(&guard, None, diags);
         supervisors.push(checked.built);
         users.globals.extend(checked.user);
-        members.globals.push(Member::supervisor(&guard, checked.made, checked.written));
+        members.of_supervisors.push(checked.signature);
+        members.globals.push(checked.draft);
     }
     let globals = supervisors.len();
-    let watchers = Watchers { globals: &members.globals, elements: &names, record: program.record };
+    let watchers = Watchers {
+        globals: &members.globals,
+        signatures: &members.of_supervisors,
+        elements: &names,
+        text: context.file.text,
+        record: program.record,
+    };
     let mut drawn = Vec::with_capacity(elements.len());
+    let mut of_locals = Vec::new();
     users.elements.reserve(elements.len());
     for (at, node) in elements.iter().enumerate() {
-        let Checked { built, user, made, written } = components.element(node, diags);
+        let Checked { built, user, signature, draft } = components.element(node, diags);
         let first = supervisors.len();
-        let (mut guards, mut locals) = (Vec::new(), Vec::new());
-        for guard in node.guards() {
+        let nodes = node.guards();
+        let count = nodes.len();
+        let (mut guards, mut locals) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        for guard in nodes {
             let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
             supervisors.push(checked.built);
             guards.extend(checked.user);
-            locals.push(Member::supervisor(&guard, checked.made, checked.written));
+            of_locals.push(checked.signature);
+            locals.push(checked.draft);
         }
-        let (name, kind) = (names.name(at).cloned(), ComponentKind::of(node.kind()));
         let (reactions, tables) = watchers.check(node, diags);
-        members.elements.push(Member { name, kind, made, written, locals, reactions: tables });
+        members.of_elements.push(signature);
+        members.elements.push(draft);
+        if let Some(draft) = members.elements.last_mut() {
+            draft.supervisors = locals;
+            draft.reactions = tables;
+        }
         users.elements.extend(user.map(|user| (user, guards)));
         let built = built.map(|element| Element { reactions, ..element });
         drawn.push(built.and_then(|element| own(element, first, supervisors.len())));
     }
+    members.of_supervisors.extend(of_locals);
     let start = start(&head.node, &names, diags);
     resume::check(&drawn, start, diags);
     let written = [

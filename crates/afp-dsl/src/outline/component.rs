@@ -224,6 +224,17 @@ pub struct Target {
 }
 
 impl Target {
+    /// The place of the name alone.
+    pub(super) fn name_span(&self) -> Span {
+        match self.reason() {
+            Some(reason) => Span {
+                end: self.span.start + (self.text.len() - reason.len() - 1) as u32,
+                ..self.span
+            },
+            None => self.span,
+        }
+    }
+
     /// The text behind `fail`, quotes included.
     pub fn reason(&self) -> Option<&str> {
         self.text.split_once(' ').map(|(_, reason)| reason)
