@@ -231,7 +231,7 @@ fn inputs(
         let ty = actual(input.ty.as_ref(), generic);
         let formula = match formula {
             Some(formula) => formula.and_then(|typed| {
-                let (formula, value) = scope.finish(typed, Some(ty?), diags)?;
+                let (formula, value) = scope.finish(typed, Some(ty?), input.range, diags)?;
                 if let Some(error) = out_of_range(input, ty?, &formula, value) {
                     diags.push(error);
                 }
