@@ -362,20 +362,17 @@ fn token(node: &Node, kind: Kind, file: u16) -> Option<Name> {
 
 /// All tokens of a kind.
 fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
-    let mut found = Vec::new();
-    find_token(node, file, |each, text, span| {
-        if each == kind {
-            found.push(Name { text: text.to_owned(), span });
-        }
-        None::<()>
-    });
-    found
+    let green = node.green();
+    let tokens = parts(&green, node.text_range().start().into())
+        .filter_map(|(element, start)| element.into_token().zip(Some(start)));
+    let of_kind = tokens.filter(|(token, _)| kind_of(token.kind()) == kind);
+    of_kind.map(|(token, start)| name(token, start, file)).collect()
 }
 
 /// The place of `live` in a node.
 fn live(node: &Node, file: u16) -> Option<Span> {
-    let mut words = tokens(node, Kind::Keyword, file).into_iter().skip(1);
-    words.find(|word| word.text == "live").map(|word| word.span)
+    let words = tokens(node, Kind::Keyword, file);
+    words.iter().skip(1).find(|word| word.text == "live").map(|word| word.span)
 }
 
 /// The ends of the range in a node, as far as they are written.
@@ -398,8 +395,8 @@ fn keyword(node: &Node) -> String {
 
 /// What the first word of the grammar in a node stands for.
 fn keyword_as<R>(node: &Node, read: impl Fn(&str) -> R) -> R {
-    let word = find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)));
-    word.unwrap_or_else(|| read(""))
+    find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)))
+        .unwrap_or_else(|| read(""))
 }
 
 /// Whether nothing stands before a node on its line.

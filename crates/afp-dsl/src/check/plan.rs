@@ -60,16 +60,7 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     let context = Context { program, file: &program.files[head.file] };
     let elements = head.node.elements();
     let names = declare(head, &elements, program.record, diags);
-    let scope = Scope {
-        types: &context.file.types,
-        tables: &context.file.tables,
-        entries: &head.entries,
-        indices: &head.indices,
-        readable: &|_| true,
-        unreadable: "",
-        text: context.file.text,
-        record: program.record,
-    };
+    let scope = scope(context, head);
     let components = Components { context, scope: &scope, elements: &names };
     let mut users = Users::default();
     let mut members = Members::default();
@@ -99,22 +90,20 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         let Checked { built, user, signature, draft } = components.element(node, diags);
         let first = supervisors.len();
         let nodes = node.guards();
-        let count = nodes.len();
-        let (mut guards, mut locals) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut guards = Vec::with_capacity(nodes.len());
+        members.of_elements.push(signature);
+        members.elements.push(draft);
+        let Some(draft) = members.elements.last_mut() else { continue };
+        draft.supervisors.reserve_exact(nodes.len());
         for guard in nodes {
             let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
             supervisors.push(checked.built);
             guards.extend(checked.user);
             of_locals.push(checked.signature);
-            locals.push(checked.draft);
+            draft.supervisors.push(checked.draft);
         }
-        let (reactions, tables) = watchers.check(node, diags);
-        members.of_elements.push(signature);
-        members.elements.push(draft);
-        if let Some(draft) = members.elements.last_mut() {
-            draft.supervisors = locals;
-            draft.reactions = tables;
-        }
+        let (reactions, drafts) = watchers.check(node, diags);
+        draft.reactions = drafts;
         users.elements.extend(user.map(|user| (user, guards)));
         let built = built.map(|element| Element { reactions, ..element });
         drawn.push(built.and_then(|element| own(element, first, supervisors.len())));
@@ -122,17 +111,28 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     members.of_supervisors.extend(of_locals);
     let start = start(&head.node, &names, diags);
     resume::check(&drawn, start, diags);
-    let written = [
-        (Table::Entries, head.entries.len()),
-        (Table::Elements, elements.len()),
-        (Table::Supervisors, supervisors.len()),
-    ];
-    size::too_many_rows(head.name.as_ref(), written, diags);
+    let rows = [head.entries.len(), elements.len(), supervisors.len()];
+    let tables = [Table::Entries, Table::Elements, Table::Supervisors];
+    size::too_many_rows(head.name.as_ref(), tables.into_iter().zip(rows), diags);
     let reasons = names.reasons();
     members.indices = names.into_indices();
     match finish(context, head, (drawn, supervisors, reasons), globals, start) {
         Ok(plan) => CheckedPlan { plan: Some(plan), inputs: Vec::new(), users, members },
         Err(inputs) => CheckedPlan { plan: None, inputs, users, members },
+    }
+}
+
+/// What formulas of a plan can name.
+fn scope<'a>(context: Context<'a>, head: &'a PlanHead) -> Scope<'a> {
+    Scope {
+        types: &context.file.types,
+        tables: &context.file.tables,
+        entries: &head.entries,
+        indices: &head.indices,
+        readable: &|_| true,
+        unreadable: "",
+        text: context.file.text,
+        record: context.program.record,
     }
 }
 

@@ -204,6 +204,37 @@ impl Start {
     }
 }
 
+/// What those have that edges lead away from, and those that are made from a template.
+macro_rules! components {
+    ($($name:ident)*; $($made:ident)*) => {
+        $(impl $name {
+            /// Its edges as written.
+            pub fn edges(&self) -> Vec<Edge> {
+                edges(&self.node, self.file)
+            }
+
+            /// What stands around its parts.
+            pub fn frame(&self) -> Frame {
+                frame(&self.node, self.file)
+            }
+        })*
+
+        $(impl $made {
+            /// What it is made from.
+            pub fn template(&self) -> Option<Ref> {
+                child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
+            }
+
+            /// Its bindings as written.
+            pub fn binds(&self) -> Vec<Bind> {
+                binds(&self.node, self.file)
+            }
+        })*
+    };
+}
+
+components! { Element Guard Reactions; Element Guard }
+
 impl Element {
     /// What its keyword says.
     pub fn kind(&self) -> ElementKind {
@@ -219,21 +250,6 @@ impl Element {
         span_of(&self.node, Kind::Keyword, self.file).unwrap_or_else(|| self.span())
     }
 
-    /// The comment above it.
-    pub fn note(&self) -> String {
-        note(&self.node)
-    }
-
-    /// What it is made from.
-    pub fn template(&self) -> Option<Ref> {
-        child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
-    }
-
-    /// Its bindings as written.
-    pub fn binds(&self) -> Vec<Bind> {
-        binds(&self.node, self.file)
-    }
-
     /// Its local supervisors as written.
     pub fn guards(&self) -> Vec<Guard> {
         guards(&self.node, self.file)
@@ -243,59 +259,12 @@ impl Element {
     pub fn reactions(&self) -> Vec<Reactions> {
         children(&self.node, Kind::Reactions).map(|node| Reactions::new(node, self.file)).collect()
     }
-
-    /// Its edges as written.
-    pub fn edges(&self) -> Vec<Edge> {
-        edges(&self.node, self.file)
-    }
-
-    /// What stands around its parts.
-    pub fn frame(&self) -> Frame {
-        frame(&self.node, self.file)
-    }
-}
-
-impl Reactions {
-    /// Its edges as written.
-    pub fn edges(&self) -> Vec<Edge> {
-        edges(&self.node, self.file)
-    }
-
-    /// What stands around its parts.
-    pub fn frame(&self) -> Frame {
-        frame(&self.node, self.file)
-    }
 }
 
 impl Guard {
-    /// The comment above it.
-    pub fn note(&self) -> String {
-        note(&self.node)
-    }
-
-    /// What it is made from.
-    pub fn template(&self) -> Option<Ref> {
-        child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
-    }
-
-    /// Its bindings as written.
-    pub fn binds(&self) -> Vec<Bind> {
-        binds(&self.node, self.file)
-    }
-
     /// `every` and `deadline` as written.
     pub fn timings(&self) -> Vec<Timing> {
         children(&self.node, Kind::Timing).map(|node| Timing::new(node, self.file)).collect()
-    }
-
-    /// Its edges as written.
-    pub fn edges(&self) -> Vec<Edge> {
-        edges(&self.node, self.file)
-    }
-
-    /// What stands around its parts.
-    pub fn frame(&self) -> Frame {
-        frame(&self.node, self.file)
     }
 }
 
