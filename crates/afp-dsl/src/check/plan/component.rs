@@ -279,6 +279,9 @@ impl Components<'_> {
             let Some(keyword) = time.keyword() else { continue };
             let place = usize::from(keyword.text == "deadline");
             if let Some(first) = written.words[place] {
+                if let Some(value) = time.value() {
+                    self.scope.names_only(&value);
+                }
                 diags.push(
                     Diagnostic::new(
                         Code::E0511,
