@@ -243,6 +243,8 @@ impl Target {
 
 /// What a target means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+// A tag as wide as what it carries: copies are of whole words.
+#[repr(u32)]
 pub enum Destination {
     /// An element of the plan.
     Element(ElementId),
