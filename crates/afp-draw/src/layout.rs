@@ -22,7 +22,7 @@ use grid::Grid;
 pub(super) use placed::layout_around;
 use rows::Rows;
 
-use super::router::{self, Bounds, Heading, Point, Wire};
+use super::router::{self, Bounds, Connector, Heading, Point};
 use super::sketch::Rect;
 
 /// A box with everything attached to it; edges keep away from it.
@@ -112,7 +112,8 @@ fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
     let grid = arranged(nodes, links);
     let rows = Rows::new(&grid, nodes);
     if let Some(corners) = fold::fold(&grid, nodes, &rows.corners(&grid, nodes)) {
-        let found = router::route(&bounds(nodes, &corners), &wires(nodes, links, &corners), &[]);
+        let found =
+            router::route(&bounds(nodes, &corners), &connectors(nodes, links, &corners), &[]);
         return LaidOut::new(nodes, corners, found.corners);
     }
     unfolded(nodes, links, grid, rows)
@@ -124,8 +125,8 @@ fn unfolded(nodes: &[Node], links: &[Link], mut grid: Grid, mut rows: Rows) -> L
     let mut effort = 0;
     loop {
         let corners = rows.corners(&grid, nodes);
-        let (boxes, wires) = (bounds(nodes, &corners), wires(nodes, links, &corners));
-        let found = router::route(&boxes, &wires, &[]);
+        let (boxes, connectors) = (bounds(nodes, &corners), connectors(nodes, links, &corners));
+        let found = router::route(&boxes, &connectors, &[]);
         effort += found.effort;
         // A box at which too many edges arrive cannot give way.
         let mut narrow = found.crowded.iter().filter(|narrow| !narrow.arrives).peekable();
@@ -149,8 +150,8 @@ fn bounds(nodes: &[Node], corners: &[Point]) -> Vec<Bounds> {
     corners.iter().zip(nodes).map(bounds).collect()
 }
 
-fn wires(nodes: &[Node], links: &[Link], corners: &[Point]) -> Vec<Wire> {
-    let wire = |link: &Link| {
+fn connectors(nodes: &[Node], links: &[Link], corners: &[Point]) -> Vec<Connector> {
+    let connector = |link: &Link| {
         let ((x, y), (to_x, to_y)) = (corners[link.from], corners[link.to]);
         let (start, heading) = match link.exit {
             Exit::Below(dx, dy) => ((x + dx, y + dy), Heading::Down),
@@ -159,9 +160,9 @@ fn wires(nodes: &[Node], links: &[Link], corners: &[Point]) -> Vec<Wire> {
         let (left, right) = nodes[link.to].entry;
         let arrival = (to_x + left, to_x + right.max(left));
         let Link { from, to, kind, .. } = *link;
-        Wire { from, to, start, heading, arrival, tip: to_y, kind }
+        Connector { from, to, start, heading, arrival, tip: to_y, kind }
     };
-    links.iter().map(wire).collect()
+    links.iter().map(connector).collect()
 }
 
 impl LaidOut {

@@ -61,9 +61,9 @@ pub(super) enum Heading {
     Right,
 }
 
-/// An edge to be routed.
+/// An edge to be routed: what is asked, of which [`Routes`] has the answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Wire {
+pub(super) struct Connector {
     /// The box that it leaves, by index.
     pub(super) from: usize,
     /// The box that it leads to, by index.
@@ -166,7 +166,7 @@ impl Axis {
     }
 }
 
-impl Wire {
+impl Connector {
     /// Where its search starts: just outside of its box.
     fn escape(&self, boxes: &[Bounds]) -> Point {
         match self.heading {
@@ -182,26 +182,33 @@ impl Wire {
 }
 
 /// Routes all edges; where `kept` has corners for an edge, these stay.
-pub(super) fn route(boxes: &[Bounds], wires: &[Wire], kept: &[Option<Vec<Point>>]) -> Routes {
+pub(super) fn route(
+    boxes: &[Bounds],
+    connectors: &[Connector],
+    kept: &[Option<Vec<Point>>],
+) -> Routes {
     let boxes: Vec<_> = boxes.iter().map(Bounds::inflated).collect();
-    let kept_of = |wire: usize| kept.get(wire).and_then(Option::as_deref);
-    let mut order: Vec<_> = (0..wires.len()).filter(|wire| kept_of(*wire).is_none()).collect();
-    let corners: Vec<Vec<Point>> =
-        (0..wires.len()).map(|wire| kept_of(wire).unwrap_or_default().to_vec()).collect();
+    let kept_of = |connector: usize| kept.get(connector).and_then(Option::as_deref);
+    let mut order: Vec<_> =
+        (0..connectors.len()).filter(|connector| kept_of(*connector).is_none()).collect();
+    let corners: Vec<Vec<Point>> = (0..connectors.len())
+        .map(|connector| kept_of(connector).unwrap_or_default().to_vec())
+        .collect();
     if order.is_empty() {
         return Routes { corners, ..Routes::default() };
     }
     // Short edges first: long ones find their way around them.
-    let length = |wire: usize| {
-        let (from, to) = (wires[wire].start, wires[wire].gate());
+    let length = |connector: usize| {
+        let (from, to) = (connectors[connector].start, connectors[connector].gate());
         (from.0 - to.0).abs() + (from.1 - to.1).abs()
     };
     order.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
-    let trees = Trees::new(wires);
-    let bundled =
-        (0..wires.len()).filter(|wire| trees.holds(*wire)).flat_map(|wire| &corners[wire]);
-    let lines = Lines::new(&boxes, wires, &order, bundled.copied());
-    let mut laid = Laid::new(&boxes, wires, &lines, trees, corners);
+    let trees = Trees::new(connectors);
+    let bundled = (0..connectors.len())
+        .filter(|connector| trees.holds(*connector))
+        .flat_map(|connector| &corners[connector]);
+    let lines = Lines::new(&boxes, connectors, &order, bundled.copied());
+    let mut laid = Laid::new(&boxes, connectors, &lines, trees, corners);
     laid.lay_all(&order);
     laid.routes()
 }

@@ -54,7 +54,7 @@ use afp_syntax::source::Span;
 use entries::EntryDraft;
 use names::Indices;
 use partial::{Partial, Parts};
-pub(crate) use plan::{Made, Member, Members};
+pub(crate) use plan::{Made, Members, WrittenParts};
 use scope::FileScope;
 use signature::Signatures;
 use toolbox::names_only;

@@ -54,6 +54,8 @@ pub struct Name {
 
 /// What a name means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+// A tag as wide as what it carries: copies are of whole words.
+#[repr(u32)]
 pub enum Meaning {
     /// It declares that definition.
     Declares(DefinitionId),

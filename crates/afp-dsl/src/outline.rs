@@ -12,10 +12,10 @@
 
 mod build;
 mod component;
+mod draft;
 mod findings;
 mod identity;
 mod look_up;
-mod read;
 
 use crate::graph::EntryKind;
 use crate::types::Type;
@@ -29,6 +29,7 @@ pub use component::{
     Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Input, MadeFrom, Output,
     Target, TemplateUse, Times, Value,
 };
+pub(crate) use draft::draft;
 pub use identity::{Identity, Part};
 
 macro_rules! index {

@@ -43,6 +43,21 @@ impl LogError {
             other => other,
         }
     }
+
+    /// What to do about it; empty where nothing in general helps.
+    pub fn help(&self) -> &'static str {
+        match self {
+            LogError::Open { error, .. } if error.kind() == io::ErrorKind::NotFound => {
+                "check the path, which begins in the folder in which the command runs"
+            }
+            LogError::NotALog { .. } => {
+                "name a file that a run wrote: 'afpc run PLAN --log FILE.mcap'"
+            }
+            LogError::Mcap(mcap::McapError::Io(_)) => "",
+            LogError::Mcap(_) => "'afpc log FILE recover' saves what is intact into a new file",
+            LogError::Create { .. } | LogError::Open { .. } | LogError::Writer => "",
+        }
+    }
 }
 
 impl fmt::Display for LogError {

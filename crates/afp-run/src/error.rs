@@ -22,6 +22,9 @@ pub const EXIT_USAGE: u8 = 2;
 /// The plan ended in `Error`.
 pub const EXIT_PLAN_ERROR: u8 = 3;
 
+/// What helps where a file is not there.
+const ELSEWHERE: &str = "check the path, which begins in the folder in which the command runs";
+
 /// Why a run cannot begin or go on.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -131,7 +134,11 @@ impl RunError {
                 report(message, help, Vec::new())
             }
             RunError::File { what, path, error } => {
-                report(&format!("{what} '{}': {error}", path.display()), "", Vec::new())
+                let help = match error.kind() {
+                    io::ErrorKind::NotFound => ELSEWHERE,
+                    _ => "",
+                };
+                report(&format!("{what} '{}': {error}", path.display()), help, Vec::new())
             }
             RunError::Content { path, span, text, message } => {
                 let path = shown(path).display().to_string();
@@ -139,7 +146,7 @@ impl RunError {
                 report(message, "", vec![Mark { path: &path, text, lines: None, span, label }])
             }
             RunError::Project(error) => error.reports(make),
-            RunError::Log(error) => report(&error.to_string(), "", Vec::new()),
+            RunError::Log(error) => report(&error.to_string(), error.help(), Vec::new()),
         }
     }
 }

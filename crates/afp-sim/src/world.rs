@@ -26,8 +26,6 @@ pub use world_of::{Body, NoTables, OwnTables, WorldOf};
 
 use crate::chassis::Chassis;
 use crate::truth::Pose;
-use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
-use outline::rectangle;
 use rapier2d::parry::query;
 
 /// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
@@ -149,11 +147,6 @@ impl World {
     /// Whether a place is beyond what the map shows; never in a world that is no map.
     pub fn is_beyond(&self, place: [f64; 2]) -> bool {
         is_beyond(&self.map, place)
-    }
-
-    /// The outline of the robot at a pose, metres, counter-clockwise; for pictures.
-    pub fn robot_outline(pose: Pose) -> [[f64; 2]; 4] {
-        rectangle(pose, [HALF_LENGTH, HALF_WIDTH])
     }
 
     /// The first obstacle that a robot at this pose would be inside of, as things stand at the

@@ -11,7 +11,7 @@ mod scenario;
 mod table;
 mod toolbox;
 
-use rowan::{Language, NodeOrToken};
+use rowan::{GreenNodeData, GreenTokenData, Language, NodeOrToken};
 
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -283,26 +283,40 @@ fn children(node: &Node, kind: Kind) -> impl Iterator<Item = Node> {
     node.children().by_kind(move |each| each == kind)
 }
 
-/// Shows the tokens among the children of a node, until one gives something. Reads the tree's own
-/// node, because each step of a cursor costs an allocation.
+/// The children of a node that starts at a byte, each with the byte at which it starts. They are the tree's own,
+/// because each step of a cursor costs an allocation.
+fn parts(
+    node: &GreenNodeData,
+    mut start: u32,
+) -> impl Iterator<Item = (NodeOrToken<&GreenNodeData, &GreenTokenData>, u32)> {
+    node.children().map(move |element| {
+        let own = start;
+        start += u32::from(element.text_len());
+        (element, own)
+    })
+}
+
+fn kind_of(kind: rowan::SyntaxKind) -> Kind {
+    Afp::kind_from_raw(kind)
+}
+
+/// A token that starts at a byte, with its text.
+fn name(token: &GreenTokenData, start: u32, file: u16) -> Name {
+    let end = start + u32::from(token.text_len());
+    Name { text: token.text().to_owned(), span: Span { file, start, end } }
+}
+
+/// Shows the tokens among the children of a node, until one gives something.
 fn find_token<R>(
     node: &Node,
     file: u16,
     mut look: impl FnMut(Kind, &str, Span) -> Option<R>,
 ) -> Option<R> {
-    let mut end = u32::from(node.text_range().start());
-    node.green().children().find_map(|element| {
-        let start = end;
-        match element {
-            NodeOrToken::Node(node) => {
-                end += u32::from(node.text_len());
-                None
-            }
-            NodeOrToken::Token(token) => {
-                end += u32::from(token.text_len());
-                look(Afp::kind_from_raw(token.kind()), token.text(), Span { file, start, end })
-            }
-        }
+    let green = node.green();
+    parts(&green, node.text_range().start().into()).find_map(|(element, start)| {
+        let token = element.into_token()?;
+        let end = start + u32::from(token.text_len());
+        look(kind_of(token.kind()), token.text(), Span { file, start, end })
     })
 }
 
@@ -313,11 +327,9 @@ fn span_of(node: &Node, kind: Kind, file: u16) -> Option<Span> {
 
 /// The place of the first node of a kind among the children of a node.
 fn child_span(node: &Node, kind: Kind, file: u16) -> Option<Span> {
-    let mut end = u32::from(node.text_range().start());
-    node.green().children().find_map(|element| {
-        let start = end;
-        end += u32::from(element.text_len());
-        let child = element.into_node().filter(|each| Afp::kind_from_raw(each.kind()) == kind)?;
+    let green = node.green();
+    parts(&green, node.text_range().start().into()).find_map(|(element, start)| {
+        let child = element.into_node().filter(|each| kind_of(each.kind()) == kind)?;
         Some(green_span(child, start, file))
     })
 }
@@ -335,7 +347,7 @@ fn last_token<R>(
         let end = start;
         start -= u32::from(element.text_len());
         let token = element.into_token()?;
-        let found = Afp::kind_from_raw(token.kind()) == kind;
+        let found = kind_of(token.kind()) == kind;
         found.then_some((token.text(), Span { file, start, end }))
     })?;
     Some(read(text, span))
@@ -350,20 +362,17 @@ fn token(node: &Node, kind: Kind, file: u16) -> Option<Name> {
 
 /// All tokens of a kind.
 fn tokens(node: &Node, kind: Kind, file: u16) -> Vec<Name> {
-    let mut found = Vec::new();
-    find_token(node, file, |each, text, span| {
-        if each == kind {
-            found.push(Name { text: text.to_owned(), span });
-        }
-        None::<()>
-    });
-    found
+    let green = node.green();
+    let tokens = parts(&green, node.text_range().start().into())
+        .filter_map(|(element, start)| element.into_token().zip(Some(start)));
+    let of_kind = tokens.filter(|(token, _)| kind_of(token.kind()) == kind);
+    of_kind.map(|(token, start)| name(token, start, file)).collect()
 }
 
 /// The place of `live` in a node.
 fn live(node: &Node, file: u16) -> Option<Span> {
-    let mut words = tokens(node, Kind::Keyword, file).into_iter().skip(1);
-    words.find(|word| word.text == "live").map(|word| word.span)
+    let words = tokens(node, Kind::Keyword, file);
+    words.iter().skip(1).find(|word| word.text == "live").map(|word| word.span)
 }
 
 /// The ends of the range in a node, as far as they are written.
@@ -386,8 +395,8 @@ fn keyword(node: &Node) -> String {
 
 /// What the first word of the grammar in a node stands for.
 fn keyword_as<R>(node: &Node, read: impl Fn(&str) -> R) -> R {
-    let word = find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)));
-    word.unwrap_or_else(|| read(""))
+    find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)))
+        .unwrap_or_else(|| read(""))
 }
 
 /// Whether nothing stands before a node on its line.
@@ -399,12 +408,12 @@ fn begins_line(node: &Node) -> bool {
 /// The `//` lines directly above an item, without the slashes and one blank behind them. A comment
 /// on the line of what stands before the item is none of them.
 fn note(node: &Node) -> String {
-    let first = node.green().children().next().map(|first| Afp::kind_from_raw(first.kind()));
+    let first = node.green().children().next().map(|first| kind_of(first.kind()));
     let mut below = first == Some(Kind::Comment) && begins_line(node);
     let mut lines: Vec<String> = Vec::new();
     for element in node.green().children() {
         let Some(token) = element.into_token() else { break };
-        match Afp::kind_from_raw(token.kind()) {
+        match kind_of(token.kind()) {
             Kind::Comment if below => {
                 let text = token.text().trim_start_matches('/');
                 lines.push(text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned());
@@ -424,7 +433,7 @@ fn doc(node: &Node) -> String {
     let mut lines = 0;
     for element in node.green().children() {
         let Some(token) = element.into_token() else { break };
-        match Afp::kind_from_raw(token.kind()) {
+        match kind_of(token.kind()) {
             Kind::Doc => {
                 let text = token.text().trim_start_matches('/');
                 doc += if lines > 0 { "\n" } else { "" };

@@ -170,6 +170,14 @@ impl Diagnostics {
         self.list.iter()
     }
 
+    /// Whether one of them may lie in `span`, or begins in it; they must be sorted.
+    pub fn any_begins_within(&self, span: Span) -> bool {
+        let first = self.list.partition_point(|each| each.span < span.before());
+        self.list
+            .get(first)
+            .is_some_and(|each| each.span.file == span.file && each.span.start <= span.end)
+    }
+
     /// Sorts by place (file, first byte, code) and drops exact repetitions.
     pub fn sort(&mut self) {
         self.list.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));

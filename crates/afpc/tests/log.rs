@@ -115,7 +115,12 @@ fn a_log_that_was_cut_short_is_saved() {
 #[test]
 fn what_is_no_log_is_refused() {
     let place = Place::with_plan();
-    place.afpc("log wall_following.afp").fails(1, &["'wall_following.afp' is not an MCAP log"]);
-    place.afpc("log missing.mcap info").fails(1, &["cannot read the log 'missing.mcap'"]);
+    place.afpc("log wall_following.afp").fails(
+        1,
+        &["'wall_following.afp' is not an MCAP log", "help: name a file that a run wrote"],
+    );
+    place
+        .afpc("log missing.mcap info")
+        .fails(1, &["cannot read the log 'missing.mcap'", "help: check the path"]);
     place.afpc("log a.mcap burn").fails(2, &["burn"]);
 }

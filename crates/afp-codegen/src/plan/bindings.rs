@@ -73,22 +73,7 @@ impl Bound<'_> {
         let generic = ports.iter().any(|(_, (port, _))| is_generic(&port.ty));
         let borrowed = |ty: &Type| matches!(ty, Type::Text | Type::Object(_));
         let borrows = ports.iter().any(|(_, (port, _))| borrowed(&port.ty));
-        let (fields, scratch) = self.context.with_type_paths(|type_paths| {
-            let mut formulas = Formulas::new(type_paths, &self.context.entries);
-            let fields: Vec<_> = ports
-                .iter()
-                .map(|(number, (port, formula))| {
-                    let value = match port.ty {
-                        Type::Any | Type::Number | Type::Discrete => formulas.value(formula),
-                        _ => formulas.input(formula),
-                    };
-                    let value = tried("input", *number, value);
-                    let (port, at) = (ident(&snake(&port.name)), at(formula.span));
-                    quote!(#at #port: #value)
-                })
-                .collect();
-            (fields, formulas.scratch)
-        });
+        let (fields, scratch) = self.fields(&ports);
         let reads = ports.iter().any(|(_, (_, formula))| reads_entries(formula));
         let lifetime = borrows.then(|| quote!('a));
         let config = reads.then(|| {
@@ -117,6 +102,23 @@ impl Bound<'_> {
                 }
             },
         }
+    }
+
+    /// The values of inputs by their names, and the texts that are put together for them.
+    fn fields(&self, ports: &[(u16, (&InPort, &Formula))]) -> (Vec<TokenStream>, Vec<Ident>) {
+        self.context.with_type_paths(|type_paths| {
+            let mut formulas = Formulas::new(type_paths, &self.context.entries);
+            let fields = ports.iter().map(|(number, (port, formula))| {
+                let value = match port.ty {
+                    Type::Any | Type::Number | Type::Discrete => formulas.value(formula),
+                    _ => formulas.input(formula),
+                };
+                let value = tried("input", *number, value);
+                let (port, at) = (ident(&snake(&port.name)), at(formula.span));
+                quote!(#at #port: #value)
+            });
+            (fields.collect(), formulas.scratch)
+        })
     }
 
     /// The arguments of the type of a template's inputs.

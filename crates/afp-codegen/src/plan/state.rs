@@ -106,32 +106,50 @@ fn commits(context: &Context<'_>) -> Vec<TokenStream> {
     commits.collect()
 }
 
-/// The plan without its platform.
-pub fn plan_state(context: &Context<'_>) -> TokenStream {
-    let (plan, ty) = (context.plan, &context.ty);
-    let slots = number(slots(context));
-    let entries = || plan.entries.iter().zip(&context.entries).enumerate();
+/// The value of an entry.
+fn value(context: &Context<'_>) -> TokenStream {
+    if context.entries.is_empty() {
+        return quote! {
+            fn entry(&self, _: u16) -> ValueRef<'_> {
+                ValueRef::Unset
+            }
+        };
+    }
+    let values = context.entries.iter().enumerate().map(|(index, name)| {
+        let index = number(index);
+        quote!(#index => self.config.#name.as_value(),)
+    });
+    quote! {
+        fn entry(&self, entry: u16) -> ValueRef<'_> {
+            match entry { #(#values)* _ => ValueRef::Unset }
+        }
+    }
+}
+
+/// The first input that has no value.
+fn missing_input(context: &Context<'_>) -> TokenStream {
+    let entries = context.plan.entries.iter().zip(&context.entries).enumerate();
     let missing =
-        entries().filter(|(_, (entry, _))| entry.kind == EntryKind::In && entry.init.is_none());
+        entries.filter(|(_, (entry, _))| entry.kind == EntryKind::In && entry.init.is_none());
     let missing = missing.map(|(index, (_, name))| {
         let index = number(index);
         quote!(if !self.config.#name.is_set() { return Some(#index); })
     });
-    let values: Vec<_> = entries()
-        .map(|(index, (_, name))| {
-            let index = number(index);
-            quote!(#index => self.config.#name.as_value(),)
-        })
-        .collect();
+    quote! {
+        fn missing_input(&self) -> Option<u16> {
+            #(#missing)*
+            None
+        }
+    }
+}
+
+/// The plan without its platform.
+pub fn plan_state(context: &Context<'_>) -> TokenStream {
+    let ty = &context.ty;
+    let slots = number(slots(context));
+    let (missing_input, value) = (missing_input(context), value(context));
     let commits = commits(context);
-    let [of_entry, to] = [!values.is_empty(), !commits.is_empty()];
-    let of_entry = if of_entry { quote!(entry) } else { quote!(_) };
-    let to = if to { quote!(to) } else { quote!(_) };
-    let value = if values.is_empty() {
-        quote!(ValueRef::Unset)
-    } else {
-        quote!(match entry { #(#values)* _ => ValueRef::Unset })
-    };
+    let to = if commits.is_empty() { quote!(_) } else { quote!(to) };
     let (initialise, outside) = (initialise(context), outside(context));
     let at_element = at_element(context);
     quote! {
@@ -154,16 +172,11 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
                 [Slot::default(); #slots]
             }
 
-            fn missing_input(&self) -> Option<u16> {
-                #(#missing)*
-                None
-            }
+            #missing_input
 
             #initialise
 
-            fn entry(&self, #of_entry: u16) -> ValueRef<'_> {
-                #value
-            }
+            #value
 
             #outside
 
@@ -253,10 +266,10 @@ fn initialise(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// What writers from outside may do.
-fn outside(context: &Context<'_>) -> TokenStream {
-    let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
-    let accepts = entries().map(|(index, (entry, _))| {
+/// What values each entry accepts from outside, as arms of a match.
+fn accepts(context: &Context<'_>) -> Vec<TokenStream> {
+    let entries = context.plan.entries.iter().enumerate();
+    let accepts = entries.map(|(index, entry)| {
         let index = number(index);
         match (entry.kind, &entry.ty) {
             (EntryKind::Const | EntryKind::Out, _) => {
@@ -274,7 +287,13 @@ fn outside(context: &Context<'_>) -> TokenStream {
             }
         }
     });
-    let accepts: Vec<_> = accepts.collect();
+    accepts.collect()
+}
+
+/// What writers from outside may do.
+fn outside(context: &Context<'_>) -> TokenStream {
+    let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
+    let accepts = accepts(context);
     let stages: Vec<_> = entries()
         .filter(|(_, (entry, _))| is_open(entry))
         .map(|(index, (_, name))| {

@@ -3,8 +3,8 @@
 //! The others keep the places of the automatic layout relative to placed neighbours and give way
 //! downwards. Edges then find their ways through the gaps that are left.
 
-use super::super::router::{self, Bounds, Point, Wire};
-use super::{LaidOut, Link, Node, Placement, Rows, arranged, bounds, layout, wires};
+use super::super::router::{self, Bounds, Connector, Point};
+use super::{LaidOut, Link, Node, Placement, Rows, arranged, bounds, connectors, layout};
 
 /// Least distance between a box that gives way and the next one.
 const GAP: f64 = 48.0;
@@ -25,30 +25,31 @@ pub(in super::super) fn layout_around(
         return layout(nodes, links);
     }
     let corners = places(nodes, links, &placement);
-    let (boxes, wires) = (bounds(nodes, &corners), wires(nodes, links, &corners));
+    let (boxes, connectors) = (bounds(nodes, &corners), connectors(nodes, links, &corners));
     let near = NearBoxes::new(&boxes);
     let kept: Vec<_> = placement
         .routes
         .into_iter()
-        .zip(&wires)
-        .map(|(route, wire)| route.filter(|route| is_still_good(route, wire, &near)))
+        .zip(&connectors)
+        .map(|(route, connector)| route.filter(|route| is_still_good(route, connector, &near)))
         .collect();
-    let found = router::route(&boxes, &wires, &kept);
+    let found = router::route(&boxes, &connectors, &kept);
     LaidOut::new(nodes, corners, found.corners)
 }
 
 /// Whether a route has the ends of its edge and passes no box too closely.
-fn is_still_good(route: &[Point], wire: &Wire, boxes: &NearBoxes<'_>) -> bool {
+fn is_still_good(route: &[Point], connector: &Connector, boxes: &NearBoxes<'_>) -> bool {
     let (Some(start), Some(tip)) = (route.first(), route.last()) else { return false };
-    let (left, right) = wire.arrival;
+    let (left, right) = connector.arrival;
     let near = |a: f64, b: f64| (a - b).abs() < 0.01;
-    let starts = near(start.0, wire.start.0) && near(start.1, wire.start.1);
-    let ends = starts && near(tip.1, wire.tip) && left <= tip.0 + 0.01 && tip.0 <= right + 0.01;
+    let starts = near(start.0, connector.start.0) && near(start.1, connector.start.1);
+    let ends =
+        starts && near(tip.1, connector.tip) && left <= tip.0 + 0.01 && tip.0 <= right + 0.01;
     let last = route.len().saturating_sub(2);
     let free = |(at, pair): (usize, &[Point])| {
         boxes.passed(pair[0], pair[1]).all(|index| {
             // It touches its own boxes with its ends.
-            index == wire.from && at <= 1 || index == wire.to && at == last
+            index == connector.from && at <= 1 || index == connector.to && at == last
         })
     };
     ends && route.windows(2).enumerate().all(free)

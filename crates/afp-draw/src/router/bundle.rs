@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::lines::{Lines, axis_of, side_of};
-use super::{Axis, PITCH, Point, TIP, Wire};
+use super::{Axis, Connector, PITCH, Point, TIP};
 use crate::polyline::{self, distance};
 
 /// From so many edges on they are bundled.
@@ -108,8 +108,9 @@ pub(super) struct Trees {
 }
 
 impl Trees {
-    pub(super) fn new(wires: &[Wire]) -> Trees {
-        let ends = wires.iter().map(|wire| (wire.from, wire.to, wire.kind));
+    pub(super) fn new(connectors: &[Connector]) -> Trees {
+        let ends =
+            connectors.iter().map(|connector| (connector.from, connector.to, connector.kind));
         Trees { bundle_of: bundles(ends), trees: BTreeMap::new() }
     }
 

@@ -7,7 +7,7 @@ use super::lines::Lines;
 use super::merge::{Join, merged};
 use super::search::Search;
 use super::spread::Spread;
-use super::{BUDGET, Bounds, Crowded, LEAST, PITCH, Point, Routes, Wire};
+use super::{BUDGET, Bounds, Connector, Crowded, LEAST, PITCH, Point, Routes};
 use crate::polyline::shortened;
 
 /// How often edges are led elsewhere because they are too near to others.
@@ -19,7 +19,7 @@ const MOST_MOVED: usize = 32;
 /// Edges on their lines, before those that share one are moved apart.
 pub(super) struct Laid<'a> {
     boxes: &'a [Bounds],
-    wires: &'a [Wire],
+    connectors: &'a [Connector],
     lines: &'a Lines,
     search: Search<'a>,
     trees: Trees,
@@ -36,7 +36,7 @@ impl<'a> Laid<'a> {
     /// The edges that have corners already, and no others.
     pub(super) fn new(
         boxes: &'a [Bounds],
-        wires: &'a [Wire],
+        connectors: &'a [Connector],
         lines: &'a Lines,
         mut trees: Trees,
         corners: Vec<Vec<Point>>,
@@ -45,38 +45,39 @@ impl<'a> Laid<'a> {
         let shared = trees.shared(&corners);
         let own = corners.iter().zip(shared).map(|(points, shared)| shortened(points, shared));
         let search = Search::new(lines, boxes, &own.collect::<Vec<_>>());
-        for (wire, points) in corners.iter().enumerate() {
-            trees.add(wire, points, lines);
+        for (connector, points) in corners.iter().enumerate() {
+            trees.add(connector, points, lines);
         }
-        let joins = vec![Join::None; wires.len()];
+        let joins = vec![Join::None; connectors.len()];
         let fixed = corners.iter().map(|points| !points.is_empty()).collect();
-        Laid { boxes, wires, lines, search, trees, corners, joins, fixed, order: Vec::new() }
+        Laid { boxes, connectors, lines, search, trees, corners, joins, fixed, order: Vec::new() }
     }
 
     /// Lays an edge on the cheapest path; with `full` it comes to its target from the side.
-    fn lay(&mut self, wire: usize, full: bool) {
-        let tree = self.trees.of(wire);
-        let (mut points, junction) = self.search.route(&self.wires[wire], self.boxes, full, tree);
+    fn lay(&mut self, connector: usize, full: bool) {
+        let tree = self.trees.of(connector);
+        let (mut points, junction) =
+            self.search.route(&self.connectors[connector], self.boxes, full, tree);
         let alone = if full { Join::Nearest } else { Join::None };
         let aligned = junction.map(|on| on.aligned(&mut points, &self.corners[on.edge]));
-        self.joins[wire] = aligned.map_or(alone, Join::At);
-        self.trees.add(wire, &points, self.lines);
-        self.corners[wire] = points;
-        self.order.push(wire);
+        self.joins[connector] = aligned.map_or(alone, Join::At);
+        self.trees.add(connector, &points, self.lines);
+        self.corners[connector] = points;
+        self.order.push(connector);
     }
 
     /// Lays edges, each so that it can join those before it.
     pub(super) fn lay_all(&mut self, order: &[usize]) {
-        for wire in order {
-            let full = self.search.is_full(&self.wires[*wire]);
-            self.lay(*wire, full);
+        for connector in order {
+            let full = self.search.is_full(&self.connectors[*connector]);
+            self.lay(*connector, full);
         }
     }
 
     /// All edges apart from each other; where that cannot be, some are led elsewhere for as long as it helps.
     pub(super) fn routes(mut self) -> Routes {
         let mut best = self.merged();
-        let mut tried = vec![false; self.wires.len()];
+        let mut tried = vec![false; self.connectors.len()];
         for _ in 0..DETOURS {
             let detours = detours(&best.crowded, &mut tried);
             if detours.is_empty() || self.search.effort() > BUDGET {
@@ -96,14 +97,14 @@ impl<'a> Laid<'a> {
     /// The edges apart, and those that arrive side by side as one.
     fn merged(&mut self) -> Routes {
         let apart = self.apart();
-        let changed = merged(self.wires, &apart.corners, &self.fixed, &mut self.joins);
+        let changed = merged(self.connectors, &apart.corners, &self.fixed, &mut self.joins);
         if changed { self.apart() } else { apart }
     }
 
     fn apart(&self) -> Routes {
         let mut corners = self.corners.clone();
-        let Laid { boxes, wires, fixed, joins, order, .. } = self;
-        let crowded = Spread { boxes, wires, fixed, joins, order }.apply(&mut corners);
+        let Laid { boxes, connectors, fixed, joins, order, .. } = self;
+        let crowded = Spread { boxes, connectors, fixed, joins, order }.apply(&mut corners);
         Routes { corners, crowded, effort: 0 }
     }
 

@@ -4,7 +4,7 @@
 //! far as no box is in the way. Between two crossings of lines there is nothing to decide, so the
 //! crossings are the nodes of the search.
 
-use super::{Axis, Bounds, Point, Wire};
+use super::{Axis, Bounds, Connector, Point};
 
 /// No neighbour.
 pub(super) const NONE: u32 = u32::MAX;
@@ -52,7 +52,7 @@ impl Lines {
     /// The lines between boxes for some of the edges, which may join others along the corners of those.
     pub(super) fn new(
         boxes: &[Bounds],
-        wires: &[Wire],
+        connectors: &[Connector],
         searched: &[usize],
         joined: impl Iterator<Item = Point>,
     ) -> Lines {
@@ -61,8 +61,8 @@ impl Lines {
             let corner = |x| [(x, each.top), (x, each.bottom)];
             anchors.extend(corner(each.left).into_iter().chain(corner(each.right)));
         }
-        for wire in searched {
-            anchors.extend([wires[*wire].escape(boxes), wires[*wire].gate()]);
+        for connector in searched {
+            anchors.extend([connectors[*connector].escape(boxes), connectors[*connector].gate()]);
         }
         anchors.extend(joined);
         anchors.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));

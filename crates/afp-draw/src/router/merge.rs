@@ -4,7 +4,7 @@
 //! one tip. Nothing of another kind lies between them, so that none is crossed for that.
 
 use super::bundle::Junction;
-use super::{PITCH, Point, TIP, Wire};
+use super::{Connector, PITCH, Point, TIP};
 
 /// What an edge does in front of its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ impl Join {
 /// Lets the edges of one kind that arrive side by side from the side join one of them: one that comes from above where there is
 /// one. Says whether an edge does so that did not before.
 pub(super) fn merged(
-    wires: &[Wire],
+    connectors: &[Connector],
     corners: &[Vec<Point>],
     fixed: &[bool],
     joins: &mut [Join],
@@ -40,10 +40,12 @@ pub(super) fn merged(
     let mut changed = false;
     let tip = |edge: &usize| corners[*edge].last().map_or(0.0, |tip| tip.0);
     let mut arrivals: Vec<usize> =
-        (0..wires.len()).filter(|edge| joins[*edge] == Join::None).collect();
-    arrivals.sort_by(|a, b| wires[*a].to.cmp(&wires[*b].to).then(tip(a).total_cmp(&tip(b))));
-    let alike =
-        |a: &usize, b: &usize| (wires[*a].to, wires[*a].kind) == (wires[*b].to, wires[*b].kind);
+        (0..connectors.len()).filter(|edge| joins[*edge] == Join::None).collect();
+    arrivals
+        .sort_by(|a, b| connectors[*a].to.cmp(&connectors[*b].to).then(tip(a).total_cmp(&tip(b))));
+    let alike = |a: &usize, b: &usize| {
+        (connectors[*a].to, connectors[*a].kind) == (connectors[*b].to, connectors[*b].kind)
+    };
     for run in arrivals.chunk_by(alike).filter(|run| run.len() > 1) {
         let joins_in = |edge: &usize| !fixed[*edge] && comes_from_the_side(&corners[*edge]);
         let straight: Vec<usize> = run.iter().copied().filter(|edge| !joins_in(edge)).collect();

@@ -4,7 +4,9 @@ use super::bundle::{Junction, Tree};
 use super::gaps::Gaps;
 use super::lines::{DOWN, LEFT, Lines, NONE, RIGHT, UP, axis_of};
 use super::queue::Queue;
-use super::{Axis, Bounds, Crowded, Heading, PITCH, Point, TIP, Wire, without_straight_corners};
+use super::{
+    Axis, Bounds, Connector, Crowded, Heading, PITCH, Point, TIP, without_straight_corners,
+};
 
 /// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
 const BEND: u64 = 600;
@@ -83,28 +85,28 @@ impl<'a> Search<'a> {
     /// `joins` it comes from the side, next to edges that arrive from above. It ends where it meets the tree of its bundle.
     pub(super) fn route(
         &mut self,
-        wire: &Wire,
+        connector: &Connector,
         boxes: &[Bounds],
         joins: bool,
         tree: Option<&Tree>,
     ) -> (Vec<Point>, Option<Junction>) {
-        let escape = wire.escape(boxes);
-        let (left, right) = wire.arrival;
-        let goal = Goal { left, right, y: wire.tip - TIP, full: joins, tree };
-        let side = if wire.heading == Heading::Down { DOWN } else { RIGHT };
+        let escape = connector.escape(boxes);
+        let (left, right) = connector.arrival;
+        let goal = Goal { left, right, y: connector.tip - TIP, full: joins, tree };
+        let side = if connector.heading == Heading::Down { DOWN } else { RIGHT };
         // Where another box stands on where it arrives, all else would be searched in vain.
         let start = self.lines.node(escape).filter(|_| self.is_free(&goal));
         let end = start.and_then(|node| self.find(node, side, &goal));
         let junction = end.and_then(|end| self.junction(end, &goal));
-        let mut points = vec![wire.start];
+        let mut points = vec![connector.start];
         match end {
             Some(end) => points.extend(self.path(end)),
-            None => points.extend(plain(escape, wire)),
+            None => points.extend(plain(escape, connector)),
         }
         if junction.is_none() {
-            let end = points.last().map_or(wire.start.0, |last| last.0);
-            points.push((end, wire.tip));
-            self.arrived[wire.to] += u32::from(!joins);
+            let end = points.last().map_or(connector.start.0, |last| last.0);
+            points.push((end, connector.tip));
+            self.arrived[connector.to] += u32::from(!joins);
         }
         let points = without_straight_corners(points);
         self.occupy(&points);
@@ -125,8 +127,8 @@ impl<'a> Search<'a> {
     }
 
     /// Whether as many edges arrive at the target of an edge as there is room for.
-    pub(super) fn is_full(&self, wire: &Wire) -> bool {
-        f64::from(self.arrived[wire.to]) > (wire.arrival.1 - wire.arrival.0) / PITCH
+    pub(super) fn is_full(&self, connector: &Connector) -> bool {
+        f64::from(self.arrived[connector.to]) > (connector.arrival.1 - connector.arrival.0) / PITCH
     }
 
     /// Notes that an edge goes along these corners.
@@ -300,9 +302,9 @@ fn tenths(length: f64) -> u64 {
 }
 
 /// A way that asks nobody, for edges of boxes that stand on each other.
-fn plain(escape: Point, wire: &Wire) -> Vec<Point> {
-    let gate = wire.gate();
-    match wire.heading {
+fn plain(escape: Point, connector: &Connector) -> Vec<Point> {
+    let gate = connector.gate();
+    match connector.heading {
         Heading::Down => vec![escape, (gate.0, escape.1), gate],
         Heading::Right => vec![escape, (escape.0, gate.1), gate],
     }

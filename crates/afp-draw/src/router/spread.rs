@@ -11,7 +11,7 @@ use super::bundle::Junction;
 use super::merge::Join;
 use super::sequence::{Part, REACH, sequence};
 use super::tree::Maxima;
-use super::{Axis, Bounds, Crowded, PITCH, Point, TIP, Wire, without_straight_corners};
+use super::{Axis, Bounds, Connector, Crowded, PITCH, Point, TIP, without_straight_corners};
 
 /// How often a too narrow gap is tried with less distance, and how much less each time.
 const ATTEMPTS: usize = 14;
@@ -29,7 +29,7 @@ const MARGIN: f64 = 4.0;
 /// Edges whose parts are to be moved.
 pub(super) struct Spread<'a> {
     pub(super) boxes: &'a [Bounds],
-    pub(super) wires: &'a [Wire],
+    pub(super) connectors: &'a [Connector],
     /// Which edges stay as they are.
     pub(super) fixed: &'a [bool],
     /// What edges do in front of their target.
@@ -89,12 +89,12 @@ impl Spread<'_> {
         let ends = |edge: usize| self.joins[edge] == Join::None;
         let trunks: Vec<(usize, f64)> = (0..corners.len())
             .filter(|edge| ends(*edge))
-            .filter_map(|edge| Some((self.wires[edge].to, arrives_at(&corners[edge])?)))
+            .filter_map(|edge| Some((self.connectors[edge].to, arrives_at(&corners[edge])?)))
             .collect();
         let joining = |edge: &usize| matches!(self.joins[*edge], Join::Nearest | Join::Edge(_));
         for edge in (0..corners.len()).filter(joining) {
             let [.., before, turn, _] = corners[edge][..] else { continue };
-            let own = trunks.iter().filter(|(to, _)| *to == self.wires[edge].to);
+            let own = trunks.iter().filter(|(to, _)| *to == self.connectors[edge].to);
             let distance = |x: f64| (x - before.0).abs();
             let nearest =
                 || own.map(|(_, x)| *x).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
@@ -193,7 +193,7 @@ impl Spread<'_> {
                 if first > 0 && !self.fixed[edge] {
                     room = between(axis, self.boxes, at, span);
                     if arrives {
-                        let (left, right) = self.wires[edge].arrival;
+                        let (left, right) = self.connectors[edge].arrival;
                         room = (room.0.max(left), room.1.min(right));
                     }
                     if let Some(on) = joins {

@@ -1,14 +1,14 @@
 use super::gaps::Gaps;
-use super::{Axis, Bounds, CLEAR, Heading, PITCH, Point, Routes, Wire, bundles, route};
+use super::{Axis, Bounds, CLEAR, Connector, Heading, PITCH, Point, Routes, bundles, route};
 
 fn bounds((left, top): Point, (width, height): Point) -> Bounds {
     Bounds { left, top, right: left + width, bottom: top + height }
 }
 
 /// An edge from the middle of the lower border of a box to the upper border of another one.
-fn down(boxes: &[Bounds], from: usize, to: usize) -> Wire {
+fn down(boxes: &[Bounds], from: usize, to: usize) -> Connector {
     let (one, two) = (boxes[from], boxes[to]);
-    Wire {
+    Connector {
         from,
         to,
         start: ((one.left + one.right) / 2.0, one.bottom),
@@ -20,21 +20,24 @@ fn down(boxes: &[Bounds], from: usize, to: usize) -> Wire {
 }
 
 /// Edges that leave a box side by side, every second one to the right.
-fn wires(boxes: &[Bounds], edges: &[(usize, usize)]) -> Vec<Wire> {
-    let wire = |(index, (from, to)): (usize, &(usize, usize))| {
+fn connectors(boxes: &[Bounds], edges: &[(usize, usize)]) -> Vec<Connector> {
+    let connector = |(index, (from, to)): (usize, &(usize, usize))| {
         let before = edges[..index].iter().filter(|other| other.0 == *from).count();
-        let wire = down(boxes, *from, *to);
+        let connector = down(boxes, *from, *to);
         if before % 2 == 1 {
             let start = (boxes[*from].right, boxes[*from].top + 20.0 * before as f64);
-            return Wire { start, heading: Heading::Right, ..wire };
+            return Connector { start, heading: Heading::Right, ..connector };
         }
-        Wire { start: (wire.start.0 + 10.0 * before as f64, wire.start.1), ..wire }
+        Connector {
+            start: (connector.start.0 + 10.0 * before as f64, connector.start.1),
+            ..connector
+        }
     };
-    edges.iter().enumerate().map(wire).collect()
+    edges.iter().enumerate().map(connector).collect()
 }
 
 fn routed(boxes: &[Bounds], edges: &[(usize, usize)]) -> Routes {
-    route(boxes, &wires(boxes, edges), &[])
+    route(boxes, &connectors(boxes, edges), &[])
 }
 
 /// Boxes in rows that are not quite straight, and edges between them; the same each time.
@@ -133,7 +136,7 @@ fn many_edges_to_one_box_become_one_as_soon_as_they_meet() {
     assert!(tips.len() <= 2, "{tips:?}");
     let mut uprights = Vec::new();
     for (edge, corners) in found.corners.iter().enumerate() {
-        assert_eq!(corners[0], wires(&boxes, &edges)[edge].start);
+        assert_eq!(corners[0], connectors(&boxes, &edges)[edge].start);
         for pair in corners.windows(2) {
             let (dx, dy) = ((pair[0].0 - pair[1].0).abs(), (pair[0].1 - pair[1].1).abs());
             assert!(dx < 0.05 || dy < 0.05, "{corners:?} is not right-angled");
@@ -160,15 +163,15 @@ fn nested_edges_do_not_cross() {
 #[test]
 fn kept_routes_stay_and_others_go_around_them() {
     let (boxes, edges) = sample(20, 3);
-    let wires = wires(&boxes, &edges);
-    let all = route(&boxes, &wires, &[]);
+    let connectors = connectors(&boxes, &edges);
+    let all = route(&boxes, &connectors, &[]);
     let kept: Vec<_> = all.corners.iter().cloned().map(Some).collect();
-    assert_eq!(route(&boxes, &wires, &kept).corners, all.corners);
+    assert_eq!(route(&boxes, &connectors, &kept).corners, all.corners);
     let mut some = kept;
     for edge in (0..some.len()).step_by(7) {
         some[edge] = None;
     }
-    let again = route(&boxes, &wires, &some);
+    let again = route(&boxes, &connectors, &some);
     for (edge, corners) in again.corners.iter().enumerate() {
         match &some[edge] {
             Some(kept) => assert_eq!(corners, kept),
@@ -185,13 +188,13 @@ fn a_kept_bundle_is_crossed_as_one_edge() {
     boxes.extend([bounds((-400.0, 7600.0), (120.0, 60.0)), bounds((500.0, 7750.0), (120.0, 60.0))]);
     let mut edges: Vec<_> = (0..80).map(|from| (from, 80)).collect();
     edges.push((81, 82));
-    let wires = wires(&boxes, &edges);
-    let all = route(&boxes, &wires, &[]);
+    let connectors = connectors(&boxes, &edges);
+    let all = route(&boxes, &connectors, &[]);
     let mut kept: Vec<_> = all.corners.iter().cloned().map(Some).collect();
     kept[80] = None;
     let length = |corners: &[Point]| parts(corners).iter().map(|part| part.3 - part.2).sum::<f64>();
     let (first, again) =
-        (length(&all.corners[80]), length(&route(&boxes, &wires, &kept).corners[80]));
+        (length(&all.corners[80]), length(&route(&boxes, &connectors, &kept).corners[80]));
     assert!(again < first + 100.0, "{again} px around what was {first} px");
 }
 

@@ -138,15 +138,7 @@ fn find_ports<'a>(
         let alone = bind.is_alone();
         let input = signature.inputs.iter().position(|input| *input.name == *port.text);
         let output = signature.outputs.iter().position(|output| *output.name == *port.text);
-        let declared = match (input, output) {
-            (Some(place), _) => Some(signature.inputs[place].span),
-            (None, place) => place.map(|place| signature.outputs[place].span),
-        };
-        match declared {
-            Some(definition) if alone => scope.record.alone(port.span, definition),
-            Some(definition) => scope.record.definition(port.span, definition),
-            None => scope.record.unknown(port.span),
-        }
+        record_port(scope, signature, (port.span, alone), (input, output));
         if let Some(first) = seen.iter().find(|known| known.text == port.text) {
             diags.push(bound_twice(port, first));
             ports.complete = false;
@@ -194,6 +186,24 @@ fn find_ports<'a>(
     ports
 }
 
+/// Says what the name of a port means, which may be an entry's, too.
+fn record_port(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    (name, alone): (Span, bool),
+    (input, output): (Option<usize>, Option<usize>),
+) {
+    let declared = match (input, output) {
+        (Some(place), _) => Some(signature.inputs[place].span),
+        (None, place) => place.map(|place| signature.outputs[place].span),
+    };
+    match declared {
+        Some(definition) if alone => scope.record.alone(name, definition),
+        Some(definition) => scope.record.definition(name, definition),
+        None => scope.record.unknown(name),
+    }
+}
+
 fn bound_twice(port: &Name, first: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0226, port.span, format!("'{}' is bound twice", port.text))
         .note(first.span, "first bound here")
@@ -231,7 +241,7 @@ fn inputs(
         let ty = actual(input.ty.as_ref(), generic);
         let formula = match formula {
             Some(formula) => formula.and_then(|typed| {
-                let (formula, value) = scope.finish(typed, Some(ty?), diags)?;
+                let (formula, value) = scope.finish(typed, Some(ty?), input.range, diags)?;
                 if let Some(error) = out_of_range(input, ty?, &formula, value) {
                     diags.push(error);
                 }

@@ -1,9 +1,10 @@
 //! Which types become which, and with what warning.
 
 use crate::graph::{Formula, FormulaKind};
-use crate::types::text::{a_dimension, a_type};
+use crate::types::text::{self, a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::literal::Literal;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
@@ -29,10 +30,11 @@ pub(crate) fn conversion(from: &Type, to: &Type) -> Result<Option<Conversion>, (
 
 /// The formula as one of type `want`; reports what cannot be converted and what deserves a word.
 ///
-/// `text` is the formula as written.
+/// `text` is the formula as written, `range` has the least and the greatest value that fit, in SI units.
 pub(crate) fn coerce(
     formula: Formula,
     want: &Type,
+    range: Option<(f64, f64)>,
     text: &str,
     diags: &mut Diagnostics,
 ) -> Option<Formula> {
@@ -45,7 +47,7 @@ pub(crate) fn coerce(
             Some(Formula { kind, ty: want.clone(), span })
         }
         Err(()) => {
-            diags.push(mismatch(&formula, want, text));
+            diags.push(mismatch(&formula, want, range, text));
             None
         }
     }
@@ -85,7 +87,20 @@ pub(crate) fn remark(conversion: &Conversion, span: Span, diags: &mut Diagnostic
     diags.push(diagnostic);
 }
 
-fn mismatch(formula: &Formula, want: &Type, text: &str) -> Diagnostic {
+/// A quantity that fits: one of its usual unit, or the end of the range that is nearer to that.
+fn example(ty: &Type, range: Option<(f64, f64)>) -> String {
+    let Type::Quantity(dimension) = ty else { return String::new() };
+    let one = format!("1 {}", dimension.usual_unit());
+    let value = Literal::parse(&one).and_then(|literal| literal.value());
+    match value.zip(range) {
+        Some((value, (least, greatest))) if !(least..=greatest).contains(&value) => {
+            text::value(if value < least { least } else { greatest }, ty)
+        }
+        _ => one,
+    }
+}
+
+fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &str) -> Diagnostic {
     let span = formula.span;
     let expected = format!("expected {}, found {}", a_type(want), a_type(&formula.ty));
     match (&formula.ty, want) {
@@ -121,9 +136,9 @@ fn mismatch(formula: &Formula, want: &Type, text: &str) -> Diagnostic {
                     error.help(format!("angles have a unit: write '{better}'")).replace(better)
                 }
                 None => error.help(format!(
-                    "use {}, such as '1 {}', in place of {}",
+                    "use {}, such as '{}', in place of {}",
                     a_dimension(*dimension),
-                    dimension.usual_unit(),
+                    example(want, range),
                     a_dimension(*found)
                 )),
             }

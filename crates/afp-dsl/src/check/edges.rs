@@ -107,11 +107,6 @@ impl<'a> Elements<'a> {
         Elements { indices: Indices::of(texts), names, reasons, record }
     }
 
-    /// The name of an element.
-    pub fn name(&self, place: usize) -> Option<&Name> {
-        self.names.get(place)?.as_ref()
-    }
-
     /// The reasons met so far, each once.
     pub fn reasons(&self) -> Vec<String> {
         self.reasons.borrow().list.clone()
@@ -173,24 +168,23 @@ pub(crate) struct WrittenEdge {
 }
 
 impl WrittenEdge {
-    /// Reads edges, one for each state or event; each has a name, or it would not have been taken for
-    /// one.
+    /// Edges, one for each state or event; each has a name, or it would not have been taken for one.
     pub fn read(edges: Vec<Edge>) -> Vec<WrittenEdge> {
-        edges.iter().flat_map(WrittenEdge::each).collect()
-    }
-
-    fn each(edge: &Edge) -> impl Iterator<Item = WrittenEdge> {
-        let (names, (mut target, mut reason)) = (edge.names(), edge.target_and_reason());
-        let end = reason.as_ref().or(target.as_ref()).map(|last| last.span);
-        let end = end.or_else(|| edge.arrow());
-        let last = names.len().saturating_sub(1);
-        names.into_iter().enumerate().map(move |(place, name)| {
-            let (end, target, reason) = match place == last {
-                true => (end, target.take(), reason.take()),
-                false => (None, target.clone(), reason.clone()),
-            };
-            WrittenEdge { span: name.span.to(end.unwrap_or(name.span)), name, target, reason }
-        })
+        let mut written = Vec::with_capacity(edges.len());
+        for edge in edges {
+            let end = edge.end();
+            let Edge { mut names, target, reason, .. } = edge;
+            let Some(last) = names.pop() else { continue };
+            written.extend(names.into_iter().map(|name| WrittenEdge {
+                span: name.span,
+                name,
+                target: target.clone(),
+                reason: reason.clone(),
+            }));
+            let span = last.span.to(end.unwrap_or(last.span));
+            written.push(WrittenEdge { span, name: last, target, reason });
+        }
+        written
     }
 }
 

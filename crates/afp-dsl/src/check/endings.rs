@@ -12,7 +12,7 @@ pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
     if elements.iter().all(|element| element.reactions().is_empty())
         && let Some((_, edge)) = globals.iter().find(|(_, edge)| edge.leads_to("terminate"))
     {
-        return Some(edge.span());
+        return edge.span();
     }
     let events = Events::of(&elements, globals);
     let ending = |edges: &[Edge]| edges.iter().find(|edge| edge.leads_to("terminate")).cloned();
@@ -20,7 +20,7 @@ pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
     let mut of_elements = events.elements.iter().map(|each| ending(&each.edges));
     let is_shared = events.elements.iter().any(|each| !each.replaced.is_empty());
     if !is_shared && let Some((_, edge)) = of_globals().next() {
-        return Some(edge.span());
+        return edge.span();
     }
     if of_globals().next().is_none() && of_elements.all(|edge| edge.is_none()) {
         return None;
@@ -29,7 +29,7 @@ pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
     let active = || events.elements.iter().zip(&reached).filter(|(_, reached)| **reached);
     let global = of_globals().find(|each| active().any(|(element, _)| element.keeps(each)));
     let edge = global.map(|(_, edge)| edge.clone());
-    edge.or_else(|| active().find_map(|(each, _)| ending(&each.edges))).map(|edge| edge.span())
+    edge.or_else(|| active().find_map(|(each, _)| ending(&each.edges))).and_then(|edge| edge.span())
 }
 
 /// The edges of a plan's supervisors.
@@ -75,7 +75,7 @@ impl OfElement {
             if !globals.iter().any(|(known, _)| *known == name) {
                 continue;
             }
-            let events = table.edges().into_iter().flat_map(|edge| edge.names());
+            let events = table.edges().into_iter().flat_map(|edge| edge.names);
             replaced.extend(events.map(|event| (name.clone(), event.text)));
             edges.extend(Reactions::edges(table));
         }
@@ -86,12 +86,12 @@ impl OfElement {
     fn keeps(&self, (guard, edge): &(String, Edge)) -> bool {
         let is_replaced =
             |event: &String| self.replaced.iter().any(|(of, known)| of == guard && known == event);
-        self.takes_time && !edge.names().iter().all(|event| is_replaced(&event.text))
+        self.takes_time && !edge.names.iter().all(|event| is_replaced(&event.text))
     }
 }
 
 fn leads_to(edge: &Edge) -> String {
-    edge.target().map(|name| name.text).unwrap_or_default()
+    edge.target.as_ref().map(|name| name.text.clone()).unwrap_or_default()
 }
 
 /// Which elements can be reached from `start`, by their own edges, and by those of global supervisors

@@ -56,7 +56,7 @@ impl Scope<'_> {
         diags: &mut Diagnostics,
     ) -> Option<(Formula, Option<Constant>)> {
         let typed = self.infer(formula, diags)?;
-        self.finish(typed, want, diags)
+        self.finish(typed, want, None, diags)
     }
 
     /// Finds out what the names in a formula mean where nothing can be said about its type.
@@ -112,17 +112,19 @@ impl Scope<'_> {
         typed
     }
 
-    /// Converts an inferred formula and evaluates it as far as possible.
+    /// Converts an inferred formula and evaluates it as far as possible; `range` has the least and the greatest value
+    /// that fit, which are named where the type does not.
     pub fn finish(
         &self,
         typed: Formula,
         want: Option<&Type>,
+        range: Option<(f64, f64)>,
         diags: &mut Diagnostics,
     ) -> Option<(Formula, Option<Constant>)> {
         let text = self.text_of(typed.span);
         let mut remarks = Diagnostics::default();
         let typed = match want {
-            Some(want) => coerce(typed, want, text, &mut remarks),
+            Some(want) => coerce(typed, want, range, text, &mut remarks),
             None => Some(typed),
         };
         let Some(typed) = typed else {

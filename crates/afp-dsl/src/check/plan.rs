@@ -2,6 +2,8 @@
 
 mod component;
 
+use std::rc::Rc;
+
 use crate::check::edges::{Elements, Leads};
 use crate::check::entries::EntryDraft;
 use crate::check::formula::Scope;
@@ -9,10 +11,11 @@ use crate::check::names::{self, DeclaredNames, Indices};
 use crate::check::places::Ranges;
 use crate::check::reactions::Watchers;
 use crate::check::resources::Users;
+use crate::check::signature::Signature;
 use crate::check::{Context, PlanHead, Program, edges, resume, size};
 use crate::graph::{self, Element, ElementId, Formula, Supervisor, SupervisorId};
 use crate::index::Recorder;
-use crate::outline::ComponentKind;
+use crate::outline::Component;
 use crate::rows::Table;
 use crate::types::Type;
 use afp_syntax::ast;
@@ -40,40 +43,15 @@ pub(crate) struct CheckedPlan {
 #[derive(Default)]
 pub(crate) struct Members {
     /// The global supervisors.
-    pub globals: Vec<Member>,
-    /// The elements.
-    pub elements: Vec<Member>,
+    pub globals: Vec<Component>,
+    /// The elements, each with its supervisors and reactions.
+    pub elements: Vec<Component>,
+    /// What each supervisor is made from: the global ones, then those of each element.
+    pub of_supervisors: Vec<Option<Rc<Signature>>>,
+    /// What each element is made from.
+    pub of_elements: Vec<Option<Rc<Signature>>>,
     /// Where which element stands.
     pub indices: Indices,
-}
-
-/// An element or supervisor.
-pub(crate) struct Member {
-    /// Its name.
-    pub name: Option<ast::Name>,
-    /// What its keyword says.
-    pub kind: ComponentKind,
-    /// What it is made from.
-    pub made: Made,
-    /// Its parts as written.
-    pub written: WrittenParts,
-    /// Its own supervisors.
-    pub locals: Vec<Member>,
-    /// Its reactions to supervisors of the plan.
-    pub reactions: Vec<Member>,
-}
-
-impl Member {
-    fn supervisor(node: &ast::Guard, made: Made, written: WrittenParts) -> Member {
-        let (name, kind) = (node.name(), ComponentKind::Supervisor);
-        Member { name, kind, made, written, locals: Vec::new(), reactions: Vec::new() }
-    }
-
-    /// Reactions to a supervisor, which are made from nothing.
-    pub fn reactions(name: Option<ast::Name>, written: WrittenParts) -> Member {
-        let (kind, made) = (ComponentKind::Reactions, Made::default());
-        Member { name, kind, made, written, locals: Vec::new(), reactions: Vec::new() }
-    }
 }
 
 /// Checks a plan.
@@ -82,7 +60,71 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     let context = Context { program, file: &program.files[head.file] };
     let elements = head.node.elements();
     let names = declare(head, &elements, program.record, diags);
-    let scope = Scope {
+    let scope = scope(context, head);
+    let components = Components { context, scope: &scope, elements: &names };
+    let mut users = Users::default();
+    let mut members = Members::default();
+    members.elements.reserve(elements.len());
+    members.of_elements.reserve(elements.len());
+    // Most elements have one.
+    let mut supervisors = Vec::with_capacity(elements.len());
+    for guard in head.node.guards() {
+        let checked = components.supervisor(&guard, None, diags);
+        supervisors.push(checked.built);
+        users.globals.extend(checked.user);
+        members.of_supervisors.push(checked.signature);
+        members.globals.push(checked.draft);
+    }
+    let globals = supervisors.len();
+    let watchers = Watchers {
+        globals: &members.globals,
+        signatures: &members.of_supervisors,
+        elements: &names,
+        text: context.file.text,
+        record: program.record,
+    };
+    let mut drawn = Vec::with_capacity(elements.len());
+    let mut of_locals = Vec::new();
+    users.elements.reserve(elements.len());
+    for (at, node) in elements.iter().enumerate() {
+        let Checked { built, user, signature, draft } = components.element(node, diags);
+        let first = supervisors.len();
+        let nodes = node.guards();
+        let mut guards = Vec::with_capacity(nodes.len());
+        members.of_elements.push(signature);
+        members.elements.push(draft);
+        let Some(draft) = members.elements.last_mut() else { continue };
+        draft.supervisors.reserve_exact(nodes.len());
+        for guard in nodes {
+            let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
+            supervisors.push(checked.built);
+            guards.extend(checked.user);
+            of_locals.push(checked.signature);
+            draft.supervisors.push(checked.draft);
+        }
+        let (reactions, drafts) = watchers.check(node, diags);
+        draft.reactions = drafts;
+        users.elements.extend(user.map(|user| (user, guards)));
+        let built = built.map(|element| Element { reactions, ..element });
+        drawn.push(built.and_then(|element| own(element, first, supervisors.len())));
+    }
+    members.of_supervisors.extend(of_locals);
+    let start = start(&head.node, &names, diags);
+    resume::check(&drawn, start, diags);
+    let rows = [head.entries.len(), elements.len(), supervisors.len()];
+    let tables = [Table::Entries, Table::Elements, Table::Supervisors];
+    size::too_many_rows(head.name.as_ref(), tables.into_iter().zip(rows), diags);
+    let reasons = names.reasons();
+    members.indices = names.into_indices();
+    match finish(context, head, (drawn, supervisors, reasons), globals, start) {
+        Ok(plan) => CheckedPlan { plan: Some(plan), inputs: Vec::new(), users, members },
+        Err(inputs) => CheckedPlan { plan: None, inputs, users, members },
+    }
+}
+
+/// What formulas of a plan can name.
+fn scope<'a>(context: Context<'a>, head: &'a PlanHead) -> Scope<'a> {
+    Scope {
         types: &context.file.types,
         tables: &context.file.tables,
         entries: &head.entries,
@@ -90,54 +132,7 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         readable: &|_| true,
         unreadable: "",
         text: context.file.text,
-        record: program.record,
-    };
-    let components = Components { context, scope: &scope, elements: &names };
-    let mut users = Users::default();
-    let mut members = Members::default();
-    members.elements.reserve(elements.len());
-    // Most elements have one.
-    let mut supervisors = Vec::with_capacity(elements.len());
-    for guard in head.node.guards() {
-        let checked = components.supervisor(&guard, None, diags);
-        supervisors.push(checked.built);
-        users.globals.extend(checked.user);
-        members.globals.push(Member::supervisor(&guard, checked.made, checked.written));
-    }
-    let globals = supervisors.len();
-    let watchers = Watchers { globals: &members.globals, elements: &names, record: program.record };
-    let mut drawn = Vec::with_capacity(elements.len());
-    users.elements.reserve(elements.len());
-    for (at, node) in elements.iter().enumerate() {
-        let Checked { built, user, made, written } = components.element(node, diags);
-        let first = supervisors.len();
-        let (mut guards, mut locals) = (Vec::new(), Vec::new());
-        for guard in node.guards() {
-            let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
-            supervisors.push(checked.built);
-            guards.extend(checked.user);
-            locals.push(Member::supervisor(&guard, checked.made, checked.written));
-        }
-        let (name, kind) = (names.name(at).cloned(), ComponentKind::of(node.kind()));
-        let (reactions, tables) = watchers.check(node, diags);
-        members.elements.push(Member { name, kind, made, written, locals, reactions: tables });
-        users.elements.extend(user.map(|user| (user, guards)));
-        let built = built.map(|element| Element { reactions, ..element });
-        drawn.push(built.and_then(|element| own(element, first, supervisors.len())));
-    }
-    let start = start(&head.node, &names, diags);
-    resume::check(&drawn, start, diags);
-    let written = [
-        (Table::Entries, head.entries.len()),
-        (Table::Elements, elements.len()),
-        (Table::Supervisors, supervisors.len()),
-    ];
-    size::too_many_rows(head.name.as_ref(), written, diags);
-    let reasons = names.reasons();
-    members.indices = names.into_indices();
-    match finish(context, head, (drawn, supervisors, reasons), globals, start) {
-        Ok(plan) => CheckedPlan { plan: Some(plan), inputs: Vec::new(), users, members },
-        Err(inputs) => CheckedPlan { plan: None, inputs, users, members },
+        record: context.program.record,
     }
 }
 

@@ -2,22 +2,28 @@
 //!
 //! Only the edges that are written are replaced, so nothing can be missing.
 
-use crate::check::Member;
+use std::rc::Rc;
+
 use crate::check::edges::{self, Elements, Origin, WrittenEdge};
 use crate::check::names::unknown;
+use crate::check::signature::Signature;
+use crate::check::{Made, WrittenParts};
 use crate::graph::{Reactions, SupervisorId};
 use crate::index::Recorder;
+use crate::outline::{self, Component, ComponentKind};
 use afp_syntax::ast::{self, ElementKind, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
-
-use super::plan::WrittenParts;
 
 /// What the reactions of a plan are checked against.
 pub(super) struct Watchers<'a> {
     /// Its global supervisors, as written.
-    pub globals: &'a [Member],
+    pub globals: &'a [Component],
+    /// What these are made from.
+    pub signatures: &'a [Option<Rc<Signature>>],
     /// Its elements.
     pub elements: &'a Elements<'a>,
+    /// The text of the file.
+    pub text: &'a str,
     /// What is found out about names.
     pub record: &'a Recorder,
 }
@@ -28,7 +34,7 @@ impl Watchers<'_> {
         &self,
         element: &ast::Element,
         diags: &mut Diagnostics,
-    ) -> (Vec<Reactions>, Vec<Member>) {
+    ) -> (Vec<Reactions>, Vec<Component>) {
         let nodes = element.reactions();
         let mut known: Vec<Reactions> = Vec::with_capacity(nodes.len());
         let mut written = Vec::with_capacity(nodes.len());
@@ -56,11 +62,10 @@ impl Watchers<'_> {
         element: &ast::Element,
         node: &ast::Reactions,
         diags: &mut Diagnostics,
-    ) -> (Option<Reactions>, Member) {
+    ) -> (Option<Reactions>, Component) {
         let (name, edges) = (node.name(), WrittenEdge::read(node.edges()));
         let place = name.as_ref().and_then(|name| self.find(element, name, diags));
-        let global = place.and_then(|place| self.globals.get(place));
-        let signature = global.and_then(|global| global.made.signature.clone());
+        let signature = place.and_then(|place| self.signatures.get(place)?.clone());
         let mut reactions = None;
         if let (Some(name), Some(signature), Some(place)) = (&name, &signature, place) {
             let origin = Origin {
@@ -82,8 +87,9 @@ impl Watchers<'_> {
         } else {
             edges::names_only(&edges, &[edges::DEADLINE_MISSED], self.elements, diags);
         }
-        let written = WrittenParts { edges, ..WrittenParts::default() };
-        (reactions, Member::reactions(name, written))
+        let parts = WrittenParts { edges, ..WrittenParts::default() };
+        let head = (ComponentKind::Reactions, name);
+        (reactions, outline::draft(head, node.frame(), &Made::default(), parts, self.text))
     }
 
     /// The place of a global supervisor.

@@ -13,7 +13,7 @@ use crate::index::{self, Declared, Meanings, Recorder};
 use crate::rows::MAX_ROWS;
 use crate::toolbox::{Device, Template, Toolbox};
 use crate::types::{Object, is_built_in};
-use afp_syntax::ast::{File, Item, Name};
+use afp_syntax::ast::{self, File, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::parse;
 use afp_syntax::source::{Source, Span};
@@ -100,28 +100,7 @@ fn read(
     imports::check_version(tree, diags);
     imports::check_order(tree, diags);
     let items = tree.items();
-    let heads: Vec<_> = items
-        .iter()
-        .filter_map(|item| match item {
-            Item::Toolbox(head) => Some(head),
-            _ => None,
-        })
-        .collect();
-    let head = heads.first();
-    if head.is_none() {
-        let start = Span { file, start: 0, end: 0 };
-        diags.push(
-            Diagnostic::new(Code::E0114, start, "the file does not say which toolbox it is")
-                .help("write 'toolbox' and a name above the templates"),
-        );
-    }
-    for other in heads.iter().skip(1) {
-        diags.push(
-            Diagnostic::new(Code::E0212, other.span(), "a file is one toolbox")
-                .note(heads[0].span(), "the first one")
-                .help("move it to a file of its own"),
-        );
-    }
+    let head = head(&items, file, diags);
     no_uses(&items, diags);
     let name = head.and_then(|head| head.name());
     if let Some(name) = &name {
@@ -154,6 +133,30 @@ fn read(
         diags,
     );
     name.map(|_| toolbox)
+}
+
+/// The line that says which toolbox a file is.
+fn head<'i>(items: &'i [Item], file: u16, diags: &mut Diagnostics) -> Option<&'i ast::Toolbox> {
+    let mut heads = items.iter().filter_map(|item| match item {
+        Item::Toolbox(head) => Some(head),
+        _ => None,
+    });
+    let Some(first) = heads.next() else {
+        let start = Span { file, start: 0, end: 0 };
+        diags.push(
+            Diagnostic::new(Code::E0114, start, "the file does not say which toolbox it is")
+                .help("write 'toolbox' and a name above the templates"),
+        );
+        return None;
+    };
+    for other in heads {
+        diags.push(
+            Diagnostic::new(Code::E0212, other.span(), "a file is one toolbox")
+                .note(first.span(), "the first one")
+                .help("move it to a file of its own"),
+        );
+    }
+    Some(first)
 }
 
 fn no_uses(items: &[Item], diags: &mut Diagnostics) {

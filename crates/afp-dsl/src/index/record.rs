@@ -12,6 +12,8 @@ use super::Word;
 /// What a written name means, as the check has found it. The order says which of two findings about
 /// one name counts: the last one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+// A tag as wide as what it carries: copies are of whole words.
+#[repr(u32)]
 pub(crate) enum Found {
     /// It stands in text that could not be read.
     Unread,

@@ -1,11 +1,13 @@
 //! Reads the outline from the trees, with what the check has found out about names and types.
 
-use super::read::Reader;
+use std::mem::take;
+
+use super::draft::{self, in_one_line};
 use super::{
     Column, Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan,
     PlanId, Scenario, Start, Table, Target, Use, Value,
 };
-use crate::check::{Member, Members, PlanHead, Program};
+use crate::check::{Members, PlanHead, Program};
 use crate::gather::PlanFile;
 use crate::graph::EntryKind;
 use crate::index::{Found, Lookup, Meanings, Word};
@@ -30,7 +32,7 @@ pub(crate) struct Material<'a> {
 
 /// Reads the outline of all files.
 pub(crate) fn build(mut material: Material<'_>) -> Outline {
-    let mut members = std::mem::take(&mut material.members).into_iter();
+    let mut members = take(&mut material.members).into_iter();
     let material = &material;
     let heads = material.program.plans.iter();
     let names = heads.enumerate().filter_map(|(at, head)| Some((head.name.as_ref()?.span, at)));
@@ -128,12 +130,12 @@ fn used(material: &Material<'_>, line: &ast::Use) -> Use {
 
 fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String) -> Plan {
     let node = &head.node;
-    let (entries, guards, elements) = (node.entries(), node.guards(), node.elements());
+    let entries = node.entries();
     let mut entry_names: Vec<_> = entries.iter().map(ast::Entry::name).collect();
     let names = [
         Vec::from_iter(entries.iter().zip(&entry_names).map(|(e, n)| (n.as_ref(), e.span().start))),
-        named(&guards, &members.globals, |guard| guard.span().start),
-        named(&elements, &members.elements, |element| element.span().start),
+        named(&members.globals),
+        named(&members.elements),
     ];
     let [entry_items, guard_items, element_items] = inner_items(&names);
     let places = Places {
@@ -142,27 +144,22 @@ fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String
         elements: spans(members.elements.iter().map(|member| member.name.as_ref())),
         entries: spans(entry_names.iter().map(Option::as_ref)),
     };
-    let reader = Reader { places: &places, plan: &item };
     let entries = entries.iter().zip(entry_names.drain(..)).zip(entry_items);
-    let guards = guards.iter().zip(members.globals).zip(guard_items);
-    let elements = elements.iter().zip(members.elements).zip(element_items);
+    let entries = entries
+        .map(|((node, name), own)| entry(head, &places, node, name, Item::inner(&item, own)))
+        .collect();
+    let (mut supervisors, mut elements) = (members.globals, members.elements);
+    for (component, own) in supervisors.iter_mut().zip(guard_items) {
+        places.settle(component, Item::inner(&item, own));
+    }
+    for (element, own) in elements.iter_mut().zip(element_items) {
+        settle(&places, element, &item, own);
+    }
     Plan {
-        entries: entries
-            .map(|((node, name), own)| entry(head, &places, node, name, Item::inner(&item, own)))
-            .collect(),
+        entries,
         starts: node.starts().iter().map(|start| places.start(start)).collect(),
-        supervisors: guards
-            .map(|((node, member), own)| reader.guard(node, member, Item::inner(&item, own)))
-            .collect(),
-        elements: elements
-            .map(|((node, mut member), own)| {
-                let supervisors = locals(&reader, node, std::mem::take(&mut member.locals), &own);
-                let tables = std::mem::take(&mut member.reactions);
-                let reactions = reactions(&reader, node, tables, &own);
-                let element = reader.element(node, member, Item::inner(&item, own));
-                Component { supervisors, reactions, ..element }
-            })
-            .collect(),
+        supervisors,
+        elements,
         name: head.name.clone(),
         doc: node.doc(),
         note: node.note(),
@@ -174,52 +171,27 @@ fn plan(material: &Material<'_>, head: &PlanHead, members: Members, item: String
     }
 }
 
-/// The supervisors of an element.
-fn locals(
-    reader: &Reader<'_>,
-    node: &ast::Element,
-    members: Vec<Member>,
-    owner: &str,
-) -> Vec<Component> {
-    if members.is_empty() {
-        return Vec::new();
+/// Says paths and meanings of an element, its supervisors and reactions.
+fn settle(places: &Places<'_>, element: &mut Component, plan: &str, own: String) {
+    for (each, name) in items(&mut element.supervisors) {
+        places.settle(each, Item::local(plan, &own, name));
     }
-    let items: Vec<_> = numbered(members.iter().map(|member| member.name.as_ref())).collect();
-    let guards = node.guards();
-    let guards = guards.iter().zip(members).zip(items);
-    let read = guards.map(|((node, member), own)| {
-        reader.guard(node, member, Item::local(reader.plan, owner, own))
-    });
-    read.collect()
+    for (each, name) in items(&mut element.reactions) {
+        places.settle(each, Item::reactions(plan, &own, &name));
+    }
+    places.settle(element, Item::inner(plan, own));
 }
 
-/// The reactions of an element.
-fn reactions(
-    reader: &Reader<'_>,
-    node: &ast::Element,
-    members: Vec<Member>,
-    owner: &str,
-) -> Vec<Component> {
-    if members.is_empty() {
-        return Vec::new();
-    }
-    let items: Vec<_> = numbered(members.iter().map(|member| member.name.as_ref())).collect();
-    let nodes = node.reactions();
-    let nodes = nodes.iter().zip(members).zip(items);
-    let read = nodes.map(|((node, member), own)| {
-        reader.reactions(node, member, Item::reactions(reader.plan, owner, &own))
-    });
-    read.collect()
+/// Supervisors or reactions of an element, with their names in paths.
+fn items(all: &mut [Component]) -> impl Iterator<Item = (&mut Component, String)> {
+    let names = all.iter().map(|each| each.name.as_ref());
+    let items: Vec<_> = if all.is_empty() { Vec::new() } else { numbered(names).collect() };
+    all.iter_mut().zip(items)
 }
 
-/// The names of members, each with where it begins.
-fn named<'m, N>(
-    nodes: &[N],
-    members: &'m [Member],
-    start: impl Fn(&N) -> u32,
-) -> Vec<(Option<&'m Name>, u32)> {
-    let members = nodes.iter().zip(members);
-    members.map(|(node, member)| (member.name.as_ref(), start(node))).collect()
+/// The names of components, each with where it begins.
+fn named(components: &[Component]) -> Vec<(Option<&Name>, u32)> {
+    components.iter().map(|each| (each.name.as_ref(), each.span.start)).collect()
 }
 
 fn entry(
@@ -235,7 +207,7 @@ fn entry(
     });
     let written_type = node.ty().map(|ty| {
         let span = ty.span();
-        Name { text: places.in_one_line(span).unwrap_or_else(|| ty.in_one_line()), span }
+        Name { text: in_one_line(places.text, span).unwrap_or_else(|| ty.in_one_line()), span }
     });
     Entry {
         item,
@@ -259,10 +231,10 @@ fn entry(
 }
 
 /// What names mean inside of one plan.
-pub(super) struct Places<'a> {
+struct Places<'a> {
     /// The text of the file.
     text: &'a str,
-    pub meanings: Lookup<'a>,
+    meanings: Lookup<'a>,
     /// The names of elements, in order, with their places.
     elements: Vec<(Span, usize)>,
     /// The names of entries, in order, with their places.
@@ -270,9 +242,29 @@ pub(super) struct Places<'a> {
 }
 
 impl Places<'_> {
-    /// Where a name of an edge or `start` leads.
-    pub fn target(&self, name: Name) -> Target {
-        let to = match self.meanings.get(name.span) {
+    /// Says the path of a component, and what the names in it mean.
+    fn settle(&self, component: &mut Component, item: Item) {
+        component.item = item;
+        let inputs = component.inputs.iter_mut().filter_map(|input| input.binding.as_mut());
+        let outputs = component.outputs.iter_mut().filter_map(|output| output.binding.as_mut());
+        for value in inputs.chain(outputs).filter_map(|binding| binding.value.as_mut()) {
+            value.entry = self.entry(value.span);
+        }
+        for exit in &mut component.exits {
+            let Some(edge) = &mut exit.edge else { continue };
+            if !exit.known {
+                let meaning = self.meanings.get(edge.name_span);
+                exit.known = !matches!(meaning, None | Some(Found::Unknown));
+            }
+            if let Some(target) = &mut edge.target {
+                target.to = self.leads_to(target);
+            }
+        }
+    }
+
+    /// Where an edge or `start` leads.
+    fn leads_to(&self, target: &Target) -> Destination {
+        match self.meanings.get(target.name_span()) {
             Some(Found::Word(Word::Terminate)) => Destination::Terminate,
             Some(Found::Word(Word::Fail)) => Destination::Fail,
             Some(Found::Word(Word::Ignore)) => Destination::Ignore,
@@ -280,12 +272,11 @@ impl Places<'_> {
             Some(Found::Definition(span)) => find(&self.elements, span)
                 .map_or(Destination::Unknown, |place| Destination::Element(ElementId::new(place))),
             _ => Destination::Unknown,
-        };
-        Target { text: name.text, span: name.span, to }
+        }
     }
 
     /// The entry that a name means.
-    pub fn entry(&self, name: Span) -> Option<EntryId> {
+    fn entry(&self, name: Span) -> Option<EntryId> {
         match self.meanings.get(name)? {
             Found::Definition(span) => find(&self.entries, span).map(EntryId::new),
             _ => None,
@@ -293,26 +284,16 @@ impl Places<'_> {
     }
 
     /// A formula.
-    pub fn value(&self, formula: &ast::Formula) -> Value {
-        let span = formula.span();
-        let text = self.in_one_line(span).unwrap_or_else(|| formula.in_one_line());
-        let entry = if formula.is_name() { self.entry(span) } else { None };
-        Value { text, span, entry }
-    }
-
-    /// The text at a place, where it stands in one line without comments and spare blanks.
-    pub fn in_one_line(&self, span: Span) -> Option<String> {
-        let text = self.text.get(span.start as usize..span.end as usize)?;
-        let mut before = b'\0';
-        let fits = text.bytes().all(|byte| {
-            let two = [std::mem::replace(&mut before, byte), byte];
-            !matches!(byte, b'\n' | b'\r' | b'\t') && !matches!(&two, b"  " | b"//" | b"/*")
-        });
-        fits.then(|| text.to_owned())
+    fn value(&self, formula: &ast::Formula) -> Value {
+        let value = draft::value(self.text, formula);
+        Value { entry: self.entry(value.span), ..value }
     }
 
     fn start(&self, start: &ast::Start) -> Start {
-        let target = start.target().map(|target| self.target(target));
+        let target = start.target().map(|name| {
+            let target = draft::target(name);
+            Target { to: self.leads_to(&target), ..target }
+        });
         Start { span: start.span(), target, findings: Findings::default() }
     }
 }

@@ -224,6 +224,17 @@ pub struct Target {
 }
 
 impl Target {
+    /// The place of the name alone.
+    pub(super) fn name_span(&self) -> Span {
+        match self.reason() {
+            Some(reason) => Span {
+                end: self.span.start + (self.text.len() - reason.len() - 1) as u32,
+                ..self.span
+            },
+            None => self.span,
+        }
+    }
+
     /// The text behind `fail`, quotes included.
     pub fn reason(&self) -> Option<&str> {
         self.text.split_once(' ').map(|(_, reason)| reason)
@@ -232,6 +243,8 @@ impl Target {
 
 /// What a target means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+// A tag as wide as what it carries: copies are of whole words.
+#[repr(u32)]
 pub enum Destination {
     /// An element of the plan.
     Element(ElementId),

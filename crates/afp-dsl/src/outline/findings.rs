@@ -3,6 +3,7 @@
 use super::{Component, Findings, Found, Outline};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
+use rustc_hash::FxHashMap;
 
 impl Outline {
     /// Gives each item and part what there is to say about it. The diagnostics must be sorted, as
@@ -11,11 +12,18 @@ impl Outline {
         if diags.is_empty() || self.files.is_empty() {
             return;
         }
+        // Most parts have nothing to do with any of them.
         let mut spans: Vec<(Span, usize)> = Vec::new();
-        self.visit(&mut |span, _| spans.push((span, spans.len())));
+        let mut at = 0;
+        self.visit(&mut |span, _| {
+            if diags.any_begins_within(span) {
+                spans.push((span, at));
+            }
+            at += 1;
+        });
         // An outer part comes before what it holds.
         spans.sort_by_key(|(span, at)| (span.file, span.start, u32::MAX - span.end, *at));
-        let mut given: Vec<Vec<u32>> = vec![Vec::new(); spans.len()];
+        let mut given: FxHashMap<usize, Vec<u32>> = FxHashMap::default();
         let mut loose: Vec<u32> = Vec::new();
         let mut next = spans.iter().peekable();
         let mut open: Vec<(Span, usize)> = Vec::new();
@@ -26,13 +34,14 @@ impl Outline {
                 open.push(*part);
             }
             match open.iter().rev().find(|(span, _)| span.contains(place)) {
-                Some((_, at)) => given[*at].push(number),
+                Some((_, at)) => given.entry(*at).or_default().push(number),
                 None => loose.push(number),
             }
         }
-        let mut given = given.into_iter();
+        let mut at = 0;
         self.visit(&mut |_, findings| {
-            give(findings, given.next().unwrap_or_default(), diags);
+            give(findings, given.remove(&at).unwrap_or_default(), diags);
+            at += 1;
         });
         for file in &mut self.files {
             let own = loose.iter().copied().filter(|number| {

@@ -233,10 +233,10 @@ fn bind(bind: &Bind, words: &Words) -> (String, Text, Place) {
 }
 
 fn edge(edge: &ast::Edge) -> Vec<(String, String, Place)> {
-    let reason = edge.target_and_reason().1.map(|reason| format!(" {}", reason.text));
-    let target = edge.target().unwrap().text + &reason.unwrap_or_default();
-    let each = |name: ast::Name| (name.text, target.clone(), place(edge.span()));
-    edge.names().into_iter().map(each).collect()
+    let reason = edge.reason.as_ref().map(|reason| format!(" {}", reason.text));
+    let target = edge.target.clone().unwrap().text + &reason.unwrap_or_default();
+    let each = |name: ast::Name| (name.text, target.clone(), place(edge.span().unwrap()));
+    edge.names.iter().cloned().map(each).collect()
 }
 
 fn place(span: Span) -> Place {

@@ -7,7 +7,8 @@ mod boxes;
 mod picture;
 mod settings;
 
-use super::{FARTHEST, HALF_LENGTH, HALF_WIDTH, World, WorldError};
+use super::{FARTHEST, World, WorldError};
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use boxes::{Cells, Rectangle};
 use picture::Grey;
 use settings::{Cell, Settings};

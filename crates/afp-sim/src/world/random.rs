@@ -2,8 +2,9 @@
 //!
 //! A room is written as the text of a world file, so that a log or a person can keep it.
 
-use super::{HALF_LENGTH, HALF_WIDTH, World};
+use super::World;
 use crate::noise::{Noise, Source};
+use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use std::fmt::Write;
 
 /// Between two things, and between a thing in the open and a wall, there is room for the robot:

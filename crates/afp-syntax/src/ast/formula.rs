@@ -90,6 +90,11 @@ impl Formula {
         self.node.kind() == Kind::Ref
     }
 
+    /// Whether it begins at a byte or before it, with comments in front of it.
+    pub(super) fn starts_by(&self, byte: u32) -> bool {
+        u32::from(self.node.text_range().start()) <= byte
+    }
+
     /// What it is.
     pub fn kind(&self) -> FormulaKind {
         let only = || Formula::child_of(&self.node, self.file);

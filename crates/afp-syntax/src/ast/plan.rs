@@ -2,12 +2,13 @@
 
 use super::{
     Formula, Name, Ref, Timing, Type, child, child_span, children, doc, keyword, keyword_as,
-    last_token, live, named, note, range, range_ends, span_of, token, tokens, views,
+    kind_of, last_token, live, name, named, note, parts, range, range_ends, span_of, token, tokens,
+    views,
 };
-use crate::kind::{Afp, Kind};
+use crate::kind::Kind;
 use crate::source::Span;
 use crate::{Node, node_span};
-use rowan::Language;
+use rowan::{GreenNodeData, NodeOrToken};
 
 views! {
     /// A plan.
@@ -22,8 +23,6 @@ views! {
     Guard
     /// `on keys { Start -> drive }`
     Reactions
-    /// `State -> target`
-    Edge
 }
 
 named! { Plan Entry Element Guard Reactions }
@@ -77,7 +76,10 @@ impl Bind {
     /// `goal => goal` where the port is an output.
     pub fn is_alone(&self) -> bool {
         match self {
-            Bind::In { port, formula: Some(formula), .. } => formula.span() == port.span,
+            // The start alone is at hand, and tells most of them apart.
+            Bind::In { port, formula: Some(formula), .. } => {
+                formula.starts_by(port.span.start) && formula.span() == port.span
+            }
             Bind::Out { port, entry: Some(entry), .. } => entry.span == port.span,
             _ => false,
         }
@@ -89,6 +91,19 @@ impl Bind {
         let port = self.port().clone();
         Bind::Out { sign: port.span.after(), entry: Some(port.clone()), formula: None, port }
     }
+}
+
+/// `State -> target`
+#[derive(Clone, Debug)]
+pub struct Edge {
+    /// The states or events that lead there.
+    pub names: Vec<Name>,
+    /// The place of its arrow.
+    pub arrow: Option<Span>,
+    /// Where it leads.
+    pub target: Option<Name>,
+    /// The text behind `fail`, quotes included.
+    pub reason: Option<Name>,
 }
 
 /// What stands around the parts of an element or supervisor.
@@ -189,6 +204,37 @@ impl Start {
     }
 }
 
+/// What those have that edges lead away from, and those that are made from a template.
+macro_rules! components {
+    ($($name:ident)*; $($made:ident)*) => {
+        $(impl $name {
+            /// Its edges as written.
+            pub fn edges(&self) -> Vec<Edge> {
+                edges(&self.node, self.file)
+            }
+
+            /// What stands around its parts.
+            pub fn frame(&self) -> Frame {
+                frame(&self.node, self.file)
+            }
+        })*
+
+        $(impl $made {
+            /// What it is made from.
+            pub fn template(&self) -> Option<Ref> {
+                child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
+            }
+
+            /// Its bindings as written.
+            pub fn binds(&self) -> Vec<Bind> {
+                binds(&self.node, self.file)
+            }
+        })*
+    };
+}
+
+components! { Element Guard Reactions; Element Guard }
+
 impl Element {
     /// What its keyword says.
     pub fn kind(&self) -> ElementKind {
@@ -204,21 +250,6 @@ impl Element {
         span_of(&self.node, Kind::Keyword, self.file).unwrap_or_else(|| self.span())
     }
 
-    /// The comment above it.
-    pub fn note(&self) -> String {
-        note(&self.node)
-    }
-
-    /// What it is made from.
-    pub fn template(&self) -> Option<Ref> {
-        child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
-    }
-
-    /// Its bindings as written.
-    pub fn binds(&self) -> Vec<Bind> {
-        binds(&self.node, self.file)
-    }
-
     /// Its local supervisors as written.
     pub fn guards(&self) -> Vec<Guard> {
         guards(&self.node, self.file)
@@ -228,93 +259,31 @@ impl Element {
     pub fn reactions(&self) -> Vec<Reactions> {
         children(&self.node, Kind::Reactions).map(|node| Reactions::new(node, self.file)).collect()
     }
-
-    /// Its edges as written.
-    pub fn edges(&self) -> Vec<Edge> {
-        edges(&self.node, self.file)
-    }
-
-    /// What stands around its parts.
-    pub fn frame(&self) -> Frame {
-        frame(&self.node, self.file)
-    }
-}
-
-impl Reactions {
-    /// Its edges as written.
-    pub fn edges(&self) -> Vec<Edge> {
-        edges(&self.node, self.file)
-    }
-
-    /// What stands around its parts.
-    pub fn frame(&self) -> Frame {
-        frame(&self.node, self.file)
-    }
 }
 
 impl Guard {
-    /// The comment above it.
-    pub fn note(&self) -> String {
-        note(&self.node)
-    }
-
-    /// What it is made from.
-    pub fn template(&self) -> Option<Ref> {
-        child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
-    }
-
-    /// Its bindings as written.
-    pub fn binds(&self) -> Vec<Bind> {
-        binds(&self.node, self.file)
-    }
-
     /// `every` and `deadline` as written.
     pub fn timings(&self) -> Vec<Timing> {
         children(&self.node, Kind::Timing).map(|node| Timing::new(node, self.file)).collect()
     }
-
-    /// Its edges as written.
-    pub fn edges(&self) -> Vec<Edge> {
-        edges(&self.node, self.file)
-    }
-
-    /// What stands around its parts.
-    pub fn frame(&self) -> Frame {
-        frame(&self.node, self.file)
-    }
 }
 
 impl Edge {
-    /// The states or events that lead there.
-    pub fn names(&self) -> Vec<Name> {
-        tokens(&self.node, Kind::Name, self.file)
+    /// Its place, from its first name to the last part that is there.
+    pub fn span(&self) -> Option<Span> {
+        let first = self.names.first()?.span;
+        Some(first.to(self.end().unwrap_or(first)))
     }
 
-    /// The place of its arrow.
-    pub fn arrow(&self) -> Option<Span> {
-        span_of(&self.node, Kind::Arrow, self.file)
+    /// The place of the last part behind its names.
+    pub fn end(&self) -> Option<Span> {
+        let last = self.reason.as_ref().or(self.target.as_ref());
+        last.map(|last| last.span).or(self.arrow)
     }
 
     /// Whether it leads to a word such as `terminate`.
     pub fn leads_to(&self, word: &str) -> bool {
-        let green = self.node.green();
-        let targets = green.children().filter_map(|each| each.into_node());
-        let targets = targets.filter(|node| Afp::kind_from_raw(node.kind()) == Kind::Target);
-        let mut tokens = targets.flat_map(|node| node.children()).filter_map(|t| t.into_token());
-        tokens.any(|token| token.text() == word)
-    }
-
-    /// Where it leads.
-    pub fn target(&self) -> Option<Name> {
-        let target = child(&self.node, Kind::Target)?;
-        token(&target, Kind::Name, self.file)
-    }
-
-    /// Where it leads, and the text behind `fail`, quotes included.
-    pub fn target_and_reason(&self) -> (Option<Name>, Option<Name>) {
-        let target = child(&self.node, Kind::Target);
-        let part = |kind| token(target.as_ref()?, kind, self.file);
-        (part(Kind::Name), part(Kind::Text))
+        self.target.as_ref().is_some_and(|target| target.text == word)
     }
 }
 
@@ -332,8 +301,44 @@ fn guards(node: &Node, file: u16) -> Vec<Guard> {
     children(node, Kind::Guard).map(|node| Guard::new(node, file)).collect()
 }
 
+/// The edges among the children of a node. Reads the tree's own nodes, because there are more of them than of
+/// anything else.
 fn edges(node: &Node, file: u16) -> Vec<Edge> {
-    children(node, Kind::Edge).map(|node| Edge::new(node, file)).collect()
+    let green = node.green();
+    let nodes = parts(&green, node.text_range().start().into()).filter_map(|(child, start)| {
+        child.into_node().filter(|child| kind_of(child.kind()) == Kind::Edge).zip(Some(start))
+    });
+    nodes.map(|(edge, start)| self::edge(edge, start, file)).collect()
+}
+
+fn edge(node: &GreenNodeData, start: u32, file: u16) -> Edge {
+    let names = Vec::with_capacity(1);
+    let mut edge = Edge { names, arrow: None, target: None, reason: None };
+    for (child, start) in parts(node, start) {
+        match child {
+            NodeOrToken::Token(token) => match kind_of(token.kind()) {
+                Kind::Name => edge.names.push(name(token, start, file)),
+                Kind::Arrow if edge.arrow.is_none() => {
+                    let end = start + u32::from(token.text_len());
+                    edge.arrow = Some(Span { file, start, end });
+                }
+                _ => {}
+            },
+            NodeOrToken::Node(node) if kind_of(node.kind()) == Kind::Target => {
+                let tokens = parts(node, start).filter_map(|(t, at)| t.into_token().zip(Some(at)));
+                for (token, start) in tokens {
+                    let part = match kind_of(token.kind()) {
+                        Kind::Name => &mut edge.target,
+                        Kind::Text => &mut edge.reason,
+                        _ => continue,
+                    };
+                    part.get_or_insert_with(|| name(token, start, file));
+                }
+            }
+            NodeOrToken::Node(_) => {}
+        }
+    }
+    edge
 }
 
 pub(super) fn binds(node: &Node, file: u16) -> Vec<Bind> {

@@ -41,32 +41,12 @@ pub(super) fn decide(
         return Generic::None;
     }
     let wanted = declared.flatten().find(|ty| **ty != Type::Any).unwrap_or(&Type::Any);
-    let mut decided: Option<(Type, Span)> = None;
-    for (input, formula) in signature.inputs.iter().zip(inferred) {
-        let Some(formula) = formula.as_ref().filter(|_| is_generic(input.ty.as_ref())) else {
-            continue;
-        };
-        let Some(formula) = formula else { return Generic::Unknown };
-        decided = match decided {
-            Some((Type::Int, span)) if formula.ty == Type::FLOAT => Some((Type::FLOAT, span)),
-            Some(decided) => Some(decided),
-            None => Some((formula.ty.clone(), formula.span)),
-        };
-    }
     let has_inputs = signature.inputs.iter().any(|input| is_generic(input.ty.as_ref()));
-    if decided.is_none() && !has_inputs {
-        for (place, entry, _) in &ports.outputs {
-            let Some(entry) = entry.filter(|_| is_generic(signature.outputs[*place].ty.as_ref()))
-            else {
-                continue;
-            };
-            let found = scope.entries.iter().find(|known| known.name.text == entry.text);
-            let Some(ty) = found.and_then(|found| found.ty.clone()) else {
-                return Generic::Unknown;
-            };
-            decided = decided.or(Some((ty, entry.span)));
-        }
-    }
+    let decided = match has_inputs {
+        true => by_inputs(signature, inferred),
+        false => by_outputs(scope, signature, ports),
+    };
+    let Ok(decided) = decided else { return Generic::Unknown };
     let Some((ty, span)) = decided else {
         // An input without a value is reported as such.
         return if has_inputs || !ports.complete { Generic::Unknown } else { Generic::Undecided };
@@ -90,6 +70,43 @@ pub(super) fn decide(
     let message = format!("expected {}, found {}", a_type(wanted), a_type(&ty));
     diags.push(Diagnostic::new(Code::E0206, span, message).help(help));
     Generic::Unknown
+}
+
+/// The type that the inputs have, and where; an error where one of them is wrong.
+fn by_inputs(
+    signature: &Signature,
+    inferred: &[Option<Option<Formula>>],
+) -> Result<Option<(Type, Span)>, ()> {
+    let mut decided: Option<(Type, Span)> = None;
+    for (input, formula) in signature.inputs.iter().zip(inferred) {
+        let Some(formula) = formula.as_ref().filter(|_| is_generic(input.ty.as_ref())) else {
+            continue;
+        };
+        let formula = formula.as_ref().ok_or(())?;
+        decided = match decided {
+            Some((Type::Int, span)) if formula.ty == Type::FLOAT => Some((Type::FLOAT, span)),
+            Some(decided) => Some(decided),
+            None => Some((formula.ty.clone(), formula.span)),
+        };
+    }
+    Ok(decided)
+}
+
+/// The same of the outputs: the type of the first entry that takes one.
+fn by_outputs(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    ports: &Ports<'_>,
+) -> Result<Option<(Type, Span)>, ()> {
+    let mut decided = None;
+    for (place, entry, _) in &ports.outputs {
+        let generic = is_generic(signature.outputs[*place].ty.as_ref());
+        let Some(entry) = entry.filter(|_| generic) else { continue };
+        let found = scope.entries.iter().find(|known| known.name.text == entry.text);
+        let ty = found.and_then(|found| found.ty.clone()).ok_or(())?;
+        decided = decided.or(Some((ty, entry.span)));
+    }
+    Ok(decided)
 }
 
 /// The type of a port in this instance.

@@ -56,7 +56,7 @@ pub(super) fn call(
             let angle = Type::Quantity(Dimension::named("angle")?);
             let operand = numbers.pop()?;
             let text = scope.text_of(operand.span);
-            numbers.push(coerce(operand, &angle, text, diags)?);
+            numbers.push(coerce(operand, &angle, None, text, diags)?);
             Type::FLOAT
         }
         _ => {

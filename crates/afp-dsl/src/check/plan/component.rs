@@ -12,10 +12,10 @@ use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{tables, timing};
 use crate::graph::{Element, ElementId, EntryId, Supervisor};
-use crate::outline::Times;
+use crate::outline::{self, Component, ComponentKind, Times};
 use crate::toolbox::Template;
 use crate::types::Type;
-use afp_syntax::ast::{self, ElementKind};
+use afp_syntax::ast::{self, ElementKind, Frame};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
@@ -26,9 +26,23 @@ pub(super) struct Checked<T> {
     /// What it commands.
     pub user: Option<User>,
     /// What it is made from.
-    pub made: Made,
-    /// Its parts as written.
-    pub written: WrittenParts,
+    pub signature: Option<Rc<Signature>>,
+    /// It in the outline.
+    pub draft: Component,
+}
+
+/// What the check of a component finds out.
+struct Parts<T> {
+    built: Option<T>,
+    user: Option<User>,
+    made: Made,
+}
+
+impl<T> Parts<T> {
+    /// Of a component that is made from nothing, or whose parts do not fit.
+    fn broken(made: Made) -> Parts<T> {
+        Parts { built: None, user: None, made }
+    }
 }
 
 /// The parts of a component as written.
@@ -66,6 +80,37 @@ pub(super) struct Components<'a> {
 impl Components<'_> {
     /// Checks an element without its supervisors.
     pub fn element(&self, node: &ast::Element, diags: &mut Diagnostics) -> Checked<Element> {
+        let written = WrittenParts {
+            template: node.template(),
+            binds: node.binds(),
+            edges: WrittenEdge::read(node.edges()),
+        };
+        let head = (ComponentKind::of(node.kind()), node.name());
+        self.checked(head, node.frame(), written, |frame, written| {
+            self.check_element(node, frame, written, diags)
+        })
+    }
+
+    /// Checks a component and puts what is written in it into the outline.
+    fn checked<T>(
+        &self,
+        head: (ComponentKind, Option<ast::Name>),
+        frame: Frame,
+        written: WrittenParts,
+        check: impl FnOnce(&Frame, &WrittenParts) -> Parts<T>,
+    ) -> Checked<T> {
+        let Parts { built, user, made } = check(&frame, &written);
+        let draft = outline::draft(head, frame, &made, written, self.context.file.text);
+        Checked { built, user, signature: made.signature, draft }
+    }
+
+    fn check_element(
+        &self,
+        node: &ast::Element,
+        frame: &Frame,
+        written: &WrittenParts,
+        diags: &mut Diagnostics,
+    ) -> Parts<Element> {
         if node.kind() == ElementKind::Computation {
             unguarded(node, diags);
         }
@@ -75,11 +120,6 @@ impl Components<'_> {
             ElementKind::SubPlan => "subplan",
         };
         let wanted = Wanted { keyword, span: Some(node.keyword_span()) };
-        let written = WrittenParts {
-            template: node.template(),
-            binds: node.binds(),
-            edges: WrittenEdge::read(node.edges()),
-        };
         let reference = written.template.as_ref();
         let signature =
             reference.and_then(|reference| self.context.callee(reference, &wanted, diags));
@@ -90,19 +130,19 @@ impl Components<'_> {
             };
             edges::names_only(&written.edges, words, self.elements, diags);
             bindings::names_only(self.scope, &written.binds, diags);
-            return Checked { built: None, user: None, made: Made::default(), written };
+            return Parts::broken(Made::default());
         };
         let name = node.name();
-        let broken = diags.syntax_errors_within(node.span()).next().is_some();
+        let broken = diags.syntax_errors_within(frame.span).next().is_some();
         let site = Site { reference: reference.span(), broken };
-        let (signature, bound) = match self.ports(signature, &written, &site, diags) {
+        let (signature, bound) = match self.ports(signature, written, &site, diags) {
             Ok(found) => found,
             Err(made) => {
                 edges::names_only(&written.edges, &[edges::ERROR], self.elements, diags);
-                return Checked { built: None, user: None, made, written };
+                return Parts::broken(made);
             }
         };
-        let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
+        let span = name.as_ref().map_or(frame.span, |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: false };
         let connected = edges::check(&origin, &written.edges, self.elements, diags);
@@ -112,8 +152,8 @@ impl Components<'_> {
             generic: bound.generic.clone(),
             times: None,
         };
-        let built = self.build_element(node, &signature, name, bound, connected);
-        Checked { built, user, made, written }
+        let built = self.build_element(frame, &signature, name, bound, connected);
+        Parts { built, user, made }
     }
 
     /// The bindings of an element, and what it is made from once these have chosen a table or an enum.
@@ -152,7 +192,7 @@ impl Components<'_> {
 
     fn build_element(
         &self,
-        node: &ast::Element,
+        frame: &Frame,
         signature: &Signature,
         name: Option<ast::Name>,
         bound: bindings::Bound,
@@ -160,7 +200,7 @@ impl Components<'_> {
     ) -> Option<Element> {
         let (name, (inputs, outputs)) = (name?, bound.sound?);
         Some(Element {
-            doc: node.doc(),
+            doc: frame.doc.clone(),
             component: signature.component()?,
             generic: bound.generic,
             inputs,
@@ -182,13 +222,26 @@ impl Components<'_> {
         owner: Option<ElementId>,
         diags: &mut Diagnostics,
     ) -> Checked<Supervisor> {
-        let times = self.times(node, diags);
-        let wanted = Wanted { keyword: "supervise", span: None };
         let written = WrittenParts {
             template: node.template(),
             binds: node.binds(),
             edges: WrittenEdge::read(node.edges()),
         };
+        let head = (ComponentKind::Supervisor, node.name());
+        self.checked(head, node.frame(), written, |frame, written| {
+            self.check_supervisor(node, owner, (frame, written), diags)
+        })
+    }
+
+    fn check_supervisor(
+        &self,
+        node: &ast::Guard,
+        owner: Option<ElementId>,
+        (frame, written): (&Frame, &WrittenParts),
+        diags: &mut Diagnostics,
+    ) -> Parts<Supervisor> {
+        let times = self.times(node, diags);
+        let wanted = Wanted { keyword: "supervise", span: None };
         let reference = written.template.as_ref();
         let signature =
             reference.and_then(|reference| self.context.callee(reference, &wanted, diags));
@@ -198,14 +251,14 @@ impl Components<'_> {
             bindings::names_only(self.scope, &written.binds, diags);
             let times = Some(effective(None, &times, diags));
             let made = Made { times, ..Made::default() };
-            return Checked { built: None, user: None, made, written };
+            return Parts::broken(made);
         };
         let name = node.name();
-        let broken = diags.syntax_errors_within(node.span()).next().is_some();
+        let broken = diags.syntax_errors_within(frame.span).next().is_some();
         let site = Site { reference: reference.span(), broken };
         let binds = bindings::meant(&signature, &written.binds);
         let bound = bindings::check(self.scope, &signature, &binds, &site, diags);
-        let span = name.as_ref().map_or_else(|| node.span(), |name| name.span);
+        let span = name.as_ref().map_or(frame.span, |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: true };
         let connected = edges::check(&origin, &written.edges, self.elements, diags);
@@ -217,7 +270,7 @@ impl Components<'_> {
             times: Some(times),
         };
         let built = self.build_supervisor(node, owner, &signature, bound, connected, times);
-        Checked { built, user, made, written }
+        Parts { built, user, made }
     }
 
     fn times(&self, node: &ast::Guard, diags: &mut Diagnostics) -> Written {
@@ -226,6 +279,9 @@ impl Components<'_> {
             let Some(keyword) = time.keyword() else { continue };
             let place = usize::from(keyword.text == "deadline");
             if let Some(first) = written.words[place] {
+                if let Some(value) = time.value() {
+                    self.scope.names_only(&value);
+                }
                 diags.push(
                     Diagnostic::new(
                         Code::E0511,

@@ -196,10 +196,9 @@ impl NameRecorder<'_> {
     fn outputs(&self, path: &Path, binds: &[Bind]) {
         let Some(plan) = self.plan else { return };
         let walk = self.resolver.component(plan, &path.names());
-        let member = walk.end.ok().and_then(|part| self.resolver.member(walk.plan, part));
-        let Some(signature) = member.and_then(|member| member.made.signature.as_ref()) else {
-            return;
-        };
+        let end = walk.end.ok();
+        let signature = end.and_then(|part| self.resolver.signature(walk.plan, part));
+        let Some(signature) = signature else { return };
         for bind in binds {
             let port = bind.port();
             let declared = signature.outputs.iter().find(|output| *output.name == *port.text);

@@ -5,10 +5,10 @@
 
 use crate::check::names::unknown;
 use crate::check::signature::{Signature, SignatureKind};
-use crate::check::{Member, Members, Program, edges};
+use crate::check::{Members, Program, edges};
 use crate::graph::{ElementId, SupervisorId};
 use crate::index::Recorder;
-use crate::outline::ComponentKind;
+use crate::outline::{Component, ComponentKind};
 use crate::scenario::Outcome;
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, words};
@@ -145,20 +145,20 @@ impl<'a> Resolver<'a> {
     pub fn local(&self, plan: usize, element: Part, name: &str) -> Option<Part> {
         let Part::Element(id) = element else { return None };
         let members = &self.members[plan];
-        let own = &members.elements.get(id.index())?.locals;
+        let own = &members.elements.get(id.index())?.supervisors;
         let place = own.iter().position(|member| is_called(member, name))?;
-        let before = members.elements[..id.index()].iter().map(|element| element.locals.len());
+        let before = members.elements[..id.index()].iter().map(|element| element.supervisors.len());
         let number = members.globals.len() + before.sum::<usize>() + place;
         u16::try_from(number).ok().map(SupervisorId).map(Part::Supervisor)
     }
 
     /// The component itself.
-    pub fn member(&self, plan: usize, part: Part) -> Option<&'a Member> {
+    pub fn member(&self, plan: usize, part: Part) -> Option<&'a Component> {
         let members = &self.members[plan];
         match part {
             Part::Element(id) => members.elements.get(id.index()),
             Part::Supervisor(id) => {
-                let locals = members.elements.iter().flat_map(|element| &element.locals);
+                let locals = members.elements.iter().flat_map(|element| &element.supervisors);
                 members.globals.iter().chain(locals).nth(id.index())
             }
         }
@@ -167,14 +167,20 @@ impl<'a> Resolver<'a> {
     /// The plan that an element is made from, by its place.
     fn sub_plan(&self, plan: usize, element: ElementId) -> Option<usize> {
         let member = self.member(plan, Part::Element(element))?;
-        match member.made.signature.as_ref()?.kind {
+        match self.signature(plan, Part::Element(element))?.kind {
             SignatureKind::Plan(place) if member.kind == ComponentKind::SubPlan => Some(place),
             _ => None,
         }
     }
 
-    fn signature(&self, plan: usize, part: Part) -> Option<&'a Signature> {
-        self.member(plan, part)?.made.signature.as_deref()
+    /// What a component is made from.
+    pub fn signature(&self, plan: usize, part: Part) -> Option<&'a Signature> {
+        let members = &self.members[plan];
+        let signature = match part {
+            Part::Element(id) => members.of_elements.get(id.index()),
+            Part::Supervisor(id) => members.of_supervisors.get(id.index()),
+        };
+        signature?.as_deref()
     }
 
     /// The names of a component's states or events.
@@ -297,7 +303,7 @@ fn meant(error: Diagnostic, mut paths: Vec<String>) -> Diagnostic {
     }
 }
 
-fn is_called(member: &Member, name: &str) -> bool {
+fn is_called(member: &Component, name: &str) -> bool {
     member.name.as_ref().is_some_and(|known| known.text == name)
 }
 

@@ -19,24 +19,7 @@ pub(super) fn read(
     site: &Site<'_>,
     diags: &mut Diagnostics,
 ) -> Option<Template> {
-    let name = node.name()?;
-    let mut template = Template {
-        kind: node.kind(),
-        name: name.text,
-        doc: node.doc(),
-        icon: None,
-        uses: Vec::new(),
-        inputs: Vec::new(),
-        outputs: Vec::new(),
-        outcomes: Vec::new(),
-        states_of: None,
-        reads_table: None,
-        every: timing::DEFAULT_EVERY,
-        deadline: None,
-        budget: None,
-        stop: None,
-        span: name.span,
-    };
+    let mut template = without_parts(node, node.name()?);
     let parts = node.parts();
     let mut seen = Seen::default();
     outcomes(&parts, &mut template, diags);
@@ -78,6 +61,26 @@ pub(super) fn read(
     deadline(&parts, &template, diags);
     without_outcomes(node, &template, diags);
     Some(template)
+}
+
+fn without_parts(node: &ast::Template, name: Name) -> Template {
+    Template {
+        kind: node.kind(),
+        name: name.text,
+        doc: node.doc(),
+        icon: None,
+        uses: Vec::new(),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        outcomes: Vec::new(),
+        states_of: None,
+        reads_table: None,
+        every: timing::DEFAULT_EVERY,
+        deadline: None,
+        budget: None,
+        stop: None,
+        span: name.span,
+    }
 }
 
 /// The parts that may stand once, with the place of the first.

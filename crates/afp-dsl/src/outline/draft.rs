@@ -1,0 +1,262 @@
+//! Components as their check leaves them, without paths and without what names in them mean.
+//!
+//! They are read while their nodes are at hand, so that no node of the tree is kept; [`super::build`] says the rest
+//! once all names have their meanings.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::{
+    Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Findings, Input,
+    MadeFrom, Output, PlanId, Target, TemplateUse, Value,
+};
+use crate::check::edges::{self, WrittenEdge};
+use crate::check::signature::{Signature, SignatureKind};
+use crate::check::{Made, WrittenParts, bindings};
+use crate::types::Type;
+use afp_syntax::ast::{self, Bind, Frame, Name};
+use afp_syntax::item::Item;
+use afp_syntax::source::Span;
+
+/// An element without its supervisors, a supervisor, or reactions; `text` is that of the file.
+pub(crate) fn draft(
+    (kind, name): (ComponentKind, Option<Name>),
+    frame: Frame,
+    made: &Made,
+    parts: WrittenParts,
+    text: &str,
+) -> Component {
+    let signature = made.signature.as_ref();
+    let (inputs, outputs) = ports(made, &parts.binds, text);
+    Component {
+        item: Item::plan(String::new()),
+        kind,
+        name,
+        doc: frame.doc,
+        note: frame.note,
+        span: frame.span,
+        template: parts.template.map(|reference| {
+            let span = reference.span();
+            TemplateUse {
+                text: in_one_line(text, span).unwrap_or_else(|| reference.in_one_line()),
+                span,
+                name_span: reference.name_span().unwrap_or(span),
+                made_from: signature.and_then(made_from),
+            }
+        }),
+        generic: made.generic.clone(),
+        inputs,
+        outputs,
+        exits: exits(kind, parts.edges, signature.map(|signature| &**signature)),
+        supervisors: Vec::new(),
+        reactions: Vec::new(),
+        times: made.times,
+        args_span: frame.args_span,
+        end_span: frame.end_span,
+        findings: Findings::default(),
+    }
+}
+
+/// Inputs and outputs: those that are declared, then those that are only written.
+fn ports(made: &Made, binds: &[Bind], text: &str) -> (Vec<Input>, Vec<Output>) {
+    let (declared, binds) = match &made.signature {
+        Some(signature) => {
+            (declared(signature, made.generic.as_ref()), bindings::meant(signature, binds))
+        }
+        None => ((Vec::new(), Vec::new()), binds.into()),
+    };
+    let (mut inputs, mut outputs) = declared;
+    for bind in &*binds {
+        let binding = Some(binding(bind, text));
+        let port = bind.port().text.as_str();
+        match bind {
+            Bind::In { .. } => {
+                let mut same = inputs.iter_mut().filter(|known| *known.name == *port);
+                match same.find(|known| known.binding.is_none()) {
+                    Some(input) => input.binding = binding,
+                    None => {
+                        let known = inputs.iter().filter(|known| *known.name == *port);
+                        let nth = following(known.count());
+                        inputs.push(Input { nth, binding, ..input(port.into()) });
+                    }
+                }
+            }
+            Bind::Out { .. } => {
+                let mut same = outputs.iter_mut().filter(|known| *known.name == *port);
+                match same.find(|known| known.binding.is_none()) {
+                    Some(output) => output.binding = binding,
+                    None => {
+                        let known = outputs.iter().filter(|known| *known.name == *port);
+                        let nth = following(known.count());
+                        outputs.push(Output { nth, binding, ..output(port.into()) });
+                    }
+                }
+            }
+        }
+    }
+    (inputs, outputs)
+}
+
+fn binding(bind: &Bind, text: &str) -> Binding {
+    let formula = |formula: &Option<ast::Formula>| formula.as_ref().map(|it| value(text, it));
+    let (port, sign, value) = match bind {
+        Bind::In { port, sign, formula: written } => (port, sign, formula(written)),
+        Bind::Out { port, sign, entry, formula: written } => {
+            let entry = entry.as_ref();
+            let entry = entry.map(|it| Value { text: it.text.clone(), span: it.span, entry: None });
+            (port, sign, entry.or_else(|| formula(written)))
+        }
+    };
+    let last = value.as_ref().map_or(*sign, |value| value.span);
+    Binding { span: port.span.to(last), port_span: port.span, value }
+}
+
+/// A formula, without the entry that it may be.
+pub(super) fn value(text: &str, formula: &ast::Formula) -> Value {
+    let span = formula.span();
+    let text = in_one_line(text, span).unwrap_or_else(|| formula.in_one_line());
+    Value { text, span, entry: None }
+}
+
+/// Where an edge or `start` leads, without what that means.
+pub(super) fn target(name: Name) -> Target {
+    Target { text: name.text, span: name.span, to: Destination::Unknown }
+}
+
+/// The text at a place, where it stands in one line without comments and spare blanks.
+pub(super) fn in_one_line(text: &str, span: Span) -> Option<String> {
+    let text = text.get(span.start as usize..span.end as usize)?;
+    let mut before = b'\0';
+    let fits = text.bytes().all(|byte| {
+        let two = [std::mem::replace(&mut before, byte), byte];
+        !matches!(byte, b'\n' | b'\r' | b'\t') && !matches!(&two, b"  " | b"//" | b"/*")
+    });
+    fits.then(|| text.to_owned())
+}
+
+/// States or events: those that are declared, then the one that needs no declaration, then those that are only
+/// written.
+fn exits(kind: ComponentKind, edges: Vec<WrittenEdge>, signature: Option<&Signature>) -> Vec<Exit> {
+    let supervisor = matches!(kind, ComponentKind::Supervisor | ComponentKind::Reactions);
+    let (usual, special_kind) = match supervisor {
+        true => (ExitKind::Event, ExitKind::Missed),
+        false => (ExitKind::State, ExitKind::Error),
+    };
+    let special = if supervisor { edges::DEADLINE_MISSED } else { edges::ERROR };
+    let declared = signature.map_or(0, |signature| signature.outcomes.len());
+    let mut exits = Vec::with_capacity(declared.max(edges.len()));
+    if let Some(signature) = signature {
+        for (at, name) in signature.outcomes.iter().enumerate() {
+            let declared = signature.outcome_span(at);
+            // Whether a plan can be interrupted decides whether its user must say what then.
+            let required =
+                declared.is_some() || **name != *"Interrupted" || signature.interrupting.is_some();
+            exits.push(Exit { declared, required, known: true, ..exit(name.clone(), usual) });
+        }
+    }
+    let mut others = Vec::new();
+    for edge in edges {
+        let (name, new) = written(edge);
+        match exits.iter_mut().find(|known| *known.name == *name) {
+            Some(first) if first.edge.is_none() => first.edge = Some(new),
+            _ => {
+                let all = exits.iter().chain(&others);
+                let nth = following(all.filter(|known| *known.name == *name).count());
+                let kind = if name == special { special_kind } else { usual };
+                others.push(Exit { nth, edge: Some(new), ..exit(name.into(), kind) });
+            }
+        }
+    }
+    others.sort_by_key(|exit| exit.kind != special_kind);
+    exits.extend(others);
+    exits
+}
+
+/// The name of a state or event, and its edge.
+fn written(edge: WrittenEdge) -> (String, Edge) {
+    let WrittenEdge { name, target, reason, span } = edge;
+    let target = match (target.map(self::target), reason) {
+        (Some(Target { text, span, to }), Some(reason)) => {
+            let text = format!("{text} {}", reason.text);
+            Some(Target { text, span: span.to(reason.span), to })
+        }
+        (target, _) => target,
+    };
+    (name.text, Edge { span, name_span: name.span, target })
+}
+
+/// The number of one more of a name of which some are there.
+fn following(known: usize) -> u16 {
+    u16::try_from(known + 1).unwrap_or(u16::MAX)
+}
+
+fn made_from(signature: &Rc<Signature>) -> Option<MadeFrom> {
+    Some(match signature.kind {
+        SignatureKind::Plan(place) => MadeFrom::Plan(PlanId::new(place)),
+        SignatureKind::Template(_) => {
+            let (id, toolbox) = signature.template.as_ref()?;
+            MadeFrom::Template { toolbox: toolbox.clone(), index: usize::from(id.index) }
+        }
+    })
+}
+
+/// The ports of a template or plan, none of them bound.
+fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<Output>) {
+    let actual = |ty: &Option<Type>| match (ty, generic) {
+        (Some(Type::Any | Type::Number | Type::Discrete), Some(generic)) => Some(generic.clone()),
+        (ty, _) => ty.clone(),
+    };
+    let inputs = signature.inputs.iter().map(|port| Input {
+        declared: Some(port.span),
+        ty: actual(&port.ty),
+        required: !port.optional,
+        default: port.default.clone(),
+        range: port.range,
+        ..input(port.name.clone())
+    });
+    let outputs = signature.outputs.iter().map(|port| Output {
+        declared: Some(port.span),
+        ty: actual(&port.ty),
+        ..output(port.name.clone())
+    });
+    (table(signature).into_iter().chain(inputs).collect(), outputs.collect())
+}
+
+/// The port that takes a table, which the signature with its columns does not have.
+fn table(signature: &Signature) -> Option<Input> {
+    let reads = signature.template()?.reads_table.as_ref()?;
+    reads.table.as_ref()?;
+    let (name, declared) = (reads.port.name.as_str().into(), Some(reads.port.span));
+    Some(Input { declared, required: true, ..input(name) })
+}
+
+fn input(name: Arc<str>) -> Input {
+    Input {
+        name,
+        nth: 1,
+        declared: None,
+        ty: None,
+        required: false,
+        default: None,
+        range: None,
+        binding: None,
+        findings: Findings::default(),
+    }
+}
+
+fn output(name: Arc<str>) -> Output {
+    Output { name, nth: 1, declared: None, ty: None, binding: None, findings: Findings::default() }
+}
+
+fn exit(name: Arc<str>, kind: ExitKind) -> Exit {
+    Exit {
+        name,
+        nth: 1,
+        kind,
+        known: false,
+        declared: None,
+        required: false,
+        edge: None,
+        findings: Findings::default(),
+    }
+}
