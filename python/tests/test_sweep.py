@@ -87,15 +87,15 @@ def test_a_sweep_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
             raise InterruptedError
 
     with pytest.raises(InterruptedError):
-        afp.sweep(plan, seeds=8, until=5.0, jobs=1, progress=stop, out=out)
+        afp.sweep(plan, seeds=64, until=5.0, jobs=1, progress=stop, out=out)
     kept = out.with_suffix(".csv.journal").read_text().splitlines()
-    assert 4 <= len(kept) <= 8
+    assert 4 <= len(kept) <= 64
     first: list[int] = []
-    runs = afp.sweep(plan, seeds=8, until=5.0, progress=lambda done, total: first.append(done), out=out)
-    assert first[0] > 3 and rows(runs) == rows(afp.sweep(plan, seeds=8, until=5.0, progress=False))
-    assert len(out.read_text().splitlines()) == 9
+    runs = afp.sweep(plan, seeds=64, until=5.0, progress=lambda done, total: first.append(done), out=out)
+    assert first[0] > 3 and rows(runs) == rows(afp.sweep(plan, seeds=64, until=5.0, progress=False))
+    assert len(out.read_text().splitlines()) == 65
     with pytest.raises(afp.AfpError, match="of another sweep"):
-        afp.sweep(plan, seeds=9, until=5.0, progress=False, out=out)
+        afp.sweep(plan, seeds=65, until=5.0, progress=False, out=out)
     assert len(afp.sweep(plan, seeds=2, until=5.0, progress=False, out=out, restart=True)) == 2
 
 

@@ -111,15 +111,19 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
     members.of_supervisors.extend(of_locals);
     let start = start(&head.node, &names, diags);
     resume::check(&drawn, start, diags);
-    let rows = [head.entries.len(), elements.len(), supervisors.len()];
-    let tables = [Table::Entries, Table::Elements, Table::Supervisors];
-    size::too_many_rows(head.name.as_ref(), tables.into_iter().zip(rows), diags);
+    sized(head, [head.entries.len(), elements.len(), supervisors.len()], diags);
     let reasons = names.reasons();
     members.indices = names.into_indices();
     match finish(context, head, (drawn, supervisors, reasons), globals, start) {
         Ok(plan) => CheckedPlan { plan: Some(plan), inputs: Vec::new(), users, members },
         Err(inputs) => CheckedPlan { plan: None, inputs, users, members },
     }
+}
+
+/// Entries, elements and supervisors of a plan must fit into the tables of a run.
+fn sized(head: &PlanHead, rows: [usize; 3], diags: &mut Diagnostics) {
+    let tables = [Table::Entries, Table::Elements, Table::Supervisors];
+    size::too_many_rows(head.name.as_ref(), tables.into_iter().zip(rows), diags);
 }
 
 /// What formulas of a plan can name.

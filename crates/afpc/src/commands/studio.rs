@@ -169,18 +169,17 @@ mod tests {
 
     #[test]
     fn every_example_is_a_plan_without_mistakes_that_has_its_world() {
-        for (name, _, _, uses) in EXAMPLES_TO_COPY {
+        for example in examples() {
             let place = tempfile::tempdir().unwrap();
-            let all = examples();
-            let of = |wanted: &str| all.iter().find(|example| example.name == wanted).unwrap();
             let plans = place.path().join("plans");
-            std::fs::create_dir(&plans).unwrap();
-            for name in [&name].into_iter().chain(uses) {
-                std::fs::write(plans.join(name), &of(name).plan).unwrap();
+            std::fs::create_dir_all(plans.join("parts")).unwrap();
+            let Example { name, plan, world, uses } = example;
+            for (path, text) in uses.iter().chain([&(name.clone(), plan)]) {
+                std::fs::write(plans.join(path), text).unwrap();
             }
-            let file = crate::plan_file::PlanFile::read(plans.join(name).to_str().unwrap());
+            let file = crate::plan_file::PlanFile::read(plans.join(&name).to_str().unwrap());
             assert!(file.unwrap().compiled.graph.is_some(), "{name}");
-            let world = of(name).world.clone().unwrap();
+            let world = world.unwrap();
             assert!(world.contains("version = ") && !world.contains("#:schema"), "{name}");
         }
     }
