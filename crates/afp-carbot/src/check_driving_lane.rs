@@ -14,8 +14,9 @@ const ARRIVED: f64 = 3.0 / 180.0 * core::f64::consts::PI;
 ///
 /// An echo is taken to come from the beam's axis; `margin` covers the rest of the beam. A wall
 /// square ahead is so reported up to 7 cm early, when the sensor looks aside. The
-/// sensor looks left, ahead, right, ahead and so on, one ping at least at each. Aside it looks at the far corners of the lane:
-/// from there on the beam also hears what the lane leads along at a small angle, and which sends no sound back farther ahead.
+/// sensor looks ahead, left, right and so on, one ping at least at each, and hears what it passes on the way from side
+/// to side. Aside it looks at the far corners of the lane: from there on the beam also hears what the lane leads along at
+/// a small angle, and which sends no sound back farther ahead.
 #[derive(Clone, Debug)]
 pub struct CheckDrivingLane {
     clearance: f64,

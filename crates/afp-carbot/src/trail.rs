@@ -71,6 +71,7 @@ impl Trail {
         (ago <= self.known).then(|| self.places[(self.next + KEPT - ago) % KEPT])
     }
 
+    /// Takes off the place that it came by last.
     pub(crate) fn drop_newest(&mut self) {
         self.next = (self.next + KEPT - 1) % KEPT;
         self.known = self.known.saturating_sub(1);
