@@ -94,8 +94,8 @@ impl EchoField {
         if !inside || column >= self.columns || row >= self.rows {
             return Expected::Solid;
         }
-        let turns = direction / STEP;
-        let nearest = libm::round(turns) as i64;
+        // What is cut off towards zero is rounded then, faster than by rounding.
+        let nearest = (direction / STEP + f64::copysign(0.5, direction)) as i64;
         let towards = nearest.rem_euclid(DIRECTIONS as i64) as usize;
         let room = (row * self.columns + column) * DIRECTIONS;
         let entry = match self.read(room + towards) {

@@ -16,7 +16,7 @@ use afp_session::parts::Noise;
 use cloud::Cloud;
 use memory::Memory;
 use search::Rival;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// An echo is weighed when the sensor has moved so far since the last that was, metres, or looks so far aside, radians:
 /// what is heard twice from the same place errs the same way twice.
@@ -142,5 +142,6 @@ pub(crate) fn relative(from: Pose, to: Pose) -> Pose2 {
 
 /// The same direction within half a turn of zero.
 pub(crate) fn wrap(angle: f64) -> f64 {
-    angle - TAU * libm::round(angle / TAU)
+    // Most are there already, and rounding is what takes time.
+    if angle.abs() < PI { angle } else { angle - TAU * libm::round(angle / TAU) }
 }

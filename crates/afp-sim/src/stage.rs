@@ -40,6 +40,7 @@ pub struct Stage {
     pub(crate) shapes: Vec<(Isometry, SharedShape)>,
     pub(crate) movers: Vec<Mover>,
     collisions: Collisions,
+    touches: Vec<Touch>,
     surroundings: Surroundings,
 }
 
@@ -59,6 +60,7 @@ impl Stage {
             shapes,
             movers,
             collisions: Collisions::default(),
+            touches: Vec::new(),
             surroundings: Surroundings::default(),
         })
     }

@@ -67,6 +67,9 @@ pub struct Truth<'a> {
 /// A robot slower than this stands, metres and radians a second: castors creep as they come to rest.
 const STANDING: (f64, f64) = (0.005, 0.02);
 
+/// A motion that goes into something no faster slides along it, metres a second.
+const INTO: f64 = 0.01;
+
 impl<'a> Truth<'a> {
     /// Where the robot's centre is.
     pub fn pose(&self) -> Pose {
@@ -106,6 +109,13 @@ impl<'a> Truth<'a> {
     /// The collisions that last now, in the order of their beginnings.
     pub fn touching(&self) -> impl DoubleEndedIterator<Item = &'a Collision> {
         self.stage.touching(self.now)
+    }
+
+    /// The obstacles that the robot pushes against now, by their places in [`crate::World::obstacles`]: it touches them, and the
+    /// last command to its drive was a motion into them, of a centimetre a second at least where they touch.
+    pub fn pushing(&self) -> impl Iterator<Item = usize> + use<'a> {
+        let (asked, touches) = (self.asked, self.stage.touches().iter());
+        touches.filter(move |touch| touch.speed_into(asked) >= INTO).map(|touch| touch.obstacle)
     }
 
     /// Distance from the body's right side to the nearest obstacle that is high enough for the

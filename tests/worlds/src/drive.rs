@@ -34,8 +34,10 @@ pub struct Outcome {
     pub timeline: String,
     /// What the robot came to touch, each time, oldest first.
     pub contacts: Vec<Contact>,
-    /// For how long it touched something while its drive was told to move.
+    /// For how long its drive was told to move into something that it touched.
     pub pushing: Duration,
+    /// For how long it touched something while its drive was told to move, into it or away from it.
+    pub touching: Duration,
     /// When and where it did.
     pub pushes: Pushes,
     /// When the plan ended, or the case.
@@ -73,7 +75,7 @@ pub fn run(case: &Case) -> Outcome {
     let start = scheduler.start(&mut robot, &mut sink, &clock, Instant::ZERO);
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
-    let (mut pushing, mut at) = (Duration::ZERO, case.until);
+    let ([mut pushing, mut touching], mut at) = ([Duration::ZERO; 2], case.until);
     let things: Vec<String> = case.world.obstacles.iter().map(|it| it.name.clone()).collect();
     let mut pushes = Pushes::default();
     while robot.sim.now() < end {
@@ -89,6 +91,10 @@ pub fn run(case: &Case) -> Outcome {
             diary.borrow_mut().poses.push(robot.sim.truth().pose());
             if pushes.look(&robot, &things) {
                 pushing = pushing + LOOK;
+            }
+            let truth = robot.sim.truth();
+            if truth.touching().next().is_some() && !truth.is_halted() {
+                touching = touching + LOOK;
             }
             look = look + LOOK;
         }
@@ -109,7 +115,7 @@ pub fn run(case: &Case) -> Outcome {
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
     let broken = watch.into_inner().broken();
-    Outcome { trace, ending, broken, timeline, contacts, pushing, pushes, at, pose }
+    Outcome { trace, ending, broken, timeline, contacts, pushing, touching, pushes, at, pose }
 }
 
 /// Whoever watches a case, before it begins.

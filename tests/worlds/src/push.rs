@@ -11,7 +11,7 @@ use crate::witness::Witness;
 /// Pushes of one thing that are no farther apart than this are one.
 const APART: Duration = Duration::from_millis(300);
 
-/// A stretch of time in which the robot touched something while its drive was told to move.
+/// A stretch of time in which the robot touched something and its drive was told to move into it.
 #[derive(Clone, Debug)]
 pub struct Push {
     /// The name of what it touched.
@@ -25,13 +25,11 @@ pub struct Push {
 pub struct Pushes(Vec<Push>);
 
 impl Pushes {
-    /// Whether the robot touches something while its drive is told to move; takes note of it.
+    /// Whether the robot pushes against something; takes note of it.
     pub(crate) fn look(&mut self, robot: &Witness, names: &[String]) -> bool {
         let truth = robot.sim.truth();
-        let Some(touch) = truth.touching().next().filter(|_| !truth.is_halted()) else {
-            return false;
-        };
-        let what = names.get(touch.obstacle).cloned().unwrap_or_default();
+        let Some(obstacle) = truth.pushing().next() else { return false };
+        let what = names.get(obstacle).cloned().unwrap_or_default();
         let end = (robot.sim.now(), truth.pose(), robot.counted.get());
         match self.0.last_mut() {
             Some(last) if last.what == what && end.0.since(last.ends[1].0) <= APART => {

@@ -35,6 +35,8 @@ struct Account {
     took: Vec<f64>,
     /// For how long it pushed, seconds, and in which room.
     pushed: Vec<(f64, u64)>,
+    /// For how long it touched something while it drove, into it or away from it, seconds.
+    touching: Vec<f64>,
 }
 
 impl Account {
@@ -49,6 +51,7 @@ impl Account {
             self.touched.push((room, touches));
         }
         self.pushed.push((outcome.pushing.as_secs_f64(), room));
+        self.touching.push(outcome.touching.as_secs_f64());
     }
 
     /// Puts rooms and times in order and says it all.
@@ -66,6 +69,8 @@ impl Account {
         let told: Vec<_> =
             long.iter().map(|(time, room)| format!("{time:.1} s in {room}")).collect();
         println!("  pushed for more than {PUSHED} s in {}: {}", long.len(), told.join(", "));
+        let touching = self.touching.iter().filter(|time| **time > PUSHED).count();
+        println!("  touched something for more than {PUSHED} s while it drove in {touching}");
         let mut by: BTreeMap<&str, usize> = BTreeMap::new();
         for contact in self.touched.iter().flat_map(|(_, contacts)| contacts) {
             *by.entry(&contact.actor).or_default() += 1;

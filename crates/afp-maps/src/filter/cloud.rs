@@ -119,6 +119,10 @@ impl Cloud {
     /// The middle of the place that has the most weight; that of `believed` has a start.
     pub(super) fn densest(&self, believed: Pose2) -> Pose2 {
         let mut best = (believed, self.weight_near(believed) * MORE);
+        let all: f64 = self.particles.iter().map(|particle| particle.weight).sum();
+        if best.1 >= all {
+            return self.middle_near(believed);
+        }
         for particle in self.particles.iter().step_by(COUNT / PLACES) {
             let weight = self.weight_near(particle.pose);
             if weight > best.1 {

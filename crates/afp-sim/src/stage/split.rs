@@ -15,6 +15,7 @@ impl Stage {
             shapes: self.shapes.clone(),
             movers: self.movers.clone(),
             collisions: self.collisions.clone(),
+            touches: self.touches.clone(),
             surroundings: self.surroundings,
         }
     }

@@ -17,14 +17,31 @@ pub struct Touch {
     pub obstacle: usize,
     /// Where, in the body's frame: ahead and to the left of its middle, metres.
     pub at: [f64; 2],
+    /// Out of the body into the thing, a unit vector of the body's frame.
+    pub into: [f64; 2],
+}
+
+impl Touch {
+    /// How fast a motion of the body, metres and radians a second about its middle, would go into the thing, metres a
+    /// second; negative where it leaves it.
+    pub fn speed_into(&self, (ahead, turn): (f64, f64)) -> f64 {
+        let [x, y] = self.at;
+        (ahead - turn * y) * self.into[0] + turn * x * self.into[1]
+    }
 }
 
 impl Stage {
+    /// What the robot touched when it was last looked at.
+    pub fn touches(&self) -> &[Touch] {
+        &self.touches
+    }
+
     /// Looks at what the robot touches after a step, notes it as collisions, and tells of each touch.
     ///
     /// The engine keeps a pair's contact points over several steps, so the distance is computed
     /// afresh for the few pairs that are near.
     pub fn feel(&mut self, now: Instant, mut felt: impl FnMut(Touch)) {
+        self.touches.clear();
         for pair in self.physics.narrow_phase.contact_pairs_with(self.collider) {
             if !pair.has_any_active_contact() {
                 continue;
@@ -41,7 +58,11 @@ impl Stage {
             let obstacle = other.user_data as usize;
             self.collisions.touch(obstacle, now);
             let point = at.inverse_transform_point(contact.point1);
-            felt(Touch { obstacle, at: [f64::from(point.x), f64::from(point.y)] });
+            let into = at.rotation.inverse_transform_vector(contact.normal1);
+            let [at, into] = [point, into].map(|it| [it.x, it.y].map(f64::from));
+            let touch = Touch { obstacle, at, into };
+            self.touches.push(touch);
+            felt(touch);
         }
     }
 }

@@ -3,13 +3,13 @@
 //! A step of many robots takes a tenth of a millisecond, and waking a thread as long as one of them. So who asks for a round
 //! takes part in it, helpers look for the next one for a moment before they sleep, and nobody waits for a helper that comes late.
 //! Where the cores are busy with others, a helper loses its core in the midst of an episode, for longer than all of them take: after
-//! a round that would have been shorter without helpers, some are done so.
+//! a round in which more time was lost by waiting for helpers than they saved, some are done without them.
 
 use std::hint::spin_loop;
 use std::io;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -22,7 +22,7 @@ const AWAKE: Duration = Duration::from_micros(50);
 /// The clock is read once for so many looks.
 const LOOKS: u32 = 64;
 
-/// So many rounds are done without helpers after one that they made longer, twice as many the next time, up to a bound.
+/// So many rounds are done without helpers after one in which they cost time, twice as many the next time, up to a bound.
 const ALONE: u32 = 8;
 const MOST_ALONE: u32 = 512;
 
@@ -42,8 +42,6 @@ struct Helpers {
     /// How many rounds are done without helpers, and how many will be when one is late again.
     alone: AtomicU32,
     next_alone: AtomicU32,
-    /// Whether the last round was one of them, so that helpers sleep.
-    asleep: AtomicBool,
 }
 
 /// The latest round and its number; none once it is over.
@@ -94,32 +92,28 @@ impl Helpers {
         let begin = Instant::now();
         let number = self.post(round);
         let own = round.work();
-        let worked = begin.elapsed();
+        let worked = begin.elapsed().as_secs_f64();
         round.wait();
+        let waited = begin.elapsed().as_secs_f64() - worked;
         self.withdraw(number);
-        // Whoever did a third of it alone would have taken three times as long for all.
-        let alone = worked.as_secs_f64() * round.places() as f64 / own.max(1) as f64;
+        // Whoever did so many takes as long for each of the others. To wait for the last one is no loss.
+        let each = worked / own.max(1) as f64;
+        let saved = each * (round.places() - own + 1) as f64;
         let before = self.next_alone.load(Ordering::Relaxed);
-        let longer = begin.elapsed().as_secs_f64() > alone;
-        if self.asleep.swap(false, Ordering::Relaxed) {
-            // It has woken them, which takes longer than a round that finds them awake.
-            return;
-        }
-        let next = if longer { (before * 2).clamp(ALONE, MOST_ALONE) } else { before / 2 };
-        self.next_alone.store(next, Ordering::Relaxed);
-        if longer {
+        let next = if own > 0 && waited > saved {
+            let next = (before * 2).clamp(ALONE, MOST_ALONE);
             self.alone.store(next, Ordering::Relaxed);
-        }
+            next
+        } else {
+            before / 2
+        };
+        self.next_alone.store(next, Ordering::Relaxed);
     }
 
     /// Whether this round is one of those that are done without helpers.
     fn rest(&self) -> bool {
         let less = |alone: u32| alone.checked_sub(1);
-        let rests = self.alone.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok();
-        if rests {
-            self.asleep.store(true, Ordering::Relaxed);
-        }
-        rests
+        self.alone.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok()
     }
 
     /// Lets helpers see a round; its number.
