@@ -25,6 +25,7 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("simulate(set={'walldist': None})", TypeError, "'walldist' is a length in m, not a NoneType"),
     ("simulate(set={'walldist': 10**30})", OverflowError, "more than 64 bits"),
     ("simulate(set='walldist=3')", TypeError, "set gives entries their values, such as {'walldist': afp.cm(35)}"),
+    ("simulate(world=3)", TypeError, "a world is a file, a text such as 'random:7', or a World, not 3"),
     ("simulate(log='nowhere/run.mcap')", FileNotFoundError, "cannot write the log: No such file or directory: 'nowhere/run.mcap'"),
     ("afp.Log('nowhere.mcap')", FileNotFoundError, "cannot read the log: No such file or directory: 'nowhere.mcap'"),
     ("afp.World.load('hall.toml')", FileNotFoundError, "cannot read the world: No such file or directory: 'hall.toml'"),
@@ -127,11 +128,33 @@ def test_a_quantity_stays_one_in_whatever_it_is_computed_with() -> None:
     assert (round(angle, 1), +angle, -angle) == (afp.rad(0.2), angle, afp.deg(-10)) and (+angle).unit == round(angle, 1).unit == "rad"
     assert all(type(it) is float for it in (angle + 0.1, 0.1 + angle, 1 - angle, 2 / angle, angle / angle))
     assert isinstance(np.array([1.0, 2.0]) * angle, np.ndarray) and isinstance(angle * np.arange(2), np.ndarray)
+    assert afp.cm(30) != afp.rad(0.3) and afp.cm(30) == 0.3 == afp.mm(300) and len({afp.cm(30), 0.3}) == 1
+    assert afp.cm(30) < 0.4 and afp.cm(30) <= afp.m(1) and not afp.cm(30) > afp.m(1) and 1 >= afp.cm(30)
+    assert sorted([afp.m(1), afp.cm(30)]) == [0.3, 1] and (afp.cm(30) < np.array([0.1, 1.0])).tolist() == [False, True]
+    with pytest.raises(TypeError, match="in m and one in rad are not to be compared"):
+        afp.cm(30) < angle
     for wrong in (lambda: afp.cm(30) - angle, lambda: angle + afp.s(1), lambda: sum([afp.cm(1), angle])):
         with pytest.raises(TypeError, match="have no sum and no difference"):
             wrong()
     with pytest.raises(TypeError):
         "a" * angle  # type: ignore[operator]
+
+
+@pytest.mark.parametrize(
+    ("entry", "value", "said"),
+    [
+        ("n", 0.5, "'n' is an int, not 0.5"),
+        ("n", True, "'n' is an int, not a bool"),
+        ("b", 2, "'b' is a bool, not 2"),
+        ("b", np.float32(0.5), "'b' is a bool, not 0.5"),
+        ("t", 3, "'t' is a text, not 3"),
+    ],
+)
+def test_a_number_of_another_kind_is_told_as_it_is(entry: str, value: object, said: str) -> None:
+    entries = 'in n: int = 1 in b: bool = true in t: text = "a"'
+    plan = afp.Plan(f"use std\nplan P {{ {entries} start w actor w: Wait(duration = 1 s) {{ Elapsed -> terminate }} }}")
+    with pytest.raises(TypeError, match=f"^{said}$"):
+        afp.Simulation(plan, set={entry: value})
 
 
 def test_a_number_in_an_array_of_one_is_a_number() -> None:

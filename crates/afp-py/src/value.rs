@@ -89,13 +89,18 @@ impl Given {
             Given::Text(text) => {
                 session.read_text(entry, &text).map_err(|_| wrong(format!("{text:?}")))
             }
-            Given::Plain(Value::Bool(_), _) if about.ty != "bool" => {
-                Err(wrong("a bool".to_owned()))
-            }
             Given::Plain(_, Some(unit)) if unit != about.unit => {
                 Err(wrong(format!("a quantity in {unit}")))
             }
-            Given::Plain(value, _) => Ok(value),
+            Given::Plain(value, _) => match (&value, about.ty) {
+                (Value::Bool(_), "bool") | (Value::Int(_), "int") => Ok(value),
+                (Value::Int(_) | Value::Float(_), "float") => Ok(value),
+                (Value::Int(_) | Value::Float(_), _) if !about.unit.is_empty() => Ok(value),
+                (Value::Bool(_), _) => Err(wrong("a bool".to_owned())),
+                (Value::Int(number), _) => Err(wrong(number.to_string())),
+                (Value::Float(number), _) => Err(wrong(number.to_string())),
+                _ => Ok(value),
+            },
             Given::Other(name) => Err(wrong(name)),
         }
     }

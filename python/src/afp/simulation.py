@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ._afp import Driven, Event, Plan, Runner, World
 from .picture import Picture
+from .places import place_of
 from .result import ComponentError, Result
 from .seeds import seed_of
 from .snapshot import Snapshot
@@ -46,10 +47,8 @@ class Simulation(Driven):
     ) -> None:
         if not isinstance(plan, Plan):
             raise TypeError(f"a simulation needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
-        if world is None:
-            world = World.of_plan(plan.path or "plan.afp")
-        elif not isinstance(world, World):
-            world = World.load(world)
+        place = World.of_plan(plan.path or "plan.afp") if world is None else place_of(world)
+        world = place if isinstance(place, World) else World.load(place)
         self.plan = plan
         self.world = world
         self.seed = seed

@@ -14,6 +14,7 @@ import numpy as np
 
 from ._afp import Plan, Runner, Sweeper, Toolbox, World
 from .components import source_of
+from .places import Place, place_of
 from .progress import teller
 from .result import Result
 from .runs import Runs
@@ -22,7 +23,6 @@ from .units import Quantity, seconds
 
 __all__ = ["Runs", "sweep"]
 
-Place = World | str | os.PathLike[str]
 Metric = Callable[[Result], float | None]
 
 MOST_RUNS = 10_000_000
@@ -168,11 +168,8 @@ def _worlds(worlds: Place | Iterable[Place] | None) -> list[World | str | None]:
 
 
 def _world(world: Place) -> World | str:
-    if isinstance(world, (str, os.PathLike)):
-        return os.fspath(world)
-    if not isinstance(world, World):
-        raise TypeError(f"a world is a file, a text such as 'random:7', or a World, not {world!r}")
-    return world if world.path is None else os.fspath(world.path)
+    place = place_of(world)
+    return os.fspath(place.path) if isinstance(place, World) and place.path is not None else place
 
 
 def _seeds(seeds: int | Iterable[int]) -> tuple[int, int] | list[int]:

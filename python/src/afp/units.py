@@ -110,6 +110,32 @@ class Quantity(float):
     def __rmul__(self, other: Any) -> Any:
         return self._scaled(plain_number(other) * float(self), other)
 
+    def _comparable(self, other: object) -> float:
+        """The number of `other`, unless it is a quantity of another unit."""
+        if isinstance(other, Quantity) and other.unit != self.unit:
+            raise TypeError(f"a quantity in {self.unit} and one in {other.unit} are not to be compared")
+        return plain_number(other)  # type: ignore[no-any-return]
+
+    def __lt__(self, other: Any) -> bool:
+        return float(self) < self._comparable(other)
+
+    def __le__(self, other: Any) -> bool:
+        return float(self) <= self._comparable(other)
+
+    def __gt__(self, other: Any) -> bool:
+        return float(self) > self._comparable(other)
+
+    def __ge__(self, other: Any) -> bool:
+        return float(self) >= self._comparable(other)
+
+    def __eq__(self, other: object) -> bool:
+        return float(self) == plain_number(other) and self.unit == getattr(other, "unit", self.unit)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = float.__hash__
+
     def __truediv__(self, other: Any) -> Any:
         return self._scaled(float(self) / plain_number(other), other)
 

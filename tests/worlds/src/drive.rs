@@ -18,6 +18,8 @@ use crate::witness::Witness;
 
 /// How often the truth is looked at.
 const LOOK: Duration = Duration::from_millis(20);
+/// A robot that is so far from where it takes itself to be, metres, does not know where it is.
+const ASTRAY: f64 = 0.5;
 /// How long the robot is watched after the end.
 const REST: Duration = Duration::from_secs(2);
 
@@ -40,6 +42,8 @@ pub struct Outcome {
     pub touching: Duration,
     /// When and where it did.
     pub pushes: Pushes,
+    /// When it first took itself to be more than [`ASTRAY`] from where it was.
+    pub astray: Option<Instant>,
     /// When the plan ended, or the case.
     pub at: Instant,
     /// Where the robot is then.
@@ -77,7 +81,7 @@ pub fn run(case: &Case) -> Outcome {
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
     let ([mut pushing, mut touching], mut at) = ([Duration::ZERO; 2], case.until);
     let things: Vec<String> = case.world.obstacles.iter().map(|it| it.name.clone()).collect();
-    let mut pushes = Pushes::default();
+    let (mut pushes, mut astray) = (Pushes::default(), None);
     while robot.sim.now() < end {
         let due = match wake {
             Wake::At(due) => due.max(clock.free()),
@@ -96,6 +100,8 @@ pub fn run(case: &Case) -> Outcome {
             if truth.touching().next().is_some() && !truth.is_halted() {
                 touching = touching + LOOK;
             }
+            let off = robot.sim.localisation_error().filter(|[off, _]| *off > ASTRAY);
+            astray = astray.or(off.map(|_| now));
             look = look + LOOK;
         }
         case.chance.happen(&mut next, &mut robot.sim);
@@ -115,7 +121,7 @@ pub fn run(case: &Case) -> Outcome {
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
     let broken = watch.into_inner().broken();
-    Outcome { trace, ending, broken, timeline, contacts, pushing, touching, pushes, at, pose }
+    Outcome { trace, ending, broken, timeline, contacts, pushing, touching, pushes, astray, at, pose }
 }
 
 /// Whoever watches a case, before it begins.

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::{env, thread};
 
+use afp_core::Instant;
 use afp_worlds::{Contact, Errand, Outcome, run};
 
 /// Rooms unless told otherwise: the first seed and how many.
@@ -37,6 +38,8 @@ struct Account {
     pushed: Vec<(f64, u64)>,
     /// For how long it touched something while it drove, into it or away from it, seconds.
     touching: Vec<f64>,
+    /// The rooms in which it did not know where it was, and since when.
+    astray: Vec<(u64, Instant)>,
 }
 
 impl Account {
@@ -52,6 +55,7 @@ impl Account {
         }
         self.pushed.push((outcome.pushing.as_secs_f64(), room));
         self.touching.push(outcome.touching.as_secs_f64());
+        self.astray.extend(outcome.astray.map(|at| (room, at)));
     }
 
     /// Puts rooms and times in order and says it all.
@@ -71,6 +75,10 @@ impl Account {
         println!("  pushed for more than {PUSHED} s in {}: {}", long.len(), told.join(", "));
         let touching = self.touching.iter().filter(|time| **time > PUSHED).count();
         println!("  touched something for more than {PUSHED} s while it drove in {touching}");
+        self.astray.sort();
+        for (room, at) in &self.astray {
+            println!("  astray in random:{room} from {at} on");
+        }
         let mut by: BTreeMap<&str, usize> = BTreeMap::new();
         for contact in self.touched.iter().flat_map(|(_, contacts)| contacts) {
             *by.entry(&contact.actor).or_default() += 1;
