@@ -185,7 +185,9 @@ fn drive(
         RefCell::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);
     report.borrow_mut().head(&head(setting));
     let mut counts = Counts::new(session.names());
-    let mut track = Track::new(session.devices());
+    // A path is for the picture; without one, a run of days takes no more memory than one of minutes.
+    let track = if paths.svg.is_some() { Track::new } else { Track::distance_alone };
+    let mut track = track(session.devices());
     let live = Live::begin(options.live, program.name, session)?;
     let scene = || world.world.scene();
     let sent = live.as_ref().map(|live| live.log(session, scene(), options.camera));

@@ -64,6 +64,16 @@ fn a_slow_sensor_makes_polls_late_whoever_drives() {
 }
 
 #[test]
+fn a_distance_needs_no_path() {
+    let mut session = session();
+    let mut whole = Track::new(session.devices());
+    let mut alone = Track::distance_alone(session.devices());
+    session.run(at(20), &mut Open, &mut [&mut whole, &mut alone]).unwrap();
+    assert!(whole.distance > 1.0 && whole.path.len() > 900 && !whole.marks.is_empty());
+    assert_eq!((alone.distance, alone.path.len(), alone.marks.len()), (whole.distance, 0, 0));
+}
+
+#[test]
 fn looking_judging_logging_and_pausing_do_not_change_the_run() {
     let mut whole = session();
     assert_eq!(whole.run(at(26), &mut Open, &mut []), Ok(Go::On));

@@ -41,6 +41,10 @@ pub struct Track {
     pub marks: Vec<Mark>,
     /// How far the robot went, metres.
     pub distance: f64,
+    /// Whether path and marks are kept.
+    keeps: bool,
+    /// Where the robot was last.
+    last: Option<Pose2>,
     signal: Option<SignalId>,
     actor: Option<ComponentId>,
     /// Marks of this step, whose pose is not known yet, are from here on.
@@ -48,12 +52,19 @@ pub struct Track {
 }
 
 impl Track {
+    /// The distance alone, in memory that does not grow with time.
+    pub fn distance_alone(devices: &[DeviceRow]) -> Self {
+        Track { keeps: false, ..Track::new(devices) }
+    }
+
     /// For a robot with those devices.
     pub fn new(devices: &[DeviceRow]) -> Self {
         Track {
             path: Vec::new(),
             marks: Vec::new(),
             distance: 0.0,
+            keeps: true,
+            last: None,
             signal: find_signal(devices, "robot", "pose"),
             actor: None,
             unplaced: 0,
@@ -76,7 +87,7 @@ impl Observer for Track {
             {
                 self.actor = None;
             }
-            Record::Event { supervisor, event, .. } => {
+            Record::Event { supervisor, event, .. } if self.keeps => {
                 let pose = Pose2::default();
                 self.marks.push(Mark { at: named.at, pose, supervisor, event });
             }
@@ -116,9 +127,11 @@ impl Observer for Track {
     fn on_sample(&mut self, at: Instant, _: SignalId, value: SampleRef<'_>) {
         let SampleRef::Pose(frame) = value else { return };
         let pose = frame.pose;
-        if let Some(last) = self.path.last() {
-            self.distance += libm::hypot(pose.x - last.pose.x, pose.y - last.pose.y);
+        if let Some(last) = self.last.replace(pose) {
+            self.distance += libm::hypot(pose.x - last.x, pose.y - last.y);
         }
-        self.path.push(Waypoint { at, pose, actor: self.actor });
+        if self.keeps {
+            self.path.push(Waypoint { at, pose, actor: self.actor });
+        }
     }
 }

@@ -16,7 +16,7 @@ pub(crate) fn drive(
     more: &mut [&mut dyn Observer],
 ) -> Option<Outcome> {
     let mut counts = Counts::new(session.names());
-    let mut track = Track::new(session.devices());
+    let mut track = Track::distance_alone(session.devices());
     let mut observers: Vec<&mut dyn Observer> = vec![&mut counts, &mut track];
     for observer in more.iter_mut() {
         observers.push(&mut **observer);
