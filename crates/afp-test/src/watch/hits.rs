@@ -70,7 +70,7 @@ impl Hits {
         })
     }
 
-    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>) {
+    pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>) {
         self.counts.record(at, record);
         if let Record::Committed { author, entry, .. } = *record {
             let place = entry.0 as usize;
@@ -97,7 +97,7 @@ impl Hits {
         }
         for event in &log.events {
             if let Some(record) = event.record() {
-                self.hear(event.at, &record);
+                self.on_record(event.at, &record);
             }
         }
         true
