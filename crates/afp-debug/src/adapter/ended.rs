@@ -47,7 +47,7 @@ impl Adapter<'_> {
             "log": run.launch.log,
             "again": again::command(&run.launch, &*run.target, by),
         });
-        self.tell("afp/ended", &ended);
+        self.broadcast("afp/ended", &ended);
         let exit_code = if ending == EndingKind::Error { 3 } else { 0 };
         self.event::<event::Exited>(&dapts::ExitedEvent { exit_code });
         self.event::<event::Terminated>(&dapts::TerminatedEvent::default());
