@@ -239,12 +239,12 @@ fn check_flow(
     order: &[usize],
     diags: &mut Diagnostics,
 ) {
-    let sound = |(head, plan): (&PlanHead, _)| {
+    let valid = |(head, plan): (&PlanHead, _)| {
         Option::filter(plan, |_| !diags.error_within(head.node.span()))
     };
-    let sound = program.plans.iter().zip(plans.iter().map(Option::as_ref)).map(sound).collect();
+    let valid = program.plans.iter().zip(plans.iter().map(Option::as_ref)).map(valid).collect();
     let toolboxes = program.linked.clone();
-    flow::check(&Model { plans: sound, order: order.to_vec(), toolboxes }, diags);
+    flow::check(&Model { plans: valid, order: order.to_vec(), toolboxes }, diags);
 }
 
 /// Reports a type that hides one of the language.

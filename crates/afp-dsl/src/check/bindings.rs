@@ -24,7 +24,7 @@ use generic::{Generic, actual};
 pub(crate) struct Bound {
     /// One formula for each input port and the connected outputs; `None` when something is wrong
     /// with them.
-    pub sound: Option<(Vec<Formula>, Vec<Output>)>,
+    pub valid: Option<(Vec<Formula>, Vec<Output>)>,
     /// The type that stands for `any` or `number`.
     pub generic: Option<Type>,
 }
@@ -56,11 +56,11 @@ pub(crate) fn check(
     let broken = site.broken || !ports.complete;
     let inputs = inputs(scope, signature, inferred, &generic, &Site { broken, ..*site }, diags);
     let outputs = outputs::check(scope, signature, &ports, &generic, diags);
-    let sound = inputs.zip(outputs);
+    let valid = inputs.zip(outputs);
     match generic {
-        Generic::None => Bound { sound, generic: None },
-        Generic::Is(ty) => Bound { sound, generic: Some(ty) },
-        Generic::Unknown => Bound { sound: None, generic: None },
+        Generic::None => Bound { valid, generic: None },
+        Generic::Is(ty) => Bound { valid, generic: Some(ty) },
+        Generic::Unknown => Bound { valid: None, generic: None },
         Generic::Undecided => {
             if !site.broken {
                 let message = format!("nothing decides the type of '{}'", signature.name);
@@ -69,7 +69,7 @@ pub(crate) fn check(
                         .help("bind one of its ports to a value or an entry"),
                 );
             }
-            Bound { sound: None, generic: None }
+            Bound { valid: None, generic: None }
         }
     }
 }

@@ -35,7 +35,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::unquote;
 
 pub use actions::VERBS;
-use lines::sound;
+use lines::readable;
 use over::Over;
 use paths::Paths;
 use resolve::Resolver;
@@ -136,7 +136,7 @@ fn scenario(
     let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, place)?;
     let graph = Arc::new(graph);
     let head = &program.plans[place];
-    let lines = sound(node.lines(), diags);
+    let lines = readable(node.lines(), diags);
     let stretch = Stretch::of(&lines, None, diags);
     let paths = Paths::new(&graph, resolver, place);
     let checker = Checker { context, paths, robot, head };

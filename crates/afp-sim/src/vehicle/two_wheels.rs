@@ -67,8 +67,8 @@ impl TwoWheels {
         let wanted = [speed - across, speed + across];
         let fastest = wanted[0].abs().max(wanted[1].abs());
         let share = if fastest > self.model.fastest { self.model.fastest / fastest } else { 1.0 };
-        let sound = wanted.iter().all(|rim| rim.is_finite());
-        self.asked = if sound { wanted.map(|rim| rim * share) } else { [0.0; 2] };
+        let finite = wanted.iter().all(|rim| rim.is_finite());
+        self.asked = if finite { wanted.map(|rim| rim * share) } else { [0.0; 2] };
     }
 
     /// Blocks the left or the right motor, or frees it.

@@ -156,7 +156,7 @@ impl<'a> Bench<'a> {
         let (mut noticed, mut changed) = (Vec::new(), false);
         for (suite, cases) in &self.suites {
             let compiled = self.compile(suite, Some(&mutant.text));
-            if compiled.scenarios.is_empty() && compiled.unsound.is_empty() {
+            if compiled.scenarios.is_empty() && compiled.invalid.is_empty() {
                 return Some(Judged { mutant, fate: Fate::Refused });
             }
             let scenarios = self.scenarios(&compiled);

@@ -179,7 +179,7 @@ impl Components<'_> {
         let deals = written.edges.iter().any(|edge| edge.name.text == edges::ERROR);
         remarks.retain(|remark| remark.code != Code::E0208 || !deals);
         diags.extend(remarks);
-        if let Some((inputs, outputs)) = &bound.sound {
+        if let Some((inputs, outputs)) = &bound.valid {
             tables::fits(self.scope, &signature, (inputs, outputs), &binds, diags);
         }
         let signatures = &self.context.program.signatures;
@@ -198,7 +198,7 @@ impl Components<'_> {
         bound: bindings::Bound,
         connected: Connected,
     ) -> Option<Element> {
-        let (name, (inputs, outputs)) = (name?, bound.sound?);
+        let (name, (inputs, outputs)) = (name?, bound.valid?);
         Some(Element {
             doc: frame.doc.clone(),
             component: signature.component()?,
@@ -319,7 +319,7 @@ impl Components<'_> {
         connected: Connected,
         times: Times,
     ) -> Option<Supervisor> {
-        let (name, (inputs, outputs)) = (node.name()?, bound.sound?);
+        let (name, (inputs, outputs)) = (node.name()?, bound.valid?);
         let (template, _) = signature.template.as_ref()?;
         Some(Supervisor {
             doc: node.doc(),
