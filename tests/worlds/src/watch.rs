@@ -140,7 +140,7 @@ impl Watch {
     }
 
     /// Something happened in the plan.
-    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
+    pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
         let actor =
             |id| matches!(names.component(id).kind, ComponentKind::Actor | ComponentKind::SubPlan);
         match *record {
