@@ -155,7 +155,7 @@ enum To<'a, 'o> {
     One(SignalId, &'a mut dyn FnMut(SampleRef<'_>)),
 }
 
-/// What a signal of a robot is now; nothing is told where the robot does not say it.
+/// What a signal of a robot is now; `to` is not called where the robot has no value for it.
 pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
     robot.sample(&mut Samples::of_one(robot.now(), signal, to));
 }

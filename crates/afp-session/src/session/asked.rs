@@ -53,7 +53,7 @@ where
     R: Robot,
     S: Keep,
 {
-    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is told to
+    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is reported to
     /// observers.
     ///
     /// # Errors
