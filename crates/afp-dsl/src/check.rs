@@ -263,8 +263,8 @@ fn select(
     let name = |head: &PlanHead| head.name.as_ref().map(|name| name.text.clone());
     let own = || program.plans.iter().filter(|head| head.file == 0);
     if let Some(main) = main {
-        let place = own().position(|head| name(head).as_deref() == Some(main));
-        if place.is_none() {
+        let index = own().position(|head| name(head).as_deref() == Some(main));
+        if index.is_none() {
             let names: Vec<_> = own().filter_map(name).collect();
             let message = format!("the file has no plan '{main}'");
             let help = match names.as_slice() {
@@ -274,12 +274,12 @@ fn select(
             let top = file.whole().before();
             diags.push(Diagnostic::new(Code::E0504, top, message).help(help));
         }
-        return place;
+        return index;
     }
     if own().next().is_none()
-        && let Some(place) = scenario::first_plan(program, file)
+        && let Some(index) = scenario::first_plan(program, file)
     {
-        return Some(place);
+        return Some(index);
     }
     let empty = own().next().is_none();
     if empty && !diags.has_errors() {

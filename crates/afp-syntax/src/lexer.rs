@@ -149,13 +149,13 @@ impl<'t> Lexer<'t, '_> {
         let rest = &self.text[self.at..];
         let line = &rest[..line_length(rest)];
         let mut escaped = false;
-        for (place, each) in line.char_indices().skip(1) {
+        for (index, each) in line.char_indices().skip(1) {
             match each {
                 _ if escaped => escaped = false,
                 '\\' => escaped = true,
                 '"' => {
                     let start = self.at;
-                    self.push(Kind::Text, place + 1);
+                    self.push(Kind::Text, index + 1);
                     return self.invisible(start);
                 }
                 _ => {}

@@ -220,11 +220,11 @@ impl Judge<'_> {
     fn compare(&mut self, view: &View<'_>) {
         let entries = &self.scenario.graph.main().entries;
         let held = (0..entries.len() as u16).map(|entry| view.entry(entry));
-        let Some((place, held, known)) = self.watch.differs(held).filter(|_| self.is_consistent)
+        let Some((index, held, known)) = self.watch.differs(held).filter(|_| self.is_consistent)
         else {
             return;
         };
-        let name = entries.get(place).map_or("", |entry| entry.name.as_str());
+        let name = entries.get(index).map_or("", |entry| entry.name.as_str());
         self.broken.push(Broken {
             text: "(entries hold what was committed)".to_owned(),
             span: self.scenario.span,

@@ -167,7 +167,7 @@ impl<'a> Watch<'a> {
     ) -> Option<(usize, ValueRef<'v>, ValueRef<'v>)> {
         let committed = self.state.entries.iter().map(Value::borrow);
         let pairs = held.zip(committed).enumerate();
-        let mut pairs = pairs.map(|(place, (held, committed))| (place, held, committed));
+        let mut pairs = pairs.map(|(index, (held, committed))| (index, held, committed));
         pairs.find(|(_, held, committed)| held != committed)
     }
 

@@ -196,8 +196,8 @@ fn outcome_of(unit: &Unit, name: &str) -> Option<u16> {
         "DeadlineMissed" => return Some(DEADLINE_MISSED),
         _ => {}
     }
-    let place = unit.outcomes.iter().position(|(known, _)| known == name)?;
-    u16::try_from(place).ok()
+    let index = unit.outcomes.iter().position(|(known, _)| known == name)?;
+    u16::try_from(index).ok()
 }
 
 fn time(at: Instant) -> String {

@@ -156,15 +156,15 @@ fn find_ports<'a>(
                 bound_names(scope, bind);
                 ports.complete = false;
                 diags.push(alone::without_entry(bind));
-                if let Some(place) = input {
-                    ports.inputs[place] = Some(None);
+                if let Some(index) = input {
+                    ports.inputs[index] = Some(None);
                 }
             }
-            (Bind::In { formula, .. }, Some(place), _) => {
-                ports.inputs[place] = Some(formula.as_ref());
+            (Bind::In { formula, .. }, Some(index), _) => {
+                ports.inputs[index] = Some(formula.as_ref());
             }
-            (Bind::Out { entry, formula, .. }, _, Some(place)) => {
-                ports.outputs.push((place, entry.as_ref(), formula.as_ref()));
+            (Bind::Out { entry, formula, .. }, _, Some(index)) => {
+                ports.outputs.push((index, entry.as_ref(), formula.as_ref()));
             }
             (_, None, None) => {
                 bound_names(scope, bind);

@@ -218,8 +218,8 @@ pub(super) fn connect<'e>(
     let extra = origin.extra();
     for edge in edges {
         let name = &edge.name;
-        let place = signature.outcomes.iter().position(|outcome| **outcome == *name.text);
-        outcome(origin, place, name, elements.record);
+        let index = signature.outcomes.iter().position(|outcome| **outcome == *name.text);
+        outcome(origin, index, name, elements.record);
         if let Some(first) = seen.iter().find(|known| known.text == name.text) {
             diags.push(
                 Diagnostic::new(
@@ -235,10 +235,10 @@ pub(super) fn connect<'e>(
         }
         let span = edge.span;
         let target = target(edge, origin, elements, diags);
-        match place {
-            Some(place) => {
-                connected.outcomes[place] = target;
-                connected.spans.outcomes[place] = Some(span);
+        match index {
+            Some(index) => {
+                connected.outcomes[index] = target;
+                connected.spans.outcomes[index] = Some(span);
             }
             None if name.text == extra => {
                 connected.extra = target;
@@ -374,7 +374,7 @@ pub(crate) fn find(
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<ElementId> {
-    let Some(place) = elements.indices.find(&to.text) else {
+    let Some(index) = elements.indices.find(&to.text) else {
         elements.record.unknown(to.span);
         let words = [TERMINATE, FAIL].into_iter();
         let words =
@@ -391,10 +391,10 @@ pub(crate) fn find(
         });
         return None;
     };
-    if let Some(name) = &elements.names[place] {
+    if let Some(name) = &elements.names[index] {
         elements.record.definition(to.span, name.span);
     }
-    u16::try_from(place).ok().map(ElementId)
+    u16::try_from(index).ok().map(ElementId)
 }
 
 /// Reports what is not connected; each unknown one stands for one of those.

@@ -55,8 +55,8 @@ pub(crate) struct Members {
 }
 
 /// Checks a plan.
-pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics) -> CheckedPlan {
-    let head = &program.plans[place];
+pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics) -> CheckedPlan {
+    let head = &program.plans[index];
     let context = Context { program, file: &program.files[head.file] };
     let elements = head.node.elements();
     let names = declare(head, &elements, program.record, diags);
@@ -140,8 +140,8 @@ fn scope<'a>(context: Context<'a>, head: &'a PlanHead) -> Scope<'a> {
     }
 }
 
-fn id(place: usize) -> Option<u16> {
-    u16::try_from(place).ok()
+fn id(index: usize) -> Option<u16> {
+    u16::try_from(index).ok()
 }
 
 /// The element with the supervisors that stand in it.

@@ -17,22 +17,22 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
     let elements: Vec<_> = elements.into_iter().collect();
     let mut before: Vec<Vec<usize>> = vec![Vec::new(); elements.len()];
     let mut open = Vec::new();
-    for (place, element) in elements.iter().enumerate() {
+    for (index, element) in elements.iter().enumerate() {
         let Some(element) = element.filter(|element| is_computation(element)) else { continue };
         for target in targets(element) {
             match target {
-                Target::Resume => open.push(place),
+                Target::Resume => open.push(index),
                 Target::Element(id) => {
-                    before.get_mut(id.index()).into_iter().for_each(|list| list.push(place));
+                    before.get_mut(id.index()).into_iter().for_each(|list| list.push(index));
                 }
                 Target::Terminate | Target::Fail(_) | Target::Ignore => {}
             }
         }
     }
     let mut resuming = vec![false; elements.len()];
-    while let Some(place) = open.pop() {
-        if !std::mem::replace(&mut resuming[place], true) {
-            open.extend(&before[place]);
+    while let Some(index) = open.pop() {
+        if !std::mem::replace(&mut resuming[index], true) {
+            open.extend(&before[index]);
         }
     }
     resuming

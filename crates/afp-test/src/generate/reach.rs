@@ -100,12 +100,12 @@ impl Reach {
         let mut activations = run(&scenario)?.activations;
         activations.sort_by_key(|active| active.from);
         for active in activations.iter().filter(|active| active.to > active.from) {
-            let place = active.element as usize;
-            if self.found.len() <= place {
-                self.found.resize(place + 1, None);
+            let index = active.element as usize;
+            if self.found.len() <= index {
+                self.found.resize(index + 1, None);
             }
             // The first run that reaches something is the one with the fewest stimuli.
-            self.found[place].get_or_insert((self.ways.len(), *active));
+            self.found[index].get_or_insert((self.ways.len(), *active));
         }
         self.ways.push(Way { seed, steps, activations });
         Ok(())

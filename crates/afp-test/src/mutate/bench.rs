@@ -199,8 +199,8 @@ impl<'a> Bench<'a> {
         let own = compiled.scenarios.iter().filter(|each| each.plan_file == self.plan_file);
         let mut all: Vec<Scenario> = own.cloned().collect();
         let mut plans: Vec<String> = Vec::new();
-        for place in 0..all.len() {
-            let Some(scenario) = all.get(place) else { continue };
+        for index in 0..all.len() {
+            let Some(scenario) = all.get(index) else { continue };
             let plan = scenario.graph.main();
             let open =
                 |entry: &afp_dsl::graph::Entry| entry.kind == EntryKind::In && entry.init.is_none();

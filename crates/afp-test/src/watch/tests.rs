@@ -112,5 +112,5 @@ fn an_entry_that_changes_without_a_commit_is_noticed() {
     let (one, two) = (Value::Float(1.0), Value::Float(2.0));
     assert!(watch.differs([one.borrow(), one.borrow()].into_iter()).is_none());
     let found = watch.differs([one.borrow(), two.borrow()].into_iter());
-    assert_eq!(found.map(|(place, ..)| place), Some(1));
+    assert_eq!(found.map(|(index, ..)| index), Some(1));
 }

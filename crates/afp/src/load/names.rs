@@ -121,17 +121,17 @@ impl Names for PlanNames {
     }
 
     fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
-        let place = usize::from(port);
-        let names = self.get(id).and_then(|names| names.inputs.get(place));
-        names.map_or(PortName::default(), |names| self.port(id, 0, place, names))
+        let index = usize::from(port);
+        let names = self.get(id).and_then(|names| names.inputs.get(index));
+        names.map_or(PortName::default(), |names| self.port(id, 0, index, names))
     }
 
     fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
         let all = self.get(id).map_or(&[][..], |names| &names.outputs);
         let bound = all.iter().enumerate().find(|(_, (position, _))| *position == port);
-        bound.map_or(PortName::default(), |(place, (_, names))| PortName {
+        bound.map_or(PortName::default(), |(index, (_, names))| PortName {
             entry: Some(&names.entry),
-            ..self.port(id, 1, place, names)
+            ..self.port(id, 1, index, names)
         })
     }
 

@@ -277,8 +277,8 @@ impl Components<'_> {
         let mut written = Written::default();
         for time in node.timings() {
             let Some(keyword) = time.keyword() else { continue };
-            let place = usize::from(keyword.text == "deadline");
-            if let Some(first) = written.words[place] {
+            let index = usize::from(keyword.text == "deadline");
+            if let Some(first) = written.words[index] {
                 if let Some(value) = time.value() {
                     self.scope.names_only(&value);
                 }
@@ -293,9 +293,9 @@ impl Components<'_> {
                 );
                 continue;
             }
-            written.words[place] = Some(keyword.span);
+            written.words[index] = Some(keyword.span);
             let value = timing::of_supervisor(&time, self.scope, diags);
-            written.values[place] = value.map(|value| (value, time.span()));
+            written.values[index] = value.map(|value| (value, time.span()));
         }
         written
     }
@@ -307,7 +307,7 @@ impl Components<'_> {
             _ => None,
         });
         let entries = names.filter_map(|name| self.scope.indices.find(&name.text));
-        entries.filter_map(|place| u16::try_from(place).ok().map(EntryId)).collect()
+        entries.filter_map(|index| u16::try_from(index).ok().map(EntryId)).collect()
     }
 
     fn build_supervisor(

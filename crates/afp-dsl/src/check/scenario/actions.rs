@@ -225,8 +225,8 @@ impl Checker<'_> {
         let mut valid = true;
         for bind in binds {
             let port = bind.port();
-            let place = wanted.iter().position(|(_, known, _)| known.name == port.text);
-            let Some(place) = place else {
+            let index = wanted.iter().position(|(_, known, _)| known.name == port.text);
+            let Some(index) = index else {
                 let message =
                     format!("'{}' brings no connected output '{}'", path.text(), port.text);
                 let known = wanted.iter().map(|(_, port, _)| port.name.as_str());
@@ -243,8 +243,8 @@ impl Checker<'_> {
                 valid = false;
                 continue;
             };
-            values[place] = self.constant(formula, &wanted[place].2, diags).map(|(_, value)| value);
-            valid &= values[place].is_some();
+            values[index] = self.constant(formula, &wanted[index].2, diags).map(|(_, value)| value);
+            valid &= values[index].is_some();
         }
         let missing = wanted.iter().zip(&values).filter(|(_, value)| value.is_none());
         let missing: Vec<_> = missing.map(|((_, port, ty), _)| (port, ty)).collect();
@@ -265,7 +265,7 @@ impl Checker<'_> {
             return None;
         }
         let values: Option<Vec<_>> =
-            wanted.iter().zip(values).map(|((place, ..), value)| Some((*place, value?))).collect();
+            wanted.iter().zip(values).map(|((index, ..), value)| Some((*index, value?))).collect();
         values
     }
 }

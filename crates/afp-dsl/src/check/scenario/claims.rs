@@ -216,7 +216,7 @@ impl Checker<'_> {
     /// How an outcome is named behind `by`.
     fn outcome_name(&self, from: Found, found: Found, outcome: Outcome) -> String {
         let name = match outcome {
-            Outcome::Declared(place) => self.paths.outcomes(found)[usize::from(place)],
+            Outcome::Declared(index) => self.paths.outcomes(found)[usize::from(index)],
             Outcome::Special => self.paths.special(found),
         };
         match found == from {

@@ -117,8 +117,8 @@ impl<'a> Paths<'a> {
     pub fn entry(&self, names: &[Name]) -> Result<(u32, PlanId, EntryId), Box<Diagnostic>> {
         let walk = self.names.entry(self.main, names);
         let instance = self.enter(self.main(), &walk);
-        let place = u16::try_from(walk.end?).unwrap_or(u16::MAX);
-        Ok((instance.entries + u32::from(place), instance.plan, EntryId(place)))
+        let index = u16::try_from(walk.end?).unwrap_or(u16::MAX);
+        Ok((instance.entries + u32::from(index), instance.plan, EntryId(index)))
     }
 
     /// The components of the outermost plan, each with its dotted name.
@@ -193,12 +193,12 @@ impl<'a> Paths<'a> {
     pub fn target(&self, found: Found, outcome: Outcome) -> Option<Target> {
         let plan = self.plan(found.instance);
         match (found.part, outcome) {
-            (Part::Element(id), Outcome::Declared(place)) => {
-                plan.elements[id.index()].states.get(usize::from(place)).copied().flatten()
+            (Part::Element(id), Outcome::Declared(index)) => {
+                plan.elements[id.index()].states.get(usize::from(index)).copied().flatten()
             }
             (Part::Element(id), Outcome::Special) => plan.elements[id.index()].on_error,
-            (Part::Supervisor(id), Outcome::Declared(place)) => {
-                plan.supervisors[id.index()].events.get(usize::from(place)).copied()
+            (Part::Supervisor(id), Outcome::Declared(index)) => {
+                plan.supervisors[id.index()].events.get(usize::from(index)).copied()
             }
             (Part::Supervisor(id), Outcome::Special) => plan.supervisors[id.index()].on_miss,
         }
@@ -241,7 +241,7 @@ impl<'a> Paths<'a> {
             }
         };
         let edge = match outcome {
-            Outcome::Declared(place) => edges.outcomes.get(usize::from(place)).copied().flatten(),
+            Outcome::Declared(index) => edges.outcomes.get(usize::from(index)).copied().flatten(),
             Outcome::Special => edges.extra,
         };
         edge.unwrap_or(span)
