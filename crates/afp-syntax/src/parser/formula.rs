@@ -204,7 +204,7 @@ impl Parser<'_, '_> {
     fn bare_fraction(&mut self) {
         let here = self.here();
         let error = Diagnostic::new(Code::E0115, here, "a number begins with a digit");
-        self.error(match self.place(1) == self.place(0) + 1 {
+        self.error(match self.token_index(1) == self.token_index(0) + 1 {
             true => error.help("write '0' before the point").fix(here.before(), "0"),
             false => error.help("write '0' before the point, and its digits right behind it"),
         });

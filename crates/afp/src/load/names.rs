@@ -40,18 +40,18 @@ impl PlanNames {
         self.0.all.components.get(id.0 as usize)
     }
 
-    /// A port; its unit is the `place`-th of that kind.
+    /// A port; its unit is the `index`-th of that kind.
     fn port<'a>(
         &'a self,
         id: ComponentId,
         kind: usize,
-        place: usize,
+        index: usize,
         names: &'a PortNames,
     ) -> PortName<'a> {
         let units = self.0.units.get(id.0 as usize).and_then(|units| units.get(kind));
         PortName {
             name: &names.name,
-            unit: units.and_then(|units| units.get(place)).map_or("", String::as_str),
+            unit: units.and_then(|units| units.get(index)).map_or("", String::as_str),
             range: names.range,
             entry: None,
             place: self.place(names.span),

@@ -237,15 +237,16 @@ impl Checker<'_> {
         let first = names.first()?;
         let paths = &self.paths;
         let here = from.instance;
-        let (found, rest) = match paths.names.cause(paths.main, here.place(), from.part, &names)? {
-            resolve::Cause::Own(outcome) => return Some((from, Some(outcome))),
-            resolve::Cause::Near(part) => (Found { instance: here, part }, &names[1..]),
-            resolve::Cause::Inside(walk) => paths.arrived(here, walk, &names).ok()?,
-            resolve::Cause::Outside(walk) => paths
-                .arrived(paths.main(), walk, &names)
-                .map_err(|_| diags.push(self.unknown_cause(from, first)))
-                .ok()?,
-        };
+        let (found, rest) =
+            match paths.names.cause(paths.main, here.plan_index(), from.part, &names)? {
+                resolve::Cause::Own(outcome) => return Some((from, Some(outcome))),
+                resolve::Cause::Near(part) => (Found { instance: here, part }, &names[1..]),
+                resolve::Cause::Inside(walk) => paths.arrived(here, walk, &names).ok()?,
+                resolve::Cause::Outside(walk) => paths
+                    .arrived(paths.main(), walk, &names)
+                    .map_err(|_| diags.push(self.unknown_cause(from, first)))
+                    .ok()?,
+            };
         self.outcome(found, rest, diags).map(|outcome| (found, outcome))
     }
 
