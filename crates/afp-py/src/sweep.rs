@@ -20,7 +20,7 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
 use afp_session::Loader;
-use afp_sweep::{Header, Journal, Outcome, Place, Row, Setting, Sweep};
+use afp_sweep::{Header, Journal, Outcome, OutputFiles, Row, Setting, Sweep};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -54,7 +54,7 @@ pub struct Sweeper {
 struct Done {
     outcomes: Vec<Outcome>,
     journal: Option<Journal>,
-    place: Option<Place>,
+    output: Option<OutputFiles>,
 }
 
 #[pymethods]
@@ -126,12 +126,12 @@ impl Sweeper {
 
     /// Keeps outcomes in a journal beside the table `out`, and takes up those that are there.
     fn open(&self, out: &str, restart: bool) -> PyResult<()> {
-        let place = Place::new(Some(Path::new(out)), &self.file, &self.header);
-        let place = place.map_err(|why| run_error(&why))?;
-        let journal = Journal::open(&place.journal, &self.header, restart);
+        let output = OutputFiles::new(Some(Path::new(out)), &self.file, &self.header);
+        let output = output.map_err(|why| run_error(&why))?;
+        let journal = Journal::open(&output.journal, &self.header, restart);
         let (journal, outcomes) = journal.map_err(|why| run_error(&why))?;
         let done = &mut *self.lock()?;
-        *done = Done { outcomes, journal: Some(journal), place: Some(place) };
+        *done = Done { outcomes, journal: Some(journal), output: Some(output) };
         Ok(())
     }
 
@@ -241,13 +241,13 @@ impl Sweeper {
         Ok((runner, World { loaded }))
     }
 
-    /// Writes the table, if it has a place, and lets go of the journal; its paths.
+    /// Writes the table, if it is written anywhere, and closes the journal; its paths.
     fn write(&self) -> PyResult<Vec<PathBuf>> {
         let mut done = self.lock()?;
         done.journal = None;
-        let Some(place) = &done.place else { return Ok(Vec::new()) };
-        place.write(&self.sweep, &done.sorted()).map_err(|why| run_error(&why))?;
-        Ok(place.tables.iter().map(|(path, _)| path.clone()).collect())
+        let Some(output) = &done.output else { return Ok(Vec::new()) };
+        output.write(&self.sweep, &done.sorted()).map_err(|why| run_error(&why))?;
+        Ok(output.tables.iter().map(|(path, _)| path.clone()).collect())
     }
 
     /// The outcomes so far by column, in the order of the runs; the second of a pair is the type.

@@ -1,6 +1,6 @@
 //! What a run says about itself: a timeline for people, lines of JSON for machines, a summary.
 
-mod behind;
+mod background;
 mod json;
 mod progress;
 mod summary;
@@ -17,7 +17,7 @@ use afp_session::{Applied, EventKind, NamedRecord, Observer, RunEvent};
 use crate::options::TimeKeeper;
 use crate::stderr::warn;
 
-use behind::{Behind, Out};
+use background::{BackgroundWriter, Out};
 use progress::Progress;
 pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
 
@@ -79,7 +79,9 @@ impl Report {
     pub(crate) fn new(json: bool, end: Instant, keeper: TimeKeeper) -> io::Result<Self> {
         let terminal = io::stdout().is_terminal();
         let out = match (keeper, terminal) {
-            (TimeKeeper::Robot, _) => Out::Behind(Behind::new(Box::new(anstream::stdout()))?),
+            (TimeKeeper::Robot, _) => {
+                Out::BackgroundWriter(BackgroundWriter::new(Box::new(anstream::stdout()))?)
+            }
             // Line by line for people, in blocks for pipes.
             (_, true) => Out::Here(Box::new(anstream::stdout())),
             (_, false) => Out::Here(Box::new(io::BufWriter::new(anstream::stdout()))),
