@@ -1,4 +1,4 @@
-//! A log as something to be debugged: what was recorded is told again, and nothing of it can be changed.
+//! A target that is a log: its events are reported again, and none of them can be changed.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! A session as something to be debugged: its time stands still while nobody lets it pass.
+//! A target that is a session: time passes in it only while a client lets the run go on.
 
 use std::sync::Arc;
 

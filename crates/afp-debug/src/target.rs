@@ -1,4 +1,4 @@
-//! What a running plan can be asked.
+//! The interface between the adapter and a run: inspect it, let it go on, change it.
 
 use std::sync::Arc;
 

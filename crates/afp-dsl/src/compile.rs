@@ -1,4 +1,4 @@
-//! The front door: a plan's text in; its graph, or everything that is wrong with it, out.
+//! The entry point of the compiler: a plan's text in; its graph, or everything that is wrong with it, out.
 
 use std::ops::Range;
 

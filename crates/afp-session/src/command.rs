@@ -1,4 +1,4 @@
-//! Command lines for people to repeat: how `afpc run` has a run once more.
+//! Command lines that repeat a run with `afpc run`.
 
 use afp_core::Duration;
 

@@ -1,4 +1,4 @@
-//! The clients of a run: each counts for itself, is told what it asked for, and goes when it likes.
+//! The clients of a run: how each counts lines, which events it subscribed to, joining and leaving.
 
 use dapts::IEvent;
 use serde_json::{Value, json};

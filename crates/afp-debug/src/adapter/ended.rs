@@ -1,4 +1,4 @@
-//! How a run has ended: by what, what it came to, and how it is had once more.
+//! How a run has ended: by what, with which figures, and by which command it is repeated.
 
 use afp_session::{EndingKind, Figure, FigureValue};
 use dapts::event;

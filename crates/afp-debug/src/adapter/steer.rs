@@ -1,4 +1,4 @@
-//! Letting time pass: until something holds the run.
+//! Lets time pass until a step is complete, a breakpoint is hit, or a client pauses the run.
 
 use std::time::Duration as Wall;
 

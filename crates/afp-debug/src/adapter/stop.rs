@@ -1,4 +1,4 @@
-//! What a client is told while a run goes on, and when it stands still.
+//! What is sent to clients while a run goes on, and when it is paused.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The robot finds itself and its ways on its map, and a judge notes how far off it is.
+//! Localisation and path planning of the robot, and a measure of the localisation error.
 
 mod located;
 
