@@ -80,7 +80,7 @@ impl Report {
         let terminal = io::stdout().is_terminal();
         let out = match (keeper, terminal) {
             (TimeKeeper::Robot, _) => {
-                Out::BackgroundWriter(BackgroundWriter::new(Box::new(anstream::stdout()))?)
+                Out::Background(BackgroundWriter::new(Box::new(anstream::stdout()))?)
             }
             // Line by line for people, in blocks for pipes.
             (_, true) => Out::Here(Box::new(anstream::stdout())),
