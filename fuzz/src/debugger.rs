@@ -6,7 +6,7 @@ use std::time::Duration as Wall;
 use afp_core::Instant;
 use afp_core::trace::ComponentId;
 use afp_debug::wire::Frames;
-use afp_debug::{Adapter, Host, Launch, LogTarget, Program, Target, Outgoing};
+use afp_debug::{Adapter, Host, Launch, LogTarget, Outgoing, Program, Target};
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
