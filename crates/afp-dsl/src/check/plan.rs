@@ -1,6 +1,7 @@
 //! One plan: elements, supervisors, `start`.
 
 mod component;
+mod faults;
 
 use std::rc::Rc;
 
@@ -23,6 +24,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
 use component::{Checked, Components};
+use faults::Owner;
 
 pub(crate) use component::{Made, WrittenParts};
 
@@ -95,8 +97,9 @@ pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics
         members.elements.push(draft);
         let Some(draft) = members.elements.last_mut() else { continue };
         draft.supervisors.reserve_exact(nodes.len());
+        let owner = Owner::new(id(at).map(ElementId), draft);
         for guard in nodes {
-            let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
+            let checked = components.supervisor(&guard, Some(owner), diags);
             supervisors.push(checked.built);
             guards.extend(checked.user);
             of_locals.push(checked.signature);
