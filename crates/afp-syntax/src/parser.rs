@@ -151,7 +151,7 @@ impl<'t, 'd> Parser<'t, 'd> {
     fn begins_line(&self, ahead: usize) -> bool {
         let before = (self.at + ahead).checked_sub(1).and_then(|before| self.solid.get(before));
         let from = before.map_or(0, |before| *before as usize + 1);
-        self.tokens[from..self.token_index(ahead)].iter().any(|token| token.text.contains('\n'))
+        self.tokens[from..self.token_index(ahead)].iter().any(Token::ends_line)
     }
 
     /// How many tokens stand before a brace of a kind on this line.
@@ -323,7 +323,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         for index in self.built..to {
             match self.tokens[index].kind {
                 Kind::Comment => own = index + 1,
-                Kind::Whitespace if !self.tokens[index].text.contains('\n') => continue,
+                Kind::Whitespace if !self.tokens[index].ends_line() => continue,
                 _ => {}
             }
             break;
@@ -336,8 +336,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 /// How many of the trivia before an item stand apart from it: everything up to the last blank line,
 /// unless help text stands above that.
 fn own_trivia(trivia: &[Token<'_>]) -> usize {
-    let is_blank_line =
-        |token: &Token<'_>| token.kind == Kind::Whitespace && token.text.matches('\n').count() > 1;
+    let is_blank_line = |token: &Token<'_>| token.kind == Kind::Whitespace && token.breaks > 1;
     let after_blank = trivia.iter().rposition(is_blank_line).map_or(0, |index| index + 1);
     let help = trivia.iter().position(|token| token.kind == Kind::Doc).unwrap_or(trivia.len());
     let before_help = trivia[..help].iter().rposition(is_blank_line).map_or(0, |index| index + 1);

@@ -132,20 +132,19 @@ fn find_ports<'a>(
 ) -> Ports<'a> {
     let mut ports =
         Ports { inputs: vec![None; signature.inputs.len()], outputs: Vec::new(), complete: true };
-    let mut seen: Vec<&Name> = Vec::new();
-    for bind in binds {
+    for (at, bind) in binds.iter().enumerate() {
         let (Bind::In { port, sign, .. } | Bind::Out { port, sign, .. }) = bind;
         let alone = bind.is_alone();
         let input = signature.inputs.iter().position(|input| *input.name == *port.text);
         let output = signature.outputs.iter().position(|output| *output.name == *port.text);
         record_port(scope, signature, (port.span, alone), (input, output));
-        if let Some(first) = seen.iter().find(|known| known.text == port.text) {
+        let mut before = binds[..at].iter().map(Bind::port);
+        if let Some(first) = before.find(|known| known.text == port.text) {
             diags.push(bound_twice(port, first));
             ports.complete = false;
             bound_names(scope, bind);
             continue;
         }
-        seen.push(port);
         match (bind, input, output) {
             (_, None, None) if alone => {
                 bound_names(scope, bind);

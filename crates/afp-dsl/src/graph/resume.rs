@@ -41,8 +41,10 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
 /// The computations that an edge may run before it resumes or leads elsewhere, none twice; and
 /// whether any of their edges leads elsewhere.
 pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, bool) {
-    let (mut run, mut elsewhere, mut open) = (Vec::new(), false, vec![first]);
-    while let Some(target) = open.pop() {
+    // Most edges lead to what takes time, and cost no allocation.
+    let (mut run, mut elsewhere, mut open) = (Vec::new(), false, Vec::new());
+    let mut next = Some(first);
+    while let Some(target) = next {
         match target {
             Target::Element(id) => match elements.get(id.index()) {
                 Some(element) if is_computation(element) => {
@@ -56,6 +58,7 @@ pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, boo
             Target::Terminate | Target::Fail(_) => elsewhere = true,
             Target::Ignore | Target::Resume => {}
         }
+        next = open.pop();
     }
     (run, elsewhere)
 }

@@ -22,10 +22,7 @@ impl Marks {
     /// Finds them; `solid` are the places of the tokens that are read.
     pub(super) fn new(tokens: &[Token<'_>], solid: &[u32]) -> Marks {
         let mut marks = Marks::default();
-        // Every other token ends on its line.
-        let may_break =
-            |token: &&Token<'_>| matches!(token.kind, Kind::Whitespace | Kind::BlockComment);
-        for token in tokens.iter().filter(may_break) {
+        for token in tokens.iter().filter(|token| token.ends_line()) {
             for (at, byte) in (token.start..).zip(token.text.as_bytes()) {
                 if *byte == b'\n' {
                     marks.newlines.push(at);
