@@ -34,7 +34,11 @@ pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
 /// A record as a line of the timeline; `None` for what is not worth one.
 pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<String> {
     let template = match *record {
-        Record::Polled { .. } | Record::Input { .. } => return None,
+        Record::Polled { .. } => return None,
+        Record::Input { component, .. } => match names.component(component).template {
+            timeline::LOG => timeline::LOG,
+            _ => return None,
+        },
         Record::Started { component } => match names.component(component) {
             name if name.kind == ComponentKind::Supervisor => return None,
             name => name.template,
@@ -105,10 +109,11 @@ impl Report {
 
     /// Tells of a record, if it is worth it.
     pub(crate) fn tell(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
-        if matches!(record, Record::Polled { .. } | Record::Input { .. }) {
+        if matches!(record, Record::Polled { .. }) {
             return;
         }
         let line = match self.json {
+            true if matches!(record, Record::Input { .. }) => return,
             true => json::line(&RunEvent::new(at, record, names)),
             false => line(at, record, names),
         };

@@ -34,6 +34,29 @@ fn a_log_tells_what_the_run_told() {
 }
 
 #[test]
+fn what_a_plan_writes_to_its_log_is_in_the_timeline() {
+    let place = Place::new();
+    let text = r#"use std
+plan P {
+    in gap: length = 42 cm
+    in side: string = "right"
+    start wide
+    computation wide: Log(value = gap * 2) { Done -> where }
+    computation where: Log(value = side) { Done -> terminate }
+}
+"#;
+    place.write("p.afp", text);
+    let run = place.afpc("run p.afp --log a.mcap --svg none");
+    let log = place.afpc("log a.mcap");
+    for said in [run, log] {
+        said.succeeds();
+        for line in ["0.000  ✎ wide: value = 84 cm", r#"0.000  ✎ where: value = "right""#] {
+            assert!(said.out.contains(line), "{line} is not in {}", said.out);
+        }
+    }
+}
+
+#[test]
 fn what_failed_to_start_is_in_the_tables() {
     let place = Place::new();
     place.write(
