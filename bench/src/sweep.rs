@@ -56,7 +56,7 @@ pub fn run(rounds: u32, report: &mut Report) {
         presses: Vec::new(),
         failures: Vec::new(),
         plan: source.name.clone(),
-        worlds: vec![afp_sweep::Room::OfPlan],
+        worlds: vec![afp_sweep::WorldChoice::OfPlan],
         axes: Vec::new(),
         seeds: Seeds::new(0..LONG),
         until: Duration::from_secs(SECONDS),

@@ -6,7 +6,7 @@ use std::time::Duration as Wall;
 use afp_core::Instant;
 use afp_core::trace::ComponentId;
 use afp_debug::wire::Frames;
-use afp_debug::{Adapter, Host, Launch, LogTarget, Program, Target, Told};
+use afp_debug::{Adapter, Host, Launch, LogTarget, Outgoing, Program, Target};
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
@@ -85,7 +85,7 @@ pub fn debugger(data: &[u8]) {
         let is_request = serde_json::from_value::<dapts::Request>(message).is_ok();
         let asked = usize::from(is_request && !is_answer);
         let said = adapter.handle(from, line, now);
-        let is_response = |said: &&Told| {
+        let is_response = |said: &&Outgoing| {
             let message = serde_json::from_str::<Value>(&said.message).unwrap_or_default();
             said.to == from && message["type"] == "response"
         };

@@ -25,7 +25,10 @@ where
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
         let Reading { time, value } = env.glow();
-        let sight = |glow: Glow| Sight { bearing: glow.bearing.si(), way: self.way(glow.strength) };
+        let sight = |glow: Glow| Sight {
+            bearing: glow.bearing.si(),
+            distance: self.distance(glow.strength),
+        };
         let light = Reading { time, value: value.map(|glow| glow.map(sight)) };
         Ok(match self.approaching.poll(light, env, now)? {
             Some(Approached::Reached) => Poll::Ready(State::InfraredReached),
@@ -41,9 +44,9 @@ where
 }
 
 impl ApproachInfrared {
-    /// The way left, metres, were the source of strength 1: brightness falls with the square of the
+    /// The distance left, metres, were the source of strength 1: brightness falls with the square of the
     /// distance.
-    fn way(&self, strength: f64) -> f64 {
+    fn distance(&self, strength: f64) -> f64 {
         let distance = |strength: f64| 1.0 / libm::sqrt(strength.max(1e-6));
         distance(strength) - distance(self.strength)
     }

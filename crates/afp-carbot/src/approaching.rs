@@ -10,14 +10,14 @@ use afp_core::{Fault, Instant};
 
 /// Speed is gained and lost at this many metres a second squared.
 const ACCELERATION: f64 = 0.5;
-/// It counts as reached when the way left is less than this, metres.
+/// It counts as reached when the distance left is less than this, metres.
 const CLOSE: f64 = 0.005;
 /// How sharply to steer: turn rate per radian off.
 const STEER: f64 = 1.5;
 /// The share of a new reading in what is steered by.
 const NEWS: f64 = 0.4;
 
-/// Steers by direction and way left, smoothed, and stops where no way is left.
+/// Steers by direction and distance left, smoothed, and stops where no distance is left.
 ///
 /// What a reading says holds for where the robot was when it was measured; from there the odometry goes on.
 #[derive(Clone, Debug)]
@@ -38,27 +38,27 @@ pub(crate) struct Approaching {
     ending: Option<Approached>,
 }
 
-/// What a sensor sees: where, radians against the heading, and the way left to it, metres.
+/// What a sensor sees: where, radians against the heading, and the distance left to it, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sight {
     pub(crate) bearing: f64,
-    pub(crate) way: f64,
+    pub(crate) distance: f64,
 }
 
 /// How it ended; the robot stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Approached {
-    /// No way is left.
+    /// No distance is left.
     Reached,
     /// It has not been seen for [`PATIENCE`].
     Lost,
 }
 
-/// What is steered by: the heading towards it, radians, and the way left from a place, metres.
+/// What is steered by: the heading towards it, radians, and the distance left from a place, metres.
 #[derive(Clone, Copy, Debug)]
 struct Target {
     heading: f64,
-    way: f64,
+    distance: f64,
     from: Pose,
 }
 
@@ -117,7 +117,7 @@ impl Approaching {
         };
         let bearing = wrap(target.heading - here.heading);
         let cruise = self.speed * libm::cos(bearing).max(0.0);
-        let speed = self.ramp.rate(target.way_from(here), cruise, now);
+        let speed = self.ramp.rate(target.distance_from(here), cruise, now);
         self.tracking.drive(env, &motion, (speed, STEER * bearing), now)?;
         Ok(None)
     }
@@ -129,16 +129,16 @@ impl Approaching {
             return Ok(());
         };
         self.last_look = reading.time;
-        let Some(Sight { bearing, way }) = sight else { return Ok(()) };
+        let Some(Sight { bearing, distance }) = sight else { return Ok(()) };
         self.seen = reading.time;
-        let new = Target { heading: then.heading + bearing, way, from: then };
+        let new = Target { heading: then.heading + bearing, distance, from: then };
         self.target = Some(self.target.map_or(new, |old| old.mixed(new)));
         Ok(())
     }
 
     /// What ends the approach, if something does.
     fn end(&self, target: Option<(Target, Pose)>) -> Option<Approached> {
-        if target.is_some_and(|(target, here)| target.way_from(here) < CLOSE) {
+        if target.is_some_and(|(target, here)| target.distance_from(here) < CLOSE) {
             return Some(Approached::Reached);
         }
         (self.last_look.since(self.seen) > PATIENCE).then_some(Approached::Lost)
@@ -146,18 +146,18 @@ impl Approaching {
 }
 
 impl Target {
-    /// The way left from another place.
-    fn way_from(&self, place: Pose) -> f64 {
+    /// The distance left from another place.
+    fn distance_from(&self, place: Pose) -> f64 {
         let (sin, cos) = libm::sincos(self.heading);
-        self.way - (place.x - self.from.x) * cos - (place.y - self.from.y) * sin
+        self.distance - (place.x - self.from.x) * cos - (place.y - self.from.y) * sin
     }
 
     /// With a share of something newer.
     fn mixed(&self, new: Target) -> Target {
-        let way = self.way_from(new.from);
+        let distance = self.distance_from(new.from);
         Target {
             heading: self.heading + NEWS * wrap(new.heading - self.heading),
-            way: way + NEWS * (new.way - way),
+            distance: distance + NEWS * (new.distance - distance),
             from: new.from,
         }
     }

@@ -22,7 +22,7 @@ pub struct CheckDrivingLane {
     clearance: f64,
     halfwidth: f64,
     /// Which of [`SWING`] the rotator goes to.
-    place: usize,
+    step: usize,
     target: f64,
     last_ping: Instant,
     guard: Guard,
@@ -40,7 +40,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
         Ok(CheckDrivingLane {
             clearance: inputs.clearance.si(),
             halfwidth: inputs.halfwidth.si() + inputs.margin.si(),
-            place: 0,
+            step: 0,
             target: 0.0,
             last_ping: now,
             guard: Guard::of_echoes(now),
@@ -65,8 +65,8 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
         let front = env.body().front.si() - beam.forward.si();
         let reach = front + live.distance.si() + self.clearance;
         if (echo.bearing.si() - self.target).abs() < ARRIVED {
-            self.place = (self.place + 1) % SWING.len();
-            self.target = SWING[self.place] * libm::atan2(self.halfwidth, reach);
+            self.step = (self.step + 1) % SWING.len();
+            self.target = SWING[self.step] * libm::atan2(self.halfwidth, reach);
             env.point(Angle::from_si(self.target), now);
             self.arrival = Arrival::new(now);
         } else {

@@ -23,8 +23,8 @@ pub struct Curve {
     speed: f64,
     ramp: Ramp,
     tracking: Tracking,
-    /// The way driven so far, metres, and where that was.
-    way: f64,
+    /// The distance driven so far, metres, and where that was.
+    driven: f64,
     last: Option<Motion>,
 }
 
@@ -37,7 +37,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
             speed: inputs.speed.si(),
             ramp: Ramp::new(ACCELERATION, now),
             tracking: Tracking::new(),
-            way: 0.0,
+            driven: 0.0,
             last: None,
         })
     }
@@ -68,17 +68,17 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
 }
 
 impl Curve {
-    /// Compares the way with the angle turned: a wheel that does not follow makes another arc, of which each part may be
+    /// Compares the distance driven with the angle turned: a wheel that does not follow makes another arc, of which each part may be
     /// near enough to what was commanded.
     ///
     /// # Errors
     /// [`DRIVE_STALLED`] when the arc is another one.
     fn check_arc(&mut self, turned: f64, motion: Motion) -> Result<(), Fault> {
         if let Some(last) = self.last.replace(motion) {
-            self.way += libm::hypot((motion.x - last.x).si(), (motion.y - last.y).si());
+            self.driven += libm::hypot((motion.x - last.x).si(), (motion.y - last.y).si());
         }
         let arc = self.radius * turned.abs();
-        let off = (self.way - arc).abs();
+        let off = (self.driven - arc).abs();
         if off > STEERED + OFF_ARC * arc { Err(DRIVE_STALLED) } else { Ok(()) }
     }
 }

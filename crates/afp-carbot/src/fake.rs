@@ -182,7 +182,7 @@ impl Fake {
         if self.millis().is_multiple_of(50) && self.millis() < self.range_dies {
             let (from, count) = self.lost_pings;
             let lost = self.millis() >= from && self.millis() < from.saturating_add(count * 50);
-            let distance = if lost { None } else { self.hear() };
+            let distance = if lost { None } else { self.nearest() };
             let now = Echo { distance, bearing: Angle::from_si(self.rotator) };
             let frozen = self.echo.value.ok().filter(|_| self.millis() >= self.range_freezes);
             let echo = frozen.unwrap_or(now);
@@ -198,7 +198,7 @@ impl Fake {
         }
     }
 
-    fn hear(&self) -> Option<Length> {
+    fn nearest(&self) -> Option<Length> {
         let heading = self.motion.heading.si();
         let x = self.motion.x.si() + FORWARD * heading.cos();
         let y = self.motion.y.si() + FORWARD * heading.sin();

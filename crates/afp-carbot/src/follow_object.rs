@@ -33,7 +33,7 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::FollowObject, E
         let front = (env.body().front - env.lens().forward).si();
         let sight = |seen: Sighting| Sight {
             bearing: seen.bearing.si(),
-            way: seen.distance.si().min(FAR) - front - self.distance,
+            distance: seen.distance.si().min(FAR) - front - self.distance,
         };
         let sight = Reading { time, value: value.map(|seen| seen.map(sight)) };
         Ok(match self.approaching.poll(sight, env, now)? {

@@ -1,4 +1,4 @@
-//! What a template does about sensors that fall silent.
+//! Time-outs of sensors: a template faults when one has given no valid reading for too long.
 
 use crate::devices::{Echo, Reading};
 use afp_core::{Duration, Fault, Instant, Reason};

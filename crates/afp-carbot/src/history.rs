@@ -60,7 +60,7 @@ impl History {
         // What lies close behind its predecessor makes room for what is newer.
         let before = self.latest(2).map(|(time, _)| time);
         if last.zip(before).is_some_and(|(last, before)| last.since(before) < APART) {
-            self.next = self.place(1);
+            self.next = self.slot(1);
         }
         self.poses[self.next] = Some((reading.time, motion.into()));
         self.next = (self.next + 1) % KEPT;
@@ -111,10 +111,10 @@ impl History {
 
     /// The latest, the one before it, and so on, counted from 1.
     fn latest(&self, ago: usize) -> Option<(Instant, Pose)> {
-        self.poses.get(self.place(ago)).copied().flatten()
+        self.poses.get(self.slot(ago)).copied().flatten()
     }
 
-    fn place(&self, ago: usize) -> usize {
+    fn slot(&self, ago: usize) -> usize {
         (self.next + KEPT - ago) % KEPT
     }
 }

@@ -2,9 +2,9 @@
 
 use afp_core::{Duration, Instant};
 
-/// A speed that ramps up, holds, and ramps down before the end of a known way.
+/// A speed that ramps up, holds, and ramps down before the end of a known distance.
 ///
-/// Works alike for lengths and angles: the unit is that of the way.
+/// Works alike for lengths and angles: the unit is that of the distance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ramp {
     rate: f64,
@@ -12,7 +12,7 @@ pub(crate) struct Ramp {
     last: Instant,
 }
 
-/// The end of a way is approached no faster than this share of the rest a second, so that the
+/// The end is approached no faster than this share of the rest a second, so that the
 /// motors' lag does not carry the robot past it.
 const APPROACH: f64 = 5.0;
 
@@ -25,7 +25,7 @@ impl Ramp {
         Ramp { rate: 0.0, acceleration, last: now }
     }
 
-    /// The rate to command now with `rest` of the way to go; never negative.
+    /// The rate to command now with `rest` to go; never negative.
     pub(crate) fn rate(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
         let gap = now.since(self.last).min(LONGEST_GAP).as_secs_f64();
         self.last = now;
@@ -48,19 +48,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ramp_drives_the_way_and_stops_at_its_end() {
+    fn a_ramp_drives_the_distance_and_stops_at_its_end() {
         let mut now = Instant::ZERO;
         let mut ramp = Ramp::new(0.5, now);
-        let (mut way, mut fastest, mut last) = (0.0, 0.0_f64, 0.0_f64);
+        let (mut driven, mut fastest, mut last) = (0.0, 0.0_f64, 0.0_f64);
         for _ in 0..600 {
             now = now + Duration::from_millis(10);
-            let rate = ramp.rate(1.0 - way, 0.2, now);
+            let rate = ramp.rate(1.0 - driven, 0.2, now);
             assert!(rate - last <= 0.5 * 0.01 + 1e-12, "jerk at {now}");
             (fastest, last) = (fastest.max(rate), rate);
-            way += rate * 0.01;
+            driven += rate * 0.01;
         }
         assert_eq!(fastest, 0.2);
-        assert!((way - 1.0).abs() < 0.001, "{way}");
+        assert!((driven - 1.0).abs() < 0.001, "{driven}");
     }
 
     #[test]

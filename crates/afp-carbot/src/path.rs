@@ -1,4 +1,4 @@
-//! A way on the map.
+//! A path on the map.
 
 use afp_core::{Fault, Reason};
 use heapless::Vec;

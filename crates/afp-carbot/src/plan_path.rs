@@ -1,4 +1,4 @@
-//! Plan the way to a place, again and again.
+//! Plan the path to a place, again and again.
 
 use crate::devices::{Localisation, Odometry, PathPlanner, Trip};
 use crate::guard::{Guard, NO_ODOMETRY, NO_POSITION};

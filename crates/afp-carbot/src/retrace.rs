@@ -1,4 +1,4 @@
-//! Go back by the way on which the robot came.
+//! Go back by the path on which the robot came.
 
 use crate::devices::{Motion, Navigator, Odometry};
 use crate::guard::{Guard, NO_ODOMETRY};
@@ -24,13 +24,13 @@ pub struct Retrace {
     ramp: Ramp,
     tracking: Tracking,
     odometry: Guard,
-    /// The way; none until the first reading.
-    way: Option<Way>,
+    /// The path; none until the first reading.
+    path: Option<PathBack>,
 }
 
-/// What is left of the way back.
+/// What is left of the path back.
 #[derive(Clone, Debug)]
-struct Way {
+struct PathBack {
     trail: Trail,
     /// Where the robot came from to where it goes now.
     from: Pose,
@@ -39,11 +39,11 @@ struct Way {
     rest: f64,
 }
 
-impl Way {
+impl PathBack {
     fn new(trail: Trail, here: Pose, rest: f64) -> Self {
-        let mut way = Way { trail: trail.back_from(&here), from: here, to: here, rest };
-        way.next();
-        way
+        let mut path = PathBack { trail: trail.back_from(&here), from: here, to: here, rest };
+        path.next();
+        path
     }
 
     /// Goes on to the place before, or as far towards it as is left.
@@ -52,7 +52,7 @@ impl Way {
         let before = self.trail.place(1);
         self.trail.drop_newest();
         let to = before.unwrap_or_else(|| self.from.behind(self.rest));
-        let leg = self.from.way_to(&to);
+        let leg = self.from.distance_to(&to);
         let share = (self.rest / leg.max(CLOSE)).min(1.0);
         let mix = |from: f64, to: f64| from + (to - from) * share;
         self.to = Pose {
@@ -63,14 +63,14 @@ impl Way {
         self.rest = (self.rest - leg.max(CLOSE)).max(0.0);
     }
 
-    /// How far the robot is from where it goes, along the way there; negative beyond it.
+    /// How far the robot is from where it goes, along the leg; negative beyond it.
     fn left(&self, here: &Pose) -> f64 {
         let part = |from: &Pose, to: &Pose| {
             [to.x - from.x, to.y - from.y, LEVER * (to.heading - from.heading)]
         };
         let (leg, rest) = (part(&self.from, &self.to), part(here, &self.to));
         let along: f64 = leg.iter().zip(rest).map(|(leg, rest)| leg * rest).sum();
-        along / self.from.way_to(&self.to).max(CLOSE)
+        along / self.from.distance_to(&self.to).max(CLOSE)
     }
 
     /// Where to, once all that is reached already is behind: ahead in metres and to the left in radians, and how far it is
@@ -96,7 +96,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
             ramp: Ramp::new(ACCELERATION, now),
             tracking: Tracking::new(),
             odometry: Guard::new(NO_ODOMETRY, now),
-            way: None,
+            path: None,
         };
         retrace.look(env, now)?;
         Ok(retrace)
@@ -107,7 +107,8 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
             self.tracking.halt(env, now);
             return Ok(Poll::Pending);
         };
-        let Some((ahead, turn, rest)) = self.way.as_mut().and_then(|way| way.ahead(&motion)) else {
+        let Some((ahead, turn, rest)) = self.path.as_mut().and_then(|path| path.ahead(&motion))
+        else {
             self.tracking.halt(env, now);
             return Ok(if motion.stands() { Poll::Ready(State::Retraced) } else { Poll::Pending });
         };
@@ -124,14 +125,14 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
 }
 
 impl Retrace {
-    /// What the odometry says; takes the way that it lies at the end of.
+    /// What the odometry says; takes the path that it lies at the end of.
     fn look<E>(&mut self, env: &E, now: Instant) -> Result<Option<Motion>, Fault>
     where
         E: Odometry + ?Sized,
     {
         let motion = self.odometry.current(env.motion(), now)?;
-        if let (Some(motion), None) = (motion, &self.way) {
-            self.way = Some(Way::new(env.trail(), motion.into(), self.distance));
+        if let (Some(motion), None) = (motion, &self.path) {
+            self.path = Some(PathBack::new(env.trail(), motion.into(), self.distance));
         }
         Ok(motion)
     }

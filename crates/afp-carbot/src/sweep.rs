@@ -21,7 +21,7 @@ pub(crate) struct Sweep {
     /// Where the rotator should be, radians.
     target: f64,
     /// Towards which side the sweep goes: 1 left, -1 right.
-    way: f64,
+    direction: f64,
     sweeping: bool,
     last_ping: Instant,
     odometry: Guard,
@@ -51,7 +51,7 @@ impl Sweep {
         Sweep {
             sweep,
             target: side * sweep,
-            way: -side,
+            direction: -side,
             sweeping: false,
             last_ping: now,
             odometry: Guard::new(NO_ODOMETRY, now),
@@ -81,8 +81,8 @@ impl Sweep {
             self.arrival.elsewhere(&echo, now)?;
             return Ok(None);
         }
-        let last = self.way * self.target >= self.sweep - STEP / 2.0;
-        let next = (self.target + self.way * STEP).max(-self.sweep).min(self.sweep);
+        let last = self.direction * self.target >= self.sweep - STEP / 2.0;
+        let next = (self.target + self.direction * STEP).max(-self.sweep).min(self.sweep);
         self.target = if last { 0.0 } else { next };
         env.point(Angle::from_si(self.target), now);
         self.arrival = Arrival::new(now);

@@ -14,7 +14,7 @@ pub const DRIVE_STALLED: Fault = Fault::new(&Reason {
     code: "drive-stalled",
     text: "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low",
 });
-/// The odometry counts no way.
+/// The odometry counts no distance.
 pub const NO_PROGRESS: Fault = Fault::new(&Reason {
     code: "no-progress",
     text: "the robot was told to go 10 cm, and the odometry counted less than a quarter of it",
@@ -34,8 +34,8 @@ const ERROR: f64 = 0.4;
 const SLACK: f64 = 0.2;
 /// Less than this share of what is expected is a standstill.
 const STANDSTILL: f64 = 0.25;
-/// After so much of a commanded way, metres at the wheels, the odometry must have counted some.
-const WAY: f64 = 0.1;
+/// After so much was commanded, metres at the wheels, the odometry must have counted some.
+const JUDGED: f64 = 0.1;
 /// After a longer gap between polls nothing is known of what the drive did.
 const LONGEST_GAP: Duration = Duration::from_millis(100);
 
@@ -49,8 +49,8 @@ pub(crate) struct Tracking {
     /// For how long the robot has moved otherwise than expected, seconds; what it moved as expected since is taken off, so
     /// that wheels which slip through now and then do not hide what holds the robot.
     astray: f64,
-    /// The way expected and the way counted since the last comparison, metres at the wheels.
-    ways: (f64, f64),
+    /// The distances expected and counted since the last comparison, metres at the wheels.
+    distances: (f64, f64),
 }
 
 impl Tracking {
@@ -61,7 +61,7 @@ impl Tracking {
             command: (0.0, 0.0),
             expected: (0.0, 0.0),
             astray: 0.0,
-            ways: (0.0, 0.0),
+            distances: (0.0, 0.0),
         }
     }
 
@@ -94,7 +94,7 @@ impl Tracking {
     fn compare(&mut self, motion: &Motion, now: Instant) -> Result<(), Fault> {
         let before = self.last.replace((now, *motion));
         let Some((last, before)) = before.filter(|(at, _)| now.since(*at) <= LONGEST_GAP) else {
-            (self.astray, self.ways) = (0.0, (0.0, 0.0));
+            (self.astray, self.distances) = (0.0, (0.0, 0.0));
             self.expected = (motion.speed.si(), motion.turn.si());
             return Ok(());
         };
@@ -103,7 +103,7 @@ impl Tracking {
         self.expected.0 += share * (self.command.0 - self.expected.0);
         self.expected.1 += share * (self.command.1 - self.expected.1);
         self.check_speed(motion, gap)?;
-        self.check_way(&before, motion, gap)
+        self.check_distance(&before, motion, gap)
     }
 
     fn check_speed(&mut self, motion: &Motion, gap: f64) -> Result<(), Fault> {
@@ -131,16 +131,16 @@ impl Tracking {
         libm::hypot(ahead - share * along, aside - share * across)
     }
 
-    fn check_way(&mut self, before: &Motion, motion: &Motion, gap: f64) -> Result<(), Fault> {
-        let way = libm::hypot((motion.x - before.x).si(), (motion.y - before.y).si());
-        let (expected, counted) = &mut self.ways;
+    fn check_distance(&mut self, before: &Motion, motion: &Motion, gap: f64) -> Result<(), Fault> {
+        let length = libm::hypot((motion.x - before.x).si(), (motion.y - before.y).si());
+        let (expected, counted) = &mut self.distances;
         *expected += gap * rim(self.expected.0, self.expected.1);
-        *counted += rim(way, (motion.heading - before.heading).si());
-        if *expected < WAY {
+        *counted += rim(length, (motion.heading - before.heading).si());
+        if *expected < JUDGED {
             return Ok(());
         }
         let enough = *counted >= STANDSTILL * *expected;
-        self.ways = (0.0, 0.0);
+        self.distances = (0.0, 0.0);
         if enough { Ok(()) } else { Err(NO_PROGRESS) }
     }
 }
@@ -220,17 +220,17 @@ mod tests {
         let mut robot = Fake::new(&[]);
         assert_eq!(drive(&mut robot, (0.2, 0.0), 1), Ok(()));
         let (mut tracking, frozen) = (Tracking::new(), robot.motion);
-        let mut way = 0.0;
+        let mut driven = 0.0;
         let fault = loop {
             robot.tick();
-            way += 0.002;
+            driven += 0.002;
             let now = robot.now;
             if let Err(fault) = tracking.drive(&mut robot, &frozen, (0.2, 0.0), now) {
                 break fault;
             }
         };
         assert_eq!(fault, NO_PROGRESS);
-        assert!(way < 0.12, "{way}");
+        assert!(driven < 0.12, "{driven}");
     }
 
     #[test]

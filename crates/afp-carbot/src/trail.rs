@@ -1,13 +1,13 @@
-//! The way by which the robot came: where nothing stood a moment ago.
+//! The path on which the robot came: where nothing stood a moment ago.
 
 use crate::devices::Motion;
 use crate::history::Pose;
 use afp_core::quantity::{Angle, Length};
 
-/// A turn by a radian counts as so many metres of a way: it carries the robot's corners about so far.
+/// A turn by a radian counts as so many metres driven: it carries the robot's corners about so far.
 pub(crate) const LEVER: f64 = 0.2;
 
-/// So many places are remembered, no closer than this, metres: 60 cm of way, or half a turn in place.
+/// So many places are remembered, no closer than this, metres: 60 cm driven, or half a turn in place.
 const KEPT: usize = 40;
 const APART: f64 = 0.015;
 /// Wheels do not carry a robot this far between two readings: it has begun to count anew.
@@ -38,7 +38,7 @@ impl Trail {
     /// Remembers where the robot is, if that is far enough from where it was. To be called for every reading.
     pub fn note(&mut self, motion: Motion) {
         let here = motion.into();
-        let far = |newest: Pose, way| newest.way_to(&here) > way;
+        let far = |newest: Pose, distance| newest.distance_to(&here) > distance;
         if self.place(1).is_some_and(|newest| far(newest, JUMP)) {
             self.known = 0;
         }
@@ -47,7 +47,7 @@ impl Trail {
                 return;
             }
             // Nearer to the place before the newest than that one is, it went back.
-            let went_back = |before: Pose| before.way_to(&here) < before.way_to(&newest);
+            let went_back = |before: Pose| before.distance_to(&here) < before.distance_to(&newest);
             if !self.place(2).is_some_and(went_back) {
                 break;
             }
@@ -60,7 +60,7 @@ impl Trail {
 
     /// Where it leads back to from a place: the newest that is not about there.
     pub(crate) fn back_from(mut self, here: &Pose) -> Self {
-        if self.place(1).is_some_and(|newest| newest.way_to(here) <= APART) {
+        if self.place(1).is_some_and(|newest| newest.distance_to(here) <= APART) {
             self.drop_newest();
         }
         self
@@ -80,16 +80,16 @@ impl Trail {
 
 impl Pose {
     /// How far it is to another place, metres; a turn counts by [`LEVER`].
-    pub(crate) fn way_to(&self, other: &Pose) -> f64 {
+    pub(crate) fn distance_to(&self, other: &Pose) -> f64 {
         let turn = LEVER * (other.heading - self.heading);
         let (x, y) = (other.x - self.x, other.y - self.y);
         libm::sqrt(x * x + y * y + turn * turn)
     }
 
     /// The place so far straight behind.
-    pub(crate) fn behind(&self, way: f64) -> Pose {
+    pub(crate) fn behind(&self, distance: f64) -> Pose {
         let (sin, cos) = libm::sincos(self.heading);
-        Pose { x: self.x - way * cos, y: self.y - way * sin, heading: self.heading }
+        Pose { x: self.x - distance * cos, y: self.y - distance * sin, heading: self.heading }
     }
 
     /// As a motion of a robot that stands there.

@@ -105,7 +105,7 @@ where
         let reading = env.echo();
         if let Some(echo) = self.range.next(reading, self.last_ping, now)? {
             self.last_ping = reading.time;
-            course.hear(&echo, &self.inputs, env);
+            course.on_echo(&echo, &self.inputs, env);
             if course.glance.looking() {
                 self.arrival.elsewhere(&echo, now)?;
             }
@@ -193,12 +193,17 @@ impl Course {
     }
 
     /// Takes an echo for the wall or for the lane ahead, by where the sensor pointed.
-    fn hear<E: Navigator + Ultrasonic + ?Sized>(&mut self, echo: &Echo, inputs: &Inputs, env: &E) {
+    fn on_echo<E: Navigator + Ultrasonic + ?Sized>(
+        &mut self,
+        echo: &Echo,
+        inputs: &Inputs,
+        env: &E,
+    ) {
         let (beam, body) = (env.beam(), env.body());
         let bearing = echo.bearing.si();
         let distance = echo.distance.map(|distance| distance.si());
         let beyond_front = body.front.si() - beam.forward.si();
-        self.glance.hear(bearing, distance.map(|d| d - beyond_front), self.driven);
+        self.glance.on_echo(bearing, distance.map(|d| d - beyond_front), self.driven);
         let slant = wrap(bearing - self.square()).abs();
         self.looks = self.looks.saturating_add(u8::from(slant < SQUARE));
         let Some(distance) = distance.filter(|_| slant < SQUARE) else { return };

@@ -63,21 +63,21 @@ impl<'a> ScenarioTests<'a> {
     pub fn add(&mut self, path: &str, full: &str, compiled: &Compiled, texts: &[TokenStream]) {
         let module = ident(&self.names.unique(slug(path.trim_end_matches(".afp"))));
         let mut names = UniqueNames::default();
-        let sound = compiled.scenarios.iter().map(|scenario| {
+        let valid = compiled.scenarios.iter().map(|scenario| {
             let run = self.run(scenario, full);
             test(&mut names, &scenario.name, &run)
         });
-        let sound: TokenStream = sound.collect();
-        let unsound = compiled.unsound.iter().map(|each| {
+        let valid: TokenStream = valid.collect();
+        let invalid = compiled.invalid.iter().map(|each| {
             let text = format!("\n{}", each.errors.render(&compiled.sources, false));
             test(&mut names, &each.name, &quote!(panic!("{}", #text);))
         });
-        let unsound: TokenStream = unsound.collect();
+        let invalid: TokenStream = invalid.collect();
         // Cargo watches the files only because something includes them.
         self.modules.extend(quote! {
             mod #module {
-                #sound
-                #unsound
+                #valid
+                #invalid
                 const _: &[&str] = &[#(#texts),*];
             }
         });

@@ -1,4 +1,4 @@
-//! What time passes for: a simulator, a computer on a robot, a microcontroller.
+//! Platforms: a simulator, a computer on a robot or a microcontroller, with its own way to let time pass.
 
 use crate::clock::Clock;
 use crate::component::Environment;

@@ -31,7 +31,7 @@ use serde_json::{Value, json};
 use crate::breakpoints::Breakpoints;
 use crate::target::Target;
 
-pub use clients::{ClientId, Told};
+pub use clients::{ClientId, Outgoing};
 pub use launch::Launch;
 pub(crate) use places::Wanted;
 
@@ -146,14 +146,14 @@ impl<'h> Adapter<'h> {
 
     /// Answers a message of a client that has joined; what goes to whom, in order. `now` is the time on the wall, from
     /// whenever.
-    pub fn handle(&mut self, from: ClientId, message: &str, now: Wall) -> Vec<Told> {
+    pub fn handle(&mut self, from: ClientId, message: &str, now: Wall) -> Vec<Outgoing> {
         self.asker = from;
         // Of a key that is there twice the last one counts, whatever is read of the message.
         let message = serde_json::from_str::<Value>(message);
         let is_answer = message.as_ref().is_ok_and(|it| it["type"] == "response");
         match message.and_then(serde_json::from_value::<dapts::Request>) {
             // What it says does not matter: that it comes does.
-            _ if is_answer => self.hear_answer(from, now),
+            _ if is_answer => self.on_lease_answer(from, now),
             Ok(asked) => self.answer(asked, now),
             Err(why) => {
                 let body = output("stderr", &format!("not a request: {why}\n"));
@@ -164,8 +164,8 @@ impl<'h> Adapter<'h> {
     }
 
     /// Lets the run go on by what has passed on the wall; what is to be told.
-    pub fn tick(&mut self, now: Wall) -> Vec<Told> {
-        self.look_after_lease(now);
+    pub fn tick(&mut self, now: Wall) -> Vec<Outgoing> {
+        self.check_lease(now);
         self.drive(now);
         self.take()
     }

@@ -1,4 +1,4 @@
-//! Where a run is to stand still.
+//! Breakpoints: where a run pauses.
 
 use std::collections::{BTreeMap, HashMap};
 

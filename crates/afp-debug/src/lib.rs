@@ -25,7 +25,7 @@ mod text;
 mod watched;
 pub mod wire;
 
-pub use adapter::{Adapter, ClientId, Host, Launch, Surroundings, Told};
+pub use adapter::{Adapter, ClientId, Host, Launch, Outgoing, Surroundings};
 pub use log_target::LogTarget;
 pub use program::{Entry, Place, Program, Spot, Times, Unit};
 pub use sensed::{Cone, Sensed};

@@ -1,4 +1,4 @@
-//! A log as something to be debugged: what was recorded is told again, and nothing of it can be changed.
+//! A target that is a log: its events are reported again, and none of them can be changed.
 
 use std::sync::Arc;
 
@@ -114,12 +114,12 @@ impl LogTarget {
     }
 
     /// Lets the next moment pass.
-    fn pass(&mut self, tell: &mut dyn FnMut(&Happened, &State)) {
+    fn pass(&mut self, report: &mut dyn FnMut(&Happened, &State)) {
         let Some(events) = self.next() else { return };
         for event in &self.events[events] {
             self.state.apply(event, &self.program);
             self.now = event.at;
-            tell(&Happened::new(event.clone()), &self.state);
+            report(&Happened::new(event.clone()), &self.state);
         }
         self.passed += 1;
         if self.passed.is_multiple_of(KEYFRAMES) && self.passed / KEYFRAMES == self.keyframes.len()
@@ -173,14 +173,14 @@ impl Target for LogTarget {
     fn advance(
         &mut self,
         limit: Instant,
-        tell: &mut dyn FnMut(&Happened, &State),
+        report: &mut dyn FnMut(&Happened, &State),
     ) -> Result<Advance, String> {
         let Some(events) = self.next() else { return Ok(Advance::Ended) };
         if self.events[events.start].at > limit {
             self.now = self.now.max(limit);
             return Ok(Advance::Limit);
         }
-        self.pass(tell);
+        self.pass(report);
         Ok(if self.passed == self.moments.len() { Advance::Ended } else { Advance::On })
     }
 

@@ -1,4 +1,4 @@
-//! What the robot says, for people who watch a run: numbers and words, and where its range sensors look.
+//! Signals of the robot for people who watch a run: values as text, and the cones of range sensors.
 
 use afp_core::devices::{DeviceRow, SignalRow, SignalType, signals};
 use afp_session::{AnySession, Datum, Pose2, SampleRef};

@@ -1,4 +1,4 @@
-//! A session as something to be debugged: its time stands still while nobody lets it pass.
+//! A target that is a session: time passes in it only while a client lets the run go on.
 
 use std::sync::Arc;
 
@@ -131,11 +131,11 @@ impl Run {
         &mut self,
         limit: Instant,
         program: &Program,
-        tell: &mut dyn FnMut(&Happened, &State),
+        report: &mut dyn FnMut(&Happened, &State),
     ) -> Result<Advance, String> {
         let Run { session, state, steps } = self;
-        let mut ears = Ears { program, state, steps, tell };
-        let ticked = session.tick(limit, &mut Open, &mut [&mut ears]);
+        let mut reporter = Reporter { program, state, steps, report };
+        let ticked = session.tick(limit, &mut Open, &mut [&mut reporter]);
         ticked.map_err(|why| cannot_start(why, program))?;
         Ok(match session.ending() {
             Some(_) => Advance::Ended,
@@ -169,12 +169,12 @@ impl Target for SessionTarget<'_> {
     fn advance(
         &mut self,
         limit: Instant,
-        tell: &mut dyn FnMut(&Happened, &State),
+        report: &mut dyn FnMut(&Happened, &State),
     ) -> Result<Advance, String> {
         if self.run.session.ending().is_some() {
             return Ok(Advance::Ended);
         }
-        let advance = self.run.advance(limit, &self.program, tell)?;
+        let advance = self.run.advance(limit, &self.program, report)?;
         self.furthest = self.furthest.max(self.run.steps);
         self.keep();
         Ok(advance)
@@ -311,10 +311,10 @@ impl Target for SessionTarget<'_> {
         self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?).map(|_| ())
     }
 
-    fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State)) {
+    fn stop(&mut self, report: &mut dyn FnMut(&Happened, &State)) {
         let Run { session, state, steps } = &mut self.run;
-        let mut ears = Ears { program: &self.program, state, steps, tell };
-        session.stop(&mut [&mut ears]);
+        let mut reporter = Reporter { program: &self.program, state, steps, report };
+        session.stop(&mut [&mut reporter]);
     }
 }
 
@@ -331,24 +331,24 @@ fn cannot_start(why: StartError, program: &Program) -> String {
     }
 }
 
-/// Hears what happens in a session.
-struct Ears<'a> {
+/// Reports what happens in a session to the adapter, and keeps the state along with it.
+struct Reporter<'a> {
     program: &'a Program,
     state: &'a mut State,
     steps: &'a mut u64,
-    tell: &'a mut dyn FnMut(&Happened, &State),
+    report: &'a mut dyn FnMut(&Happened, &State),
 }
 
-impl Ears<'_> {
-    fn tell(&mut self, event: RunEvent) {
+impl Reporter<'_> {
+    fn report(&mut self, event: RunEvent) {
         self.state.apply(&event, self.program);
-        (self.tell)(&Happened::new(event), self.state);
+        (self.report)(&Happened::new(event), self.state);
     }
 }
 
-impl Observer for Ears<'_> {
+impl Observer for Reporter<'_> {
     fn on_record(&mut self, record: &NamedRecord<'_>) {
-        self.tell(RunEvent::new(record.at, record.record, record.names));
+        self.report(RunEvent::new(record.at, record.record, record.names));
     }
 
     fn after_step(&mut self, _: &View<'_>) {
@@ -356,6 +356,6 @@ impl Observer for Ears<'_> {
     }
 
     fn on_request(&mut self, applied: &Applied<'_>) {
-        self.tell(applied.event());
+        self.report(applied.event());
     }
 }

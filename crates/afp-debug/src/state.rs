@@ -1,4 +1,4 @@
-//! What is the case in a running plan, as far as its events tell.
+//! The state of a running plan, reconstructed from its events.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What a running plan can be asked.
+//! The interface between the adapter and a run: inspect it, let it go on, change it.
 
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ pub trait Target {
     fn advance(
         &mut self,
         limit: Instant,
-        tell: &mut dyn FnMut(&Happened, &State),
+        report: &mut dyn FnMut(&Happened, &State),
     ) -> Result<Advance, String>;
 
     /// Goes back or ahead: what was asked for in the meantime is done again, and the trace is the same.
@@ -128,7 +128,7 @@ pub trait Target {
     fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String>;
 
     /// Makes the plan end here and now, and the robot stop.
-    fn stop(&mut self, tell: &mut dyn FnMut(&Happened, &State));
+    fn stop(&mut self, report: &mut dyn FnMut(&Happened, &State));
 }
 
 /// Something that happened.

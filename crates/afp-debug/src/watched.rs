@@ -100,8 +100,8 @@ fn constant(value: &Datum, ty: &Type) -> Option<Constant> {
         (Datum::Text(text), _) => Constant::Text(text.clone()),
         (Datum::Choice(text), Type::Enum(choices)) => {
             let name = text.rsplit('.').next()?;
-            let place = choices.variants.iter().position(|variant| variant == name)?;
-            Constant::Choice(u16::try_from(place).ok()?)
+            let index = choices.variants.iter().position(|variant| variant == name)?;
+            Constant::Choice(u16::try_from(index).ok()?)
         }
         _ => return None,
     })

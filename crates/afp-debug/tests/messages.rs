@@ -3,7 +3,7 @@
 
 mod common;
 
-use afp_debug::{Adapter, ClientId, Told};
+use afp_debug::{Adapter, ClientId, Outgoing};
 use common::Texted;
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -123,8 +123,8 @@ fn cases() -> u32 {
 }
 
 /// How many responses a client is told.
-fn responses(told: &[Told], to: ClientId) -> usize {
-    let is_response = |told: &&Told| {
+fn responses(told: &[Outgoing], to: ClientId) -> usize {
+    let is_response = |told: &&Outgoing| {
         let message: Value = serde_json::from_str(&told.message).expect("messages are JSON");
         told.to == to && message["type"] == "response"
     };

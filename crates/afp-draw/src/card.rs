@@ -99,9 +99,9 @@ pub(super) fn element<'a>(
     card.height = rect.bottom();
     let mut middles = vec![0.0; states.len()];
     let wishes: Vec<_> = states.iter().map(|exit| towards(&part(exit))).collect();
-    for place in from_left_to_right(&wishes) {
-        let width = exit_width(&states[place]);
-        middles[place] = x + width / 2.0;
+    for index in from_left_to_right(&wishes) {
+        let width = exit_width(&states[index]);
+        middles[index] = x + width / 2.0;
         x += width + EXIT_GAP;
     }
     for (exit, middle) in states.iter().zip(middles) {

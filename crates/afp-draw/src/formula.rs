@@ -100,11 +100,11 @@ fn sign(operator: Operator) -> char {
     }
 }
 
-fn choice(place: u16, ty: &Type) -> String {
-    let Type::Enum(home) = ty else { return place.to_string() };
-    match home.variants.get(usize::from(place)) {
+fn choice(index: u16, ty: &Type) -> String {
+    let Type::Enum(home) = ty else { return index.to_string() };
+    match home.variants.get(usize::from(index)) {
         Some(variant) => format!("{}.{variant}", home.name),
-        None => place.to_string(),
+        None => index.to_string(),
     }
 }
 

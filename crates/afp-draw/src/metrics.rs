@@ -33,9 +33,9 @@ pub(super) fn shorten(text: &str) -> String {
 }
 
 fn advance(character: char) -> u32 {
-    let place = u32::from(character).checked_sub(32).and_then(|place| usize::try_from(place).ok());
+    let index = u32::from(character).checked_sub(32).and_then(|index| usize::try_from(index).ok());
     // Texts in entries may hold any script; a full em covers ideographs too.
-    u32::from(place.and_then(|place| REGULAR.get(place)).copied().unwrap_or(100))
+    u32::from(index.and_then(|index| REGULAR.get(index)).copied().unwrap_or(100))
 }
 
 #[cfg(test)]

@@ -240,7 +240,7 @@ impl<'a> View<'a> {
 
     /// The global supervisor that reactions are to; any other component itself.
     pub(super) fn watcher(&self, component: &'a Component) -> &'a Component {
-        self.watcher_place(component).map_or(component, |place| &self.plan.supervisors[place])
+        self.watcher_place(component).map_or(component, |index| &self.plan.supervisors[index])
     }
 
     fn watcher_place(&self, component: &Component) -> Option<usize> {
@@ -263,14 +263,14 @@ impl<'a> View<'a> {
         component: &Component,
         exit: &outline::Exit,
     ) -> Option<u64> {
-        let place = self.watcher_place(component)?;
-        let exits = &self.plan.supervisors[place].exits;
+        let index = self.watcher_place(component)?;
+        let exits = &self.plan.supervisors[index].exits;
         let event = match exit.kind {
             ExitKind::Missed => None,
             _ => Some(u16::try_from(exits.iter().position(|each| each.name == exit.name)?).ok()?),
         };
         let mut edges = reactions.iter();
-        let edge = edges.find(|each| (each.supervisor, each.event) == (place, event));
+        let edge = edges.find(|each| (each.supervisor, each.event) == (index, event));
         edge.map(|edge| edge.count)
     }
 

@@ -239,12 +239,12 @@ fn check_flow(
     order: &[usize],
     diags: &mut Diagnostics,
 ) {
-    let sound = |(head, plan): (&PlanHead, _)| {
+    let valid = |(head, plan): (&PlanHead, _)| {
         Option::filter(plan, |_| !diags.error_within(head.node.span()))
     };
-    let sound = program.plans.iter().zip(plans.iter().map(Option::as_ref)).map(sound).collect();
+    let valid = program.plans.iter().zip(plans.iter().map(Option::as_ref)).map(valid).collect();
     let toolboxes = program.linked.clone();
-    flow::check(&Model { plans: sound, order: order.to_vec(), toolboxes }, diags);
+    flow::check(&Model { plans: valid, order: order.to_vec(), toolboxes }, diags);
 }
 
 /// Reports a type that hides one of the language.
@@ -263,8 +263,8 @@ fn select(
     let name = |head: &PlanHead| head.name.as_ref().map(|name| name.text.clone());
     let own = || program.plans.iter().filter(|head| head.file == 0);
     if let Some(main) = main {
-        let place = own().position(|head| name(head).as_deref() == Some(main));
-        if place.is_none() {
+        let index = own().position(|head| name(head).as_deref() == Some(main));
+        if index.is_none() {
             let names: Vec<_> = own().filter_map(name).collect();
             let message = format!("the file has no plan '{main}'");
             let help = match names.as_slice() {
@@ -274,12 +274,12 @@ fn select(
             let top = file.whole().before();
             diags.push(Diagnostic::new(Code::E0504, top, message).help(help));
         }
-        return place;
+        return index;
     }
     if own().next().is_none()
-        && let Some(place) = scenario::first_plan(program, file)
+        && let Some(index) = scenario::first_plan(program, file)
     {
-        return Some(place);
+        return Some(index);
     }
     let empty = own().next().is_none();
     if empty && !diags.has_errors() {

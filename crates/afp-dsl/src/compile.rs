@@ -1,4 +1,4 @@
-//! The front door: a plan's text in; its graph, or everything that is wrong with it, out.
+//! The entry point of the compiler: a plan's text in; its graph, or everything that is wrong with it, out.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::gather;
 use crate::graph::Graph;
 use crate::index::Index;
 use crate::outline::Outline;
-use crate::scenario::{Scenario, Unsound};
+use crate::scenario::{InvalidScenario, Scenario};
 use crate::timing::{self, Timing};
 use crate::toolbox::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
@@ -24,7 +24,7 @@ pub struct Compiled {
     /// The scenarios of the file that can be run; none while anything but scenarios has errors.
     pub scenarios: Vec<Scenario>,
     /// The others; none either while anything else has errors.
-    pub unsound: Vec<Unsound>,
+    pub invalid: Vec<InvalidScenario>,
     /// What stands in the plan files, with or without errors.
     pub outline: Outline,
     /// What every name means, with or without errors.
@@ -139,7 +139,7 @@ fn compile_with(
     diags.sort();
     outline.attach(&diags);
     let plan_files = first..sources.len();
-    let (scenarios, unsound) = match graph.is_some() && outline.excuses(&diags) {
+    let (scenarios, invalid) = match graph.is_some() && outline.excuses(&diags) {
         true => sorted_out(scenarios, &outline, &diags),
         false => (Vec::new(), Vec::new()),
     };
@@ -151,7 +151,7 @@ fn compile_with(
     Compiled {
         graph,
         scenarios,
-        unsound,
+        invalid,
         outline,
         index,
         diags,
@@ -167,16 +167,16 @@ fn sorted_out(
     mut scenarios: Vec<Scenario>,
     outline: &Outline,
     diags: &Diagnostics,
-) -> (Vec<Scenario>, Vec<Unsound>) {
+) -> (Vec<Scenario>, Vec<InvalidScenario>) {
     let heads = outline.files.first().map_or(&[][..], |file| &file.scenarios);
     let wrong = heads.iter().filter(|head| diags.error_within(head.span));
-    let mut unsound = Vec::new();
+    let mut invalid = Vec::new();
     for head in wrong {
         scenarios.retain(|scenario| !head.span.contains(scenario.span));
         let mut errors = diags.clone();
         errors.retain(|each| each.severity == Severity::Error && head.span.contains(each.span));
         let name = head.name.as_ref();
-        unsound.push(Unsound {
+        invalid.push(InvalidScenario {
             name: name.map_or(String::new(), |name| unquote(name, &mut Diagnostics::default())),
             span: name.map_or(head.span, |name| name.span),
             plan: head
@@ -186,5 +186,5 @@ fn sorted_out(
             errors,
         });
     }
-    (scenarios, unsound)
+    (scenarios, invalid)
 }

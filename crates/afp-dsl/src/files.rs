@@ -18,6 +18,12 @@ pub trait Files {
     /// # Errors
     /// Why there is no text: lower case, no final period.
     fn read(&self, path: &str) -> Result<String, String>;
+
+    /// What all paths of one file have alike, so that a link and what it leads to are one file; the path itself where links
+    /// are not known.
+    fn identity(&self, path: &str) -> String {
+        path.to_owned()
+    }
 }
 
 impl<F: Fn(&str) -> Result<String, String>> Files for F {
@@ -37,6 +43,11 @@ impl Files for Disk {
             ErrorKind::InvalidData | ErrorKind::FileTooLarge => error.to_string(),
             _ => error.to_string().to_lowercase(),
         })
+    }
+
+    fn identity(&self, path: &str) -> String {
+        let real = self.0.join(path).canonicalize();
+        real.map_or_else(|_| path.to_owned(), |real| real.to_string_lossy().into_owned())
     }
 }
 

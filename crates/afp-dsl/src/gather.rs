@@ -59,6 +59,7 @@ pub(crate) fn gather(
         diags,
         found: Vec::new(),
         known: FxHashMap::default(),
+        identities: FxHashMap::default(),
     };
     gathering.first(source);
     let mut next = 0;
@@ -84,6 +85,7 @@ pub(crate) fn gather_all(
         diags,
         found: Vec::new(),
         known: FxHashMap::default(),
+        identities: FxHashMap::default(),
     };
     files.iter().for_each(|source| gathering.first(source));
     for file in 0..gathering.found.len() {
@@ -100,6 +102,8 @@ struct Gathering<'a> {
     found: Vec<PlanFile>,
     /// What became of each path: a place in `found`, or nothing with the reason.
     known: FxHashMap<String, Result<usize, Unusable>>,
+    /// The files in `found` by what all paths of each have alike; none before the first `use`.
+    identities: FxHashMap<String, usize>,
 }
 
 /// Why a file cannot be used.
@@ -176,22 +180,38 @@ impl Gathering<'_> {
             return None;
         }
         let path = joined(&self.found[user].source.name, &text);
-        if path == self.found[user].path {
+        let known = match self.known.get(&path) {
+            Some(known) => known.clone(),
+            None => {
+                let found = self.find(&path);
+                self.known.insert(path.clone(), found.clone());
+                found
+            }
+        };
+        if path == self.found[user].path || known.as_ref().is_ok_and(|used| *used == user) {
             self.diags.push(
                 Diagnostic::new(Code::E0507, written.span, "the file uses itself")
                     .help("remove the line; plans of one file see each other"),
             );
             return None;
         }
-        let known = match self.known.get(&path) {
-            Some(known) => known.clone(),
-            None => {
-                let read = self.read(&path);
-                self.known.insert(path.clone(), read.clone());
-                read
-            }
-        };
         known.map_err(|why| self.diags.push(self.unusable(&why, &path, written.span))).ok()
+    }
+
+    /// The file of a path that was not met yet: one that has been read by another path, or a new one.
+    fn find(&mut self, path: &str) -> Result<usize, Unusable> {
+        if self.identities.is_empty() {
+            let identity =
+                |(place, file): (usize, &PlanFile)| (self.files.identity(&file.path), place);
+            self.identities = self.found.iter().enumerate().map(identity).collect();
+        }
+        let identity = self.files.identity(path);
+        if let Some(place) = self.identities.get(&identity) {
+            return Ok(*place);
+        }
+        let place = self.read(path)?;
+        self.identities.insert(identity, place);
+        Ok(place)
     }
 
     fn read(&mut self, path: &str) -> Result<usize, Unusable> {

@@ -232,8 +232,8 @@ impl Index {
 
     /// The name that stands exactly there.
     pub fn name(&self, span: Span) -> Option<Name> {
-        let place = self.names.binary_search_by_key(&span, |name| name.span).ok()?;
-        Some(self.names[place])
+        let index = self.names.binary_search_by_key(&span, |name| name.span).ok()?;
+        Some(self.names[index])
     }
 
     /// The names of a file in order.

@@ -77,7 +77,7 @@ impl Scenario {
 
 /// A scenario that cannot be run as it is written, or as its plan is now.
 #[derive(Clone, Debug)]
-pub struct Unsound {
+pub struct InvalidScenario {
     /// Its name.
     pub name: String,
     /// The name in the text.

@@ -128,7 +128,7 @@ impl Report<'_> {
             is_here && distance.is_none_or(|distance| distance <= FAR)
         };
         let marks = self.marks.iter().enumerate().skip(first);
-        marks.filter(|(place, _)| !shown[*place]).filter(fits).map(|(place, _)| place).collect()
+        marks.filter(|(index, _)| !shown[*index]).filter(fits).map(|(index, _)| index).collect()
     }
 }
 

@@ -175,8 +175,8 @@ impl Printer {
             Some(line) if !at_line => line.indent + 2,
             _ => self.indent + usize::from(closes),
         };
-        for (place, comment) in comments.into_iter().enumerate() {
-            let beside = place == 0 && comment.breaks == 0 && !comment.help;
+        for (index, comment) in comments.into_iter().enumerate() {
+            let beside = index == 0 && comment.breaks == 0 && !comment.help;
             match self.lines.last_mut() {
                 Some(line) if beside => line.comment = Some(comment.text),
                 _ => {

@@ -1,4 +1,4 @@
-//! Who is let in: by the names that a browser says, then by a token.
+//! Admission of clients: by host and origin, then by a token.
 
 use std::io;
 use std::net::{IpAddr, SocketAddr};

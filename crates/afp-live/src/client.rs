@@ -13,7 +13,7 @@ use tungstenite::{Error, Message, WebSocket, accept_hdr_with_config};
 
 use crate::admission::{Refusal, Role, Tokens};
 use crate::hub::{Asked, Hub, Question, Service};
-use crate::protocol::{self, Call, NAMES, Parameter, Said};
+use crate::protocol::{self, Call, ClientMessage, NAMES, Parameter};
 use crate::queue::Queue;
 
 /// The longest message of a client, in bytes.
@@ -100,7 +100,7 @@ impl Client<'_> {
         let mut over: Option<Wall> = None;
         loop {
             match self.socket.read() {
-                Ok(message) => self.hear(&message),
+                Ok(message) => self.on_message(&message),
                 Err(why) if is_late(&why) => {}
                 Err(why) => return Err(why),
             }
@@ -137,9 +137,9 @@ impl Client<'_> {
         }
     }
 
-    fn hear(&mut self, message: &Message) {
+    fn on_message(&mut self, message: &Message) {
         match message {
-            Message::Text(text) => match serde_json::from_str::<Said>(text) {
+            Message::Text(text) => match serde_json::from_str::<ClientMessage>(text) {
                 Ok(said) => self.answer(said),
                 Err(why) => {
                     self.queue.answer(protocol::status(2, &format!("not understood: {why}")));
@@ -153,27 +153,29 @@ impl Client<'_> {
         }
     }
 
-    fn answer(&mut self, said: Said) {
+    fn answer(&mut self, message: ClientMessage) {
         let queue = self.queue;
-        match said {
-            Said::Subscribe { subscriptions } => {
+        match message {
+            ClientMessage::Subscribe { subscriptions } => {
                 for wanted in subscriptions {
                     let done = self.hub.subscribe(queue, wanted.channel_id, wanted.id);
                     done.unwrap_or_else(|why| queue.answer(protocol::status(2, &why)));
                 }
             }
-            Said::Unsubscribe { subscription_ids } => {
+            ClientMessage::Unsubscribe { subscription_ids } => {
                 subscription_ids.into_iter().for_each(|id| queue.unsubscribe(id));
             }
-            Said::GetParameters { parameter_names, id } => {
+            ClientMessage::GetParameters { parameter_names, id } => {
                 queue.answer(self.hub.values(&parameter_names, id.as_deref()));
             }
-            Said::SetParameters { parameters, id } => self.set(parameters, id),
-            Said::SubscribeParameterUpdates { parameter_names } => queue.watch(parameter_names),
-            Said::UnsubscribeParameterUpdates { parameter_names } => {
+            ClientMessage::SetParameters { parameters, id } => self.set(parameters, id),
+            ClientMessage::SubscribeParameterUpdates { parameter_names } => {
+                queue.watch(parameter_names)
+            }
+            ClientMessage::UnsubscribeParameterUpdates { parameter_names } => {
                 queue.unwatch(&parameter_names)
             }
-            Said::Unknown => {}
+            ClientMessage::Unknown => {}
         }
     }
 

@@ -9,7 +9,7 @@ pub(crate) const NAMES: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"]
 /// What a client says in JSON. What this release does not know is none of these.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "camelCase", rename_all_fields = "camelCase")]
-pub(crate) enum Said {
+pub(crate) enum ClientMessage {
     Subscribe {
         subscriptions: Vec<Subscription>,
     },
@@ -148,13 +148,16 @@ mod tests {
 
     #[test]
     fn requests_of_others_are_unknown_and_no_error() {
-        let said = |text| serde_json::from_str::<Said>(text).ok();
-        assert_eq!(said(r#"{"op":"fetchAsset","uri":"x","requestId":1}"#), Some(Said::Unknown));
+        let said = |text| serde_json::from_str::<ClientMessage>(text).ok();
+        assert_eq!(
+            said(r#"{"op":"fetchAsset","uri":"x","requestId":1}"#),
+            Some(ClientMessage::Unknown)
+        );
         assert_eq!(said(r#"{"op":"subscribe"}"#), None);
         let subscription = Subscription { id: 1, channel_id: 2 };
         assert_eq!(
             said(r#"{"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]}"#),
-            Some(Said::Subscribe { subscriptions: vec![subscription] })
+            Some(ClientMessage::Subscribe { subscriptions: vec![subscription] })
         );
     }
 }

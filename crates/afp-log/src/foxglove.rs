@@ -1,4 +1,4 @@
-//! Robots and rooms as Foxglove messages.
+//! Robots and worlds as Foxglove messages.
 
 use afp_core::Instant;
 use prost_types::Timestamp;

@@ -1,4 +1,4 @@
-//! What a log knows of robots and rooms: plain shapes, no robot's own types.
+//! Robots and worlds in a log: plain shapes, no robot's own types.
 //!
 //! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres
 //! and radians.

@@ -137,7 +137,7 @@ fn scenarios_code(setting: ScenarioSetting) -> Result<TokenStream, TokenStream> 
             continue;
         }
         let (compiled, available) = sources::compile(&file, &[])?;
-        if compiled.graph.is_none() && compiled.unsound.is_empty() {
+        if compiled.graph.is_none() && compiled.invalid.is_empty() {
             return Err(compile_errors(&compiled.diags, &compiled.sources));
         }
         let full = sources::root().join(&path).to_string_lossy().into_owned();

@@ -132,7 +132,7 @@ impl EchoField {
     fn compute(&self, room: usize, middle: Vector2<f64>) {
         let Some(entries) = self.cells.get(room..room + DIRECTIONS) else { return };
         let solid = self.map.is_solid(middle.into());
-        let heard = cone::hear(self.map.faces(), &self.directions, middle, self.range);
+        let heard = cone::echoes(self.map.faces(), &self.directions, middle, self.range);
         for (entry, heard) in entries.iter().zip(heard) {
             let value = match heard {
                 _ if solid => SOLID,

@@ -65,7 +65,7 @@ impl Finds {
     }
 
     /// Takes in an echo: what it comes from, unless the map explains it, and what it went past.
-    pub(crate) fn hear(&mut self, heard: &Heard, field: &EchoField, now: Instant) {
+    pub(crate) fn on_echo(&mut self, heard: &Heard, field: &EchoField, now: Instant) {
         let Heard { sensor, direction, distance } = *heard;
         self.found.retain_mut(|found| {
             let [x, y] = [found.place[0] - sensor[0], found.place[1] - sensor[1]];
@@ -87,7 +87,7 @@ impl Finds {
     }
 
     /// The bumper of a robot that is there is pressed.
-    pub(crate) fn feel(&mut self, robot: Pose2, now: Instant) {
+    pub(crate) fn on_bump(&mut self, robot: Pose2, now: Instant) {
         for n in -PLACES..=PLACES {
             let y = HALF_BUMPER * f64::from(n) / f64::from(PLACES);
             let Pose2 { x, y, .. } = robot.beyond(Pose2 { x: BUMPER, y, heading: 0.0 });
@@ -168,9 +168,9 @@ mod tests {
     #[test]
     fn what_is_heard_twice_where_the_map_shows_nothing_is_there() {
         let (mut finds, field) = (Finds::new(), field());
-        finds.hear(&ahead(1.0), &field, Instant::ZERO);
+        finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
         assert_eq!(places(&finds), [] as [[f64; 2]; 0]);
-        finds.hear(&ahead(1.0), &field, ping(1));
+        finds.on_echo(&ahead(1.0), &field, ping(1));
         let found = places(&finds);
         assert!(found.iter().any(|[x, y]| (x - 2.0).abs() < 0.02 && (y - 2.0).abs() < 0.02));
         assert!(found.iter().all(|[x, y]| (x - 2.0).abs() < 0.05 && (y - 2.0).abs() < 0.2));
@@ -181,8 +181,8 @@ mod tests {
         let (mut finds, field) = (Finds::new(), field());
         let wall = Heard { sensor: [3.0, 2.0], direction: 0.0, distance: 0.85 };
         for heard in [wall, ahead(1.8)] {
-            finds.hear(&heard, &field, ping(0));
-            finds.hear(&heard, &field, ping(1));
+            finds.on_echo(&heard, &field, ping(0));
+            finds.on_echo(&heard, &field, ping(1));
         }
         assert_eq!(finds.found, []);
     }
@@ -191,11 +191,11 @@ mod tests {
     fn what_is_heard_through_has_gone_but_for_what_was_felt() {
         let (mut finds, field) = (Finds::new(), field());
         for n in 0..3 {
-            finds.hear(&ahead(1.0), &field, ping(n));
+            finds.on_echo(&ahead(1.0), &field, ping(n));
         }
-        finds.feel(Pose2 { x: 1.3, y: 2.0, heading: 0.0 }, ping(3));
+        finds.on_bump(Pose2 { x: 1.3, y: 2.0, heading: 0.0 }, ping(3));
         for n in 4..8 {
-            finds.hear(&ahead(2.9), &field, ping(n));
+            finds.on_echo(&ahead(2.9), &field, ping(n));
         }
         let found = places(&finds);
         let at = |x: f64| found.iter().any(|place| (place[0] - x).hypot(place[1] - 2.0) < 0.05);
@@ -205,13 +205,13 @@ mod tests {
     #[test]
     fn after_a_minute_it_is_forgotten() {
         let (mut finds, field) = (Finds::new(), field());
-        finds.hear(&ahead(1.0), &field, Instant::ZERO);
-        finds.hear(&ahead(1.0), &field, ping(1));
+        finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
+        finds.on_echo(&ahead(1.0), &field, ping(1));
         let later = |secs| ping(1) + Duration::from_secs(secs);
         let aside = Heard { sensor: [1.0, 2.0], direction: 3.1, distance: 0.9 };
-        finds.hear(&aside, &field, later(59));
+        finds.on_echo(&aside, &field, later(59));
         assert_ne!(places(&finds), [] as [[f64; 2]; 0]);
-        finds.hear(&aside, &field, later(60));
+        finds.on_echo(&aside, &field, later(60));
         assert_eq!(places(&finds), [] as [[f64; 2]; 0]);
     }
 }

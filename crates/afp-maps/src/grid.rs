@@ -1,4 +1,4 @@
-//! A map in cells, and how much room there is in each.
+//! A map in cells, and how far from obstacles each is.
 
 use crate::map::Map;
 use nalgebra::Vector2;
@@ -7,17 +7,17 @@ use nalgebra::Vector2;
 const CELL: f64 = 0.05;
 /// At most so many cells.
 const MOST: f64 = 500_000.0;
-/// More room than this makes no difference, metres.
-pub(crate) const ROOMY: f32 = 0.6;
+/// More clearance than this makes no difference, metres.
+pub(crate) const MAX_CLEARANCE: f32 = 0.6;
 
-/// An occupancy grid that knows for each cell how far away the nearest thing is, up to [`ROOMY`].
+/// An occupancy grid that knows for each cell how far away the nearest thing is, up to [`MAX_CLEARANCE`].
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     low: Vector2<f64>,
     pub(crate) cell: f64,
     pub(crate) columns: usize,
     pub(crate) rows: usize,
-    room: Vec<f32>,
+    clearance: Vec<f32>,
 }
 
 impl Grid {
@@ -27,8 +27,8 @@ impl Grid {
         let size = high - low;
         let cell = CELL.max(libm::sqrt(size.x * size.y / MOST));
         let [columns, rows] = [size.x, size.y].map(|side| libm::ceil(side / cell) as usize);
-        let room = vec![ROOMY; columns * rows];
-        let mut grid = Grid { low, cell, columns, rows, room };
+        let clearance = vec![MAX_CLEARANCE; columns * rows];
+        let mut grid = Grid { low, cell, columns, rows, clearance };
         for outline in map.outlines() {
             grid.stamp(outline);
         }
@@ -36,8 +36,8 @@ impl Grid {
     }
 
     /// How far the nearest thing is from the middle of a cell.
-    pub(crate) fn room(&self, index: usize) -> f32 {
-        self.room.get(index).copied().unwrap_or(0.0)
+    pub(crate) fn clearance(&self, index: usize) -> f32 {
+        self.clearance.get(index).copied().unwrap_or(0.0)
     }
 
     /// The cell of a place; none beyond the map.
@@ -74,29 +74,29 @@ impl Grid {
 
     /// Takes something small at a place into account.
     pub(crate) fn add(&mut self, place: [f64; 2]) {
-        for index in self.around(place, place, f64::from(ROOMY)) {
+        for index in self.around(place, place, f64::from(MAX_CLEARANCE)) {
             let [x, y] = self.place(index);
             self.limit(index, libm::hypot(x - place[0], y - place[1]));
         }
     }
 
-    /// Takes the room of another grid of the same map.
-    pub(crate) fn clone_room(&mut self, other: &Grid) {
-        self.room.clone_from(&other.room);
+    /// Takes the clearances of another grid of the same map.
+    pub(crate) fn clone_clearance(&mut self, other: &Grid) {
+        self.clearance.clone_from(&other.clearance);
     }
 
     fn stamp(&mut self, outline: &[Vector2<f64>]) {
         let low = outline.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
         let high = outline.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
-        for index in self.around(low.into(), high.into(), f64::from(ROOMY)) {
+        for index in self.around(low.into(), high.into(), f64::from(MAX_CLEARANCE)) {
             let off = distance(outline, self.place(index).into());
             self.limit(index, off);
         }
     }
 
-    fn limit(&mut self, index: usize, room: f64) {
-        if let Some(known) = self.room.get_mut(index) {
-            *known = known.min(room as f32);
+    fn limit(&mut self, index: usize, clearance: f64) {
+        if let Some(known) = self.clearance.get_mut(index) {
+            *known = known.min(clearance as f32);
         }
     }
 }
@@ -129,12 +129,12 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_knows_its_room() {
+    fn a_cell_knows_its_clearance() {
         let grid = grid();
-        let room = |x, y| grid.room(grid.index([x, y]).unwrap());
+        let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
         assert_eq!((grid.columns, grid.rows), (40, 40));
-        assert_eq!((room(1.0, 0.05), room(1.0, 1.0)), (0.0, ROOMY));
-        assert!((room(1.0, 0.324) - 0.225).abs() < 0.001);
+        assert_eq!((clearance(1.0, 0.05), clearance(1.0, 1.0)), (0.0, MAX_CLEARANCE));
+        assert!((clearance(1.0, 0.324) - 0.225).abs() < 0.001);
         assert_eq!((grid.index([-0.1, 0.0]), grid.index([0.0, 2.1])), (None, None));
     }
 
@@ -142,8 +142,8 @@ mod tests {
     fn what_is_added_takes_room() {
         let mut grid = grid();
         grid.add([1.0, 1.0]);
-        let room = |x, y| grid.room(grid.index([x, y]).unwrap());
-        assert!(room(1.0, 1.0) < 0.04 && (room(1.324, 1.0) - 0.325).abs() < 0.03);
-        assert_eq!(room(0.2, 1.0), ROOMY);
+        let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
+        assert!(clearance(1.0, 1.0) < 0.04 && (clearance(1.324, 1.0) - 0.325).abs() < 0.03);
+        assert_eq!(clearance(0.2, 1.0), MAX_CLEARANCE);
     }
 }

@@ -1,10 +1,10 @@
-//! Maps: where the robot is on one, and which way leads where.
+//! Maps: where the robot is on one, and which path leads where.
 //!
 //! ```text
 //!   Map ──▶ EchoField: what the range sensor hears where
 //!                │
 //!   echoes with the odometry's poses ──copied──▶ LocateJob: Filter ──▶ Belief
-//!     in Locator::hear                            on a worker        in Locator::belief
+//!     in Locator::on_echo                            on a worker        in Locator::belief
 //! ```
 //!
 //! The filter is a particle filter with a fixed number of particles (Monte Carlo localisation: Thrun, Burgard and Fox,
@@ -12,10 +12,10 @@
 //! explain them better and put particles there (sensor resetting: Lenser and Veloso, *Sensor resetting localization for
 //! poorly modelled mobile robots*, ICRA 2000), so that a robot that was carried finds itself again.
 //!
-//! What the map does not explain of echoes and bumps, the [`Planner`] goes round:
+//! What the map does not explain of echoes and bumps, the [`Planner`] leads round:
 //!
 //! ```text
-//!   Map ──▶ Grid: how much room there is        SearchJob: A* ──▶ Path
+//!   Map ──▶ Grid: clearance of each cell       SearchJob: A* ──▶ Path
 //!                │                               on a worker       in Planner::found
 //!   echoes, bumps at believed poses ──▶ Finds ──copied──┘
 //! ```

@@ -1,7 +1,7 @@
 //! Localisation as a sensor: what a platform needs to be a
 //! [`Localisation`](afp_carbot::devices::Localisation).
 //!
-//! The platform lets it hear each echo; the filter runs as a job, so that no poll waits for it, and what it believes is
+//! The platform passes it each echo; the filter runs as a job, so that no poll waits for it, and what it believes is
 //! carried on by the odometry.
 
 use crate::filter::{Filter, Ping, relative, wrap};
@@ -75,7 +75,7 @@ impl<W: Worker<LocateJob>> Locator<W> {
     }
 
     /// Takes in what range sensor and odometry say, if it is new; to be called for each echo, whoever asks or not.
-    pub fn hear(&mut self, echo: Reading<Echo>, motion: Reading<Motion>, now: Instant) {
+    pub fn on_echo(&mut self, echo: Reading<Echo>, motion: Reading<Motion>, now: Instant) {
         self.history.note(motion);
         if self.heard.is_none_or(|last| echo.time > last)
             && let Ok((Echo { distance, bearing }, robot)) = self.history.placed(echo).value

@@ -1,7 +1,7 @@
-//! Ways on the map: what a platform needs to be a
+//! Paths on the map: what a platform needs to be a
 //! [`PathPlanner`](afp_carbot::devices::PathPlanner).
 //!
-//! The platform lets it hear each echo and feel each bump, with where the robot takes itself to be; what the map does not
+//! The platform passes it each echo and each bump, with where the robot takes itself to be; what the map does not
 //! explain is avoided from then on. The search runs as a job.
 
 use crate::field::EchoField;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// A robot that knows its place no better than this knows nothing of what it hears, metres.
 const CERTAIN: f64 = 0.25;
 
-/// A search for a way, and what it needs.
+/// A search for a path, and what it needs.
 #[derive(Clone, Debug)]
 pub struct SearchJob {
     map: Arc<Grid>,
@@ -27,7 +27,7 @@ pub struct SearchJob {
     from: [f64; 2],
     to: [f64; 2],
     near: f64,
-    way: Option<Path>,
+    path: Option<Path>,
 }
 
 impl Job for SearchJob {
@@ -35,16 +35,16 @@ impl Job for SearchJob {
     const TAKES: Duration = Duration::from_millis(60);
 
     fn run(&mut self) -> Result<(), Fault> {
-        self.grid.clone_room(&self.map);
+        self.grid.clone_clearance(&self.map);
         for place in &self.found {
             self.grid.add(*place);
         }
-        self.way = search::way(&self.grid, self.from, self.to, self.near)?;
+        self.path = search::path(&self.grid, self.from, self.to, self.near)?;
         Ok(())
     }
 }
 
-/// Searches for ways on a map.
+/// Searches for paths on a map.
 #[derive(Clone, Debug)]
 pub struct Planner<W> {
     worker: W,
@@ -55,8 +55,12 @@ pub struct Planner<W> {
 }
 
 impl<W: Worker<SearchJob>> Planner<W> {
-    /// On the map of a field, with a worker that `hire` makes of its jobs.
-    pub fn new(field: EchoField, forward: Length, hire: impl FnOnce(Vec<SearchJob>) -> W) -> Self {
+    /// On the map of a field, with a worker that `make_worker` makes of its jobs.
+    pub fn new(
+        field: EchoField,
+        forward: Length,
+        make_worker: impl FnOnce(Vec<SearchJob>) -> W,
+    ) -> Self {
         /// Two elements of a plan may search at a time.
         const SLOTS: usize = 2;
         let map = Arc::new(Grid::new(field.map()));
@@ -67,14 +71,14 @@ impl<W: Worker<SearchJob>> Planner<W> {
             from: [0.0; 2],
             to: [0.0; 2],
             near: 0.0,
-            way: None,
+            path: None,
         };
-        let worker = hire(vec![job; SLOTS]);
+        let worker = make_worker(vec![job; SLOTS]);
         Planner { worker, field, finds: Finds::new(), forward: forward.si() }
     }
 
     /// Takes in an echo that was sent where the robot takes itself to have been.
-    pub fn hear(&mut self, echo: &Echo, robot: &Belief, now: Instant) {
+    pub fn on_echo(&mut self, echo: &Echo, robot: &Belief, now: Instant) {
         let Some(distance) = echo.distance.filter(|_| is_certain(robot)) else { return };
         let robot = pose(robot);
         let sensor = robot.beyond(Pose2 { x: self.forward, y: 0.0, heading: echo.bearing.si() });
@@ -83,13 +87,13 @@ impl<W: Worker<SearchJob>> Planner<W> {
             direction: sensor.heading,
             distance: distance.si(),
         };
-        self.finds.hear(&heard, &self.field, now);
+        self.finds.on_echo(&heard, &self.field, now);
     }
 
     /// Takes in that the bumper is pressed where the robot takes itself to be.
-    pub fn feel(&mut self, robot: &Belief, now: Instant) {
+    pub fn on_bump(&mut self, robot: &Belief, now: Instant) {
         if is_certain(robot) {
-            self.finds.feel(pose(robot), now);
+            self.finds.on_bump(pose(robot), now);
         }
     }
 
@@ -116,7 +120,7 @@ impl<W: Worker<SearchJob>> Planner<W> {
     pub fn found(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<Option<Path>>, Fault> {
         Ok(match self.worker.poll(ticket, now)? {
             Poll::Pending => Poll::Pending,
-            Poll::Ready(job) => Poll::Ready(job.way.clone()),
+            Poll::Ready(job) => Poll::Ready(job.path.clone()),
         })
     }
 }

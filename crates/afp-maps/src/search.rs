@@ -1,34 +1,34 @@
-//! The search for a way through a grid.
+//! The search for a path through a grid.
 
-use crate::grid::{Grid, ROOMY};
+use crate::grid::{Grid, MAX_CLEARANCE};
 use afp_carbot::Path;
 use afp_core::Fault;
 use pathfinding::prelude::astar;
 
-/// The robot turns in place wherever there is so much room around its middle, metres: half its diagonal.
+/// The robot turns in place wherever nothing is within so much of its middle, metres: half its diagonal.
 const FITS: f32 = 0.28;
-/// Where it stands it may be closer to things, within so many metres, with so much room at least.
+/// Where it stands it may be closer to things, within so many metres, with so much clearance at least.
 const LEAVING: f64 = 0.45;
 const TIGHT: f32 = 0.05;
 /// How much farther than through a roomy cell it counts through one in which the robot just fits, and through a tight one.
 const NARROW: f32 = 4.0;
 const SQUEEZE: f32 = 12.0;
-/// The way from a cell to its neighbour, and to the one across its corner, in such a unit that numbers stay whole.
+/// The length from a cell to its neighbour, and to the one across its corner, in such a unit that numbers stay whole.
 const BESIDE: u32 = 100;
 const ACROSS: u32 = 141;
-/// A piece of the way spans so many cells at most, and may have so much less room than the cells that it leaves out, metres.
+/// A piece of the path spans so many cells at most, and may have so much less clearance than the cells that it leaves out, metres.
 const PIECE: usize = 80;
 const LESS: f32 = 0.03;
-/// A piece with so much room is as good as any, metres.
+/// A piece with so much clearance is as good as any, metres.
 const COMFORT: f32 = 0.45;
 
-/// The way from one place to another, or as near to it as `near`; none where no way leads. By A* (Hart, Nilsson and
+/// The path from one place to another, or as near to it as `near`; none where there is none. By A* (Hart, Nilsson and
 /// Raphael, 1968) on the eight neighbours of each cell, keeping to the middle of what is narrow; its corners are then drawn
 /// tight.
 ///
 /// # Errors
-/// The way has too many corners.
-pub(crate) fn way(
+/// It has too many corners.
+pub(crate) fn path(
     grid: &Grid,
     from: [f64; 2],
     to: [f64; 2],
@@ -47,12 +47,12 @@ pub(crate) fn way(
     let found = astar(&start, next, rest, |index| *index == goal);
     let Some((cells, _)) = found else { return Ok(None) };
     let last = if grid.index(to) == Some(goal) { to } else { end };
-    Path::new(tight(grid, &cells, from, last)).map(Some)
+    Path::new(pulled_tight(grid, &cells, from, last)).map(Some)
 }
 
-/// The cell where the way ends: that of the place if the robot fits there, else the nearest.
+/// The cell where the path ends: that of the place if the robot fits there, else the nearest.
 fn goal(grid: &Grid, to: [f64; 2], near: f64) -> Option<usize> {
-    let fits = |index: &usize| grid.room(*index) >= FITS;
+    let fits = |index: &usize| grid.clearance(*index) >= FITS;
     if let Some(exact) = grid.index(to).filter(fits) {
         return Some(exact);
     }
@@ -64,14 +64,16 @@ fn goal(grid: &Grid, to: [f64; 2], near: f64) -> Option<usize> {
     close.min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
-/// How much farther than it is a way through a cell counts; none where the robot does not fit.
+/// How much farther than it is a path through a cell counts; none where the robot does not fit.
 fn weight(grid: &Grid, index: usize, from: [f64; 2]) -> Option<f32> {
-    let room = grid.room(index);
-    if room >= FITS {
-        return Some(1.0 + (NARROW - 1.0) * (ROOMY - room).max(0.0) / (ROOMY - FITS));
+    let clearance = grid.clearance(index);
+    if clearance >= FITS {
+        return Some(
+            1.0 + (NARROW - 1.0) * (MAX_CLEARANCE - clearance).max(0.0) / (MAX_CLEARANCE - FITS),
+        );
     }
     let [x, y] = grid.place(index);
-    let leaving = libm::hypot(x - from[0], y - from[1]) <= LEAVING && room >= TIGHT;
+    let leaving = libm::hypot(x - from[0], y - from[1]) <= LEAVING && clearance >= TIGHT;
     leaving.then_some(SQUEEZE)
 }
 
@@ -86,18 +88,18 @@ fn neighbours(
     steps.filter_map(move |(across, up)| {
         let (column, row) = (column + across, row + up);
         let inside = (0..columns).contains(&column) && (0..rows).contains(&row);
-        let way = match (across, up) {
+        let length = match (across, up) {
             (0, 0) => return None,
             (0, _) | (_, 0) => BESIDE,
             _ => ACROSS,
         };
         let next = inside.then_some((row * columns + column) as usize)?;
-        Some((next, (way as f32 * cost(next)?) as u32))
+        Some((next, (length as f32 * cost(next)?) as u32))
     })
 }
 
-/// The corners that a way needs.
-fn tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> Vec<[f64; 2]> {
+/// The corners that a path needs.
+fn pulled_tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> Vec<[f64; 2]> {
     let mut places: Vec<_> = cells.iter().map(|index| grid.place(*index)).collect();
     if let Some(first) = places.first_mut() {
         *first = from;
@@ -106,13 +108,13 @@ fn tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> Vec<[f64
         Some(last) if cells.len() > 1 => *last = to,
         _ => places.push(to),
     }
-    let rooms: Vec<_> = places.iter().map(|place| room_at(grid, *place)).collect();
+    let clearances: Vec<_> = places.iter().map(|place| clearance_at(grid, *place)).collect();
     let mut corners = vec![from];
     let mut at = 0;
     while at + 1 < places.len() {
         let far = (at + PIECE).min(places.len() - 1);
         let straight = |to: &usize| {
-            let least = rooms[at..=*to].iter().copied().fold(COMFORT, f32::min);
+            let least = clearances[at..=*to].iter().copied().fold(COMFORT, f32::min);
             is_clear(grid, places[at], places[*to], least - LESS)
         };
         at = (at + 2..=far).rev().find(straight).unwrap_or(at + 1);
@@ -121,18 +123,18 @@ fn tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> Vec<[f64
     corners
 }
 
-/// Whether there is so much room all along a straight piece.
-fn is_clear(grid: &Grid, from: [f64; 2], to: [f64; 2], room: f32) -> bool {
+/// Whether there is so much clearance all along a straight piece.
+fn is_clear(grid: &Grid, from: [f64; 2], to: [f64; 2], clearance: f32) -> bool {
     let [x, y] = [to[0] - from[0], to[1] - from[1]];
     let steps = libm::ceil(libm::hypot(x, y) / grid.cell * 2.0).max(1.0);
     (0..=steps as u32).all(|n| {
         let share = f64::from(n) / steps;
-        room_at(grid, [from[0] + x * share, from[1] + y * share]) >= room
+        clearance_at(grid, [from[0] + x * share, from[1] + y * share]) >= clearance
     })
 }
 
-fn room_at(grid: &Grid, place: [f64; 2]) -> f32 {
-    grid.index(place).map_or(0.0, |index| grid.room(index))
+fn clearance_at(grid: &Grid, place: [f64; 2]) -> f32 {
+    grid.index(place).map_or(0.0, |index| grid.clearance(index))
 }
 
 #[cfg(test)]
@@ -158,10 +160,10 @@ mod tests {
     }
 
     fn places(grid: &Grid, from: [f64; 2], to: [f64; 2]) -> Option<Vec<[f64; 2]>> {
-        way(grid, from, to, 0.1).unwrap().map(|path| path.places().collect())
+        path(grid, from, to, 0.1).unwrap().map(|path| path.places().collect())
     }
 
-    /// The length of a way, and the least room along it.
+    /// The length of a path, and the least clearance along it.
     fn measure(grid: &Grid, places: &[[f64; 2]]) -> (f64, f32) {
         let pieces = places.windows(2);
         let length =
@@ -170,27 +172,31 @@ mod tests {
             let share = f64::from(n) / 20.0;
             [0, 1].map(|axis| ends[0][axis] + share * (ends[1][axis] - ends[0][axis]))
         };
-        let rooms =
-            pieces.clone().flat_map(|ends| (0..=20).map(move |n| room_at(grid, along(ends, n))));
-        (pieces.map(length).sum(), rooms.fold(ROOMY, f32::min))
+        let clearances = pieces
+            .clone()
+            .flat_map(|ends| (0..=20).map(move |n| clearance_at(grid, along(ends, n))));
+        (pieces.map(length).sum(), clearances.fold(MAX_CLEARANCE, f32::min))
     }
 
     #[test]
     fn straight_on_where_nothing_is_in_the_way() {
-        let way = places(&rooms(1.0), [1.0, 2.0], [5.0, 2.0]).unwrap();
-        assert!(way.len() <= 3, "{way:?}");
+        let path = places(&rooms(1.0), [1.0, 2.0], [5.0, 2.0]).unwrap();
+        assert!(path.len() <= 3, "{path:?}");
         let ends =
             [[1.0, 2.0], [5.0, 2.0]].map(|place: [f64; 2]| place.map(|at| f64::from(at as f32)));
-        assert_eq!((way[0], *way.last().unwrap()), (ends[0], ends[1]));
+        assert_eq!((path[0], *path.last().unwrap()), (ends[0], ends[1]));
     }
 
     #[test]
     fn through_the_door_with_room_for_the_robot() {
         let grid = rooms(1.0);
-        let way = places(&grid, [1.0, 0.7], [5.0, 0.7]).unwrap();
-        let (length, room) = measure(&grid, &way);
-        assert!((4.5..6.0).contains(&length) && room >= FITS - LESS, "{length} {room} {way:?}");
-        assert!(way.len() < 12, "{way:?}");
+        let path = places(&grid, [1.0, 0.7], [5.0, 0.7]).unwrap();
+        let (length, clearance) = measure(&grid, &path);
+        assert!(
+            (4.5..6.0).contains(&length) && clearance >= FITS - LESS,
+            "{length} {clearance} {path:?}"
+        );
+        assert!(path.len() < 12, "{path:?}");
     }
 
     #[test]
@@ -205,16 +211,16 @@ mod tests {
         for n in 0..10 {
             grid.add([3.0, 1.6 + 0.05 * f64::from(n)]);
         }
-        let way = places(&grid, [1.0, 2.0], [5.0, 2.0]).unwrap();
-        assert!(way.iter().any(|[_, y]| (y - 2.0).abs() > 0.25), "{way:?}");
-        assert!(measure(&grid, &way).1 >= FITS - LESS, "{way:?}");
+        let path = places(&grid, [1.0, 2.0], [5.0, 2.0]).unwrap();
+        assert!(path.iter().any(|[_, y]| (y - 2.0).abs() > 0.25), "{path:?}");
+        assert!(measure(&grid, &path).1 >= FITS - LESS, "{path:?}");
     }
 
     #[test]
     fn a_goal_in_a_wall_is_none_unless_near_to_it_will_do() {
         let grid = rooms(1.0);
         assert_eq!(places(&grid, [1.0, 2.0], [0.2, 2.0]), None);
-        let near = way(&grid, [1.0, 2.0], [0.2, 2.0], 0.3).unwrap().unwrap();
+        let near = path(&grid, [1.0, 2.0], [0.2, 2.0], 0.3).unwrap().unwrap();
         let end = near.places().next_back().unwrap();
         assert!(end[0] > 0.3 && end[0] < 0.5, "{end:?}");
         assert_eq!(places(&grid, [1.0, 2.0], [9.0, 2.0]), None);

@@ -1,5 +1,5 @@
 //! What compiler and run time say alike: the arithmetic of formulas, how texts become numbers and numbers texts, and
-//! what components, entries and parts of rows are.
+//! what components, entries and parts of rows are, and which number tells texts apart.
 //!
 //! A formula that is constant is computed by the compiler, any other by the interpreter or by
 //! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
@@ -12,6 +12,7 @@ mod arithmetic;
 mod decimal;
 mod exact;
 mod function;
+mod hash;
 mod kind;
 mod measured;
 mod read;
@@ -28,6 +29,7 @@ pub use function::{
     Function, abs, atan2, clamp, cos, hypot, int_abs, int_clamp, int_max, int_min, max, min, sin,
     sqrt,
 };
+pub use hash::TextHash;
 pub use kind::{ComponentKind, EntryKind};
 pub use measured::Measured;
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};

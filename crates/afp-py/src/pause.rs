@@ -1,4 +1,4 @@
-//! Looks at signals and stop requests while something runs for long.
+//! Checks for signals and stop requests while something runs for long.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

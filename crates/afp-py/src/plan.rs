@@ -150,7 +150,7 @@ impl Plan {
 
     /// The drawing with what the run of a log made use of, as SVG.
     fn _coverage(&self, py: Python<'_>, log: PathBuf) -> PyResult<String> {
-        let compiled = self.sound(py)?;
+        let compiled = self.checked(py)?;
         let read = in_background(py, move || afp_log::read(&log))?;
         let log = read.map_err(|why| crate::errors::log_error(&why))?;
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
@@ -174,7 +174,7 @@ impl Plan {
 
     /// The drawing for GraphViz.
     fn dot(&self, py: Python<'_>) -> PyResult<String> {
-        let (compiled, icon) = (self.sound(py)?, self.icons());
+        let (compiled, icon) = (self.checked(py)?, self.icons());
         in_background(py, move || {
             afp_draw::dot(&compiled.outline, &Options { icons: Some(&icon), ..Options::default() })
         })
@@ -182,7 +182,7 @@ impl Plan {
 
     /// The checked graph as JSON.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let (compiled, icon) = (self.sound(py)?, self.icons());
+        let (compiled, icon) = (self.checked(py)?, self.icons());
         in_background(py, move || {
             afp_draw::json(&compiled.outline, &Options { icons: Some(&icon), ..Options::default() })
         })
@@ -297,7 +297,7 @@ impl Plan {
     ///
     /// # Errors
     /// The plan has errors.
-    fn sound(&self, py: Python<'_>) -> PyResult<Arc<Compiled>> {
+    fn checked(&self, py: Python<'_>) -> PyResult<Arc<Compiled>> {
         let compiled = self.compiled(py);
         match compiled.graph {
             Some(_) => Ok(compiled),

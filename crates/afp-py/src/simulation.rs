@@ -37,7 +37,7 @@ use crate::world::{World, table};
 
 pub use driven::Driven;
 use event::line;
-pub use event::{Event, value};
+pub use event::{Event, plain, value};
 use glance::Seen;
 pub use keeper::Keeper;
 pub use names::Names;

@@ -20,7 +20,7 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
 use afp_session::Loader;
-use afp_sweep::{Header, Journal, Outcome, Place, Row, Setting, Sweep};
+use afp_sweep::{Header, Journal, Outcome, OutputFiles, Row, Setting, Sweep};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -54,7 +54,7 @@ pub struct Sweeper {
 struct Done {
     outcomes: Vec<Outcome>,
     journal: Option<Journal>,
-    place: Option<Place>,
+    output: Option<OutputFiles>,
 }
 
 #[pymethods]
@@ -126,12 +126,12 @@ impl Sweeper {
 
     /// Keeps outcomes in a journal beside the table `out`, and takes up those that are there.
     fn open(&self, out: &str, restart: bool) -> PyResult<()> {
-        let place = Place::new(Some(Path::new(out)), &self.file, &self.header);
-        let place = place.map_err(|why| run_error(&why))?;
-        let journal = Journal::open(&place.journal, &self.header, restart);
+        let output = OutputFiles::new(Some(Path::new(out)), &self.file, &self.header);
+        let output = output.map_err(|why| run_error(&why))?;
+        let journal = Journal::open(&output.journal, &self.header, restart);
         let (journal, outcomes) = journal.map_err(|why| run_error(&why))?;
         let done = &mut *self.lock()?;
-        *done = Done { outcomes, journal: Some(journal), place: Some(place) };
+        *done = Done { outcomes, journal: Some(journal), output: Some(output) };
         Ok(())
     }
 
@@ -158,13 +158,13 @@ impl Sweeper {
     ) -> PyResult<()> {
         let mut done = self.lock()?;
         let done = &mut *done;
-        let mut told = 0_usize;
-        self.work(py, &runs, cores(jobs), judge.as_ref(), |py, news| {
-            told += news.len();
-            let rows = self.rows(py, &news, on_run.as_ref())?;
-            done.keep(news)?;
-            tell(py, on_run.as_ref(), rows)?;
-            progress.as_ref().map_or(Ok(()), |tell| tell.call1(py, (told,)).map(drop))
+        let mut reported = 0_usize;
+        self.work(py, &runs, cores(jobs), judge.as_ref(), |py, new| {
+            reported += new.len();
+            let rows = self.rows(py, &new, on_run.as_ref())?;
+            done.keep(new)?;
+            report(py, on_run.as_ref(), rows)?;
+            progress.as_ref().map_or(Ok(()), |tell| tell.call1(py, (reported,)).map(drop))
         })
     }
 
@@ -178,8 +178,8 @@ impl Sweeper {
         judge: Option<Py<PyAny>>,
     ) -> PyResult<Vec<String>> {
         let mut lines = Vec::with_capacity(runs.len());
-        self.work(py, &runs, cores(jobs), judge.as_ref(), |_, news| {
-            for outcome in &news {
+        self.work(py, &runs, cores(jobs), judge.as_ref(), |_, new| {
+            for outcome in &new {
                 lines.push(serde_json::to_string(outcome).map_err(error)?);
             }
             Ok(())
@@ -187,7 +187,7 @@ impl Sweeper {
         Ok(lines)
     }
 
-    /// Keeps outcomes of another process, and tells `on_run` their rows; those of runs that are done are dropped. How many
+    /// Keeps outcomes of another process, and passes their rows to `on_run`; those of runs that are done are dropped. How many
     /// were new.
     #[pyo3(signature = (lines, on_run=None))]
     fn accept(
@@ -197,18 +197,18 @@ impl Sweeper {
         on_run: Option<Py<PyAny>>,
     ) -> PyResult<usize> {
         let mut done = self.lock()?;
-        let mut news: Vec<Outcome> = Vec::new();
+        let mut new: Vec<Outcome> = Vec::new();
         for line in &lines {
             let outcome: Outcome = serde_json::from_str(line).map_err(error)?;
-            let known = done.outcomes.iter().chain(&news).any(|other| other.run == outcome.run);
+            let known = done.outcomes.iter().chain(&new).any(|other| other.run == outcome.run);
             if !known && outcome.run < self.sweep.len() {
-                news.push(outcome);
+                new.push(outcome);
             }
         }
-        let count = news.len();
-        let rows = self.rows(py, &news, on_run.as_ref())?;
-        done.keep(news)?;
-        tell(py, on_run.as_ref(), rows)?;
+        let count = new.len();
+        let rows = self.rows(py, &new, on_run.as_ref())?;
+        done.keep(new)?;
+        report(py, on_run.as_ref(), rows)?;
         Ok(count)
     }
 
@@ -241,13 +241,13 @@ impl Sweeper {
         Ok((runner, World { loaded }))
     }
 
-    /// Writes the table, if it has a place, and lets go of the journal; its paths.
+    /// Writes the table, if it is written anywhere, and closes the journal; its paths.
     fn write(&self) -> PyResult<Vec<PathBuf>> {
         let mut done = self.lock()?;
         done.journal = None;
-        let Some(place) = &done.place else { return Ok(Vec::new()) };
-        place.write(&self.sweep, &done.sorted()).map_err(|why| run_error(&why))?;
-        Ok(place.tables.iter().map(|(path, _)| path.clone()).collect())
+        let Some(output) = &done.output else { return Ok(Vec::new()) };
+        output.write(&self.sweep, &done.sorted()).map_err(|why| run_error(&why))?;
+        Ok(output.tables.iter().map(|(path, _)| path.clone()).collect())
     }
 
     /// The outcomes so far by column, in the order of the runs; the second of a pair is the type.
@@ -298,8 +298,8 @@ impl Sweeper {
 
 impl Done {
     /// Keeps outcomes, in the journal too.
-    fn keep(&mut self, news: Vec<Outcome>) -> PyResult<()> {
-        for outcome in news {
+    fn keep(&mut self, new: Vec<Outcome>) -> PyResult<()> {
+        for outcome in new {
             if let Some(journal) = &mut self.journal {
                 journal.keep(&outcome).map_err(|why| run_error(&why))?;
             }
@@ -342,8 +342,8 @@ fn program(mark: &str) -> String {
     }
 }
 
-/// Tells of rows, one after the other.
-fn tell(py: Python<'_>, to: Option<&Py<PyAny>>, rows: Vec<Bound<'_, PyDict>>) -> PyResult<()> {
+/// Passes rows to a function of Python, one after the other.
+fn report(py: Python<'_>, to: Option<&Py<PyAny>>, rows: Vec<Bound<'_, PyDict>>) -> PyResult<()> {
     let Some(to) = to else { return Ok(()) };
     rows.into_iter().try_for_each(|row| to.call1(py, (row,)).map(drop))
 }

@@ -1,4 +1,4 @@
-//! `--again`: the run of a log once more.
+//! `--again`: repeats the run of a log.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Others who watch a run while it goes on, where this program was built for that.
+//! A live stream of a run for clients that watch it, with the feature `live`.
 
 use std::net::SocketAddr;
 

@@ -1,6 +1,6 @@
 //! What a run says about itself: a timeline for people, lines of JSON for machines, a summary.
 
-mod behind;
+mod background;
 mod json;
 mod progress;
 mod summary;
@@ -17,7 +17,7 @@ use afp_session::{Applied, EventKind, NamedRecord, Observer, RunEvent};
 use crate::options::TimeKeeper;
 use crate::stderr::warn;
 
-use behind::{Behind, Out};
+use background::{BackgroundWriter, Out};
 use progress::Progress;
 pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
 
@@ -34,7 +34,11 @@ pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
 /// A record as a line of the timeline; `None` for what is not worth one.
 pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<String> {
     let template = match *record {
-        Record::Polled { .. } | Record::Input { .. } => return None,
+        Record::Polled { .. } => return None,
+        Record::Input { component, .. } => match names.component(component).template {
+            timeline::LOG => timeline::LOG,
+            _ => return None,
+        },
         Record::Started { component } => match names.component(component) {
             name if name.kind == ComponentKind::Supervisor => return None,
             name => name.template,
@@ -79,7 +83,9 @@ impl Report {
     pub(crate) fn new(json: bool, end: Instant, keeper: TimeKeeper) -> io::Result<Self> {
         let terminal = io::stdout().is_terminal();
         let out = match (keeper, terminal) {
-            (TimeKeeper::Robot, _) => Out::Behind(Behind::new(Box::new(anstream::stdout()))?),
+            (TimeKeeper::Robot, _) => {
+                Out::Background(BackgroundWriter::new(Box::new(anstream::stdout()))?)
+            }
             // Line by line for people, in blocks for pipes.
             (_, true) => Out::Here(Box::new(anstream::stdout())),
             (_, false) => Out::Here(Box::new(io::BufWriter::new(anstream::stdout()))),
@@ -103,10 +109,11 @@ impl Report {
 
     /// Tells of a record, if it is worth it.
     pub(crate) fn tell(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
-        if matches!(record, Record::Polled { .. } | Record::Input { .. }) {
+        if matches!(record, Record::Polled { .. }) {
             return;
         }
         let line = match self.json {
+            true if matches!(record, Record::Input { .. }) => return,
             true => json::line(&RunEvent::new(at, record, names)),
             false => line(at, record, names),
         };

@@ -61,14 +61,14 @@ pub trait AnySession: Send {
     /// The value does not fit, the plan has ended, or too many writes wait.
     fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError>;
 
-    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is told to
+    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is reported to
     /// observers.
     ///
     /// # Errors
     /// It can never be done.
     fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError>;
 
-    /// How long a run goes on when the plan has ended, so that the robot comes to rest; nothing unless told.
+    /// How long a run goes on when the plan has ended, so that the robot comes to rest; zero by default.
     fn set_rest(&mut self, rest: Duration);
 
     /// Lets time pass up to the next thing to do, but not beyond `limit`, and does it.

@@ -1,8 +1,8 @@
-//! Command lines that are told to people: how `afpc run` has a run once more.
+//! Command lines that repeat a run with `afpc run`.
 
 use afp_core::Duration;
 
-/// How long `afpc run` lets a plan run in virtual time unless it is told otherwise.
+/// How long `afpc run` lets a plan run in virtual time by default.
 pub const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
 
 /// A word as a shell takes it: quoted where it has to be.

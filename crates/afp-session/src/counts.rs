@@ -43,7 +43,7 @@ pub struct Usage {
     pub reactions: Vec<Reaction>,
     /// How often it was interrupted.
     pub interruptions: u64,
-    /// How often a supervisor was polled, where polls that saw nothing are told.
+    /// How often a supervisor was polled, where polls that saw nothing are reported.
     pub polls: u64,
     /// Deadlines missed because the poll began too late.
     pub late_releases: u64,
@@ -215,7 +215,7 @@ impl Counts {
         failed.or(self.left).map_or("", |id| names.component(id).path)
     }
 
-    /// What people are told of the fault that ended the plan; `None` where none did.
+    /// The text for people of the fault that ended the plan; `None` where none did.
     pub fn why(&self, names: &dyn Names) -> Option<String> {
         let Some(Ending::Error(fault)) = self.ending else { return None };
         let failure = self.failure.filter(|failure| failure.fault == fault);

@@ -1,4 +1,4 @@
-//! Who lets time pass, and who is told what happened.
+//! Gates, which decide whether time passes, and observers, which are called with what happened.
 
 use afp_core::devices::SignalId;
 use afp_core::trace::{ComponentId, Ending, Names, Record};
@@ -110,19 +110,19 @@ impl Applied<'_> {
     }
 }
 
-/// Is told what happens in a run. It never touches the session.
+/// Called with what happens in a run. It never changes the session.
 pub trait Observer {
     /// A record of the step that is over.
     fn on_record(&mut self, record: &NamedRecord<'_>) {
         let _ = record;
     }
 
-    /// Whether it is told of polls that saw nothing, too.
+    /// Whether it is called for polls that saw nothing, too.
     fn wants_clear_polls(&self) -> bool {
         false
     }
 
-    /// All records of a step have been told.
+    /// All records of a step have been reported.
     fn after_step(&mut self, view: &View<'_>) {
         let _ = view;
     }

@@ -103,7 +103,7 @@ pub(crate) struct Requests {
     next: Instant,
 }
 
-/// A request that observers have not been told of.
+/// A request that has not been reported to observers.
 #[derive(Clone, Debug)]
 pub(crate) struct Waiting {
     pub(crate) request: Request,
@@ -122,7 +122,7 @@ impl Requests {
         self.insert(at, Waiting { request, done: false })
     }
 
-    /// Adds one that is done already, for observers to be told of.
+    /// Adds one that is done already, to be reported to observers.
     pub(crate) fn add_done(&mut self, at: Instant, request: Request) {
         self.insert(at, Waiting { request, done: true });
     }

@@ -155,7 +155,7 @@ enum To<'a, 'o> {
     One(SignalId, &'a mut dyn FnMut(SampleRef<'_>)),
 }
 
-/// What a signal of a robot is now; nothing is told where the robot does not say it.
+/// What a signal of a robot is now; `to` is not called where the robot has no value for it.
 pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
     robot.sample(&mut Samples::of_one(robot.now(), signal, to));
 }
@@ -163,13 +163,13 @@ pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(Sam
 /// Whose turn it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// Those on whose grid the instant is; those that follow the robot have their turn after the step, where
+    /// Those on whose grid the instant is; those that sample at each step have their turn after it, where
     /// there is one.
     Grid {
         /// Whether a step is about to be made.
         before_step: bool,
     },
-    /// A step is over: those that follow the robot.
+    /// A step is over: those that sample at each step.
     Step,
 }
 

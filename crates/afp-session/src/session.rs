@@ -114,7 +114,7 @@ where
         self.measures.push(measure);
     }
 
-    /// How long a run goes on when the plan has ended, so that the robot comes to rest; nothing unless told.
+    /// How long a run goes on when the plan has ended, so that the robot comes to rest; zero by default.
     pub fn set_rest(&mut self, rest: Duration) {
         self.rest = rest;
     }
@@ -369,10 +369,10 @@ where
             Wake::Ended(_) | Wake::NotStarted => self.ended(now),
         }
         if !self.sink.is_empty() {
-            self.tell_records(to);
+            self.report_records(to);
         }
         if !to.is_empty() {
-            self.tell_step(now, to);
+            self.report_step(now, to);
         }
     }
 

@@ -1,4 +1,4 @@
-//! The world as light meets it: upright solids on a painted floor.
+//! The world as cameras and light sensors see it: upright solids on a painted floor.
 
 use crate::world::{Look, Mobility, Obstacle, Patch, Rgb, World};
 use std::sync::Arc;

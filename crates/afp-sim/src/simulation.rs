@@ -203,8 +203,8 @@ impl Simulation {
 
     /// Whether the engine has taken no body out for being nowhere: where a pose or a velocity is not
     /// finite, it lets the body take no more part.
-    pub fn sound(&self) -> bool {
-        self.stage.is_sound()
+    pub fn all_bodies_enabled(&self) -> bool {
+        self.stage.all_enabled()
     }
 
     /// Holds the escape button down.

@@ -129,7 +129,7 @@ impl Stage {
 
     /// Whether the engine has taken no body out for being nowhere: where a pose or a velocity is not
     /// finite, it lets the body take no more part.
-    pub fn is_sound(&self) -> bool {
+    pub fn all_enabled(&self) -> bool {
         let mut bodies = self.physics.bodies.iter();
         let mut colliders = self.physics.colliders.iter();
         bodies.all(|(_, body)| body.is_enabled())

@@ -1,4 +1,4 @@
-//! What only a judge may know.
+//! The true state of the simulation, for measures and logs alone: no template can read it.
 //!
 //! Nothing here is reachable through a device trait, so no template can use it.
 

@@ -8,8 +8,8 @@
 //! what lets a browser in is a code that works once, and what it asks is looked at (`Host`, `Origin`) before
 //! anything is answered.
 
+mod access;
 mod debugging;
-mod doors;
 mod examples;
 mod files;
 mod jobs;
@@ -27,7 +27,7 @@ use std::{env, io};
 
 use afp_lsp::Host;
 
-use doors::Secret;
+use access::Secret;
 pub use examples::Example;
 pub use files::Folder;
 use lock::Lock;

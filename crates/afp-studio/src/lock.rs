@@ -12,7 +12,7 @@ use std::time::{Duration, SystemTime};
 
 use afp_token::Token;
 
-use crate::doors::CODE_LASTS;
+use crate::access::CODE_LASTS;
 
 /// How long the first one has to say its port.
 const SAYS_WITHIN: Duration = Duration::from_secs(3);

@@ -1,4 +1,4 @@
-//! Requests over HTTP: doors first, then the page, its files and its socket.
+//! Requests over HTTP: access is checked first, then come the page, its files and its socket.
 
 use std::collections::HashMap;
 use std::net::TcpListener;
@@ -16,7 +16,7 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use axum::serve::ListenerExt;
 
-use crate::doors::Secret;
+use crate::access::Secret;
 use crate::room::Room;
 use crate::sockets::{self, Sockets};
 use crate::{Debugging, debugging, page};

@@ -16,7 +16,7 @@ pub struct Sweep {
     /// The plan as it is named on the command line.
     pub plan: String,
     /// The worlds. Never empty.
-    pub worlds: Vec<Room>,
+    pub worlds: Vec<WorldChoice>,
     /// What is varied.
     pub axes: Vec<Axis>,
     /// The seeds.
@@ -33,7 +33,7 @@ pub struct Sweep {
 
 /// A world of a sweep.
 #[derive(Clone, Debug)]
-pub enum Room {
+pub enum WorldChoice {
     /// The one that a run of the plan takes without a word.
     OfPlan,
     /// As `--world` names it.
@@ -68,25 +68,25 @@ pub struct Row<'a> {
     /// The place of its world among those of the sweep.
     pub world_number: usize,
     /// Its world.
-    pub world: &'a Room,
+    pub world: &'a WorldChoice,
     /// Its seed.
     pub seed: u64,
     /// The value of each axis.
     pub values: Vec<(&'a str, &'a Point)>,
 }
 
-impl Room {
+impl WorldChoice {
     /// What tables call it; none for that of the plan.
     pub fn name(&self) -> Option<&str> {
         match self {
-            Room::OfPlan => None,
-            Room::Named(name) | Room::Made(name, _) => Some(name),
+            WorldChoice::OfPlan => None,
+            WorldChoice::Named(name) | WorldChoice::Made(name, _) => Some(name),
         }
     }
 
     /// Why no command takes it; none where one does.
     fn caveat(&self) -> Option<&'static str> {
-        matches!(self, Room::Made(..)).then_some("the world has no file")
+        matches!(self, WorldChoice::Made(..)).then_some("the world has no file")
     }
 }
 
@@ -118,7 +118,7 @@ impl Sweep {
         }
         values.reverse();
         let world_number = (rest as usize).min(self.worlds.len().saturating_sub(1));
-        let world = self.worlds.get(world_number).unwrap_or(&Room::OfPlan);
+        let world = self.worlds.get(world_number).unwrap_or(&WorldChoice::OfPlan);
         Row { run, world_number, world, seed, values }
     }
 
@@ -185,7 +185,7 @@ mod tests {
         Sweep {
             caveat: None,
             plan: "my plan.afp".to_owned(),
-            worlds: vec![Room::OfPlan, Room::Named("random:7".to_owned())],
+            worlds: vec![WorldChoice::OfPlan, WorldChoice::Named("random:7".to_owned())],
             axes: vec![axis("a=1,2,3").unwrap(), axis("b=20cm..30cm:5cm").unwrap()],
             seeds: seeds("5..9").unwrap(),
             presses: vec![press("touch@2s").unwrap()],

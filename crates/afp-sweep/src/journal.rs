@@ -178,8 +178,8 @@ fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usi
 /// What a line says, if it is as it was written.
 fn parse<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     let (json, sum) = str::from_utf8(line).ok()?.trim_end().rsplit_once('\t')?;
-    let sound = hash(json) == sum;
-    serde_json::from_str(json).ok().filter(|_| sound)
+    let valid = hash(json) == sum;
+    serde_json::from_str(json).ok().filter(|_| valid)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use afp_run::world::{self, LoadedWorld, change};
 use afp_run::{RunError, hash, inputs, requests};
 use afp_session::{AnySession, Loader};
 
-use crate::grid::{Axis, Point, Room, Row, Sweep};
+use crate::grid::{Axis, Point, Row, Sweep, WorldChoice};
 
 /// More runs than this are a mistake, and no list could hold them.
 const MOST: u64 = 10_000_000;
@@ -46,7 +46,7 @@ impl<'a> Setting<'a> {
             ));
         }
         let worlds = sweep.worlds.iter().map(|room| match room {
-            Room::Made(_, world) => Ok(world.clone()),
+            WorldChoice::Made(_, world) => Ok(world.clone()),
             room => world::find(room.name().map(Path::new), file, robot.kind()),
         });
         let worlds = worlds.collect::<Result<Vec<_>, _>>()?;

@@ -41,7 +41,7 @@ mod tests {
             presses: Vec::new(),
             failures: Vec::new(),
             plan: "a.afp".to_owned(),
-            worlds: vec![crate::Room::OfPlan],
+            worlds: vec![crate::WorldChoice::OfPlan],
             axes: vec![axis("d=20cm,30cm").unwrap()],
             seeds: seeds("3..5").unwrap(),
             until: afp_core::Duration::from_secs(60),

@@ -12,7 +12,7 @@ use afp_dsl::toolbox::Toolboxes;
 use afp_run::RunError;
 use afp_session::AnySession;
 use afp_sim::Simulation;
-use afp_sweep::{Ending, Engine, Outcome, Room, Row, Setting, Sweep, axis, seeds};
+use afp_sweep::{Ending, Engine, Outcome, Row, Setting, Sweep, WorldChoice, axis, seeds};
 use afp_syntax::source::Source;
 
 mod templates {
@@ -67,7 +67,7 @@ fn sweep() -> Sweep {
         presses: Vec::new(),
         failures: Vec::new(),
         plan: "either.afp".to_owned(),
-        worlds: vec![Room::Named("random:4".to_owned())],
+        worlds: vec![WorldChoice::Named("random:4".to_owned())],
         axes: vec![axis("way=5cm,5m").unwrap()],
         seeds: seeds("0..6").unwrap(),
         until: Duration::from_secs(4),

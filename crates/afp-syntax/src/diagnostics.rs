@@ -161,8 +161,8 @@ impl Diagnostics {
     }
 
     /// One of them, by its place.
-    pub fn get(&self, place: u32) -> Option<&Diagnostic> {
-        self.list.get(place as usize)
+    pub fn get(&self, index: u32) -> Option<&Diagnostic> {
+        self.list.get(index as usize)
     }
 
     /// All of them.

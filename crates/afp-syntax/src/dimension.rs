@@ -21,6 +21,8 @@ impl Dimension {
     /// A plain number.
     pub const NONE: Dimension =
         Dimension { length: 0, mass: 0, time: 0, angle: 0, temperature: 0, voltage: 0 };
+    /// A span of time.
+    pub const DURATION: Dimension = Dimension { time: 1, ..Dimension::NONE };
 }
 
 /// The dimensions that have a name in the language, with the unit in which people write them and
@@ -28,7 +30,7 @@ impl Dimension {
 const NAMED: &[(&str, Dimension, &str, &str)] = &[
     ("length", Dimension { length: 1, ..Dimension::NONE }, "cm", "m"),
     ("angle", Dimension { angle: 1, ..Dimension::NONE }, "deg", "rad"),
-    ("duration", Dimension { time: 1, ..Dimension::NONE }, "s", "s"),
+    ("duration", Dimension::DURATION, "s", "s"),
     ("speed", Dimension { length: 1, time: -1, ..Dimension::NONE }, "cm/s", "m/s"),
     ("angular_speed", Dimension { angle: 1, time: -1, ..Dimension::NONE }, "deg/s", "rad/s"),
     ("acceleration", Dimension { length: 1, time: -2, ..Dimension::NONE }, "m/s^2", "m/s^2"),

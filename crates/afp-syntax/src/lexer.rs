@@ -21,6 +21,15 @@ pub(super) struct Token<'t> {
     pub text: &'t str,
     /// Where it starts in the file, in bytes.
     pub start: u32,
+    /// How many line breaks are in it; from two on no matter how many.
+    pub breaks: u8,
+}
+
+impl Token<'_> {
+    /// Whether what is behind it stands on another line than what is before it.
+    pub(super) fn ends_line(&self) -> bool {
+        self.breaks > 0
+    }
 }
 
 /// Cuts `text` into tokens, trivia included.
@@ -45,20 +54,24 @@ struct Lexer<'t, 'd> {
 impl<'t> Lexer<'t, '_> {
     fn token(&mut self) {
         let rest = &self.text[self.at..];
-        let Some(first) = rest.chars().next() else { return };
-        match first {
-            '0'..='9' => self.number(),
-            '"' => self.quoted(),
-            '/' if rest.starts_with("/*") => self.block_comment(),
-            '/' if rest.starts_with("//") => self.comment(),
-            // The mark at the start of a file says how it is encoded.
-            '\u{feff}' if self.at == 0 => {
-                self.push(Kind::Whitespace, first.len_utf8());
+        let Some(first) = rest.bytes().next() else { return };
+        match Class::of(first) {
+            Class::Digit => self.number(),
+            Class::Letter => self.word(),
+            Class::Blank => {
+                self.push(Kind::Whitespace, blank_length(rest));
             }
-            _ if is_blank(first) => {
-                self.push(Kind::Whitespace, run(rest, is_blank));
-            }
-            _ if is_word(first) => self.word(),
+            Class::Sign => self.sign(rest),
+            Class::Foreign => self.foreign_character(rest),
+        }
+    }
+
+    /// A token that begins with a sign of ASCII.
+    fn sign(&mut self, rest: &str) {
+        match rest.as_bytes() {
+            [b'"', ..] => self.quoted(),
+            [b'/', b'*', ..] => self.block_comment(),
+            [b'/', b'/', ..] => self.comment(),
             _ => match (self.comment_sign(), sign(rest)) {
                 (Some(sign), _) => self.foreign_comment(sign),
                 (None, Some((kind, length))) => {
@@ -69,10 +82,32 @@ impl<'t> Lexer<'t, '_> {
         }
     }
 
+    /// A token that begins with a character that is not ASCII.
+    fn foreign_character(&mut self, rest: &str) {
+        let Some(first) = rest.chars().next() else { return };
+        match first {
+            // The mark at the start of a file says how it is encoded.
+            '\u{feff}' if self.at == 0 => {
+                self.push(Kind::Whitespace, first.len_utf8());
+            }
+            _ if is_blank(first) => {
+                self.push(Kind::Whitespace, blank_length(rest));
+            }
+            _ if is_word(first) => self.word(),
+            _ => self.unknown(),
+        }
+    }
+
+    #[inline]
     fn push(&mut self, kind: Kind, length: usize) -> Span {
         let text = &self.text[self.at..self.at + length];
         let span = self.span(self.at, self.at + length);
-        self.tokens.push(Token { kind, text, start: span.start });
+        let breaks = match kind {
+            Kind::Whitespace | Kind::BlockComment => breaks(text),
+            // Every other token ends on its line.
+            _ => 0,
+        };
+        self.tokens.push(Token { kind, text, start: span.start, breaks });
         self.at += length;
         span
     }
@@ -111,7 +146,8 @@ impl<'t> Lexer<'t, '_> {
 
     fn word(&mut self) {
         let rest = &self.text[self.at..];
-        let length = run(rest, |each| is_word(each) || each.is_ascii_digit());
+        let plain = |byte| matches!(Class::of(byte), Class::Letter | Class::Digit);
+        let length = run_of(rest, plain, |each| is_word(each) || each.is_ascii_digit());
         let text = &rest[..length];
         let span = self.push(Kind::Name, length);
         if !text.is_ascii() {
@@ -149,13 +185,13 @@ impl<'t> Lexer<'t, '_> {
         let rest = &self.text[self.at..];
         let line = &rest[..line_length(rest)];
         let mut escaped = false;
-        for (place, each) in line.char_indices().skip(1) {
+        for (index, each) in line.char_indices().skip(1) {
             match each {
                 _ if escaped => escaped = false,
                 '\\' => escaped = true,
                 '"' => {
                     let start = self.at;
-                    self.push(Kind::Text, place + 1);
+                    self.push(Kind::Text, index + 1);
                     return self.invisible(start);
                 }
                 _ => {}
@@ -172,13 +208,13 @@ impl<'t> Lexer<'t, '_> {
 
 /// Operators and brackets; the longest one that fits.
 fn sign(text: &str) -> Option<(Kind, usize)> {
-    let long = match text.get(..2) {
-        Some("=>") => Some(Kind::FatArrow),
-        Some("->") => Some(Kind::Arrow),
-        Some("==") => Some(Kind::EqualEqual),
-        Some("!=") => Some(Kind::NotEqual),
-        Some("<=") => Some(Kind::LessEqual),
-        Some(">=") => Some(Kind::GreaterEqual),
+    let long = match text.as_bytes() {
+        [b'=', b'>', ..] => Some(Kind::FatArrow),
+        [b'-', b'>', ..] => Some(Kind::Arrow),
+        [b'=', b'=', ..] => Some(Kind::EqualEqual),
+        [b'!', b'=', ..] => Some(Kind::NotEqual),
+        [b'<', b'=', ..] => Some(Kind::LessEqual),
+        [b'>', b'=', ..] => Some(Kind::GreaterEqual),
         _ => None,
     };
     if let Some(kind) = long {
@@ -218,11 +254,57 @@ fn is_word(each: char) -> bool {
     each == '_' || each.is_alphabetic()
 }
 
+/// What a byte is where a token begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Class {
+    /// White space of ASCII.
+    Blank,
+    /// What names begin with, of ASCII.
+    Letter,
+    Digit,
+    /// All else of ASCII.
+    Sign,
+    /// The first byte of a character that is not ASCII.
+    Foreign,
+}
+
+impl Class {
+    /// Of every byte: a text is looked at byte by byte, and one look-up is faster than the questions.
+    const ALL: [Class; 256] = {
+        let mut all = [Class::Sign; 256];
+        let mut byte = 0;
+        while byte < all.len() {
+            all[byte] = match byte as u8 {
+                b' ' | b'\t'..=b'\r' => Class::Blank,
+                b'a'..=b'z' | b'A'..=b'Z' | b'_' => Class::Letter,
+                b'0'..=b'9' => Class::Digit,
+                0x80.. => Class::Foreign,
+                _ => Class::Sign,
+            };
+            byte += 1;
+        }
+        all
+    };
+
+    fn of(byte: u8) -> Class {
+        Class::ALL[usize::from(byte)]
+    }
+}
+
+/// The length in bytes of the white space at the start.
+fn blank_length(text: &str) -> usize {
+    run_of(text, |byte| Class::of(byte) == Class::Blank, is_blank)
+}
+
 /// The length in bytes of the characters at the start that fit.
 fn run(text: &str, fits: impl Fn(char) -> bool) -> usize {
+    run_of(text, |byte| byte.is_ascii() && fits(char::from(byte)), &fits)
+}
+
+/// The same where `plain` says of bytes of ASCII which fit.
+fn run_of(text: &str, plain: impl Fn(u8) -> bool, fits: impl Fn(char) -> bool) -> usize {
     // Nearly all text is ASCII, which needs no decoding.
-    let is_plain = |byte: &u8| byte.is_ascii() && fits(char::from(*byte));
-    let plain = text.bytes().take_while(is_plain).count();
+    let plain = text.bytes().take_while(|byte| plain(*byte)).count();
     match text.as_bytes().get(plain) {
         Some(byte) if !byte.is_ascii() => {
             let rest = &text[plain..];
@@ -230,6 +312,11 @@ fn run(text: &str, fits: impl Fn(char) -> bool) -> usize {
         }
         _ => plain,
     }
+}
+
+/// The line breaks in a text, at most two.
+fn breaks(text: &str) -> u8 {
+    text.bytes().fold(0, |count, byte| 2.min(count + u8::from(byte == b'\n')))
 }
 
 /// The length in bytes up to the line break.

@@ -23,7 +23,10 @@ impl Literal {
     /// A number and its unit as they stand in the tree, foreign spellings of units included; `None`
     /// where the unit is none.
     pub fn of_tokens(number: &str, unit: Option<&str>) -> Option<Literal> {
-        let mut literal = Literal::parse(&number.replace(',', "."))?;
+        let mut literal = match number.contains(',') {
+            true => Literal::parse(&number.replace(',', "."))?,
+            false => Literal::parse(number)?,
+        };
         literal.unit = match unit {
             Some(unit) => Some(Unit::of_token(unit)?),
             None => None,
@@ -67,7 +70,7 @@ impl Literal {
 
     /// The value in nanoseconds when it is a whole, non-negative number of them that fits.
     pub fn nanoseconds(&self) -> Option<u64> {
-        let unit = self.unit.filter(|unit| unit.dimension.name() == "duration")?;
+        let unit = self.unit.filter(|unit| unit.dimension == Dimension::DURATION)?;
         let mut value: u128 = 0;
         for digit in &self.digits {
             value = value.checked_mul(10)?.checked_add(u128::from(*digit))?;

@@ -73,8 +73,8 @@ struct Parser<'t, 'd> {
 impl<'t, 'd> Parser<'t, 'd> {
     fn new(tokens: &'t [Token<'t>], file: u16, diags: &'d mut Diagnostics) -> Parser<'t, 'd> {
         let mut solid = Vec::with_capacity(tokens.len());
-        let places = (0..).zip(tokens).filter(|(_, token)| !token.kind.is_passed_over());
-        solid.extend(places.map(|(place, _)| place));
+        let indexed = (0..).zip(tokens).filter(|(_, token)| !token.kind.is_passed_over());
+        solid.extend(indexed.map(|(index, _)| index));
         let (marks, builder) = (Marks::new(tokens, &solid), GreenNodeBuilder::new());
         Parser {
             tokens,
@@ -97,13 +97,13 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     // Looking.
 
-    /// The place of the token so many ahead; behind the last one the end of all.
-    fn place(&self, ahead: usize) -> usize {
-        self.solid.get(self.at + ahead).map_or(self.tokens.len(), |place| *place as usize)
+    /// The index of the token so many ahead; behind the last one the end of all.
+    fn token_index(&self, ahead: usize) -> usize {
+        self.solid.get(self.at + ahead).map_or(self.tokens.len(), |index| *index as usize)
     }
 
     fn token(&self, ahead: usize) -> Option<Token<'t>> {
-        self.tokens.get(self.place(ahead)).copied()
+        self.tokens.get(self.token_index(ahead)).copied()
     }
 
     fn nth(&self, ahead: usize) -> Kind {
@@ -151,7 +151,7 @@ impl<'t, 'd> Parser<'t, 'd> {
     fn begins_line(&self, ahead: usize) -> bool {
         let before = (self.at + ahead).checked_sub(1).and_then(|before| self.solid.get(before));
         let from = before.map_or(0, |before| *before as usize + 1);
-        self.tokens[from..self.place(ahead)].iter().any(|token| token.text.contains('\n'))
+        self.tokens[from..self.token_index(ahead)].iter().any(Token::ends_line)
     }
 
     /// How many tokens stand before a brace of a kind on this line.
@@ -171,7 +171,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// Whether no white space stands before the next token.
     fn is_adjacent(&self) -> bool {
-        self.at < self.solid.len() && self.place(0) == self.built
+        self.at < self.solid.len() && self.token_index(0) == self.built
     }
 
     // Places.
@@ -224,7 +224,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// Puts everything up to the next token into the tree.
     fn trivia(&mut self) {
-        let to = self.place(0);
+        let to = self.token_index(0);
         self.trivia_to(to, false);
     }
 
@@ -308,7 +308,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// Opens an item: help text and the comments directly above it belong to it.
     fn open_item(&mut self, kind: Kind) {
-        let to = self.place(0);
+        let to = self.token_index(0);
         let own = own_trivia(&self.tokens[self.built..to]);
         self.trivia_to(self.built + own, false);
         self.builder.start_node(Afp::kind_to_raw(kind));
@@ -318,12 +318,12 @@ impl<'t, 'd> Parser<'t, 'd> {
     /// Closes an item: a comma and a comment on its last line belong to it.
     fn close_item(&mut self) {
         self.eat(Kind::Comma);
-        let to = self.place(0);
+        let to = self.token_index(0);
         let mut own = self.built;
-        for place in self.built..to {
-            match self.tokens[place].kind {
-                Kind::Comment => own = place + 1,
-                Kind::Whitespace if !self.tokens[place].text.contains('\n') => continue,
+        for index in self.built..to {
+            match self.tokens[index].kind {
+                Kind::Comment => own = index + 1,
+                Kind::Whitespace if !self.tokens[index].ends_line() => continue,
                 _ => {}
             }
             break;
@@ -336,10 +336,9 @@ impl<'t, 'd> Parser<'t, 'd> {
 /// How many of the trivia before an item stand apart from it: everything up to the last blank line,
 /// unless help text stands above that.
 fn own_trivia(trivia: &[Token<'_>]) -> usize {
-    let is_blank_line =
-        |token: &Token<'_>| token.kind == Kind::Whitespace && token.text.matches('\n').count() > 1;
-    let after_blank = trivia.iter().rposition(is_blank_line).map_or(0, |place| place + 1);
+    let is_blank_line = |token: &Token<'_>| token.kind == Kind::Whitespace && token.breaks > 1;
+    let after_blank = trivia.iter().rposition(is_blank_line).map_or(0, |index| index + 1);
     let help = trivia.iter().position(|token| token.kind == Kind::Doc).unwrap_or(trivia.len());
-    let before_help = trivia[..help].iter().rposition(is_blank_line).map_or(0, |place| place + 1);
+    let before_help = trivia[..help].iter().rposition(is_blank_line).map_or(0, |index| index + 1);
     if help < after_blank { before_help } else { after_blank }
 }

@@ -31,12 +31,12 @@ struct Judge<'a> {
     scenario: &'a Scenario,
     watch: Watch<'a>,
     /// Whether moments have come that nothing follows from yet.
-    news: &'a Cell<bool>,
+    unreported: &'a Cell<bool>,
     /// The line of the scenario that each request stands for.
     lines: BTreeMap<RequestId, usize>,
     broken: Vec<Broken>,
     /// Whether entries have always held what was committed.
-    sound: bool,
+    is_consistent: bool,
     timeline: Vec<(Instant, String)>,
 }
 
@@ -54,27 +54,27 @@ pub(crate) fn run(
     let mut log = log.map(|path| self::log(path, scenario, setting, &*session)).transpose()?;
     let signals = Signals::new(scenario, session.devices())
         .map_err(|signal| refused(scenario, &format!("the robot has no signal '{signal}'")))?;
-    let news = Cell::new(false);
+    let unreported = Cell::new(false);
     let mut judge = Judge {
         scenario,
-        news: &news,
+        unreported: &unreported,
         watch: Watch::new(scenario, session.names(), signals),
         lines,
         broken: Vec::new(),
-        sound: true,
+        is_consistent: true,
         timeline: Vec::new(),
     };
     let mut until = Instant::from_nanos(scenario.until);
     let went = loop {
         let mut observers: Vec<&mut dyn Observer> = vec![&mut judge];
         observers.extend(log.as_mut().map(|log| log as &mut dyn Observer));
-        let mut gate = |_: Instant, _: Instant| match !news.get() && go_on() {
+        let mut gate = |_: Instant, _: Instant| match !unreported.get() && go_on() {
             true => Go::On,
             false => Go::Stop,
         };
         let went = session.run(until, &mut gate, &mut observers);
         let went = went.map_err(|error| cannot_start(scenario, error))?;
-        if !news.take() {
+        if !unreported.take() {
             break went;
         }
         until = until.min(judge.go_on_from_moments(&mut *session)?);
@@ -134,14 +134,14 @@ fn log(
 
 impl Observer for Judge<'_> {
     fn on_record(&mut self, named: &NamedRecord<'_>) {
-        self.watch.hear(named.at, named.record, named.names);
+        self.watch.on_record(named.at, named.record, named.names);
         if let Some(line) = afp_run::line(named.at, named.record, named.names) {
             self.timeline.push((named.at, line));
         }
     }
 
     fn after_step(&mut self, view: &View<'_>) {
-        self.settle(view.now());
+        self.judge_instant(view.now());
         self.compare(view);
     }
 
@@ -161,7 +161,7 @@ impl Observer for Judge<'_> {
     }
 
     fn after_samples(&mut self, at: Instant) {
-        self.settle(at);
+        self.judge_instant(at);
     }
 
     fn on_request(&mut self, applied: &Applied<'_>) {
@@ -177,9 +177,9 @@ impl Observer for Judge<'_> {
 }
 
 impl Judge<'_> {
-    fn settle(&mut self, at: Instant) {
-        self.watch.settle(at);
-        self.news.set(self.watch.moments.has_news());
+    fn judge_instant(&mut self, at: Instant) {
+        self.watch.after_step(at);
+        self.unreported.set(self.watch.moments.has_unreported());
     }
 
     /// Asks for what is to be done from the moments on that have come; gives when the run ends at the latest.
@@ -220,17 +220,18 @@ impl Judge<'_> {
     fn compare(&mut self, view: &View<'_>) {
         let entries = &self.scenario.graph.main().entries;
         let held = (0..entries.len() as u16).map(|entry| view.entry(entry));
-        let Some((place, held, known)) = self.watch.differs(held).filter(|_| self.sound) else {
+        let Some((index, held, known)) = self.watch.differs(held).filter(|_| self.is_consistent)
+        else {
             return;
         };
-        let name = entries.get(place).map_or("", |entry| entry.name.as_str());
+        let name = entries.get(index).map_or("", |entry| entry.name.as_str());
         self.broken.push(Broken {
             text: "(entries hold what was committed)".to_owned(),
             span: self.scenario.span,
             at: view.now(),
             why: format!("'{name}' holds {held}, its last commit was {known}"),
         });
-        self.sound = false;
+        self.is_consistent = false;
     }
 }
 

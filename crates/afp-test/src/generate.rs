@@ -68,12 +68,12 @@ pub fn generate(
         if matches!(parts.component(element), Some(Component::Computation(_)) | None) {
             continue;
         }
-        let Some((way, active)) = reach.of(element) else {
+        let Some((run, active)) = reach.of(element) else {
             all.left_out.push(format!("no run reached '{}'", parts.path(element)));
             continue;
         };
         for supervisor in parts.supervisors_over(element) {
-            let pair = Pair { parts: &parts, rest, way, active, element, supervisor };
+            let pair = Pair { parts: &parts, rest, run, active, element, supervisor };
             pair.add(&mut all);
         }
     }

@@ -9,7 +9,7 @@ mod site;
 
 use afp_syntax::source::Source;
 
-pub use bench::{Bench, Fate, Judged, Suite, Tally};
+pub use bench::{Bench, Judged, MutantStatus, Suite, Tally};
 pub use site::MutantKind;
 
 /// A plan's text with one small change.

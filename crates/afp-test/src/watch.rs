@@ -1,7 +1,7 @@
-//! Listens to a run: which edges are taken, what is active, what entries hold, what was expected.
+//! Follows the records of a run: which edges are taken, what is active, what entries hold, what was expected.
 
+mod expected;
 pub(crate) mod hits;
-mod look;
 pub(crate) mod moments;
 pub(crate) mod signals;
 #[cfg(test)]
@@ -21,26 +21,26 @@ use afp_dsl::unfold::{Goal, Place, places};
 use afp_session::{Datum, SampleRef};
 
 use crate::verdict::Broken;
+use expected::Expected;
 use hits::Hits;
-use look::Look;
 use moments::Moments;
 use signals::Signals;
 
-/// Listens to the run of a scenario.
+/// Follows the run of a scenario.
 pub(crate) struct Watch<'a> {
     scenario: &'a Scenario,
     places: Vec<Place>,
     state: State,
     /// An event that was taken, until it is known which element it ends.
     event: Option<Cause>,
-    /// The commit that is being heard: who writes, and which entries so far.
+    /// The commit whose records are coming in: who writes, and which entries so far.
     commit: Option<(Author, Vec<TraceEntryId>)>,
     /// Since when each active component is.
     since: Vec<Option<Instant>>,
     pub(crate) activations: Vec<Activation>,
     /// What the edge out of the outermost plan belongs to.
     last: Option<Cause>,
-    looks: Vec<Look<'a>>,
+    expected: Vec<Expected<'a>>,
     pub(crate) moments: Moments<'a>,
     pub(crate) hits: Hits,
 }
@@ -73,7 +73,7 @@ pub(crate) struct State {
 }
 
 /// Something that happened at an instant.
-pub(crate) enum Happening {
+pub(crate) enum Occurrence {
     /// An edge was taken.
     Edge { from: u32, to: Option<Goal>, by: Cause },
     /// A state was reached or an event taken.
@@ -101,7 +101,7 @@ impl<'a> Watch<'a> {
                 signals,
             },
             hits: Hits::new(&scenario.graph),
-            looks: scenario.expectations.iter().map(Look::new).collect(),
+            expected: scenario.expectations.iter().map(Expected::new).collect(),
             moments: Moments::new(&scenario.moments),
             scenario,
             since: vec![None; places.len()],
@@ -119,8 +119,8 @@ impl<'a> Watch<'a> {
     }
 
     /// Takes a record into account.
-    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
-        self.hits.hear(at, record);
+    pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
+        self.hits.on_record(at, record);
         if !matches!(record, Record::Committed { .. }) {
             self.commit = None;
         }
@@ -129,11 +129,11 @@ impl<'a> Watch<'a> {
             Record::Event { supervisor, event, .. } => {
                 let cause = cause(supervisor, event);
                 self.event = Some(cause);
-                self.happen(at, &Happening::Outcome(cause));
+                self.on_occurrence(at, &Occurrence::Outcome(cause));
             }
             Record::Interrupted { element } => {
                 self.set_active(at, element, false);
-                self.happen(at, &Happening::Interrupt(element.0));
+                self.on_occurrence(at, &Occurrence::Interrupt(element.0));
                 self.ended_by_event(at, element);
             }
             Record::Diverted { element, .. } => self.ended_by_event(at, element),
@@ -167,7 +167,7 @@ impl<'a> Watch<'a> {
     ) -> Option<(usize, ValueRef<'v>, ValueRef<'v>)> {
         let committed = self.state.entries.iter().map(Value::borrow);
         let pairs = held.zip(committed).enumerate();
-        let mut pairs = pairs.map(|(place, (held, committed))| (place, held, committed));
+        let mut pairs = pairs.map(|(index, (held, committed))| (index, held, committed));
         pairs.find(|(_, held, committed)| held != committed)
     }
 
@@ -182,10 +182,10 @@ impl<'a> Watch<'a> {
     }
 
     /// The step at this instant is over: what holds now holds until the next one.
-    pub(crate) fn settle(&mut self, at: Instant) {
-        self.moments.settle(at.as_nanos(), &self.state);
-        for look in &mut self.looks {
-            look.settle(at.as_nanos(), &self.state, &self.moments);
+    pub(crate) fn after_step(&mut self, at: Instant) {
+        self.moments.after_step(at.as_nanos(), &self.state);
+        for each in &mut self.expected {
+            each.after_step(at.as_nanos(), &self.state, &self.moments);
         }
     }
 
@@ -195,9 +195,9 @@ impl<'a> Watch<'a> {
             self.set_active(end, ComponentId(id), false);
         }
         let end = end.as_nanos();
-        let mut broken: Vec<_> = std::mem::take(&mut self.looks)
+        let mut broken: Vec<_> = std::mem::take(&mut self.expected)
             .into_iter()
-            .filter_map(|look| look.finish(end, &self.state, &self.moments))
+            .filter_map(|each| each.finish(end, &self.state, &self.moments))
             .collect();
         broken.extend(self.moments.missed(end));
         broken.extend(self.unexpected_error(end));
@@ -234,7 +234,7 @@ impl<'a> Watch<'a> {
                 true
             }
         };
-        self.happen(at, &Happening::Commit { entry, author, first });
+        self.on_occurrence(at, &Occurrence::Commit { entry, author, first });
     }
 
     fn place(&self, id: ComponentId) -> Option<&Place> {
@@ -267,7 +267,7 @@ impl<'a> Watch<'a> {
     fn resumed(&mut self, at: Instant, element: ComponentId) {
         if let Some(by) = self.event.take() {
             let to = self.goal(by, element);
-            self.happen(at, &Happening::Edge { from: element.0, to, by });
+            self.on_occurrence(at, &Occurrence::Edge { from: element.0, to, by });
         }
     }
 
@@ -279,9 +279,9 @@ impl<'a> Watch<'a> {
             self.last = Some(by);
         }
         if by.component == element.0 {
-            self.happen(at, &Happening::Outcome(by));
+            self.on_occurrence(at, &Occurrence::Outcome(by));
         }
-        self.happen(at, &Happening::Edge { from: element.0, to, by });
+        self.on_occurrence(at, &Occurrence::Edge { from: element.0, to, by });
     }
 
     /// Where an outcome leads while an element is active.
@@ -321,14 +321,14 @@ impl<'a> Watch<'a> {
             self.state.ending = Some(ending);
             self.hits.ended = Some(at.as_nanos());
             let last = self.last;
-            self.happen(at, &Happening::End(ending, last));
+            self.on_occurrence(at, &Occurrence::End(ending, last));
         }
     }
 
-    fn happen(&mut self, at: Instant, happening: &Happening) {
-        self.moments.happen(at.as_nanos(), happening);
-        for look in &mut self.looks {
-            look.happen(at.as_nanos(), happening, &self.moments);
+    fn on_occurrence(&mut self, at: Instant, occurrence: &Occurrence) {
+        self.moments.on_occurrence(at.as_nanos(), occurrence);
+        for each in &mut self.expected {
+            each.on_occurrence(at.as_nanos(), occurrence, &self.moments);
         }
     }
 }

@@ -256,9 +256,9 @@ fn what_a_plan_cannot_meet_any_more_fails_alone() {
     let compiled = compiled(PLAN, gone);
     assert!(compiled.graph.is_none(), "the file has an error");
     let [sound] = compiled.scenarios.as_slice() else { panic!("{}", compiled.render(false)) };
-    let [unsound] = compiled.unsound.as_slice() else { panic!("{}", compiled.render(false)) };
-    assert_eq!((&*sound.name, &*unsound.name, &*unsound.plan), ("other", "it", "Ahead"));
-    let why = unsound.errors.render(&compiled.sources, false);
+    let [invalid] = compiled.invalid.as_slice() else { panic!("{}", compiled.render(false)) };
+    assert_eq!((&*sound.name, &*invalid.name, &*invalid.plan), ("other", "it", "Ahead"));
+    let why = invalid.errors.render(&compiled.sources, false);
     assert!(
         why.contains("E0603") && why.contains("'escape' does not lead from 'go' to 'back'"),
         "{why}"
@@ -267,7 +267,7 @@ fn what_a_plan_cannot_meet_any_more_fails_alone() {
     let text = format!("{wrong}\nscenario \"it\" for Ahead {{ {gone} }}\n");
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled = afp_dsl::compile(&Source::new("case.afp", text), &toolboxes, &Texts::default());
-    assert!(compiled.scenarios.is_empty() && compiled.unsound.is_empty(), "the plan is wrong");
+    assert!(compiled.scenarios.is_empty() && compiled.invalid.is_empty(), "the plan is wrong");
 }
 
 #[test]

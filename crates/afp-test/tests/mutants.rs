@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::source::Source;
-use afp_test::mutate::{Bench, Fate, Judged, Suite, Tally, mutants};
+use afp_test::mutate::{Bench, Judged, MutantStatus, Suite, Tally, mutants};
 
 /// The share of mutants that change a run that shall be noticed.
 const SHARE: f64 = 0.95;
@@ -49,7 +49,8 @@ fn judged(plan: &str, tests: &[&str]) -> Vec<Judged> {
 fn is_noticed(plan: &str, tests: &[&str]) {
     let judged = judged(plan, tests);
     let tally = Tally::of(&judged);
-    let missed = judged.iter().filter(|each| matches!(each.fate, Fate::Missed { changed: true }));
+    let missed =
+        judged.iter().filter(|each| matches!(each.status, MutantStatus::Missed { changed: true }));
     let missed: Vec<_> = missed
         .map(|each| format!("{}: {} => {}", each.mutant.line, each.mutant.was, each.mutant.is))
         .collect();

@@ -1,10 +1,10 @@
-//! Words that nobody guesses and that let clients in: debuggers, live streams and the studio have the same.
+//! Random tokens by which clients are admitted, the same kind for debuggers, live streams and the studio.
 #![forbid(unsafe_code)]
 
 use std::fmt;
 use std::io;
 
-/// A word that lets in whoever knows it.
+/// A token that admits whoever has it.
 #[derive(Clone)]
 pub struct Token(String);
 

@@ -1,4 +1,4 @@
-//! Who has which slot of a worker: the same book for all workers.
+//! Which job is at which slot of a worker, for every kind of worker alike.
 
 use afp_core::{Duration, Fault, Instant, Poll, Ticket};
 

@@ -20,15 +20,15 @@ pub struct ThreadWorker<J> {
     /// The jobs that are here and not with the thread, by slot.
     here: Vec<Option<Box<J>>>,
     /// None once the worker is being dropped.
-    to_do: Option<Producer<Errand<J>>>,
-    done: Consumer<Errand<J>>,
+    to_do: Option<Producer<Task<J>>>,
+    done: Consumer<Task<J>>,
     thread: Thread,
     overruns: u64,
 }
 
-/// A job on its way to the thread or back.
+/// A job that is handed to the thread or back, with what came of it.
 #[derive(Debug)]
-struct Errand<J> {
+struct Task<J> {
     slot: u16,
     job: Box<J>,
     result: Result<(), Fault>,
@@ -61,8 +61,8 @@ impl<J: Job> ThreadWorker<J> {
     }
 
     /// Takes back what is done.
-    fn settle(&mut self, now: Instant) {
-        while let Ok(Errand { slot, job, result, overran }) = self.done.pop() {
+    fn take_finished(&mut self, now: Instant) {
+        while let Ok(Task { slot, job, result, overran }) = self.done.pop() {
             self.overruns += u64::from(overran);
             if let Some(here) = self.here.get_mut(usize::from(slot)) {
                 *here = Some(job);
@@ -78,20 +78,20 @@ impl<J: Job> Worker<J> for ThreadWorker<J> {
         now: Instant,
         prepare: &mut dyn FnMut(&mut J),
     ) -> Result<Option<Ticket>, Fault> {
-        self.settle(now);
+        self.take_finished(now);
         let Some(ticket) = self.slots.take(now)? else { return Ok(None) };
         let here = self.here.get_mut(usize::from(ticket.slot()));
         let mut job = here.and_then(Option::take).ok_or(Fault::INTERNAL)?;
         prepare(&mut job);
-        let errand = Errand { slot: ticket.slot(), job, result: Ok(()), overran: false };
+        let task = Task { slot: ticket.slot(), job, result: Ok(()), overran: false };
         let to_do = self.to_do.as_mut().ok_or(Fault::INTERNAL)?;
-        to_do.push(errand).map_err(|_| Fault::INTERNAL)?;
+        to_do.push(task).map_err(|_| Fault::INTERNAL)?;
         self.thread.unpark();
         Ok(Some(ticket))
     }
 
     fn poll(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<&J>, Fault> {
-        self.settle(now);
+        self.take_finished(now);
         Ok(match self.slots.fetch(ticket)? {
             Poll::Pending => Poll::Pending,
             Poll::Ready(slot) => {
@@ -101,7 +101,7 @@ impl<J: Job> Worker<J> for ThreadWorker<J> {
     }
 
     fn cancel(&mut self, ticket: Ticket, now: Instant) {
-        self.settle(now);
+        self.take_finished(now);
         self.slots.give_up(ticket);
     }
 }
@@ -114,15 +114,15 @@ impl<J> Drop for ThreadWorker<J> {
 }
 
 /// What the thread does.
-fn work<J: Job>(mut to_do: Consumer<Errand<J>>, mut done: Producer<Errand<J>>) {
+fn work<J: Job>(mut to_do: Consumer<Task<J>>, mut done: Producer<Task<J>>) {
     loop {
         match to_do.pop() {
-            Ok(mut errand) => {
+            Ok(mut task) => {
                 let begun = Wall::now();
-                errand.result = attempt(&mut *errand.job);
-                errand.overran = begun.elapsed().as_nanos() > u128::from(J::TAKES.as_nanos());
+                task.result = attempt(&mut *task.job);
+                task.overran = begun.elapsed().as_nanos() > u128::from(J::TAKES.as_nanos());
                 // There is room for every job, so only a worker that was dropped refuses it.
-                if done.push(errand).is_err() {
+                if done.push(task).is_err() {
                     return;
                 }
             }

@@ -55,7 +55,7 @@ impl<J: Job> VirtualWorker<J> {
     }
 
     /// Does what is due by now, in the order in which it was begun.
-    fn settle(&mut self, now: Instant) {
+    fn run_due(&mut self, now: Instant) {
         while let Some((ready, ticket)) = self.under_way.pop_front_if(|(ready, _)| *ready <= now) {
             let job = self.jobs.get_mut(usize::from(ticket.slot()));
             let awaited = self.slots.awaited(ticket);
@@ -71,7 +71,7 @@ impl<J: Job> Worker<J> for VirtualWorker<J> {
         now: Instant,
         prepare: &mut dyn FnMut(&mut J),
     ) -> Result<Option<Ticket>, Fault> {
-        self.settle(now);
+        self.run_due(now);
         let Some(ticket) = self.slots.take(now)? else { return Ok(None) };
         let job = self.jobs.get_mut(usize::from(ticket.slot())).ok_or(Fault::INTERNAL)?;
         prepare(job);
@@ -81,7 +81,7 @@ impl<J: Job> Worker<J> for VirtualWorker<J> {
     }
 
     fn poll(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<&J>, Fault> {
-        self.settle(now);
+        self.run_due(now);
         Ok(match self.slots.fetch(ticket)? {
             Poll::Pending => Poll::Pending,
             Poll::Ready(slot) => Poll::Ready(self.jobs.get(slot).ok_or(Fault::INTERNAL)?),
@@ -89,7 +89,7 @@ impl<J: Job> Worker<J> for VirtualWorker<J> {
     }
 
     fn cancel(&mut self, ticket: Ticket, now: Instant) {
-        self.settle(now);
+        self.run_due(now);
         self.slots.give_up(ticket);
     }
 }

@@ -110,3 +110,24 @@ fn a_drawing_and_the_formatter_work_with_several_files() {
     place.afpc("fmt plans/patrol.afp").succeeds();
     assert_eq!(place.read("plans/lib/avoid.afp"), AVOID);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_and_what_it_leads_to_are_one_file() {
+    use std::os::unix::fs::symlink;
+    let place = Place::new();
+    let rest = "plan Rest { start w actor w: Wait { Elapsed -> terminate } }";
+    place.write("rest.afp", &format!("use \"other.afp\"\nuse std\n{rest}\n"));
+    place.write(
+        "other.afp",
+        "use \"link.afp\"\nplan Other { start r subplan r: Rest { OK -> terminate } }\n",
+    );
+    let main =
+        "plan Main { start r subplan r: Rest { OK -> o } subplan o: Other { OK -> terminate } }";
+    place.write("main.afp", &format!("use \"rest.afp\"\nuse \"other.afp\"\n{main}\n"));
+    place.write("itself.afp", &format!("use \"again.afp\"\nuse std\n{rest}\n"));
+    symlink(place.path("rest.afp"), place.path("link.afp")).unwrap();
+    symlink(place.path("itself.afp"), place.path("again.afp")).unwrap();
+    place.afpc("check main.afp").succeeds();
+    place.afpc("check itself.afp").fails(1, &["E0507", "the file uses itself"]);
+}

@@ -34,6 +34,59 @@ fn a_log_tells_what_the_run_told() {
 }
 
 #[test]
+fn what_a_plan_writes_to_its_log_is_in_the_timeline() {
+    let place = Place::new();
+    let text = r#"use std
+plan P {
+    in gap: length = 42 cm
+    in side: string = "right"
+    start wide
+    computation wide: Log(value = gap * 2) { Done -> where }
+    computation where: Log(value = side) { Done -> terminate }
+}
+"#;
+    place.write("p.afp", text);
+    let run = place.afpc("run p.afp --log a.mcap --svg none");
+    let log = place.afpc("log a.mcap");
+    for said in [run, log] {
+        said.succeeds();
+        for line in ["0.000  ✎ wide: value = 84 cm", r#"0.000  ✎ where: value = "right""#] {
+            assert!(said.out.contains(line), "{line} is not in {}", said.out);
+        }
+    }
+}
+
+#[test]
+fn what_failed_to_start_is_in_the_tables() {
+    let place = Place::new();
+    place.write(
+        "p.afp",
+        r#"use std
+plan P {
+    in time: string = "soon"
+    start late
+    actor late: Wait(duration = time) { Elapsed -> watched, Error -> watched }
+    actor watched: Wait {
+        supervise over: CheckTimeout(duration = time) { TimedOut -> terminate }
+        Elapsed -> terminate
+        Error -> terminate
+    }
+}
+"#,
+    );
+    place.afpc("run p.afp --log a.mcap --svg none").succeeds();
+    let said = place.afpc("log a.mcap");
+    said.succeeds();
+    let row = |path: &str| {
+        let mut lines = said.out.lines().skip_while(|line| !line.starts_with("element"));
+        let row = lines.find(|line| line.starts_with(path)).unwrap_or_default();
+        row.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(row("late "), ["late", "0", "0", "1", "0.000", "s"], "{}", said.out);
+    assert_eq!(row("watched.over")[..4], ["watched.over", "0", "0", "1"], "{}", said.out);
+}
+
+#[test]
 fn the_plan_of_a_log_is_drawn_with_what_was_used() {
     let place = place();
     place.afpc("log a.mcap --coverage cover.svg --svg path.png").succeeds();

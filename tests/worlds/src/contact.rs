@@ -32,7 +32,7 @@ pub(crate) struct Diary {
 
 impl Diary {
     /// Takes note of an actor that starts.
-    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
+    pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
         if let Record::Started { component } = record {
             let component = names.component(*component);
             if component.kind == ComponentKind::Actor {

@@ -63,8 +63,8 @@ pub fn run(case: &Case) -> Outcome {
     let diary = RefCell::new(Diary::default());
     let mut sink = Observe(|at: Instant, record: &Record<'_>| {
         trace.record(at, record, &names);
-        watch.borrow_mut().hear(at, record, &names);
-        diary.borrow_mut().hear(at, record, &names);
+        watch.borrow_mut().on_record(at, record, &names);
+        diary.borrow_mut().on_record(at, record, &names);
         if !matches!(record, Record::Input { .. } | Record::Polled { verdict: Verdict::Clear, .. })
         {
             let _ = writeln!(timeline, "{}", Line { at, record, names: &names });

@@ -140,7 +140,7 @@ impl Watch {
     }
 
     /// Something happened in the plan.
-    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
+    pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>, names: &impl Names) {
         let actor =
             |id| matches!(names.component(id).kind, ComponentKind::Actor | ComponentKind::SubPlan);
         match *record {
@@ -200,10 +200,17 @@ impl Watch {
         let pose = sim.truth().pose();
         let end = self.reach + 0.2;
         let inside = |at: f64| at > -0.2 && at < end;
-        if !sim.sound() || !inside(pose.x) || !inside(pose.y) || !pose.heading.is_finite() {
+        if !sim.all_bodies_enabled()
+            || !inside(pose.x)
+            || !inside(pose.y)
+            || !pose.heading.is_finite()
+        {
             self.breaks(
                 now,
-                format!("the robot is at {pose:?}, all bodies sound: {}", sim.sound()),
+                format!(
+                    "the robot is at {pose:?}, all bodies enabled: {}",
+                    sim.all_bodies_enabled()
+                ),
             );
         }
         for mover in sim.movers() {

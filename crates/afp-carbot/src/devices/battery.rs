@@ -1,4 +1,4 @@
-//! What feeds the robot.
+//! The battery.
 
 use super::Reading;
 use afp_core::quantity::Voltage;

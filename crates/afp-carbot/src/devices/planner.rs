@@ -1,4 +1,4 @@
-//! Ways on the map, searched for beside everything else.
+//! Paths on the map, searched for by a job.
 
 use crate::path::Path;
 use afp_core::quantity::Length;

@@ -1,4 +1,4 @@
-//! What the robot shows and lets hear.
+//! The lamp and the buzzer.
 
 use afp_core::Instant;
 use afp_core::quantity::Frequency;

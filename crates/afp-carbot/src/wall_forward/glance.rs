@@ -92,7 +92,7 @@ impl Glance {
     }
 
     /// Takes an echo that came from `bearing`, `free` metres before the front; none is silence.
-    pub(super) fn hear(&mut self, bearing: f64, free: Option<f64>, driven: f64) {
+    pub(super) fn on_echo(&mut self, bearing: f64, free: Option<f64>, driven: f64) {
         let Some(half) = self.halves.get_mut(self.side).filter(|_| self.looking) else { return };
         if (bearing - half.bearing).abs() >= ARRIVED {
             return;
@@ -121,7 +121,7 @@ mod tests {
     /// Looks to where it points and finds so much free.
     fn look(glance: &mut Glance, free: f64, driven: f64) {
         let bearing = glance.bearing().expect("it looks");
-        glance.hear(bearing, Some(free), driven);
+        glance.on_echo(bearing, Some(free), driven);
     }
 
     #[test]

@@ -113,14 +113,14 @@ fn element(
 }
 
 /// One supervisor.
-fn supervisor(context: &Context<'_>, place: usize, row: &SupervisorRow) -> TokenStream {
+fn supervisor(context: &Context<'_>, index: usize, row: &SupervisorRow) -> TokenStream {
     let supervisor = &context.plan.supervisors[row.instance.index()];
     let ComponentNames { text: name, number: instance, .. } =
         &context.supervisors[row.instance.index()];
     let template = &context.template(supervisor.template).name;
     let own = context.rows.supervisors.get(row.instance.index());
     let there = match own {
-        _ if place == row.instance.index() => "",
+        _ if index == row.instance.index() => "",
         Some(own) if own.events == row.events => ", where an event of it leads",
         _ => ", where an element reacts to it",
     };

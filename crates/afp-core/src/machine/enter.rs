@@ -1,4 +1,4 @@
-//! Entering an element: its supervisors start, everybody looks, then it starts.
+//! Entering an element: its supervisors start, all due supervisors are polled (the look), then it starts.
 
 use super::sweep::{Found, Moment, What};
 use super::{Edge, Level, Stop, component, supervisor_id};

@@ -1,4 +1,4 @@
-//! What stands around a call of the machine, so that a panic leaves the plan broken and is laid at the right door.
+//! A guard around each call of the machine: a panic marks the plan as broken, and whether a component or code outside of the plan panicked.
 
 use core::cell::Cell;
 

@@ -2,6 +2,8 @@
 
 use core::fmt::{self, Write};
 
+use afp_number::TextHash;
+
 use super::{Line, Names, Record, Verdict};
 use crate::time::Instant;
 
@@ -12,14 +14,8 @@ use crate::time::Instant;
 /// however fast it runs.
 ///
 /// It shows as 16 hexadecimal digits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TraceHash(u64);
-
-impl Default for TraceHash {
-    fn default() -> Self {
-        TraceHash(0xcbf2_9ce4_8422_2325)
-    }
-}
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TraceHash(TextHash);
 
 impl TraceHash {
     /// Takes a record.
@@ -32,28 +28,26 @@ impl TraceHash {
 
     /// Takes a record whose [`Line`] is at hand.
     pub fn line(&mut self, line: &str) {
-        // A hash takes any text.
-        let _ = self.write_str(line);
-        let _ = self.write_str("\n");
+        self.0.add(line);
+        self.0.add("\n");
     }
 
     /// The hash so far.
     pub fn get(self) -> u64 {
-        self.0
+        self.0.get()
     }
 }
 
 impl Write for TraceHash {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        let step = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        self.0 = text.bytes().fold(self.0, step);
+        self.0.add(text);
         Ok(())
     }
 }
 
 impl fmt::Display for TraceHash {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:016x}", self.0)
+        self.0.fmt(f)
     }
 }
 

@@ -1,4 +1,4 @@
-//! The command line by which a run is had once more, without a debugger.
+//! The command line that repeats a run without a debugger.
 
 use afp_core::devices::{DeviceRow, find_fault};
 use afp_core::{Duration, Instant};

@@ -1,4 +1,4 @@
-//! The clients of a run: each counts for itself, is told what it asked for, and goes when it likes.
+//! The clients of a run: how each counts lines, which events it subscribed to, joining and leaving.
 
 use dapts::IEvent;
 use serde_json::{Value, json};
@@ -12,8 +12,8 @@ pub struct ClientId(u32);
 
 /// A message for a client.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Told {
-    /// Who is told.
+pub struct Outgoing {
+    /// Who it is for.
     pub to: ClientId,
     /// The message, without a header.
     pub message: String,
@@ -87,14 +87,14 @@ impl Adapter<'_> {
     }
 
     /// A client is gone: its breakpoints go with it, and its role. With the last one that it is told to, the run ends.
-    pub fn leave(&mut self, id: ClientId) -> Vec<Told> {
-        self.let_go(id);
+    pub fn leave(&mut self, id: ClientId) -> Vec<Outgoing> {
+        self.detach(id);
         self.clients.remove(&id);
         self.take()
     }
 
     /// A client is not told of the run any more.
-    pub(super) fn let_go(&mut self, id: ClientId) {
+    pub(super) fn detach(&mut self, id: ClientId) {
         let Some(client) = self.clients.get_mut(&id) else { return };
         client.attached = false;
         if self.attached().next().is_none() {
@@ -109,7 +109,7 @@ impl Adapter<'_> {
             return self.lose_operator("is gone");
         }
         self.forget_breakpoints(id);
-        self.tell_roles();
+        self.send_roles();
     }
 
     /// Whether a client has said goodbye.
@@ -136,13 +136,13 @@ impl Adapter<'_> {
     }
 
     /// Takes all messages, numbered for each client.
-    pub(super) fn take(&mut self) -> Vec<Told> {
+    pub(super) fn take(&mut self) -> Vec<Outgoing> {
         let mut all = Vec::with_capacity(self.out.len());
         for (to, mut message) in std::mem::take(&mut self.out) {
             let Some(client) = self.clients.get_mut(&to) else { continue };
             client.sent += 1;
             message["seq"] = json!(client.sent);
-            all.push(Told { to, message: message.to_string() });
+            all.push(Outgoing { to, message: message.to_string() });
         }
         all
     }
@@ -150,22 +150,22 @@ impl Adapter<'_> {
     /// Sends an event of the protocol to all.
     pub(super) fn event<E: IEvent>(&mut self, body: &E::Body) {
         let body = serde_json::to_value(body).unwrap_or_default();
-        self.tell(E::EVENT, &body);
+        self.broadcast(E::EVENT, &body);
     }
 
     /// Sends an event of the protocol to a client.
     pub(super) fn event_to<E: IEvent>(&mut self, to: ClientId, body: &E::Body) {
         let body = serde_json::to_value(body).unwrap_or_default();
-        self.tell_one(to, E::EVENT, body);
+        self.send_event(to, E::EVENT, body);
     }
 
     /// Sends an event to all.
-    pub(super) fn tell(&mut self, event: &str, body: &Value) {
-        self.tell_those(|client| client.attached, event, body);
+    pub(super) fn broadcast(&mut self, event: &str, body: &Value) {
+        self.send_event_where(|client| client.attached, event, body);
     }
 
     /// Sends an event to some.
-    pub(super) fn tell_those(
+    pub(super) fn send_event_where(
         &mut self,
         wanted: impl Fn(&Client) -> bool,
         event: &str,
@@ -173,12 +173,12 @@ impl Adapter<'_> {
     ) {
         let some = self.clients.iter().filter(|(_, client)| wanted(client));
         for to in some.map(|(id, _)| *id).collect::<Vec<_>>() {
-            self.tell_one(to, event, body.clone());
+            self.send_event(to, event, body.clone());
         }
     }
 
     /// Sends an event to a client.
-    pub(super) fn tell_one(&mut self, to: ClientId, event: &str, body: Value) {
+    pub(super) fn send_event(&mut self, to: ClientId, event: &str, body: Value) {
         let mut message = json!({"type": "event", "event": event});
         if !body.is_null() {
             message["body"] = body;

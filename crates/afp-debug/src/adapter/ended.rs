@@ -1,4 +1,4 @@
-//! How a run has ended: by what, what it came to, and how it is had once more.
+//! How a run has ended: by what, with which figures, and by which command it is repeated.
 
 use afp_session::{EndingKind, Figure, FigureValue};
 use dapts::event;
@@ -47,7 +47,7 @@ impl Adapter<'_> {
             "log": run.launch.log,
             "again": again::command(&run.launch, &*run.target, by),
         });
-        self.tell("afp/ended", &ended);
+        self.broadcast("afp/ended", &ended);
         let exit_code = if ending == EndingKind::Error { 3 } else { 0 };
         self.event::<event::Exited>(&dapts::ExitedEvent { exit_code });
         self.event::<event::Terminated>(&dapts::TerminatedEvent::default());

@@ -12,16 +12,16 @@ use crate::state::State;
 use crate::watched::Watched;
 
 /// What there is to say of a word.
-struct Told {
+struct HoverText {
     text: String,
     ty: Option<String>,
     /// More of it, as for [`Adapter::variables`]; 0 for nothing.
     more: u32,
 }
 
-impl From<String> for Told {
-    fn from(text: String) -> Told {
-        Told { text, ty: None, more: 0 }
+impl From<String> for HoverText {
+    fn from(text: String) -> HoverText {
+        HoverText { text, ty: None, more: 0 }
     }
 }
 
@@ -58,7 +58,7 @@ impl Adapter<'_> {
         let is_bound = from.is_some_and(|behind| binds(behind.trim_start()));
         let edges = at.map_or(&[][..], |at| program.edges_at(at));
         let word = Word { program, state, plan, unit, text, is_bound, edges };
-        let Told { text, ty, more } = word.told()?;
+        let HoverText { text, ty, more } = word.hover_text()?;
         Ok(dapts::EvaluateResponse {
             result: text,
             ty,
@@ -95,14 +95,14 @@ struct Word<'a> {
 }
 
 impl Word<'_> {
-    fn told(&self) -> Answer<Told> {
+    fn hover_text(&self) -> Answer<HoverText> {
         if let Some(port) = self.port().filter(|_| self.is_bound) {
             return Ok(port);
         }
         if self.reads() {
             let formula = Watched::new(self.program, self.plan, self.text)?;
             let text = formula.shown(self.program, self.state)?;
-            return Ok(Told { text, ty: Some(formula.ty()), more: 0 });
+            return Ok(HoverText { text, ty: Some(formula.ty()), more: 0 });
         }
         let found = self.port().or_else(|| self.outcome()).or_else(|| self.component());
         found.ok_or_else(|| self.nothing())
@@ -128,16 +128,16 @@ impl Word<'_> {
     }
 
     /// What an input of the component was given last.
-    fn port(&self) -> Option<Told> {
+    fn port(&self) -> Option<HoverText> {
         let id = self.unit?;
         let (_, si_unit) = self.program.unit(id)?.inputs.iter().find(|port| port.0 == self.text)?;
         let value = self.state.inputs(id).find(|(name, _)| *name == self.text);
         let value = value.map(|(_, value)| value.in_unit(si_unit));
-        Some(Told::from(value.unwrap_or_else(|| "not read yet".to_owned())))
+        Some(HoverText::from(value.unwrap_or_else(|| "not read yet".to_owned())))
     }
 
     /// When a state was reached or an event taken last, by its own edge or by the one at that place.
-    fn outcome(&self) -> Option<Told> {
+    fn outcome(&self) -> Option<HoverText> {
         let here = |spot: &&Spot| self.program.plan_at(**spot) == self.plan;
         let last = match self.edges.iter().find(here) {
             Some(Spot::Reaction(id, watcher, event)) => self.state.reacted(*id, *watcher, *event),
@@ -151,11 +151,11 @@ impl Word<'_> {
         };
         let text =
             last.map_or("not taken yet".to_owned(), |at| format!("last taken at {}", time(at)));
-        Some(Told::from(text))
+        Some(HoverText::from(text))
     }
 
     /// What an element or a supervisor does.
-    fn component(&self) -> Option<Told> {
+    fn component(&self) -> Option<HoverText> {
         let all = (0..).map(ComponentId).zip(&self.program.units).skip(1);
         let same = all.filter(|(_, unit)| unit.plan == self.plan && unit.name == self.text);
         let same: Vec<_> = same.collect();
@@ -180,7 +180,7 @@ impl Word<'_> {
                 (text, if is_plan { Group::Entries } else { Group::Inputs })
             }
         };
-        Some(Told { more: group.reference(*id), ..Told::from(text) })
+        Some(HoverText { more: group.reference(*id), ..HoverText::from(text) })
     }
 }
 
@@ -196,8 +196,8 @@ fn outcome_of(unit: &Unit, name: &str) -> Option<u16> {
         "DeadlineMissed" => return Some(DEADLINE_MISSED),
         _ => {}
     }
-    let place = unit.outcomes.iter().position(|(known, _)| known == name)?;
-    u16::try_from(place).ok()
+    let index = unit.outcomes.iter().position(|(known, _)| known == name)?;
+    u16::try_from(index).ok()
 }
 
 fn time(at: Instant) -> String {

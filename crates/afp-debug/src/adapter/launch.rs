@@ -157,7 +157,7 @@ impl Adapter<'_> {
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
         }
         self.event_to::<event::Initialized>(self.asker, &None);
-        self.tell_roles();
+        self.send_roles();
         self.begun()
     }
 
@@ -187,9 +187,15 @@ impl Adapter<'_> {
         let others = self.breakpoints.of_others(self.asker);
         let others: Vec<_> = others.map(|(owner, each)| (owner, each.clone())).collect();
         for (owner, each) in others {
-            self.tell_of(self.asker, owner, dapts::BreakpointEventReason::New, &each, &program);
+            self.send_breakpoint(
+                self.asker,
+                owner,
+                dapts::BreakpointEventReason::New,
+                &each,
+                &program,
+            );
         }
-        self.tell_roles();
+        self.send_roles();
         self.begun()
     }
 
@@ -301,7 +307,7 @@ impl Adapter<'_> {
         if run.mode != Mode::Over {
             said.iter().for_each(|happened| self.say(&run, happened));
             run.keep_trace(&said);
-            self.tell_trace(&mut run);
+            self.send_trace(&mut run);
             let by = By::Client(self.name_of(self.asker).to_owned());
             self.ended(&run, &by);
         }
@@ -316,7 +322,7 @@ impl Adapter<'_> {
         if let Some(client) = self.clients.get_mut(&asker) {
             client.over = true;
         }
-        self.let_go(asker);
+        self.detach(asker);
         if asked.terminate_debuggee == Some(true) {
             self.terminate()?;
         }

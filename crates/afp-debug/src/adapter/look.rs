@@ -1,4 +1,4 @@
-//! What a client can look at while a run stands still: threads, stacks, values.
+//! What a client can inspect while a run is paused: threads, stacks, values.
 
 use std::time::Duration as Wall;
 

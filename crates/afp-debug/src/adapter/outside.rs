@@ -1,4 +1,4 @@
-//! What comes from outside by the hand of a client: buttons, faults, how fast time passes.
+//! Requests of clients that act from outside: buttons, faults, the speed of time.
 
 use std::time::Duration as Wall;
 

@@ -144,13 +144,13 @@ impl Adapter<'_> {
         }
         let owner = self.asker;
         let before = self.breakpoints.set(owner, set, all.clone());
-        self.tell_others(owner, Changed::Removed, &before, &program);
-        self.tell_others(owner, Changed::New, &all, &program);
+        self.send_breakpoints(owner, Changed::Removed, &before, &program);
+        self.send_breakpoints(owner, Changed::New, &all, &program);
         Ok(told)
     }
 
     /// Tells all but their owner of breakpoints.
-    pub(super) fn tell_others(
+    pub(super) fn send_breakpoints(
         &mut self,
         owner: ClientId,
         reason: Changed,
@@ -160,13 +160,13 @@ impl Adapter<'_> {
         let others: Vec<_> = self.attached().filter(|id| *id != owner).collect();
         for other in others {
             for each in all {
-                self.tell_of(other, owner, reason.clone(), each, program);
+                self.send_breakpoint(other, owner, reason.clone(), each, program);
             }
         }
     }
 
     /// Tells a client of a breakpoint of another one.
-    pub(super) fn tell_of(
+    pub(super) fn send_breakpoint(
         &mut self,
         other: ClientId,
         owner: ClientId,

@@ -75,11 +75,11 @@ impl Adapter<'_> {
             }
             None if wanted.release && self.operator == Some(self.asker) => {
                 self.operator = None;
-                self.tell_capabilities(self.asker);
+                self.send_capabilities(self.asker);
             }
             None => {}
         }
-        self.tell_roles();
+        self.send_roles();
         Ok(self.roles(self.asker))
     }
 
@@ -91,7 +91,7 @@ impl Adapter<'_> {
             client.lease = lease.then_some(Lease { asked: now, answered: now });
         }
         if before != Some(asker) {
-            before.into_iter().chain([asker]).for_each(|id| self.tell_capabilities(id));
+            before.into_iter().chain([asker]).for_each(|id| self.send_capabilities(id));
         }
     }
 
@@ -110,14 +110,14 @@ impl Adapter<'_> {
             }
             None => {
                 self.take_role(false, now);
-                self.tell_roles();
+                self.send_roles();
             }
         }
         Ok(())
     }
 
     /// Tells a client what it can ask for in its role.
-    fn tell_capabilities(&mut self, id: ClientId) {
+    fn send_capabilities(&mut self, id: ClientId) {
         let Some(run) = &self.run else { return };
         let capabilities = capabilities(self.operator == Some(id), run.target.is_recorded());
         self.event_to::<event::Capabilities>(id, &dapts::CapabilitiesEvent { capabilities });
@@ -132,11 +132,11 @@ impl Adapter<'_> {
     }
 
     /// Tells everybody who knows such events who has which role.
-    pub(super) fn tell_roles(&mut self) {
+    pub(super) fn send_roles(&mut self) {
         let those = self.clients.iter().filter(|(_, client)| client.attached && client.ours);
         for to in those.map(|(id, _)| *id).collect::<Vec<_>>() {
             let roles = self.roles(to);
-            self.tell_one(to, "afp/role", roles);
+            self.send_event(to, "afp/role", roles);
         }
     }
 
@@ -155,10 +155,10 @@ impl Adapter<'_> {
         match steps {
             true => self.stopped(Reason::Pause, &why, Vec::new()),
             // What is held stays so, what runs goes on.
-            false => self.tell_state(),
+            false => self.send_state(),
         }
-        self.tell_capabilities(lost);
-        self.tell_roles();
+        self.send_capabilities(lost);
+        self.send_roles();
     }
 
     /// Takes a client's breakpoints away and tells the others.
@@ -167,11 +167,11 @@ impl Adapter<'_> {
         let Some(program) = self.run.as_ref().map(|run| run.target.program().clone()) else {
             return;
         };
-        self.tell_others(owner, Changed::Removed, &gone, &program);
+        self.send_breakpoints(owner, Changed::Removed, &gone, &program);
     }
 
     /// A client says that it is there.
-    pub(super) fn hear_answer(&mut self, from: ClientId, now: Wall) {
+    pub(super) fn on_lease_answer(&mut self, from: ClientId, now: Wall) {
         let client = self.clients.get_mut(&from);
         if let Some(lease) = client.and_then(|client| client.lease.as_mut()) {
             lease.answered = now;
@@ -179,7 +179,7 @@ impl Adapter<'_> {
     }
 
     /// Asks who steers whether it is there, and lets go of one that is not.
-    pub(super) fn look_after_lease(&mut self, now: Wall) {
+    pub(super) fn check_lease(&mut self, now: Wall) {
         let Some(operator) = self.operator else { return };
         let steps = self.run.as_ref().is_some_and(|run| run.mode.is_step());
         let client = self.clients.get_mut(&operator);

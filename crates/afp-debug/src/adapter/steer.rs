@@ -1,4 +1,4 @@
-//! Letting time pass: until something holds the run.
+//! Lets time pass until a step is complete, a breakpoint is hit, or a client pauses the run.
 
 use std::time::Duration as Wall;
 
@@ -106,12 +106,12 @@ impl Adapter<'_> {
             "afp/picture" => self.picture(),
             "afp/force" => {
                 let forced = self.force(parse(arguments)?)?;
-                self.tell_state();
+                self.send_state();
                 Ok(forced)
             }
             "afp/release" => {
                 let forced = self.release(&parse(arguments)?)?;
-                self.tell_state();
+                self.send_state();
                 Ok(forced)
             }
             "goto" => self.goto(&parse(arguments)?, now),
@@ -127,8 +127,8 @@ impl Adapter<'_> {
                     (client.state, client.sensed) = (state, sensed);
                 }
                 self.trace(trace)?;
-                self.tell_state();
-                self.tell_roles();
+                self.send_state();
+                self.send_roles();
                 Ok(Value::Null)
             }
             other => Err(Refusal(format!("this release does not know the request '{other}'"))),
@@ -194,8 +194,8 @@ impl Adapter<'_> {
         }
         if run.mode != Mode::Held && now.saturating_sub(run.told_at) >= STATES {
             run.told_at = now;
-            self.tell_trace(&mut run);
-            self.tell_state_of(&run);
+            self.send_trace(&mut run);
+            self.send_state_of(&run);
         }
         self.run = Some(run);
     }

@@ -1,4 +1,4 @@
-//! What a client is told while a run goes on, and when it stands still.
+//! What is sent to clients while a run goes on, and when it is paused.
 
 use std::collections::BTreeMap;
 
@@ -76,8 +76,8 @@ impl Adapter<'_> {
     ) {
         run.mode = Mode::Held;
         self.event::<event::Stopped>(&stopped_event(reason, why, run.target.now(), hits));
-        self.tell_trace(run);
-        self.tell_state_of(run);
+        self.send_trace(run);
+        self.send_state_of(run);
     }
 
     /// What went wrong last.
@@ -110,20 +110,20 @@ impl Adapter<'_> {
 
     pub(super) fn end(&mut self, run: &mut Run<'_>, by: &By) {
         run.mode = Mode::Over;
-        self.tell_trace(run);
-        self.tell_state_of(run);
+        self.send_trace(run);
+        self.send_state_of(run);
         self.ended(run, by);
     }
 
-    pub(super) fn tell_state(&mut self) {
+    pub(super) fn send_state(&mut self) {
         let Some(run) = self.run.take() else { return };
-        self.tell_state_of(&run);
+        self.send_state_of(&run);
         self.run = Some(run);
     }
 
     /// Tells clients that want it what is the case.
-    pub(super) fn tell_state_of(&mut self, run: &Run<'_>) {
-        self.tell_sensed_of(run);
+    pub(super) fn send_state_of(&mut self, run: &Run<'_>) {
+        self.send_sensed_of(run);
         if !self.clients.values().any(|client| client.attached && client.state) {
             return;
         }
@@ -153,16 +153,16 @@ impl Adapter<'_> {
         ] {
             body[name] = value;
         }
-        self.tell_those(|client| client.attached && client.state, "afp/state", &body);
+        self.send_event_where(|client| client.attached && client.state, "afp/state", &body);
     }
 
     /// Tells clients that want it what the robot's signals say.
-    fn tell_sensed_of(&mut self, run: &Run<'_>) {
+    fn send_sensed_of(&mut self, run: &Run<'_>) {
         let wanted = |client: &Client| client.attached && client.sensed;
         if self.clients.values().any(wanted) {
             let sensed: Vec<_> = run.target.sensed().iter().map(in_json).collect();
             let body = json!({"at": run.target.now().as_secs_f64(), "sensed": sensed});
-            self.tell_those(wanted, "afp/sensed", &body);
+            self.send_event_where(wanted, "afp/sensed", &body);
         }
     }
 }

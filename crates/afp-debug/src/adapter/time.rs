@@ -1,4 +1,4 @@
-//! Going to another time: back, and ahead without being held on the way.
+//! Seeking to another time: back, and ahead without stopping at breakpoints.
 
 use afp_core::Instant;
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};

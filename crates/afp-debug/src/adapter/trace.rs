@@ -17,7 +17,7 @@ impl Adapter<'_> {
     pub(super) fn trace(&mut self, wanted: bool) -> Result<(), String> {
         let Some(mut run) = self.run.take() else { return Ok(()) };
         // What has happened so far is for those who wanted it before.
-        self.tell_trace(&mut run);
+        self.send_trace(&mut run);
         if let Some(client) = self.clients.get_mut(&self.asker) {
             client.trace = wanted;
         }
@@ -31,19 +31,19 @@ impl Adapter<'_> {
         self.run = Some(run);
         let pieces = told?;
         for piece in pieces.chunks(PIECE) {
-            self.tell_one(self.asker, "afp/trace", json!({"records": piece}));
+            self.send_event(self.asker, "afp/trace", json!({"records": piece}));
         }
         Ok(())
     }
 
     /// Tells what has happened since the last time.
-    pub(super) fn tell_trace(&mut self, run: &mut Run<'_>) {
+    pub(super) fn send_trace(&mut self, run: &mut Run<'_>) {
         let Some(records) = run.traced.as_mut().filter(|records| !records.is_empty()) else {
             return;
         };
         let records = std::mem::take(records);
         let body = json!({"records": records});
-        self.tell_those(|client| client.attached && client.trace, "afp/trace", &body);
+        self.send_event_where(|client| client.attached && client.trace, "afp/trace", &body);
     }
 }
 

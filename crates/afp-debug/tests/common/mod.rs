@@ -5,7 +5,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use afp_debug::{Adapter, ClientId, Host, Launch, Program, SessionTarget, Target, Told};
+use afp_debug::{Adapter, ClientId, Host, Launch, Outgoing, Program, SessionTarget, Target};
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
@@ -118,8 +118,8 @@ impl Clients {
         panic!("the run never stands still");
     }
 
-    fn hear(&mut self, messages: Vec<Told>) {
-        for Told { to, message } in messages {
+    fn hear(&mut self, messages: Vec<Outgoing>) {
+        for Outgoing { to, message } in messages {
             let message: Value = serde_json::from_str(&message).expect("messages are JSON");
             let word = |key: &str| message[key].as_str().unwrap_or("").to_owned();
             let line = match (message["type"].as_str(), message["success"] == true) {

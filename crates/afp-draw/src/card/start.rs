@@ -120,11 +120,11 @@ fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
     };
     sketch.frame(rect, Shape::Round(9.0), "configuration");
     sketch.labels.push(label((12.0, 19.0), "Configuration", PORT_SIZE, "template"));
-    for (place, (entry, text)) in entries.iter().zip(&texts).enumerate() {
-        let y = 30.0 + (place as f64 + 0.5) * ROW;
+    for (index, (entry, text)) in entries.iter().zip(&texts).enumerate() {
+        let y = 30.0 + (index as f64 + 0.5) * ROW;
         let base = y + 0.36 * PORT_SIZE;
         sketch.labels.push(label((12.0, base), keyword(entry), PORT_SIZE, "port"));
-        let (text_in_pill, class) = &pills[place];
+        let (text_in_pill, class) = &pills[index];
         let width = pill_width(text_in_pill);
         let pill = Rect { x: 12.0 + KIND, y: y - 9.0, width, height: 18.0 };
         sketch.pill(pill, *class, text_in_pill, PORT_SIZE);

@@ -1,4 +1,4 @@
-//! Supervisors that lean on the right side of a box.
+//! Supervisors, which are drawn at the right side of a box.
 
 use super::super::metrics::width;
 use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};

@@ -142,8 +142,8 @@ impl Around {
 
 fn ranks(order: &[usize]) -> Vec<usize> {
     let mut rank = vec![0; order.len()];
-    for (place, node) in order.iter().enumerate() {
-        rank[*node] = place;
+    for (index, node) in order.iter().enumerate() {
+        rank[*node] = index;
     }
     rank
 }

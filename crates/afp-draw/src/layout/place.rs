@@ -242,14 +242,14 @@ fn bends(grid: &Grid, item: usize) -> Vec<f64> {
 /// How far an item can move between its neighbours.
 fn room(grid: &Grid, item: usize) -> (f64, f64) {
     let order = &grid.layers[grid.items[item].layer];
-    let Some(place) = order.iter().position(|each| *each == item) else {
+    let Some(index) = order.iter().position(|each| *each == item) else {
         return (f64::NEG_INFINITY, f64::INFINITY);
     };
-    let left = place.checked_sub(1).map(|place| order[place]);
+    let left = index.checked_sub(1).map(|index| order[index]);
     let left =
         left.map(|other| grid.items[other].x + grid.items[other].width + grid.gap(other, item));
     let width = grid.items[item].width;
-    let right = order.get(place + 1);
+    let right = order.get(index + 1);
     let right = right.map(|other| grid.items[*other].x - grid.gap(item, *other) - width);
     (left.unwrap_or(f64::NEG_INFINITY), right.unwrap_or(f64::INFINITY))
 }

@@ -7,9 +7,9 @@ use afp_syntax::item::Item;
 pub(super) fn read(text: &str) -> (Layout, Vec<LayoutError>) {
     let mut layout = Layout::default();
     let mut errors = Vec::new();
-    for (place, line) in text.lines().enumerate() {
+    for (index, line) in text.lines().enumerate() {
         if let Err((column, message)) = self::line(line.trim_end(), &mut layout) {
-            errors.push(LayoutError { line: place + 1, column, message });
+            errors.push(LayoutError { line: index + 1, column, message });
         }
     }
     (layout, errors)

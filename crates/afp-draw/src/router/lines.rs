@@ -95,9 +95,9 @@ impl Lines {
                 return None;
             }
             let end = rest.partition_point(|at| at.0 <= here);
-            let place = rest[..end].partition_point(|at| at.1 <= y - 0.01);
-            if rest[..end].get(place).is_some_and(|at| at.1 < y + 0.01) {
-                return u32::try_from(first + place).ok();
+            let index = rest[..end].partition_point(|at| at.1 <= y - 0.01);
+            if rest[..end].get(index).is_some_and(|at| at.1 < y + 0.01) {
+                return u32::try_from(first + index).ok();
             }
             first += end;
         }

@@ -32,10 +32,10 @@ pub(super) fn dashes(edges: &[DrawnEdge]) -> Vec<usize> {
             other.edge != line.edge && other.from < line.at && line.at < other.to
         });
         let mut above = f64::NEG_INFINITY;
-        for (place, other) in crossed {
+        for (index, other) in crossed {
             dashes[line.edge] += usize::from(other.at - above < CLOSE);
-            dashes[other.edge] += usize::from(line.at - last[place] < CLOSE);
-            (above, last[place]) = (other.at, line.at);
+            dashes[other.edge] += usize::from(line.at - last[index] < CLOSE);
+            (above, last[index]) = (other.at, line.at);
         }
     }
     dashes

@@ -109,8 +109,8 @@ fn a_file_without_a_plan_is_an_empty_drawing() {
 }
 
 /// The text with one more actor behind an element, which leads to it and on to where that led.
-fn with_one_more(text: &str, scene: &Scene, place: usize) -> Option<String> {
-    let edge = scene.plans[0].edges.iter().filter(|edge| edge.kind == "state").nth(place)?;
+fn with_one_more(text: &str, scene: &Scene, index: usize) -> Option<String> {
+    let edge = scene.plans[0].edges.iter().filter(|edge| edge.kind == "state").nth(index)?;
     let (from, to) = (edge.item.name(), edge.to.name());
     let start = text.find(&format!(" {from}:"))?;
     let arrow = start + text[start..].find(&format!("-> {to}"))?;

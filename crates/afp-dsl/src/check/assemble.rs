@@ -44,9 +44,9 @@ pub(super) fn graph(
 pub(super) fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
     let mut needed = vec![false; program.plans.len()];
     let mut open = vec![main];
-    while let Some(place) = open.pop() {
-        if !std::mem::replace(&mut needed[place], true) {
-            open.extend(program.sub_plans[place].iter().map(|(used, _)| *used));
+    while let Some(index) = open.pop() {
+        if !std::mem::replace(&mut needed[index], true) {
+            open.extend(program.sub_plans[index].iter().map(|(used, _)| *used));
         }
     }
     needed
@@ -56,8 +56,8 @@ pub(super) fn needed(program: &Program<'_>, main: usize) -> Vec<bool> {
 /// plan keeps its name.
 pub(super) fn tell_apart(plans: &mut [graph::Plan], main: PlanId) {
     let mut taken = std::collections::HashSet::from([key(&plans[main.index()].name)]);
-    for (place, plan) in plans.iter_mut().enumerate() {
-        if place == main.index() || taken.insert(key(&plan.name)) {
+    for (index, plan) in plans.iter_mut().enumerate() {
+        if index == main.index() || taken.insert(key(&plan.name)) {
             continue;
         }
         let numbered = (2_u32..).map(|number| format!("{}_{number}", plan.name));

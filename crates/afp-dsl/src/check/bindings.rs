@@ -24,7 +24,7 @@ use generic::{Generic, actual};
 pub(crate) struct Bound {
     /// One formula for each input port and the connected outputs; `None` when something is wrong
     /// with them.
-    pub sound: Option<(Vec<Formula>, Vec<Output>)>,
+    pub valid: Option<(Vec<Formula>, Vec<Output>)>,
     /// The type that stands for `any` or `number`.
     pub generic: Option<Type>,
 }
@@ -56,11 +56,11 @@ pub(crate) fn check(
     let broken = site.broken || !ports.complete;
     let inputs = inputs(scope, signature, inferred, &generic, &Site { broken, ..*site }, diags);
     let outputs = outputs::check(scope, signature, &ports, &generic, diags);
-    let sound = inputs.zip(outputs);
+    let valid = inputs.zip(outputs);
     match generic {
-        Generic::None => Bound { sound, generic: None },
-        Generic::Is(ty) => Bound { sound, generic: Some(ty) },
-        Generic::Unknown => Bound { sound: None, generic: None },
+        Generic::None => Bound { valid, generic: None },
+        Generic::Is(ty) => Bound { valid, generic: Some(ty) },
+        Generic::Unknown => Bound { valid: None, generic: None },
         Generic::Undecided => {
             if !site.broken {
                 let message = format!("nothing decides the type of '{}'", signature.name);
@@ -69,7 +69,7 @@ pub(crate) fn check(
                         .help("bind one of its ports to a value or an entry"),
                 );
             }
-            Bound { sound: None, generic: None }
+            Bound { valid: None, generic: None }
         }
     }
 }
@@ -132,20 +132,19 @@ fn find_ports<'a>(
 ) -> Ports<'a> {
     let mut ports =
         Ports { inputs: vec![None; signature.inputs.len()], outputs: Vec::new(), complete: true };
-    let mut seen: Vec<&Name> = Vec::new();
-    for bind in binds {
+    for (at, bind) in binds.iter().enumerate() {
         let (Bind::In { port, sign, .. } | Bind::Out { port, sign, .. }) = bind;
         let alone = bind.is_alone();
         let input = signature.inputs.iter().position(|input| *input.name == *port.text);
         let output = signature.outputs.iter().position(|output| *output.name == *port.text);
         record_port(scope, signature, (port.span, alone), (input, output));
-        if let Some(first) = seen.iter().find(|known| known.text == port.text) {
+        let mut before = binds[..at].iter().map(Bind::port);
+        if let Some(first) = before.find(|known| known.text == port.text) {
             diags.push(bound_twice(port, first));
             ports.complete = false;
             bound_names(scope, bind);
             continue;
         }
-        seen.push(port);
         match (bind, input, output) {
             (_, None, None) if alone => {
                 bound_names(scope, bind);
@@ -156,15 +155,15 @@ fn find_ports<'a>(
                 bound_names(scope, bind);
                 ports.complete = false;
                 diags.push(alone::without_entry(bind));
-                if let Some(place) = input {
-                    ports.inputs[place] = Some(None);
+                if let Some(index) = input {
+                    ports.inputs[index] = Some(None);
                 }
             }
-            (Bind::In { formula, .. }, Some(place), _) => {
-                ports.inputs[place] = Some(formula.as_ref());
+            (Bind::In { formula, .. }, Some(index), _) => {
+                ports.inputs[index] = Some(formula.as_ref());
             }
-            (Bind::Out { entry, formula, .. }, _, Some(place)) => {
-                ports.outputs.push((place, entry.as_ref(), formula.as_ref()));
+            (Bind::Out { entry, formula, .. }, _, Some(index)) => {
+                ports.outputs.push((index, entry.as_ref(), formula.as_ref()));
             }
             (_, None, None) => {
                 bound_names(scope, bind);

@@ -91,10 +91,10 @@ impl Context<'_> {
     fn candidates(&self, name: &Name, home: Option<&Name>) -> Vec<Candidate<'_>> {
         let mut found = Vec::new();
         let plans = self.file.plans.get(&name.text).filter(|_| home.is_none());
-        for place in plans.into_iter().flatten() {
-            let head = &self.program.plans[*place];
+        for index in plans.into_iter().flatten() {
+            let head = &self.program.plans[*index];
             let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
-            let signature = self.program.signatures.plan(*place).clone();
+            let signature = self.program.signatures.plan(*index).clone();
             found.push(Candidate { signature, home: None, span });
         }
         for import in &self.file.imports {
@@ -102,11 +102,11 @@ impl Context<'_> {
                 continue;
             }
             let templates = &import.toolbox.templates;
-            let Some(place) = templates.iter().position(|each| each.name == name.text) else {
+            let Some(index) = templates.iter().position(|each| each.name == name.text) else {
                 continue;
             };
-            if let Some(signature) = self.program.signatures.template(import.id, place) {
-                let (home, span) = (Some(import.qualifier.as_str()), templates[place].span);
+            if let Some(signature) = self.program.signatures.template(import.id, index) {
+                let (home, span) = (Some(import.qualifier.as_str()), templates[index].span);
                 found.push(Candidate { signature: signature.clone(), home, span });
             }
         }

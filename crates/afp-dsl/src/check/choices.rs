@@ -96,14 +96,14 @@ pub(super) fn chosen(
             return None;
         }
     };
-    if let Some(place) =
+    if let Some(index) =
         home.variants.iter().position(|v| [ERROR, DEADLINE_MISSED].contains(&v.as_str()))
     {
         let message = format!(
             "'{}' has the value '{}', which no state can be called",
-            home.name, home.variants[place]
+            home.name, home.variants[index]
         );
-        let declared = home.variant_spans.get(place).copied().unwrap_or(home.span);
+        let declared = home.variant_spans.get(index).copied().unwrap_or(home.span);
         diags.push(
             Diagnostic::new(Code::E0244, at, message)
                 .note(declared, "declared here")

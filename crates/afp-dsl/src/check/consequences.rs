@@ -208,14 +208,14 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
     all.sort_by_cached_key(|each| (around(each.span).is_none(), each.span));
     for each in all {
         match first.entry(subject(program, &each, around(each.span))) {
-            Entry::Occupied(place) => {
-                let (said, others) = &mut joined[*place.get()];
+            Entry::Occupied(known) => {
+                let (said, others) = &mut joined[*known.get()];
                 if said.span != each.span && others.last() != Some(&each.span) {
                     others.push(each.span);
                 }
             }
-            Entry::Vacant(place) => {
-                place.insert(joined.len());
+            Entry::Vacant(new) => {
+                new.insert(joined.len());
                 joined.push((each, Vec::new()));
             }
         }
@@ -223,12 +223,12 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
     diags.retain(|each| !UNKNOWN.contains(&each.code));
     for (said, (error, others)) in joined.into_iter().enumerate() {
         let plan = around(error.span);
-        let head = plan.and_then(|place| program.plans.get(place));
+        let head = plan.and_then(|index| program.plans.get(index));
         let slip = head.and_then(|head| {
             let last = last.entry(head.file).or_insert_with(|| last_places(program, head.file));
             let end = head.node.span().end as usize;
             // Scenarios may use names of the plan, and are not read while it is wrong.
-            let is_behind = |name: &str| last.get(name).is_some_and(|place| *place >= end);
+            let is_behind = |name: &str| last.get(name).is_some_and(|index| *index >= end);
             if others.is_empty() && !is_behind(name_of(&error)) {
                 return None;
             }

@@ -98,10 +98,10 @@ fn call(function: Function, operands: &[Option<Constant>]) -> Result<Option<Cons
     }
     let (mut ints, mut floats) = ([0; 3], [0.0; 3]);
     let (mut whole, mut broken) = (0, 0);
-    for (place, operand) in operands.iter().enumerate().take(3) {
+    for (index, operand) in operands.iter().enumerate().take(3) {
         match operand {
-            Some(Constant::Int(value)) => (ints[place], whole) = (*value, whole + 1),
-            Some(Constant::Float(value)) => (floats[place], broken) = (*value, broken + 1),
+            Some(Constant::Int(value)) => (ints[index], whole) = (*value, whole + 1),
+            Some(Constant::Float(value)) => (floats[index], broken) = (*value, broken + 1),
             _ => return Ok(None),
         }
     }

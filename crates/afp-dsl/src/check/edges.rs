@@ -83,13 +83,13 @@ pub(crate) struct Elements<'a> {
 #[derive(Default)]
 struct Reasons {
     list: Vec<String>,
-    places: HashMap<String, usize>,
+    indices: HashMap<String, usize>,
 }
 
 impl Reasons {
-    fn place(&mut self, reason: String) -> usize {
+    fn index_of(&mut self, reason: String) -> usize {
         let next = self.list.len();
-        match self.places.entry(reason) {
+        match self.indices.entry(reason) {
             Entry::Occupied(known) => *known.get(),
             Entry::Vacant(new) => {
                 self.list.push(new.key().clone());
@@ -100,7 +100,7 @@ impl Reasons {
 }
 
 impl<'a> Elements<'a> {
-    /// Takes the names of a plan's elements by place.
+    /// Takes the names of a plan's elements by index.
     pub fn new(names: Vec<Option<Name>>, record: &'a Recorder) -> Elements<'a> {
         let texts = names.iter().map(|name| name.as_ref().map(|name| name.text.as_str()));
         let reasons = RefCell::default();
@@ -126,9 +126,9 @@ impl<'a> Elements<'a> {
             diags.push(too_long(*span));
             return None;
         }
-        let place = self.reasons.borrow_mut().place(reason);
+        let index = self.reasons.borrow_mut().index_of(reason);
         // More than fit are reported with the plan's other tables.
-        Some(ReasonId(u16::try_from(place).unwrap_or(u16::MAX)))
+        Some(ReasonId(u16::try_from(index).unwrap_or(u16::MAX)))
     }
 
     /// Where which element stands.
@@ -218,8 +218,8 @@ pub(super) fn connect<'e>(
     let extra = origin.extra();
     for edge in edges {
         let name = &edge.name;
-        let place = signature.outcomes.iter().position(|outcome| **outcome == *name.text);
-        outcome(origin, place, name, elements.record);
+        let index = signature.outcomes.iter().position(|outcome| **outcome == *name.text);
+        outcome(origin, index, name, elements.record);
         if let Some(first) = seen.iter().find(|known| known.text == name.text) {
             diags.push(
                 Diagnostic::new(
@@ -235,10 +235,10 @@ pub(super) fn connect<'e>(
         }
         let span = edge.span;
         let target = target(edge, origin, elements, diags);
-        match place {
-            Some(place) => {
-                connected.outcomes[place] = target;
-                connected.spans.outcomes[place] = Some(span);
+        match index {
+            Some(index) => {
+                connected.outcomes[index] = target;
+                connected.spans.outcomes[index] = Some(span);
             }
             None if name.text == extra => {
                 connected.extra = target;
@@ -286,9 +286,9 @@ fn leads_to(edge: &WrittenEdge, origin: &Origin<'_>, elements: &Elements<'_>) {
 }
 
 /// Says which state or event an edge is for.
-fn outcome(origin: &Origin<'_>, place: Option<usize>, name: &Name, record: &Recorder) {
-    let known = place.is_some() || name.text == origin.extra();
-    match (place.and_then(|place| origin.signature.outcome_span(place)), word(&name.text)) {
+fn outcome(origin: &Origin<'_>, index: Option<usize>, name: &Name, record: &Recorder) {
+    let known = index.is_some() || name.text == origin.extra();
+    match (index.and_then(|index| origin.signature.outcome_span(index)), word(&name.text)) {
         (Some(definition), _) => record.definition(name.span, definition),
         (None, Some(word)) if known => record.word(name.span, word),
         _ => record.unknown(name.span),
@@ -374,7 +374,7 @@ pub(crate) fn find(
     elements: &Elements<'_>,
     diags: &mut Diagnostics,
 ) -> Option<ElementId> {
-    let Some(place) = elements.indices.find(&to.text) else {
+    let Some(index) = elements.indices.find(&to.text) else {
         elements.record.unknown(to.span);
         let words = [TERMINATE, FAIL].into_iter();
         let words =
@@ -391,10 +391,10 @@ pub(crate) fn find(
         });
         return None;
     };
-    if let Some(name) = &elements.names[place] {
+    if let Some(name) = &elements.names[index] {
         elements.record.definition(to.span, name.span);
     }
-    u16::try_from(place).ok().map(ElementId)
+    u16::try_from(index).ok().map(ElementId)
 }
 
 /// Reports what is not connected; each unknown one stands for one of those.

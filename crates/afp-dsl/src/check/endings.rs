@@ -108,12 +108,12 @@ fn reached(plan: &Plan, elements: &[Element], events: &Events) -> Vec<bool> {
     let mut reached = vec![false; elements.len()];
     let mut waiting: Vec<_> = events.globals.iter().collect();
     while let Some(next) = open.pop() {
-        let Some(place) = indices.find(&next) else { continue };
-        if std::mem::replace(&mut reached[place], true) {
+        let Some(index) = indices.find(&next) else { continue };
+        if std::mem::replace(&mut reached[index], true) {
             continue;
         }
-        open.extend(elements[place].edges().iter().map(leads_to));
-        let own = &events.elements[place];
+        open.extend(elements[index].edges().iter().map(leads_to));
+        let own = &events.elements[index];
         open.extend(own.edges.iter().map(leads_to));
         waiting.retain(|each| {
             let kept = own.keeps(each);

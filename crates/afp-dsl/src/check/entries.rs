@@ -69,10 +69,10 @@ pub(crate) fn read(
     let indices = Indices::of(written.iter().map(|(name, _)| Some(name.text.as_str())));
     let site = Site { indices: &indices, types, text, record };
     for kinds in [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]] {
-        for place in 0..drafts.len() {
-            if kinds.contains(&drafts[place].kind) {
-                initialise(place, &written[place].1, &mut drafts, &site, diags);
-                limit(place, &written[place].1, &mut drafts, &site, diags);
+        for index in 0..drafts.len() {
+            if kinds.contains(&drafts[index].kind) {
+                initialise(index, &written[index].1, &mut drafts, &site, diags);
+                limit(index, &written[index].1, &mut drafts, &site, diags);
             }
         }
     }
@@ -122,19 +122,19 @@ fn kind(entry: &ast::Entry) -> EntryKind {
 }
 
 fn initialise(
-    place: usize,
+    index: usize,
     entry: &ast::Entry,
     drafts: &mut [EntryDraft],
     site: &Site<'_>,
     diags: &mut Diagnostics,
 ) {
-    let own = &drafts[place];
+    let own = &drafts[index];
     let (kind, ty) = (own.kind, own.ty.clone());
     let Some(formula) = entry.init() else {
         return missing(own, entry, diags);
     };
     let readable = |other: usize| match kind {
-        EntryKind::Const => drafts[other].kind == EntryKind::Const && other < place,
+        EntryKind::Const => drafts[other].kind == EntryKind::Const && other < index,
         EntryKind::In => drafts[other].kind == EntryKind::Const,
         EntryKind::Var | EntryKind::Out => {
             matches!(drafts[other].kind, EntryKind::Const | EntryKind::In)
@@ -152,7 +152,7 @@ fn initialise(
         untyped(own, entry, diags);
     }
     let Some((formula, value)) = checked else { return };
-    let draft = &mut drafts[place];
+    let draft = &mut drafts[index];
     if draft.ty.is_none() && entry.ty().is_none() && !needs_type {
         draft.ty = Some(formula.ty.clone());
     }
@@ -162,7 +162,7 @@ fn initialise(
 
 /// Reads the range of an entry, and checks its initial value against it.
 fn limit(
-    place: usize,
+    index: usize,
     entry: &ast::Entry,
     drafts: &mut [EntryDraft],
     site: &Site<'_>,
@@ -172,8 +172,8 @@ fn limit(
         let scope = site.scope(drafts, &|_| true, "");
         return entry.ends().iter().for_each(|end| scope.names_only(end));
     };
-    let own = &drafts[place];
-    let readable = |other: usize| drafts[other].kind == EntryKind::Const && other != place;
+    let own = &drafts[index];
+    let readable = |other: usize| drafts[other].kind == EntryKind::Const && other != index;
     let scope = site.scope(drafts, &readable, "a range may use 'const' entries");
     let Some(ty) = own.ty.as_ref().filter(|_| own.kind != EntryKind::Const) else {
         scope.names_only(&written.0);
@@ -203,7 +203,7 @@ fn limit(
     if let Some(error) = error {
         diags.push(error);
     }
-    let draft = &mut drafts[place];
+    let draft = &mut drafts[index];
     (draft.range, draft.ranged_by) = (range, ranged_by);
 }
 

@@ -66,15 +66,15 @@ impl Scope<'_> {
 
     /// The entry of that name, by its place.
     pub fn entry(&self, name: &ast::Name) -> Option<usize> {
-        let place = self.indices.find(&name.text);
-        match place {
-            Some(place) => self.record.definition(name.span, self.entries[place].name.span),
+        let index = self.indices.find(&name.text);
+        match index {
+            Some(index) => self.record.definition(name.span, self.entries[index].name.span),
             None => match self.table(name) {
                 Some(table) => self.record.definition(name.span, table.span),
                 None => self.record.unknown(name.span),
             },
         }
-        place
+        index
     }
 
     /// Whether a formula is the name of a table alone.
@@ -307,12 +307,12 @@ impl Typer<'_> {
 
     fn entry(&self, name: &ast::Name, diags: &mut Diagnostics) -> Option<Formula> {
         let scope = self.scope;
-        let Some(place) = scope.entry(name) else {
+        let Some(index) = scope.entry(name) else {
             diags.push(self.unknown_entry(name));
             return None;
         };
-        let entry = &scope.entries[place];
-        if !(scope.readable)(place) {
+        let entry = &scope.entries[index];
+        if !(scope.readable)(index) {
             let message = format!("'{}' has no value yet", name.text);
             diags.push(
                 Diagnostic::new(Code::E0229, name.span, message)
@@ -321,7 +321,7 @@ impl Typer<'_> {
             );
             return None;
         }
-        let id = EntryId(u16::try_from(place).ok()?);
+        let id = EntryId(u16::try_from(index).ok()?);
         let ty = entry.ty.clone()?;
         Some(Formula { kind: FormulaKind::Entry(id), ty, span: name.span })
     }
@@ -393,17 +393,17 @@ impl Typer<'_> {
             return None;
         };
         record.definition(home.span, found.span);
-        let Some(place) = found.variants.iter().position(|variant| *variant == name.text) else {
+        let Some(index) = found.variants.iter().position(|variant| *variant == name.text) else {
             let known = found.variants.iter().map(String::as_str);
             let message = format!("'{}' has no value '{}'", found.name, name.text);
             let none = "declare the value in the enum";
             diags.push(unknown(Code::E0239, name.span, message, &name.text, known, none));
             return None;
         };
-        if let Some(definition) = found.variant_spans.get(place) {
+        if let Some(definition) = found.variant_spans.get(index) {
             record.definition(name.span, *definition);
         }
-        let kind = FormulaKind::Choice(u16::try_from(place).ok()?);
+        let kind = FormulaKind::Choice(u16::try_from(index).ok()?);
         Some(Formula { kind, ty: Type::Enum(found.clone()), span })
     }
 }

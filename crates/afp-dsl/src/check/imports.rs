@@ -130,7 +130,7 @@ fn one(
     record.definition(name.span, toolbox.span);
     let alias = line.alias().unwrap_or(Name { text: name.text, span: toolbox.span });
     let known = linked.iter().position(|known| Arc::ptr_eq(known, toolbox));
-    let place = known.unwrap_or(linked.len());
+    let index = known.unwrap_or(linked.len());
     if known.is_none() {
         linked.push(toolbox.clone());
     }
@@ -138,7 +138,7 @@ fn one(
         qualifier: alias.text,
         span: alias.span,
         toolbox: toolbox.clone(),
-        id: ToolboxId(u16::try_from(place).ok()?),
+        id: ToolboxId(u16::try_from(index).ok()?),
     })
 }
 

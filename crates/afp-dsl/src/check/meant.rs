@@ -58,7 +58,7 @@ fn ours(words: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> {
 
 /// Says of a name that is not there what else it is, if it is something.
 pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnostic) -> Diagnostic {
-    let head = plan.and_then(|place| program.plans.get(place));
+    let head = plan.and_then(|index| program.plans.get(index));
     let Some(text) = head.and_then(|head| program.files.get(head.file)).map(|file| file.text)
     else {
         return error;
@@ -122,7 +122,7 @@ fn element(
     name: &str,
     error: &Diagnostic,
 ) -> Option<Diagnostic> {
-    let others = program.plans.iter().enumerate().filter(|(place, _)| Some(*place) != plan);
+    let others = program.plans.iter().enumerate().filter(|(index, _)| Some(*index) != plan);
     let mut found = others.filter_map(|(_, head)| {
         let elements = head.node.elements();
         let element = elements.iter().filter_map(|it| it.name()).find(|it| it.text == name)?;

@@ -116,7 +116,12 @@ fn refuse(name: &Name, diags: &mut Diagnostics) {
 /// What is left of a name in every spelling of it.
 pub(crate) fn key(name: &str) -> String {
     match name.is_ascii() {
-        true => name.chars().filter(|each| *each != '_').map(|c| c.to_ascii_lowercase()).collect(),
+        true => {
+            let mut key = String::with_capacity(name.len());
+            let letters = name.chars().filter(|each| *each != '_');
+            key.extend(letters.map(|each| each.to_ascii_lowercase()));
+            key
+        }
         false => name.chars().filter(|each| *each != '_').collect::<String>().to_lowercase(),
     }
 }

@@ -241,8 +241,8 @@ impl Reader {
     }
 
     /// A plan by its place in the program; one that is part of itself is not known.
-    fn sub_plan(&self, place: usize) -> graph::Component {
-        let id = self.ids.get(place).copied().flatten();
+    fn sub_plan(&self, index: usize) -> graph::Component {
+        let id = self.ids.get(index).copied().flatten();
         id.map_or(graph::Component::Actor(self.unknown), graph::Component::SubPlan)
     }
 
@@ -315,12 +315,12 @@ impl Leads {
         let reactions = element.reactions.iter().filter_map(|node| {
             let name = node.name.as_ref()?;
             let is_it = |own: &Component| own.name.as_ref().is_some_and(|it| it.text == name.text);
-            let place = globals.iter().position(is_it)?;
+            let index = globals.iter().position(is_it)?;
             let own = |event: &Exit| node.exits.iter().find(|exit| exit.name == event.name);
             let missed = node.exits.iter().find(|exit| exit.kind == ExitKind::Missed);
             Some(Reactions {
-                supervisor: SupervisorId(u16::try_from(place).ok()?),
-                events: events(&globals[place]).map(|it| self.target(own(it)?)).collect(),
+                supervisor: SupervisorId(u16::try_from(index).ok()?),
+                events: events(&globals[index]).map(|it| self.target(own(it)?)).collect(),
                 on_miss: missed.and_then(|exit| self.target(exit)),
                 span: name.span,
                 edges: EdgeSpans::default(),

@@ -1,6 +1,7 @@
 //! One plan: elements, supervisors, `start`.
 
 mod component;
+mod faults;
 
 use std::rc::Rc;
 
@@ -23,6 +24,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
 use component::{Checked, Components};
+use faults::Owner;
 
 pub(crate) use component::{Made, WrittenParts};
 
@@ -55,8 +57,8 @@ pub(crate) struct Members {
 }
 
 /// Checks a plan.
-pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics) -> CheckedPlan {
-    let head = &program.plans[place];
+pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics) -> CheckedPlan {
+    let head = &program.plans[index];
     let context = Context { program, file: &program.files[head.file] };
     let elements = head.node.elements();
     let names = declare(head, &elements, program.record, diags);
@@ -95,8 +97,9 @@ pub(crate) fn check(program: &Program<'_>, place: usize, diags: &mut Diagnostics
         members.elements.push(draft);
         let Some(draft) = members.elements.last_mut() else { continue };
         draft.supervisors.reserve_exact(nodes.len());
+        let owner = Owner::new(id(at).map(ElementId), draft);
         for guard in nodes {
-            let checked = components.supervisor(&guard, id(at).map(ElementId), diags);
+            let checked = components.supervisor(&guard, Some(owner), diags);
             supervisors.push(checked.built);
             guards.extend(checked.user);
             of_locals.push(checked.signature);
@@ -140,8 +143,8 @@ fn scope<'a>(context: Context<'a>, head: &'a PlanHead) -> Scope<'a> {
     }
 }
 
-fn id(place: usize) -> Option<u16> {
-    u16::try_from(place).ok()
+fn id(index: usize) -> Option<u16> {
+    u16::try_from(index).ok()
 }
 
 /// The element with the supervisors that stand in it.

@@ -64,10 +64,10 @@ impl Watchers<'_> {
         diags: &mut Diagnostics,
     ) -> (Option<Reactions>, Component) {
         let (name, edges) = (node.name(), WrittenEdge::read(node.edges()));
-        let place = name.as_ref().and_then(|name| self.find(element, name, diags));
-        let signature = place.and_then(|place| self.signatures.get(place)?.clone());
+        let index = name.as_ref().and_then(|name| self.find(element, name, diags));
+        let signature = index.and_then(|index| self.signatures.get(index)?.clone());
         let mut reactions = None;
-        if let (Some(name), Some(signature), Some(place)) = (&name, &signature, place) {
+        if let (Some(name), Some(signature), Some(index)) = (&name, &signature, index) {
             let origin = Origin {
                 signature,
                 name: Some(name),
@@ -77,8 +77,8 @@ impl Watchers<'_> {
             };
             let (connected, ..) = edges::connect(&origin, &edges, self.elements, diags);
             to_itself(element, &origin, &edges, diags);
-            reactions = u16::try_from(place).ok().map(|place| Reactions {
-                supervisor: SupervisorId(place),
+            reactions = u16::try_from(index).ok().map(|index| Reactions {
+                supervisor: SupervisorId(index),
                 events: connected.outcomes,
                 on_miss: connected.extra,
                 span: name.span,
@@ -96,7 +96,7 @@ impl Watchers<'_> {
     fn find(&self, element: &ast::Element, name: &Name, diags: &mut Diagnostics) -> Option<usize> {
         let names = self.globals.iter().map(|global| global.name.as_ref());
         let found = names.clone().position(|known| known.is_some_and(|it| it.text == name.text));
-        if let Some(definition) = found.and_then(|place| self.globals[place].name.as_ref()) {
+        if let Some(definition) = found.and_then(|index| self.globals[index].name.as_ref()) {
             self.record.definition(name.span, definition.span);
             return found;
         }

@@ -35,7 +35,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::unquote;
 
 pub use actions::VERBS;
-use lines::sound;
+use lines::readable;
 use over::Over;
 use paths::Paths;
 use resolve::Resolver;
@@ -61,15 +61,15 @@ pub(super) fn check(
 ) -> Vec<Scenario> {
     let mut checked = Vec::new();
     let robot = Robot::of(program);
-    for (place, file) in files.iter().enumerate() {
+    for (index, file) in files.iter().enumerate() {
         let mut named: Vec<Name> = Vec::new();
         for node in nodes(&file.tree) {
-            let context = Context { program, file: &program.files[place] };
+            let context = Context { program, file: &program.files[index] };
             if let Some(name) = node.name() {
                 twice(&name, &mut named, diags);
             }
             let scenario = scenario(context, (files, &robot), plans, &node, diags);
-            checked.extend(scenario.into_iter().flatten().filter(|_| place == 0));
+            checked.extend(scenario.into_iter().flatten().filter(|_| index == 0));
         }
     }
     checked
@@ -81,7 +81,7 @@ pub(super) fn check(
 pub fn outputs(graph: &graph::Graph, component: &str, outcome: u16) -> Vec<(u16, String, Type)> {
     let Some((plan, part)) = paths::by_path(graph, component) else { return Vec::new() };
     let outputs = paths::outputs(graph, plan, part, outcome).into_iter();
-    outputs.map(|(place, port, ty)| (place, port.name.clone(), ty)).collect()
+    outputs.map(|(index, port, ty)| (index, port.name.clone(), ty)).collect()
 }
 
 /// The plan that the first scenario of a file with a plan that is there is for: what runs where the file has no plan.
@@ -128,17 +128,17 @@ fn scenario(
     node: &ast::Scenario,
     diags: &mut Diagnostics,
 ) -> Option<Vec<Scenario>> {
-    let place = node.plan().and_then(|reference| plan(context, &reference, diags));
+    let index = node.plan().and_then(|reference| plan(context, &reference, diags));
     let program = context.program;
     let resolver = Resolver { program, members: plans.members };
-    names::record(context, &resolver, robot, place, &node.lines());
-    let (name, place) = (node.name()?, place?);
-    let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, place)?;
+    names::record(context, &resolver, robot, index, &node.lines());
+    let (name, index) = (node.name()?, index?);
+    let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, index)?;
     let graph = Arc::new(graph);
-    let head = &program.plans[place];
-    let lines = sound(node.lines(), diags);
+    let head = &program.plans[index];
+    let lines = readable(node.lines(), diags);
     let stretch = Stretch::of(&lines, None, diags);
-    let paths = Paths::new(&graph, resolver, place);
+    let paths = Paths::new(&graph, resolver, index);
     let checker = Checker { context, paths, robot, head };
     let plan_file = &files.get(head.file)?.source.name;
     let mut scenario = Scenario {
@@ -166,13 +166,13 @@ fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> 
     let found = known.get(&name.text).map_or(&[][..], Vec::as_slice);
     let record = context.program.record;
     match (found, reference.home()) {
-        ([place], None) => {
-            let head = &context.program.plans[*place];
+        ([index], None) => {
+            let head = &context.program.plans[*index];
             let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
             record.definition(name.span, span);
         }
         ([_, _, ..], None) => {
-            let heads = found.iter().filter_map(|place| context.program.plans.get(*place));
+            let heads = found.iter().filter_map(|index| context.program.plans.get(*index));
             record.several(name.span, heads.filter_map(|head| Some(head.name.as_ref()?.span)));
         }
         (_, home) => {
@@ -181,9 +181,9 @@ fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> 
         }
     }
     match (found, reference.home()) {
-        ([place], None) => Some(*place),
+        ([index], None) => Some(*index),
         ([_, _, ..], None) => {
-            let plans = found.iter().map(|place| &context.program.plans[*place]);
+            let plans = found.iter().map(|index| &context.program.plans[*index]);
             let span = |head: &PlanHead| head.name.as_ref().map_or(head.node.span(), |n| n.span);
             let places: Vec<_> = plans.map(|head| (None, span(head))).collect();
             diags.push(ambiguous("a plan", &name.text, reference.span(), &places));
@@ -227,8 +227,8 @@ impl Checker<'_> {
         diags: &mut Diagnostics,
     ) -> Option<(Formula, Constant)> {
         let entries = &self.head.entries;
-        let known = |place: usize| {
-            let entry = &entries[place];
+        let known = |index: usize| {
+            let entry = &entries[index];
             entry.kind == EntryKind::Const && entry.value.is_some()
         };
         let scope = Scope {
@@ -301,10 +301,10 @@ impl Checker<'_> {
         diags: &mut Diagnostics,
     ) {
         let plan = self.paths.graph.main();
-        let missing = (0..).zip(&plan.entries).filter(|(place, entry)| {
+        let missing = (0..).zip(&plan.entries).filter(|(index, entry)| {
             entry.kind == EntryKind::In
                 && entry.init.is_none()
-                && !scenario.set.iter().any(|(set, _)| set == place)
+                && !scenario.set.iter().any(|(set, _)| set == index)
         });
         let missing: Vec<_> = missing.map(|(_, entry)| entry).collect();
         if missing.is_empty() || diags.error_within(node.span()) {

@@ -60,9 +60,9 @@ pub(super) fn program<'a>(
         own_tables.map(|(file, scope)| tables::own(file, &scope.types, record, diags)).collect();
     let mut plans = Vec::new();
     let mut own: Vec<FxHashMap<String, usize>> = Vec::new();
-    for (place, file) in files.iter().enumerate() {
+    for (index, file) in files.iter().enumerate() {
         let first = plans.len();
-        plans.extend(heads(file, place, &scopes[place].types, record, diags));
+        plans.extend(heads(file, index, &scopes[index].types, record, diags));
         let mut names = FxHashMap::default();
         for (at, head) in plans.iter().enumerate().skip(first) {
             if let Some(name) = &head.name {
@@ -71,11 +71,11 @@ pub(super) fn program<'a>(
         }
         own.push(names);
     }
-    for (place, file) in files.iter().enumerate() {
-        for seen in std::iter::once(&place).chain(&file.uses) {
-            scopes[place].tables.extend(own_tables[*seen].iter().cloned());
+    for (index, file) in files.iter().enumerate() {
+        for seen in std::iter::once(&index).chain(&file.uses) {
+            scopes[index].tables.extend(own_tables[*seen].iter().cloned());
             for (name, at) in &own[*seen] {
-                scopes[place].plans.entry(name.clone()).or_default().push(*at);
+                scopes[index].plans.entry(name.clone()).or_default().push(*at);
             }
         }
     }
@@ -138,7 +138,7 @@ fn own_enums(file: &PlanFile, diags: &mut Diagnostics) -> Vec<Arc<Enum>> {
 /// The plans of a file, without what they are made of.
 fn heads(
     file: &PlanFile,
-    place: usize,
+    index: usize,
     types: &Types,
     record: &Recorder,
     diags: &mut Diagnostics,
@@ -151,7 +151,7 @@ fn heads(
         .map(|node| {
             let (entries, indices) = entries::read(&node, types, &file.source.text, record, diags);
             let interrupting = endings::interrupting(&node);
-            PlanHead { name: node.name(), file: place, entries, indices, interrupting, node }
+            PlanHead { name: node.name(), file: index, entries, indices, interrupting, node }
         })
         .collect();
     let mut names = DeclaredNames::default();

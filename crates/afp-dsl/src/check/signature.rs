@@ -91,8 +91,8 @@ impl Signatures {
     }
 
     /// That of a template, by toolbox and place in it.
-    pub fn template(&self, toolbox: ToolboxId, place: usize) -> Option<&Rc<Signature>> {
-        self.templates.get(toolbox.index())?.get(place)
+    pub fn template(&self, toolbox: ToolboxId, index: usize) -> Option<&Rc<Signature>> {
+        self.templates.get(toolbox.index())?.get(index)
     }
 
     /// That of the template of a name whose states are the values of an enum.
@@ -121,8 +121,8 @@ impl Signatures {
     }
 
     /// That of a plan.
-    pub fn plan(&self, place: usize) -> &Rc<Signature> {
-        &self.plans[place]
+    pub fn plan(&self, index: usize) -> &Rc<Signature> {
+        &self.plans[index]
     }
 }
 
@@ -146,11 +146,11 @@ impl Signature {
     }
 
     /// The signature of a plan that is used as an actor.
-    fn of_plan(place: usize, head: &PlanHead) -> Signature {
+    fn of_plan(index: usize, head: &PlanHead) -> Signature {
         let of_kind = |kind| head.entries.iter().filter(move |entry| entry.kind == kind);
         Signature {
             name: head.name.as_ref().map(|name| name.text.clone()).unwrap_or_default(),
-            kind: SignatureKind::Plan(place),
+            kind: SignatureKind::Plan(index),
             inputs: of_kind(EntryKind::In)
                 .map(|entry| Input {
                     name: entry.name.text.as_str().into(),
@@ -188,8 +188,8 @@ impl Signature {
     /// What an element made from it is; `None` for a supervisor.
     pub fn component(&self) -> Option<Component> {
         match self.kind {
-            SignatureKind::Plan(place) => {
-                u16::try_from(place).ok().map(PlanId).map(Component::SubPlan)
+            SignatureKind::Plan(index) => {
+                u16::try_from(index).ok().map(PlanId).map(Component::SubPlan)
             }
             SignatureKind::Template(kind) => {
                 let (id, _) = self.template.as_ref()?;
@@ -240,13 +240,13 @@ fn inputs(template: &Template) -> Vec<Input> {
 fn outputs(template: &Template) -> Vec<OutputPort> {
     let reads = template.reads_table.as_ref();
     let table = reads.and_then(|reads| reads.table.as_ref());
-    let is_broken = |place: usize| {
-        let column = table.and_then(|table| table.columns.get(place));
+    let is_broken = |index: usize| {
+        let column = table.and_then(|table| table.columns.get(index));
         column.is_some_and(|column| column.ty.is_none())
     };
-    let output = |(place, port): (usize, &crate::toolbox::OutPort)| OutputPort {
+    let output = |(index, port): (usize, &crate::toolbox::OutPort)| OutputPort {
         name: port.name.as_str().into(),
-        ty: Some(port.ty.clone()).filter(|_| !is_broken(place)),
+        ty: Some(port.ty.clone()).filter(|_| !is_broken(index)),
         span: port.span,
     };
     template.outputs.iter().enumerate().map(output).collect()

@@ -39,7 +39,7 @@ pub(crate) fn of_supervisor(
         FormulaKind::Ref(_) => {}
         kind => return above_zero(&value, kind, diags),
     }
-    let duration = Type::Quantity(Dimension::named("duration")?);
+    let duration = Type::Quantity(Dimension::DURATION);
     let (_, constant) = scope.check(&value, Some(&duration), diags)?;
     let Some(Constant::Float(seconds)) = constant else {
         diags.push(
@@ -83,7 +83,7 @@ fn time_of(
     };
     let literal = Literal::of_tokens(&number.text, Some(&unit.text))?;
     let dimension = literal.dimension();
-    if dimension.name() != "duration" {
+    if dimension != Dimension::DURATION {
         let message = format!("expected a duration, found {}", a_dimension(dimension));
         diags.push(
             Diagnostic::new(Code::E0204, unit.span, message)

@@ -58,7 +58,7 @@ fn unsure(entries: &[Entry]) -> Vec<EntryId> {
     };
     let with_id = entries.iter().enumerate();
     let unsure = with_id.filter(|(_, entry)| unsure(entry));
-    unsure.filter_map(|(place, _)| u16::try_from(place).ok().map(EntryId)).collect()
+    unsure.filter_map(|(index, _)| u16::try_from(index).ok().map(EntryId)).collect()
 }
 
 /// For each entry the edges that surely write it, in ascending order.

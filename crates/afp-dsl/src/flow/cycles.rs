@@ -9,6 +9,8 @@ mod count;
 mod holding;
 mod instant;
 
+use std::collections::BTreeMap;
+
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, Node, View, takes_time};
 use crate::flow::{INTERRUPTED, OK};
@@ -114,18 +116,19 @@ impl<'a, 'b> Quick<'a, 'b> {
 
     /// The components that hold a cycle: their nodes, and the edges between them.
     fn cycles(&self) -> Vec<(Vec<Node>, Vec<&Edge>)> {
-        let count = self.component.iter().max().map_or(0, |last| *last as usize + 1);
-        let mut members = vec![Vec::new(); count];
-        for (node, component) in self.component.iter().enumerate() {
-            members[*component as usize].push(node);
+        let mut found: BTreeMap<u32, (Vec<Node>, Vec<&Edge>)> = BTreeMap::new();
+        for edge in &self.edges {
+            let component = self.component[edge.from];
+            if component == self.component[edge.to] {
+                found.entry(component).or_default().1.push(edge);
+            }
         }
-        let with_edges = members.into_iter().map(|members| {
-            let edges = members.iter().flat_map(|node| self.from(*node));
-            let inner = |edge: &&Edge| self.component[edge.from] == self.component[edge.to];
-            let inner = edges.filter(inner).collect::<Vec<_>>();
-            (members, inner)
-        });
-        with_edges.filter(|(_, inner)| !inner.is_empty()).collect()
+        if !found.is_empty() {
+            for (node, component) in self.component.iter().enumerate() {
+                found.get_mut(component).into_iter().for_each(|(members, _)| members.push(node));
+            }
+        }
+        found.into_values().collect()
     }
 
     fn from(&self, node: Node) -> &[Edge] {
@@ -146,7 +149,7 @@ impl<'a, 'b> Quick<'a, 'b> {
 
     /// The cycle that an edge closes: itself, then a shortest way from its end to its beginning.
     fn cycle(&self, closing: &Edge) -> Vec<Edge> {
-        let mut came_by: std::collections::BTreeMap<Node, &Edge> = Default::default();
+        let mut came_by: BTreeMap<Node, &Edge> = Default::default();
         let mut open = std::collections::VecDeque::from([closing.to]);
         while let Some(node) = open.pop_front() {
             if node == closing.from {

@@ -11,6 +11,7 @@ pub(crate) fn components(first: &[u32], edges: &[u32]) -> Vec<u32> {
         low: vec![0; count],
         component: vec![u32::MAX; count],
         stack: Vec::new(),
+        path: Vec::new(),
         next: 1,
         found: 0,
     };
@@ -30,36 +31,37 @@ struct Search<'a> {
     low: Vec<u32>,
     component: Vec<u32>,
     stack: Vec<usize>,
+    /// The nodes on the way to the one at hand, each with its next edge.
+    path: Vec<(usize, u32)>,
     next: u32,
     found: u32,
 }
 
 impl Search<'_> {
-    fn discover(&mut self, node: usize, path: &mut Vec<(usize, u32)>) {
+    fn discover(&mut self, node: usize) {
         self.index[node] = self.next;
         self.low[node] = self.next;
         self.next += 1;
         self.stack.push(node);
-        path.push((node, self.first[node]));
+        self.path.push((node, self.first[node]));
     }
 
     fn run(&mut self, root: usize) {
-        let mut path = Vec::new();
-        self.discover(root, &mut path);
-        while let Some((node, next)) = path.last_mut() {
+        self.discover(root);
+        while let Some((node, next)) = self.path.last_mut() {
             let node = *node;
             if *next < self.first[node + 1] {
                 let to = self.edges[*next as usize] as usize;
                 *next += 1;
                 if self.index[to] == 0 {
-                    self.discover(to, &mut path);
+                    self.discover(to);
                 } else if self.component[to] == u32::MAX {
                     self.low[node] = self.low[node].min(self.index[to]);
                 }
                 continue;
             }
-            path.pop();
-            if let Some((above, _)) = path.last() {
+            self.path.pop();
+            if let Some((above, _)) = self.path.last() {
                 self.low[*above] = self.low[*above].min(self.low[node]);
             }
             if self.low[node] == self.index[node] {

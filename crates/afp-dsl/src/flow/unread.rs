@@ -1,32 +1,50 @@
 //! Entries that nothing reads. The results of a plan are read by whoever started it.
 
+use std::cell::OnceCell;
+
 use crate::flow::view::{View, each_entry};
-use crate::graph::{EntryId, EntryKind};
+use crate::graph::{Element, EntryId, EntryKind, Supervisor};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
-use afp_syntax::source::Span;
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
-    let mut read = vec![false; view.plan.entries.len()];
-    let mut mark = |id: EntryId, _: Span| read[id.index()] = true;
-    let of_elements = view.elements().flat_map(|(_, element)| &element.inputs);
-    let of_supervisors = view.supervisors().flat_map(|supervisor| &supervisor.inputs);
-    let initial = view.plan.entries.iter().filter_map(|entry| entry.init.as_ref());
-    of_elements.chain(of_supervisors).chain(initial).for_each(|f| each_entry(f, &mut mark));
-    for supervisor in view.supervisors() {
-        supervisor.timed_by.iter().for_each(|id| read[id.index()] = true);
-    }
-    let ranged = view.plan.entries.iter().flat_map(|entry| &entry.ranged_by);
-    ranged.for_each(|id| read[id.index()] = true);
-    for (entry, read) in view.plan.entries.iter().zip(read) {
-        if read || entry.kind == EntryKind::Out {
+    let reached = read(view, view.elements().map(|(_, element)| element), view.supervisors());
+    let all = OnceCell::new();
+    for (index, (entry, reached)) in view.plan.entries.iter().zip(reached).enumerate() {
+        if reached || entry.kind == EntryKind::Out {
             continue;
         }
-        let message = format!("nothing reads '{}'", entry.name);
+        let all = all.get_or_init(|| read(view, &view.plan.elements, &view.plan.supervisors));
+        let message = match all[index] {
+            true => format!("nothing that can be reached reads '{}'", entry.name),
+            false => format!("nothing reads '{}'", entry.name),
+        };
         let help = match entry.kind {
             EntryKind::Var => "use it in a formula, make it an 'out' of the plan, or remove it",
             _ => "use it in a formula, or remove it",
         };
         diags.push(Diagnostic::new(Code::E0304, entry.span, message).help(help));
     }
+}
+
+/// Which entries some elements and supervisors read, or the declarations of others.
+fn read<'a>(
+    view: &View<'_>,
+    elements: impl IntoIterator<Item = &'a Element>,
+    supervisors: impl IntoIterator<Item = &'a Supervisor>,
+) -> Vec<bool> {
+    let mut read = vec![false; view.plan.entries.len()];
+    let mut mark = |id: EntryId| read[id.index()] = true;
+    for element in elements {
+        element.inputs.iter().for_each(|formula| each_entry(formula, &mut |id, _| mark(id)));
+    }
+    for supervisor in supervisors {
+        supervisor.inputs.iter().for_each(|formula| each_entry(formula, &mut |id, _| mark(id)));
+        supervisor.timed_by.iter().for_each(|id| mark(*id));
+    }
+    for entry in &view.plan.entries {
+        entry.init.iter().for_each(|formula| each_entry(formula, &mut |id, _| mark(id)));
+        entry.ranged_by.iter().for_each(|id| mark(*id));
+    }
+    read
 }

@@ -77,13 +77,13 @@ impl<'a> View<'a> {
             summaries,
             first: Vec::with_capacity(count + 1),
         };
-        for (place, element) in plan.elements.iter().enumerate() {
+        for (index, element) in plan.elements.iter().enumerate() {
             view.first.push(view.edges.len() as u32);
-            view.add_element(place, element);
+            view.add_element(index, element);
         }
         view.first.push(view.edges.len() as u32);
-        for place in 0..plan.globals {
-            view.add_supervisor(view.anywhere(), SupervisorId(place));
+        for index in 0..plan.globals {
+            view.add_supervisor(view.anywhere(), SupervisorId(index));
         }
         view.first.resize(view.kept_by_some(0) + 1, view.edges.len() as u32);
         for at in 0..view.replaced.len() {
@@ -345,8 +345,8 @@ impl<'a> View<'a> {
             }
         };
         let written = match cause {
-            Cause::State(_, place) | Cause::Event(_, place) | Cause::On(_, _, Some(place)) => {
-                edges.outcomes.get(usize::from(place)).copied().flatten()
+            Cause::State(_, index) | Cause::Event(_, index) | Cause::On(_, _, Some(index)) => {
+                edges.outcomes.get(usize::from(index)).copied().flatten()
             }
             Cause::Error(_) | Cause::Miss(_) | Cause::On(_, _, None) => edges.extra,
             Cause::Active(_) => None,

@@ -13,8 +13,8 @@ impl Graph {
     /// Everything that the graph holds, line by line, sub-plans first. The format may change.
     pub fn dump(&self) -> String {
         let mut text = String::new();
-        for (place, plan) in self.plans.iter().enumerate() {
-            Dump { graph: self, plan, text: &mut text }.plan(place == self.main.index());
+        for (index, plan) in self.plans.iter().enumerate() {
+            Dump { graph: self, plan, text: &mut text }.plan(index == self.main.index());
         }
         text
     }
@@ -200,11 +200,11 @@ impl Dump<'_> {
             // With a point, so that floats and ints can be told apart.
             FormulaKind::Float(value) => format!("{value:?}"),
             FormulaKind::Text(text) => format!("{text:?}"),
-            FormulaKind::Choice(place) => match &formula.ty {
+            FormulaKind::Choice(index) => match &formula.ty {
                 Type::Enum(home) => {
-                    format!("{}.{}", home.name, home.variants[usize::from(*place)])
+                    format!("{}.{}", home.name, home.variants[usize::from(*index)])
                 }
-                _ => place.to_string(),
+                _ => index.to_string(),
             },
             FormulaKind::Entry(id) => self.plan.entries[id.index()].name.clone(),
             FormulaKind::Neg(inner) => format!("-{}", self.formula(inner)),

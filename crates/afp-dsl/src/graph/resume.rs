@@ -17,22 +17,22 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
     let elements: Vec<_> = elements.into_iter().collect();
     let mut before: Vec<Vec<usize>> = vec![Vec::new(); elements.len()];
     let mut open = Vec::new();
-    for (place, element) in elements.iter().enumerate() {
+    for (index, element) in elements.iter().enumerate() {
         let Some(element) = element.filter(|element| is_computation(element)) else { continue };
         for target in targets(element) {
             match target {
-                Target::Resume => open.push(place),
+                Target::Resume => open.push(index),
                 Target::Element(id) => {
-                    before.get_mut(id.index()).into_iter().for_each(|list| list.push(place));
+                    before.get_mut(id.index()).into_iter().for_each(|list| list.push(index));
                 }
                 Target::Terminate | Target::Fail(_) | Target::Ignore => {}
             }
         }
     }
     let mut resuming = vec![false; elements.len()];
-    while let Some(place) = open.pop() {
-        if !std::mem::replace(&mut resuming[place], true) {
-            open.extend(&before[place]);
+    while let Some(index) = open.pop() {
+        if !std::mem::replace(&mut resuming[index], true) {
+            open.extend(&before[index]);
         }
     }
     resuming
@@ -41,8 +41,10 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
 /// The computations that an edge may run before it resumes or leads elsewhere, none twice; and
 /// whether any of their edges leads elsewhere.
 pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, bool) {
-    let (mut run, mut elsewhere, mut open) = (Vec::new(), false, vec![first]);
-    while let Some(target) = open.pop() {
+    // Most edges lead to what takes time, and cost no allocation.
+    let (mut run, mut elsewhere, mut open) = (Vec::new(), false, Vec::new());
+    let mut next = Some(first);
+    while let Some(target) = next {
         match target {
             Target::Element(id) => match elements.get(id.index()) {
                 Some(element) if is_computation(element) => {
@@ -56,6 +58,7 @@ pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, boo
             Target::Terminate | Target::Fail(_) => elsewhere = true,
             Target::Ignore | Target::Resume => {}
         }
+        next = open.pop();
     }
     (run, elsewhere)
 }

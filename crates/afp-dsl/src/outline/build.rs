@@ -202,8 +202,8 @@ fn entry(
     item: Item,
 ) -> Entry {
     let draft = name.as_ref().and_then(|name| {
-        let place = head.entries.binary_search_by_key(&name.span, |draft| draft.name.span).ok()?;
-        head.entries.get(place)
+        let index = head.entries.binary_search_by_key(&name.span, |draft| draft.name.span).ok()?;
+        head.entries.get(index)
     });
     let written_type = node.ty().map(|ty| {
         let span = ty.span();
@@ -299,12 +299,12 @@ impl Places<'_> {
 }
 
 fn spans<'n>(names: impl Iterator<Item = Option<&'n Name>>) -> Vec<(Span, usize)> {
-    names.enumerate().filter_map(|(place, name)| Some((name?.span, place))).collect()
+    names.enumerate().filter_map(|(index, name)| Some((name?.span, index))).collect()
 }
 
 fn find(known: &[(Span, usize)], span: Span) -> Option<usize> {
-    let place = known.binary_search_by_key(&span, |(known, _)| *known).ok()?;
-    Some(known[place].1)
+    let index = known.binary_search_by_key(&span, |(known, _)| *known).ok()?;
+    Some(known[index].1)
 }
 
 /// The names of items of one scope in their paths: the second of a name has `#2` behind it.

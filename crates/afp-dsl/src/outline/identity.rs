@@ -85,8 +85,8 @@ impl Outline {
         let plan = self.plan_of(*file, item)?;
         match part {
             Part::Start(nth) => {
-                let place = usize::from(*nth).checked_sub(1)?;
-                plan.starts.get(place).map(|start| start.span)
+                let index = usize::from(*nth).checked_sub(1)?;
+                plan.starts.get(index).map(|start| start.span)
             }
             Part::Whole if plan.item == *item => Some(plan.span),
             Part::Whole => {

@@ -95,14 +95,14 @@ fn add_element(
 fn polled(
     plan: &Plan,
     elsewhere: &[(SupervisorId, ElementId)],
-    (place, element): (usize, &Element),
+    (index, element): (usize, &Element),
 ) -> Option<Vec<u16>> {
     if !has_sweep(element.component) {
         return Some(Vec::new());
     }
     let globals = (0..plan.globals).map(SupervisorId);
     let ids = polling_order(plan, globals.chain(element.supervisors.iter().copied()));
-    let here = ElementId(u16::try_from(place).ok()?);
+    let here = ElementId(u16::try_from(index).ok()?);
     let row = |id: SupervisorId| match elsewhere.binary_search(&(id, here)) {
         Ok(behind) => u16::try_from(plan.supervisors.len() + behind).ok(),
         Err(_) => Some(id.0),

@@ -55,8 +55,8 @@ impl Levels {
     pub fn busiest(&self, views: &[View<'_>], plan: usize) -> String {
         let mut path = Vec::new();
         let mut plan = Some(plan);
-        while let Some(place) = plan.take() {
-            let element = self.all[place].busiest.and_then(|node| views[place].element(node));
+        while let Some(index) = plan.take() {
+            let element = self.all[index].busiest.and_then(|node| views[index].element(node));
             let Some(element) = element else { break };
             path.push(element.name.as_str());
             if let Component::SubPlan(inner) = element.component {
@@ -72,12 +72,12 @@ impl Levels {
     pub fn step_parts(&self, views: &[View<'_>], plan: usize) -> StepParts {
         let mut parts = StepParts { path: String::new(), supervisors: 0, active: 0, entered: 0 };
         let (mut path, mut next) = (Vec::new(), Some(plan));
-        while let Some(place) = next.take() {
-            let level = &self.all[place];
+        while let Some(index) = next.take() {
+            let level = &self.all[index];
             parts.supervisors = parts.supervisors.saturating_add(level.globals.time());
             let Some((node, supervisors, active)) = level.longest else { break };
             parts.supervisors = parts.supervisors.saturating_add(supervisors);
-            let Some(element) = views[place].element(node) else { break };
+            let Some(element) = views[index].element(node) else { break };
             path.push(element.name.as_str());
             match element.component {
                 // What it takes is that of the plan inside.
@@ -274,12 +274,12 @@ impl Outside {
     pub fn of(views: &[View<'_>], levels: &Levels, main: usize) -> Outside {
         let mut before: Vec<Option<Cost>> = vec![None; views.len()];
         before[main] = Some(Cost::ZERO);
-        for place in (0..views.len()).rev() {
-            let Some(own) = before[place].clone() else { continue };
-            let view = &views[place];
+        for index in (0..views.len()).rev() {
+            let Some(own) = before[index].clone() else { continue };
+            let view = &views[index];
             for (_, element) in view.elements() {
                 let Component::SubPlan(id) = element.component else { continue };
-                let here = own.and(&levels.all[place].globals).and(&locals(view, element));
+                let here = own.and(&levels.all[index].globals).and(&locals(view, element));
                 let inner = &mut before[id.index()];
                 *inner = Some(inner.as_ref().map_or(here.clone(), |known| known.or(&here)));
             }

@@ -18,8 +18,8 @@ pub(super) fn rows(
     tick: u64,
 ) -> Vec<SupervisorTiming> {
     let mut rows = Vec::new();
-    for (place, view) in views.iter().enumerate().rev() {
-        let Some(outer) = &outside.before[place] else { continue };
+    for (index, view) in views.iter().enumerate().rev() {
+        let Some(outer) = &outside.before[index] else { continue };
         let before = before(view);
         for (at, supervisor) in view.plan.supervisors.iter().enumerate() {
             let Ok(id) = u16::try_from(at).map(SupervisorId) else { continue };
@@ -27,7 +27,7 @@ pub(super) fn rows(
                 continue;
             }
             let response = response(view, id, &outer.and(&before[at]), longest_step, tick);
-            let interruption = interruption(view, levels, place, id, &response);
+            let interruption = interruption(view, levels, index, id, &response);
             rows.push(SupervisorTiming {
                 plan: view.plan.name.clone(),
                 path: view.supervisor_path(id),
@@ -86,7 +86,7 @@ fn before(view: &View<'_>) -> Vec<Cost> {
 fn interruption(
     view: &View<'_>,
     levels: &Levels,
-    place: usize,
+    index: usize,
     id: SupervisorId,
     response: &Result<Response, String>,
 ) -> Option<Interruption> {
@@ -94,7 +94,7 @@ fn interruption(
     if !view.plan.targets(id).any(|target| interrupts(view, target)) {
         return None;
     }
-    let (interrupt, stop) = interrupted(view, levels, place, supervisor);
+    let (interrupt, stop) = interrupted(view, levels, index, supervisor);
     let stop = match stop.known() {
         Ok(stop) => stop,
         Err(reason) => {
@@ -125,11 +125,11 @@ fn interruption(
 fn interrupted(
     view: &View<'_>,
     levels: &Levels,
-    place: usize,
+    index: usize,
     supervisor: &Supervisor,
 ) -> (Cost, Cost) {
     let Some(owner) = supervisor.owner else {
-        let level = &levels.all[place];
+        let level = &levels.all[index];
         return (level.interrupt.clone(), level.stop.clone());
     };
     match view.plan.elements[owner.index()].component {

@@ -52,8 +52,8 @@ pub(crate) fn body_of_plan(view: &View, plan: &Plan) -> Vec<Piece> {
 
 fn body(parts: &Parts<'_>, kind: ComponentKind) -> Vec<Piece> {
     let mut pieces = Vec::new();
-    for (place, port) in parts.required.iter().enumerate() {
-        let sign = if place == 0 { "(" } else { ", " };
+    for (index, port) in parts.required.iter().enumerate() {
+        let sign = if index == 0 { "(" } else { ", " };
         pieces.push(Piece::Text(format!("{sign}{port} = ")));
         pieces.push(Piece::Hole(String::new()));
     }

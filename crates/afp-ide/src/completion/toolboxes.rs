@@ -5,7 +5,7 @@ use super::bodies::Piece;
 use afp_syntax::kind::Kind;
 
 fn with_holes(parts: &[&str]) -> Vec<Piece> {
-    let piece = |(place, text): (usize, &&str)| match place % 2 {
+    let piece = |(index, text): (usize, &&str)| match index % 2 {
         0 => Piece::Text((*text).to_owned()),
         _ => Piece::Hole((*text).to_owned()),
     };

@@ -45,12 +45,12 @@ impl Workspace {
     /// What the files say now.
     pub fn project(&self) -> Project {
         let roots: Vec<_> = self.buffers.iter().map(TextBuffer::root).collect();
-        let sees = roots.iter().enumerate().map(|(place, root)| {
+        let sees = roots.iter().enumerate().map(|(index, root)| {
             let used = paths_of_uses(root).filter_map(|written| {
-                let path = joined(&self.paths[place], &written);
+                let path = joined(&self.paths[index], &written);
                 self.paths.iter().position(|known| *known == path)
             });
-            std::iter::once(place).chain(used.filter(|used| *used != place)).collect()
+            std::iter::once(index).chain(used.filter(|used| *used != index)).collect()
         });
         let sources = self.paths.iter().zip(&self.buffers);
         let sources = sources.map(|(path, buffer)| Source::new(path, buffer.text())).collect();

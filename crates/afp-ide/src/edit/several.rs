@@ -94,9 +94,9 @@ fn add_free(
     let wanted: Vec<_> = nodes.iter().filter_map(name_of).collect();
     let mut taken = scope.names();
     let mut new = New::default();
-    for (place, wanted) in wanted.iter().enumerate() {
+    for (index, wanted) in wanted.iter().enumerate() {
         let mut others = taken.clone();
-        others.extend(wanted_elsewhere(place, &nodes));
+        others.extend(wanted_elsewhere(index, &nodes));
         let given = name::fresh(wanted, &taken);
         let given = if given == *wanted { given } else { name::fresh(wanted, &others) };
         if given != *wanted {
@@ -112,8 +112,8 @@ fn add_free(
 }
 
 /// The names of all nodes but one.
-fn wanted_elsewhere(place: usize, nodes: &[afp_syntax::Node]) -> Vec<String> {
-    let others = nodes.iter().enumerate().filter(|(other, _)| *other != place);
+fn wanted_elsewhere(index: usize, nodes: &[afp_syntax::Node]) -> Vec<String> {
+    let others = nodes.iter().enumerate().filter(|(other, _)| *other != index);
     others.filter_map(|(_, node)| name_of(node)).collect()
 }
 

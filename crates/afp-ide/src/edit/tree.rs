@@ -107,8 +107,8 @@ fn pick(mut nodes: impl Iterator<Item = Node>, name: &str) -> Option<Node> {
     let Some((text, number)) = name.split_once('#') else {
         return nodes.find(|node| is_named(node, name));
     };
-    let place = number.parse::<usize>().ok()?.checked_sub(1)?;
-    nodes.filter(|node| name_of(node).unwrap_or_default() == text).nth(place)
+    let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+    nodes.filter(|node| name_of(node).unwrap_or_default() == text).nth(index)
 }
 
 /// The token that names an item or edge.
@@ -206,10 +206,10 @@ pub(super) fn outcomes(edge: &Node) -> impl Iterator<Item = Token> {
 /// How a state or event leaves an edge that it shares with others; `None` where it is alone.
 pub(super) fn without_outcome(edge: &Node, outcome: &str) -> Option<std::ops::Range<usize>> {
     let names: Vec<_> = outcomes(edge).collect();
-    let place = names.iter().position(|name| name.text() == outcome)?;
-    match (names.get(place + 1), place.checked_sub(1).and_then(|before| names.get(before))) {
-        (Some(next), _) => Some(range(&names[place]).start..range(next).start),
-        (None, Some(before)) => Some(range(before).end..range(&names[place]).end),
+    let index = names.iter().position(|name| name.text() == outcome)?;
+    match (names.get(index + 1), index.checked_sub(1).and_then(|before| names.get(before))) {
+        (Some(next), _) => Some(range(&names[index]).start..range(next).start),
+        (None, Some(before)) => Some(range(before).end..range(&names[index]).end),
         (None, None) => None,
     }
 }

@@ -32,7 +32,7 @@ pub(super) struct Heard {
 }
 
 /// What a sensor at a place hears, direction by direction.
-pub(super) fn hear(
+pub(super) fn echoes(
     faces: &[Face],
     directions: &[Vector2<f64>],
     from: Vector2<f64>,

@@ -7,6 +7,7 @@ use afp_test::Verdict as Came;
 use pyo3::prelude::*;
 
 use super::place;
+use crate::simulation::plain;
 use crate::value::Pickled;
 
 /// An expectation that was not met.
@@ -146,9 +147,4 @@ pub fn verdict(compiled: &Compiled, came: Came, command: String) -> Verdict {
 /// A text as HTML has it.
 fn escaped(py: Python<'_>, text: &str) -> PyResult<String> {
     py.import("html")?.call_method1("escape", (text,))?.extract()
-}
-
-/// A text without colours.
-fn plain(text: &str) -> String {
-    anstream::adapter::strip_str(text).to_string()
 }

@@ -211,7 +211,8 @@ pub fn line(record: &OwnedRecord, names: &PlanNames) -> Option<String> {
     Some(plain(&styled))
 }
 
-fn plain(styled: &str) -> String {
+/// A text without colours.
+pub fn plain(styled: &str) -> String {
     anstream::adapter::strip_str(styled).to_string()
 }
 

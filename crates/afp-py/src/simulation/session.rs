@@ -176,7 +176,7 @@ impl Run {
                 return self.ended_or_not();
             }
             self.is_open()?;
-            match self.tell(|session, to| session.next_step(to)) {
+            match self.with_observers(|session, to| session.next_step(to)) {
                 Err(why) => return Err(self.no_start(why)),
                 Ok(_) if self.keeper.refused.is_some() => {
                     return self.keeper.refused.take().map_or(Ok(true), Err);
@@ -216,7 +216,7 @@ impl Run {
     fn tick(&mut self, limit: Instant, mut halt: Option<Halt>) -> PyResult<bool> {
         self.is_open()?;
         if halt.is_none() {
-            self.tell(|session, to| {
+            self.with_observers(|session, to| {
                 session.tick(limit, &mut afp_session::Open, to).map(|_: Go| ())
             })
             .map_err(|why| self.no_start(why))?;
@@ -225,7 +225,7 @@ impl Run {
         match halt {
             Some(Halt::Asked) if self.is_running() => self.stop("stop"),
             Some(Halt::Aborted) if self.is_running() => {
-                self.tell(|session, to| session.abort(Fault::PANIC, to));
+                self.with_observers(|session, to| session.abort(Fault::PANIC, to));
             }
             Some(Halt::Raised(why)) => return Err(why),
             Some(Halt::Asked | Halt::Aborted) | None => {}
@@ -253,9 +253,9 @@ impl Run {
         run_error(&missing(why, &self.names))
     }
 
-    /// Lets the session do something, and everybody hear of it.
+    /// Lets the session do something, with all who observe it.
     #[inline]
-    fn tell<T>(
+    fn with_observers<T>(
         &mut self,
         drive: impl FnOnce(&mut dyn AnySession, &mut [&mut dyn Observer]) -> T,
     ) -> T {
@@ -268,7 +268,7 @@ impl Run {
 
     fn stop(&mut self, by: &'static str) {
         self.stopped_by = Some(by);
-        self.tell(|session, to| session.stop(to));
+        self.with_observers(|session, to| session.stop(to));
     }
 
     fn is_running(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use afp::load::PlanNames;
 use afp_core::trace::{Names, TraceEntryId};
-use afp_sweep::{Axis, Point, Room, Seeds};
+use afp_sweep::{Axis, Point, Seeds, WorldChoice};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -39,16 +39,16 @@ pub enum GivenValues {
 }
 
 /// The worlds of a sweep; those that were made are told apart by their names, and by numbers where they have the same.
-pub fn rooms(worlds: Vec<GivenWorld>) -> Vec<Room> {
-    let mut rooms: Vec<Room> = Vec::with_capacity(worlds.len());
+pub fn rooms(worlds: Vec<GivenWorld>) -> Vec<WorldChoice> {
+    let mut rooms: Vec<WorldChoice> = Vec::with_capacity(worlds.len());
     for world in worlds {
         let room = match world {
-            GivenWorld::Named(None) => Room::OfPlan,
-            GivenWorld::Named(Some(name)) => Room::Named(name),
+            GivenWorld::Named(None) => WorldChoice::OfPlan,
+            GivenWorld::Named(Some(name)) => WorldChoice::Named(name),
             GivenWorld::Made(world) => {
                 let loaded = world.get().loaded.clone();
                 let name = loaded.world.name().to_owned();
-                Room::Made(another(&rooms, name), loaded)
+                WorldChoice::Made(another(&rooms, name), loaded)
             }
         };
         rooms.push(room);
@@ -57,7 +57,7 @@ pub fn rooms(worlds: Vec<GivenWorld>) -> Vec<Room> {
 }
 
 /// A name that none of the rooms has.
-fn another(rooms: &[Room], name: String) -> String {
+fn another(rooms: &[WorldChoice], name: String) -> String {
     let known = |name: &str| rooms.iter().any(|room| room.name() == Some(name));
     if !known(&name) {
         return name;

@@ -69,9 +69,9 @@ impl Sweeper {
             let columns = columns(&sweep, &[]).into_iter().map(|it| it.name).collect();
             let (sweep, compiled) = (&sweep, &self.compiled);
             let judging = Judging { sweep, setting, compiled, judge, columns, kept: &kept };
-            drive(py, job, |py: Python<'_>, mut news: Vec<Outcome>| {
-                news.iter_mut().try_for_each(|outcome| judging.judge(py, outcome))?;
-                each(py, news)
+            drive(py, job, |py: Python<'_>, mut new: Vec<Outcome>| {
+                new.iter_mut().try_for_each(|outcome| judging.judge(py, outcome))?;
+                each(py, new)
             })
         })
     }
@@ -152,14 +152,14 @@ fn attend(
     mut each: impl FnMut(Python<'_>, Vec<Outcome>) -> PyResult<()>,
 ) -> PyResult<()> {
     loop {
-        let news = match outcomes.recv_timeout(EVERY) {
+        let new = match outcomes.recv_timeout(EVERY) {
             Ok(first) => std::iter::once(first).chain(outcomes.try_iter()).collect(),
             Err(RecvTimeoutError::Timeout) => Vec::new(),
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
         };
         attached(|py| {
-            if !news.is_empty() {
-                each(py, news)?;
+            if !new.is_empty() {
+                each(py, new)?;
             }
             if components.is_over() {
                 components.raised(py)?;

@@ -13,6 +13,9 @@ const DATA: Style = AnsiColor::Cyan.on_default();
 const BAD: Style = AnsiColor::BrightRed.on_default().bold();
 const STRONG: Style = Style::new().bold();
 
+/// The template that is there so that people see its input.
+pub(super) const LOG: &str = "Log";
+
 /// The lines that say what runs.
 pub(super) fn head(what: &[(&str, String)]) -> String {
     let mut text = String::new();
@@ -28,6 +31,7 @@ pub(super) fn line(event: &RunEvent, template: &str) -> Option<String> {
     use EventKind as Kind;
     let component = &event.component;
     let text = match event.kind {
+        Kind::Input if template == LOG => logged(event),
         Kind::Unknown | Kind::Polled | Kind::Input | Kind::Interrupted => return None,
         Kind::ClockWentBack => {
             let asked = event.asked.unwrap_or_default().as_secs_f64();
@@ -112,6 +116,13 @@ fn missed(event: &RunEvent) -> String {
         "{BAD}! {component} missed its deadline by {late:.3} ms{BAD:#}  \
          {QUIET}({cause}, {skipped} releases skipped){QUIET:#}"
     )
+}
+
+/// What a plan writes to its log.
+fn logged(event: &RunEvent) -> String {
+    let (component, port) = (&event.component, &event.port);
+    let value = event.value.as_ref().unwrap_or(&Datum::Unset).in_unit(&event.unit);
+    format!("{DATA}✎ {component}: {port} = {value}{DATA:#}")
 }
 
 fn commit(event: &RunEvent) -> String {

@@ -73,8 +73,8 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
          <rect width=\"100%\" height=\"100%\" fill=\"#f6f5f2\"/>\n"
     );
     head(&mut svg, log, shots.len());
-    for (place, (at, png)) in shots.iter().enumerate() {
-        let (column, row) = (place % COLUMNS, place / COLUMNS);
+    for (index, (at, png)) in shots.iter().enumerate() {
+        let (column, row) = (index % COLUMNS, index / COLUMNS);
         let x = MARGIN + column as f64 * (WIDTH + GAP);
         let y = HEAD + row as f64 * (HEIGHT + CAPTION + GAP);
         let shot = Shot { at: *at, png, actor: actor_at(*at) };
@@ -116,8 +116,8 @@ fn draw(
     known: &[ComponentId],
     (x, y): (f64, f64),
 ) {
-    let place = shot.actor.and_then(|actor| known.iter().position(|each| *each == actor));
-    let color = place.map_or(NOBODY, |place| PALETTE[place % PALETTE.len()]);
+    let index = shot.actor.and_then(|actor| known.iter().position(|each| *each == actor));
+    let color = index.map_or(NOBODY, |index| PALETTE[index % PALETTE.len()]);
     let name = shot.actor.map_or("", |actor| names.component(actor).path);
     let (below, text) = (y + HEIGHT, y + HEIGHT + 20.0);
     let right = x + WIDTH;

@@ -141,11 +141,11 @@ fn inside<'a>(item: &'a mut Item, part: &str) -> Result<&'a mut Item, String> {
         |table: &'_ Table| table.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
     let names: Vec<String> = list.iter().map(name).collect();
     let by_number = || part.parse::<usize>().ok().filter(|number| *number < names.len());
-    let Some(place) = names.iter().position(|name| name == part).or_else(by_number) else {
+    let Some(index) = names.iter().position(|name| name == part).or_else(by_number) else {
         let names: Vec<_> = names.iter().map(|name| format!("'{name}'")).collect();
         return Err(format!("there is no '{part}' among {}", names.join(", ")));
     };
-    item.get_mut(place).ok_or_else(absent)
+    item.get_mut(index).ok_or_else(absent)
 }
 
 fn set(item: &mut Item, name: &str, index: Option<usize>, to: Value) -> Result<(), String> {

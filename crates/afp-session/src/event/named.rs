@@ -1,7 +1,7 @@
 //! Records of a trace as events with names.
 
 use afp_core::trace::{
-    Author, ComponentId, Ending, EntryName, Names, Record, TraceEntryId, Verdict,
+    Author, ComponentId, Ending, EntryName, Names, PortName, Record, TraceEntryId, Verdict,
 };
 use afp_core::{Fault, ValueRef};
 
@@ -43,11 +43,15 @@ impl<N: Names + ?Sized> Namer<'_, N> {
             Record::Committed { author, entry, old, new } => {
                 self.committed(author, entry, old, new)
             }
-            Record::Input { component, port, value } => RunEvent {
-                port: self.names.input(component, port).to_owned(),
-                value: Some(Datum::new(self.names, None, value)),
-                ..self.about(EventKind::Input, component)
-            },
+            Record::Input { component, port, value } => {
+                let PortName { name, unit, .. } = self.names.input_port(component, port);
+                RunEvent {
+                    port: name.to_owned(),
+                    value: Some(Datum::new(self.names, None, value)),
+                    unit: unit.to_owned(),
+                    ..self.about(EventKind::Input, component)
+                }
+            }
             Record::Started { component } => self.about(EventKind::Started, component),
             Record::Diverted { element, supervisor, event } => RunEvent {
                 component: self.path(element),

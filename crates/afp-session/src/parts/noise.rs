@@ -2,6 +2,7 @@
 //!
 //! A stream is not shared, so adding a sensor or reading one more often does not shift the others.
 
+use afp_number::TextHash;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
 
@@ -12,11 +13,7 @@ pub struct Noise(Pcg32);
 impl Noise {
     /// The stream of that name of a seed. Seed and name alone decide on the numbers, on every machine.
     pub fn new(seed: u64, name: &str) -> Self {
-        // FNV-1a.
-        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        });
-        Noise::numbered(seed, hash)
+        Noise::numbered(seed, TextHash::of(name).get())
     }
 
     /// The stream of that number of a seed.

@@ -53,7 +53,7 @@ where
     R: Robot,
     S: Keep,
 {
-    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is told to
+    /// Asks for something at an instant. It is checked now and done then; what cannot be done then is reported to
     /// observers.
     ///
     /// # Errors
@@ -106,8 +106,8 @@ where
             Request::Inject(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
             Request::Idle(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
             Request::Put(_, Pose2 { x, y, heading }) => {
-                let sound = [x, y, heading].into_iter().all(|number| number.is_finite());
-                if sound { Ok(()) } else { Err(RequestError::Nowhere) }
+                let finite = [x, y, heading].into_iter().all(|number| number.is_finite());
+                if finite { Ok(()) } else { Err(RequestError::Nowhere) }
             }
             Request::Stop => Ok(()),
         }

@@ -53,8 +53,8 @@ where
     R: Robot,
     S: Keep,
 {
-    /// Tells everybody what happened in the step that is over.
-    pub(super) fn tell_records(&mut self, to: &mut [&mut dyn Observer]) {
+    /// Reports the records of the step that is over to measures and observers.
+    pub(super) fn report_records(&mut self, to: &mut [&mut dyn Observer]) {
         let Session { robot, names, sink, trace, line, measures, .. } = self;
         let records = sink.take();
         for owned in &records {
@@ -77,8 +77,8 @@ where
         sink.give_back(records);
     }
 
-    /// Tells everybody that a step is over, and gives samples to those that follow the robot.
-    pub(super) fn tell_step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
+    /// Reports to observers that a step is over, after the samples that they take of the robot at each step.
+    pub(super) fn report_step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
         self.take_samples(now, Turn::Step, to);
         let Session { scheduler, robot, names, .. } = self;
         let looked = Looked { scheduler, robot, names };

@@ -55,11 +55,11 @@ impl Odometer {
         }
         self.speed = speed * self.scale;
         self.turn = turn * self.turn_scale;
-        let way = self.speed * dt * (1.0 + COUNTS * self.noise.normal());
+        let driven = self.speed * dt * (1.0 + COUNTS * self.noise.normal());
         let angle = self.turn * dt * (1.0 + COUNTS * self.noise.normal());
         let (sin, cos) = libm::sincos(self.heading + angle / 2.0);
-        self.x += way * cos;
-        self.y += way * sin;
+        self.x += driven * cos;
+        self.y += driven * sin;
         self.heading += angle;
     }
 

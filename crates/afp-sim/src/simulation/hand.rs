@@ -1,4 +1,4 @@
-//! A hand that reaches into the world: it carries the robot and what can be pushed elsewhere, and drops what was not there.
+//! Changes of the world from outside: the robot and movable things are put elsewhere, new things are dropped.
 
 use super::Simulation;
 use crate::stage::{Mover, collider};

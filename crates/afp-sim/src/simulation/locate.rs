@@ -1,4 +1,4 @@
-//! The robot finds itself and its ways on its map, and a judge notes how far off it is.
+//! Localisation and path planning of the robot, and a measure of the localisation error.
 
 mod located;
 
@@ -91,17 +91,17 @@ impl Simulation {
         let motion = self.lines.odometry.read(self.raw_motion());
         let touched = self.raw_touched();
         let Some(locator) = &mut self.locator else { return };
-        locator.hear(echo, motion, now);
+        locator.on_echo(echo, motion, now);
         if let Some(planner) = &mut self.planner {
             let fresh = echo.value.ok().filter(|_| now.since(echo.time) <= sonar::PERIOD);
             if let Some((echo, place)) = fresh.zip(locator.belief_at(echo.time)) {
-                planner.hear(&echo, &place, now);
+                planner.on_echo(&echo, &place, now);
             }
             let touched = self.lines.touch.read(touched).value == Ok(true);
             if let Ok(place) = locator.latest(motion).value
                 && touched
             {
-                planner.feel(&place, now);
+                planner.on_bump(&place, now);
             }
         }
         if let Ok(belief) = locator.latest(motion).value {
@@ -114,7 +114,7 @@ impl Simulation {
 
 impl World {
     /// The map that the robot has: what it shows and what is high enough for the range sensor.
-    pub fn heard_map(&self) -> Map {
+    pub fn audible_map(&self) -> Map {
         map(&self.obstacles)
     }
 }

@@ -1,4 +1,4 @@
-//! The way of an echo to the plan.
+//! From a ping to the reading of its echo that the plan gets.
 
 use super::Simulation;
 use crate::devices::sonar;

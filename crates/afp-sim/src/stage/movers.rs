@@ -1,4 +1,4 @@
-//! Obstacles that move: those that can be pushed and those that go their own way.
+//! Obstacles that move: those that can be pushed and those that follow a path.
 
 use super::{DT, Stage};
 use crate::vehicle::Place;
@@ -18,12 +18,12 @@ pub(crate) struct Mover {
     body: RigidBodyHandle,
     /// Where it was at the start.
     start: Isometry,
-    way: Way,
+    moved_by: MovedBy,
 }
 
-/// How it moves.
+/// What moves it.
 #[derive(Clone)]
-enum Way {
+enum MovedBy {
     /// By itself.
     Scripted(Path),
     /// When it is pushed; its radius of gyration, metres, at least a centimetre.
@@ -47,15 +47,15 @@ impl Mover {
         (start, shape): (Isometry, &SharedShape),
         obstacle: &Obstacle,
     ) -> Self {
-        let way = match &obstacle.mobility {
-            Mobility::Scripted(path) => Way::Scripted(path.clone()),
+        let moved_by = match &obstacle.mobility {
+            Mobility::Scripted(path) => MovedBy::Scripted(path.clone()),
             Mobility::Fixed | Mobility::Movable { .. } => {
                 let spread = shape.mass_properties(1.0);
                 let gyration = (spread.principal_inertia() * spread.inv_mass).sqrt();
-                Way::Pushed { gyration: gyration.max(0.01) }
+                MovedBy::Pushed { gyration: gyration.max(0.01) }
             }
         };
-        Mover { obstacle: i, body, start, way }
+        Mover { obstacle: i, body, start, moved_by }
     }
 
     /// The obstacle, by its place in [`World::obstacles`](crate::World).
@@ -72,21 +72,21 @@ impl Mover {
         self.start
     }
 
-    /// Whether it stays where it is until it is pushed. What goes its own way may only be waiting.
+    /// Whether it stays where it is until it is pushed. What follows a path may only be waiting.
     pub(super) fn rests(&self, body: &RigidBody) -> bool {
-        matches!(self.way, Way::Pushed { .. }) && body.is_sleeping()
+        matches!(self.moved_by, MovedBy::Pushed { .. }) && body.is_sleeping()
     }
 
     /// Prepares the step that ends at `now`.
     fn step(&self, body: &mut RigidBody, now: Instant) {
-        match &self.way {
-            Way::Scripted(path) => {
+        match &self.moved_by {
+            MovedBy::Scripted(path) => {
                 let [x, y] = path.offset(now.as_secs_f64());
                 let by = Vector::new(x as f32, y as f32);
                 body.set_next_kinematic_translation(self.start.translation + by);
             }
-            Way::Pushed { gyration } if !body.is_sleeping() => slide(body, *gyration),
-            Way::Pushed { .. } => {}
+            MovedBy::Pushed { gyration } if !body.is_sleeping() => slide(body, *gyration),
+            MovedBy::Pushed { .. } => {}
         }
     }
 }

@@ -80,8 +80,8 @@ impl Drive {
 
     /// Takes a command; one that is not finite means a standstill.
     pub(crate) fn command(&mut self, speed: f64, turn: f64, now: Instant) {
-        let sound = speed.is_finite() && turn.is_finite();
-        let (speed, turn) = if sound { (speed, turn) } else { (0.0, 0.0) };
+        let finite = speed.is_finite() && turn.is_finite();
+        let (speed, turn) = if finite { (speed, turn) } else { (0.0, 0.0) };
         self.asked = (speed, turn);
         if self.health.dead {
             return;

@@ -118,7 +118,7 @@ impl<const N: usize> Footing<N> {
             for (contact, demand) in self.contacts.iter_mut().zip(demands) {
                 // What slides gives all it has, wherever the others settle.
                 if round == 0 || !contact.slides {
-                    change = change.max(contact.settle(demand, &mut after, &self.body, dt));
+                    change = change.max(contact.solve(demand, &mut after, &self.body, dt));
                 }
             }
             if change < SETTLED {
@@ -153,7 +153,7 @@ impl Contact {
     }
 
     /// Changes the impulse so that less slips, and the body's motion by it; by how much.
-    fn settle(&mut self, demand: Demand, body: &mut Twist, of: &Yielding, dt: f64) -> f64 {
+    fn solve(&mut self, demand: Demand, body: &mut Twist, of: &Yielding, dt: f64) -> f64 {
         let (vx, vy) = self.velocity(body);
         let (px, py) = self.impulse;
         // The same share in every direction: so what slips is braked against the way it slips.
@@ -274,13 +274,13 @@ mod tests {
     fn wheels_that_hold_do_not_give_way_to_a_steady_push() {
         let hold = Demand { rim: (0.0, 0.0), most: 5.0, motor: None };
         let mut footing = Footing::new(MASS, INERTIA, CORNERS);
-        let (mut body, mut way) = (Twist::default(), 0.0);
+        let (mut body, mut aside) = (Twist::default(), 0.0);
         for _ in 0..200 {
             body = after(body, footing.push([hold; 4], body, DT));
             // A box pushes with 10 N to the left; 20 N would hold.
             body.y += 10.0 * DT / MASS;
-            way += body.y * DT;
+            aside += body.y * DT;
         }
-        assert!(way.abs() < 1e-4, "{way}");
+        assert!(aside.abs() < 1e-4, "{aside}");
     }
 }

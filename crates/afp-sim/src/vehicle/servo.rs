@@ -29,9 +29,9 @@ impl Servo {
 
     /// Moves for `dt` seconds; says whether it moved.
     pub(crate) fn step(&mut self, dt: f64) -> bool {
-        let way = self.target - self.position;
-        self.position += way.clamp(-self.rate * dt, self.rate * dt);
-        way != 0.0
+        let error = self.target - self.position;
+        self.position += error.clamp(-self.rate * dt, self.rate * dt);
+        error != 0.0
     }
 
     pub(crate) fn position(&self) -> f64 {

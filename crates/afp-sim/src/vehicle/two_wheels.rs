@@ -36,8 +36,8 @@ pub struct TwoWheels {
     /// What the rims are to do, and what they do, metres a second.
     asked: [f64; 2],
     rims: [f64; 2],
-    /// The way of either rim, metres.
-    ways: [f64; 2],
+    /// How far either rim has rolled, metres.
+    travelled: [f64; 2],
     grip: f64,
     blocked: [bool; 2],
 }
@@ -54,7 +54,7 @@ impl TwoWheels {
             model,
             asked: [0.0; 2],
             rims: [0.0; 2],
-            ways: [0.0; 2],
+            travelled: [0.0; 2],
             grip: 1.0,
             blocked: [false; 2],
         }
@@ -67,8 +67,8 @@ impl TwoWheels {
         let wanted = [speed - across, speed + across];
         let fastest = wanted[0].abs().max(wanted[1].abs());
         let share = if fastest > self.model.fastest { self.model.fastest / fastest } else { 1.0 };
-        let sound = wanted.iter().all(|rim| rim.is_finite());
-        self.asked = if sound { wanted.map(|rim| rim * share) } else { [0.0; 2] };
+        let finite = wanted.iter().all(|rim| rim.is_finite());
+        self.asked = if finite { wanted.map(|rim| rim * share) } else { [0.0; 2] };
     }
 
     /// Blocks the left or the right motor, or frees it.
@@ -81,9 +81,9 @@ impl TwoWheels {
         self.grip = grip;
     }
 
-    /// The way ahead, metres, and the angle turned, radians, as counters on the wheels see them: what slips counts.
+    /// The distance ahead, metres, and the angle turned, radians, as counters on the wheels see them: what slips counts.
     pub fn counted(&self) -> [f64; 2] {
-        let [left, right] = self.ways;
+        let [left, right] = self.travelled;
         [(left + right) / 2.0, (right - left) / (2.0 * self.model.half_track)]
     }
 
@@ -96,10 +96,10 @@ impl TwoWheels {
             }
         }
         let push = self.footing.push([self.demand(0), self.demand(1), self.castor()], body, dt);
-        for (n, (rim, way)) in self.rims.iter_mut().zip(&mut self.ways).enumerate() {
+        for (n, (rim, travelled)) in self.rims.iter_mut().zip(&mut self.travelled).enumerate() {
             // Where its motor is too weak a wheel turns as the floor lets it.
             *rim = self.footing.yielding(n, (1.0, 0.0)).unwrap_or(*rim);
-            *way += *rim * dt;
+            *travelled += *rim * dt;
         }
         push
     }

@@ -211,8 +211,8 @@ impl Check<'_> {
         }
         self.not_negative(&key.at("wait_s"), path.wait_s)?;
         self.not_negative(&key.at("start_s"), path.start_s)?;
-        let way = Path::new(&path.by_m, path.closed, path.speed_m_s, path.wait_s, path.start_s);
-        way.ok_or_else(|| self.error(&key.at("by_m"), "the way leads nowhere"))
+        let made = Path::new(&path.by_m, path.closed, path.speed_m_s, path.wait_s, path.start_s);
+        made.ok_or_else(|| self.error(&key.at("by_m"), "the way leads nowhere"))
     }
 
     fn patch(&self, key: &Key, i: usize, patch: tables::Patch) -> Result<Patch, WorldError> {

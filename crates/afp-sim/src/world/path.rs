@@ -1,4 +1,4 @@
-//! The way of an obstacle that moves by itself.
+//! The path of an obstacle that moves by itself.
 
 /// Straight legs between places, gone along for ever: around if closed, else there and back.
 #[derive(Clone, Debug, PartialEq)]

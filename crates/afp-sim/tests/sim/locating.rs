@@ -74,14 +74,14 @@ fn the_belief_comes_from_map_and_readings_alone() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
     let beam = robot.robot.beam();
-    let filter = Filter::new(EchoField::new(world.heard_map(), &beam), &beam, world.start, 5);
+    let filter = Filter::new(EchoField::new(world.audible_map(), &beam), &beam, world.start, 5);
     let mut alone = Locator::new(VirtualWorker::new([LocateJob::new(filter)]), world.start);
     for tick in 1..=1500_u64 {
         robot.tick();
         let (now, motion) = (robot.robot.now(), robot.robot.motion());
         // What arrived before a ping is heard when the next is sent.
         if tick.is_multiple_of(5) {
-            alone.hear(robot.robot.echo(), motion, now);
+            alone.on_echo(robot.robot.echo(), motion, now);
         }
         let (its, ours) = (robot.robot.belief(now).unwrap(), alone.belief(motion, now).unwrap());
         assert_eq!(its, ours, "{now}");
@@ -94,7 +94,7 @@ fn ways_come_from_map_and_readings_alone() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
     let beam = robot.robot.beam();
-    let field = || EchoField::new(world.heard_map(), &beam);
+    let field = || EchoField::new(world.audible_map(), &beam);
     let filter = Filter::new(field(), &beam, world.start, 5);
     let mut locator = Locator::new(VirtualWorker::new([LocateJob::new(filter)]), world.start);
     let mut alone: Planner<VirtualWorker<SearchJob>> =
@@ -116,14 +116,14 @@ fn ways_come_from_map_and_readings_alone() {
         let belief = robot.robot.belief(now).unwrap().value.unwrap();
         if tick.is_multiple_of(5) {
             let echo = robot.robot.echo();
-            locator.hear(echo, motion, now);
+            locator.on_echo(echo, motion, now);
             let fresh =
                 echo.value.ok().filter(|_| now.since(echo.time) <= Duration::from_millis(50));
             if let Some((echo, place)) = fresh.zip(locator.belief_at(echo.time)) {
-                alone.hear(&echo, &place, now);
+                alone.on_echo(&echo, &place, now);
             }
             if robot.robot.touched().value == Ok(true) {
-                alone.feel(&locator.latest(motion).value.unwrap(), now);
+                alone.on_bump(&locator.latest(motion).value.unwrap(), now);
             }
         }
         if let Some((its, ours)) = under_way.take_if(|_| tick % 100 == 10) {

@@ -61,7 +61,7 @@ impl Wanderer {
 
     /// A place somewhere in the room where the robot fits.
     pub(crate) fn free_place(&mut self, world: &World) -> Pose {
-        let [low, high] = world.heard_map().bounds();
+        let [low, high] = world.audible_map().bounds();
         let mut unit = || f64::from(self.random.next_u32()) / f64::from(u32::MAX);
         loop {
             let [x, y] = [0, 1].map(|i| low[i] + 0.3 + (high[i] - low[i] - 0.6) * unit());

@@ -133,8 +133,8 @@ impl Lexer<'_, '_> {
         if text.is_ascii() {
             return;
         }
-        for (place, each) in text.char_indices().filter(|(_, each)| is_invisible(*each)) {
-            let at = start + place;
+        for (index, each) in text.char_indices().filter(|(_, each)| is_invisible(*each)) {
+            let at = start + index;
             let message = format!("'{}' cannot be seen", each.escape_unicode());
             self.diags.push(
                 Diagnostic::new(Code::E0101, self.span(at, at + each.len_utf8()), message)

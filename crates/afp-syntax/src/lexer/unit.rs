@@ -11,7 +11,9 @@ impl Lexer<'_, '_> {
         let rest = &self.text[self.at..];
         let blank = run(rest, |each| is_blank(each) && each != '\n');
         let behind = &rest[blank..];
-        if let Some((foreign, ours)) = FOREIGN.iter().find(|(sign, _)| behind.starts_with(sign)) {
+        let is_ascii = behind.bytes().next().is_none_or(|byte| byte.is_ascii());
+        let mut foreign = FOREIGN.iter().filter(|_| !is_ascii);
+        if let Some((foreign, ours)) = foreign.find(|(sign, _)| behind.starts_with(sign)) {
             self.blank(blank);
             self.foreign(foreign, ours);
         } else if let Some((_, length)) = Unit::scan(behind)

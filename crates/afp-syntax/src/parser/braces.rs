@@ -145,7 +145,7 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         let finder = tokens[behind + 1..].iter().find(|token| !token.kind.is_trivia());
         let lines = finder.map(|token| token.start).into_iter().chain([start]);
         reported.extend(lines.map(|line| (line, start)));
-        tokens.insert(behind + 1, Token { kind: brace, text: "", start });
+        tokens.insert(behind + 1, Token { kind: brace, text: "", start, breaks: 0 });
     }
     report_strays(strays, diags);
     let (opened, closed) = count(tokens);
@@ -267,11 +267,11 @@ impl Reader<'_, '_> {
         let mut behind = self.tokens[at + 1..].iter();
         let mut ends_line = false;
         let next = behind.find(|token| {
-            ends_line |= token.text.contains('\n');
+            ends_line |= token.ends_line();
             !token.kind.is_trivia()
         });
         let Some(next) = next.filter(|_| !ends_line) else { return self.stands_behind_head(at) };
-        let mut on_line = behind.take_while(|token| !token.text.contains('\n'));
+        let mut on_line = behind.take_while(|token| !token.ends_line());
         let sign = on_line.find(|token| !token.kind.is_trivia()).map(|token| token.kind);
         match next.kind {
             Kind::CloseBrace => true,

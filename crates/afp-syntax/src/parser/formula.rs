@@ -5,7 +5,9 @@
 use super::habits::is_operator;
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::{Code, Diagnostic};
+use crate::dimension::Dimension;
 use crate::kind::Kind;
+use crate::source::Span;
 use crate::units::Unit;
 
 /// Words that may stand behind a number on its line and are no misspelt unit.
@@ -204,7 +206,7 @@ impl Parser<'_, '_> {
     fn bare_fraction(&mut self) {
         let here = self.here();
         let error = Diagnostic::new(Code::E0115, here, "a number begins with a digit");
-        self.error(match self.place(1) == self.place(0) + 1 {
+        self.error(match self.token_index(1) == self.token_index(0) + 1 {
             true => error.help("write '0' before the point").fix(here.before(), "0"),
             false => error.help("write '0' before the point, and its digits right behind it"),
         });
@@ -289,7 +291,11 @@ impl Parser<'_, '_> {
         self.open(Kind::Factor);
         match self.nth(0) {
             Kind::Int => self.bump(),
-            Kind::Name if self.on_same_line() || !self.begins_item() => self.reference(),
+            Kind::Name if self.on_same_line() || !self.begins_item() => {
+                let first = self.next_span();
+                self.reference();
+                self.dimension_in_two_words(first);
+            }
             _ => self.expected(
                 "a type",
                 "write a type such as 'length', 'float' or 'length/duration^2'",
@@ -299,6 +305,23 @@ impl Parser<'_, '_> {
             self.eat(Kind::Minus);
             self.expect(Kind::Int, "write a whole number behind the '^'");
         }
+        self.close();
+    }
+
+    /// `angular speed` for `angular_speed`.
+    fn dimension_in_two_words(&mut self, first: Span) {
+        if !self.at(Kind::Name) || !self.on_same_line() {
+            return;
+        }
+        let name = format!("{}_{}", self.word_before(), self.word(0));
+        if Dimension::named(&name).is_none() {
+            return;
+        }
+        let both = Span { end: self.next_span().end, ..first };
+        let error = Diagnostic::new(Code::E0102, both, "the name of a dimension is one word");
+        self.error(error.help(format!("write '{name}'")).replace(name));
+        self.open(Kind::Error);
+        self.bump();
         self.close();
     }
 

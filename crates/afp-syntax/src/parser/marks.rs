@@ -22,10 +22,7 @@ impl Marks {
     /// Finds them; `solid` are the places of the tokens that are read.
     pub(super) fn new(tokens: &[Token<'_>], solid: &[u32]) -> Marks {
         let mut marks = Marks::default();
-        // Every other token ends on its line.
-        let may_break =
-            |token: &&Token<'_>| matches!(token.kind, Kind::Whitespace | Kind::BlockComment);
-        for token in tokens.iter().filter(may_break) {
+        for token in tokens.iter().filter(|token| token.ends_line()) {
             for (at, byte) in (token.start..).zip(token.text.as_bytes()) {
                 if *byte == b'\n' {
                     marks.newlines.push(at);
@@ -33,11 +30,11 @@ impl Marks {
             }
         }
         let mut open = Vec::new();
-        for (place, token) in (0..).zip(solid.iter().filter_map(|at| tokens.get(*at as usize))) {
+        for (index, token) in (0..).zip(solid.iter().filter_map(|at| tokens.get(*at as usize))) {
             match token.kind {
-                Kind::OpenBrace => marks.open_braces.push(place),
-                Kind::CloseBrace => marks.close_braces.push(place),
-                Kind::OpenParen => open.push(place),
+                Kind::OpenBrace => marks.open_braces.push(index),
+                Kind::CloseBrace => marks.close_braces.push(index),
+                Kind::OpenParen => open.push(index),
                 Kind::CloseParen => marks.closed.extend(open.pop()),
                 _ => {}
             }
@@ -60,11 +57,11 @@ impl Marks {
             Kind::OpenBrace => &self.open_braces,
             _ => &self.close_braces,
         };
-        all.get(all.partition_point(|place| (*place as usize) < from)).map(|place| *place as usize)
+        all.get(all.partition_point(|index| (*index as usize) < from)).map(|index| *index as usize)
     }
 
     /// Whether the bracket at a place is closed before any brace.
-    pub(super) fn is_closed(&self, place: usize) -> bool {
-        u32::try_from(place).is_ok_and(|place| self.closed.binary_search(&place).is_ok())
+    pub(super) fn is_closed(&self, index: usize) -> bool {
+        u32::try_from(index).is_ok_and(|index| self.closed.binary_search(&index).is_ok())
     }
 }

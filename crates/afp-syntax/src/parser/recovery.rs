@@ -64,25 +64,25 @@ impl Parser<'_, '_> {
     }
 
     /// What else is wrong on the line of a place is not worth a word.
-    pub(super) fn be_quiet(&mut self, place: u32) {
-        self.quiet = self.quiet.max(self.next_line(place));
+    pub(super) fn be_quiet(&mut self, index: u32) {
+        self.quiet = self.quiet.max(self.next_line(index));
     }
 
     /// Notes lines of which something is reported already, each with the place of that.
     pub(super) fn note_reported(&mut self, reported: &[(u32, u32)]) {
-        for (place, cause) in reported {
-            self.reported.entry(self.next_line(*place)).or_insert(*cause);
+        for (index, cause) in reported {
+            self.reported.entry(self.next_line(*index)).or_insert(*cause);
         }
     }
 
     /// The place of what is reported already on the line of a place.
-    pub(super) fn reported_before(&self, place: u32) -> Option<u32> {
-        self.reported.get(&self.next_line(place)).copied()
+    pub(super) fn reported_before(&self, index: u32) -> Option<u32> {
+        self.reported.get(&self.next_line(index)).copied()
     }
 
     /// Where the line behind that of a place begins.
-    pub(super) fn next_line(&self, place: u32) -> u32 {
-        self.marks.newline(place).map_or(u32::MAX, |end| end + 1)
+    pub(super) fn next_line(&self, index: u32) -> u32 {
+        self.marks.newline(index).map_or(u32::MAX, |end| end + 1)
     }
 
     /// Reports that something is missing here.

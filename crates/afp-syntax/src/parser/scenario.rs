@@ -28,6 +28,8 @@ impl Parser<'_, '_> {
                 self.repeat(|parser| {
                     if parser.at_line() {
                         parser.line();
+                    } else if parser.at_word("always") && parser.claims_behind() {
+                        parser.always_first();
                     } else {
                         parser.skip("a line of the scenario", LINE_HELP, |p| {
                             p.at_line() || p.at(Kind::CloseBrace) || p.at_top_item()
@@ -168,11 +170,17 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Expect);
         self.keyword();
         self.misplaced_word();
+        self.claim_with_bounds();
+    }
+
+    fn claim_with_bounds(&mut self) {
         self.open(Kind::Claim);
         self.claim();
         self.close();
         loop {
             match self.word(0) {
+                // A line of its own is another claim, which says so too early.
+                "always" if !self.on_same_line() && self.claims_behind() => break,
                 "always" | "once" => {
                     self.open(Kind::Bound);
                     self.keyword();
@@ -209,6 +217,21 @@ impl Parser<'_, '_> {
             self.expected("a claim", help);
             self.keyword();
         }
+    }
+
+    /// Whether a claim stands on the line of the word at hand, behind it.
+    fn claims_behind(&self) -> bool {
+        self.nth(1) == Kind::Name && !self.begins_line(1) && !is_line(self.word(1))
+    }
+
+    /// `always x > 1`, as `never x > 1` is written.
+    fn always_first(&mut self) {
+        self.open_item(Kind::Expect);
+        let help = "write 'expect' in place of it, and 'always' behind the claim";
+        self.expected_at(self.next_span(), "'expect'", help);
+        self.keyword();
+        self.claim_with_bounds();
+        self.close_item();
     }
 
     fn claim(&mut self) {

@@ -7,7 +7,7 @@ use afp_dsl::graph::Component;
 use afp_dsl::scenario::DEFAULT_UNTIL;
 use afp_dsl::unfold::{Goal, Place};
 
-use super::reach::Way;
+use super::reach::SampleRun;
 use super::{Generated, Rest};
 use crate::parts::Parts;
 use crate::watch::Activation;
@@ -23,7 +23,7 @@ pub(super) struct Pair<'a> {
     pub parts: &'a Parts<'a>,
     pub rest: Rest,
     /// The run in which the element is active, and when.
-    pub way: &'a Way,
+    pub run: &'a SampleRun,
     pub active: Activation,
     pub element: u32,
     pub supervisor: u32,
@@ -82,7 +82,7 @@ impl Pair<'_> {
         let (from, to) = (self.active.from.as_nanos(), self.active.to.as_nanos());
         let point = |percent: &u64| {
             let wanted = from + (to - from) / 100 * percent;
-            let since = self.way.since(self.supervisor, Instant::from_nanos(wanted))?.as_nanos();
+            let since = self.run.since(self.supervisor, Instant::from_nanos(wanted))?.as_nanos();
             let polls = (wanted - since).div_ceil(every);
             let at = since + polls * every;
             (from < at && at < to).then_some(Point { percent: *percent, at })
@@ -160,8 +160,8 @@ impl Pair<'_> {
 
     /// The lines that lead up to the element: the seed, what is done on the way, and room for it to take longer.
     fn setting(&self, at: u64) -> Vec<String> {
-        let seed = (self.way.seed != 0).then(|| format!("seed {}", self.way.seed));
-        let steps = self.way.steps_before(at).map(|step| {
+        let seed = (self.run.seed != 0).then(|| format!("seed {}", self.run.seed));
+        let steps = self.run.steps_before(at).map(|step| {
             let element = self.parts.path(step.active.element);
             format!("from {element} active {{ at {}: {} }}", duration(step.after()), step.text)
         });
@@ -199,7 +199,7 @@ impl Pair<'_> {
             matches!(component, Some(Component::Actor(_) | Component::SubPlan(_)))
         };
         let within = |number: &u32| self.parts.is_within(*number, self.element);
-        self.way
+        self.run
             .active(Instant::from_nanos(at))
             .filter(|each| lasts(each) && within(each))
             .collect()
@@ -253,7 +253,7 @@ impl Pair<'_> {
         let chain = self.chain(at);
         let mut active = chain.iter().filter_map(|number| self.parts.stop(*number));
         active.next()?;
-        let ends = self.way.before(now).filter_map(|active| {
+        let ends = self.run.before(now).filter_map(|active| {
             let end = active.to.as_nanos().min(at);
             Some(end + self.parts.stop(active.element)?)
         });

@@ -19,7 +19,7 @@ const GRAIN: u64 = 1_000_000;
 
 /// A run and how it is made.
 #[derive(Clone)]
-pub(super) struct Way {
+pub(super) struct SampleRun {
     /// Its seed.
     pub seed: u64,
     /// What somebody does in it.
@@ -39,7 +39,7 @@ pub(super) struct Step {
 
 /// The runs, and when each element is active for the first time.
 pub(super) struct Reach {
-    ways: Vec<Way>,
+    runs: Vec<SampleRun>,
     /// For each component the run and the stretch of time.
     found: Vec<Option<(usize, Activation)>>,
 }
@@ -58,17 +58,17 @@ type Run<'a> = &'a mut dyn FnMut(&Scenario) -> Result<Verdict, RunError>;
 impl Reach {
     /// Runs the plan until every element has been active, or there is nothing more to try.
     pub fn explore(parts: &Parts<'_>, quiet: &Scenario, run: Run<'_>) -> Result<Reach, RunError> {
-        let mut reach = Reach { ways: Vec::new(), found: Vec::new() };
+        let mut reach = Reach { runs: Vec::new(), found: Vec::new() };
         for seed in 0..SEEDS {
             if seed == 0 || !reach.is_whole(parts) {
                 reach.run(quiet, seed, Vec::new(), run)?;
             }
         }
         let mut tried = Vec::new();
-        while reach.ways.len() < RUNS && !reach.is_whole(parts) {
+        while reach.runs.len() < RUNS && !reach.is_whole(parts) {
             let Some(edge) = reach.next(parts, &tried) else { break };
             tried.push(edge);
-            if let Some((seed, steps)) = reach.way_behind(parts, quiet, edge) {
+            if let Some((seed, steps)) = reach.steps_behind(parts, quiet, edge) {
                 reach.run(quiet, seed, steps, run)?;
             }
         }
@@ -76,9 +76,9 @@ impl Reach {
     }
 
     /// The first run in which an element is active, and when it is so for the first time.
-    pub fn of(&self, element: u32) -> Option<(&Way, Activation)> {
-        let (way, active) = self.found.get(element as usize).copied().flatten()?;
-        Some((self.ways.get(way)?, active))
+    pub fn of(&self, element: u32) -> Option<(&SampleRun, Activation)> {
+        let (number, active) = self.found.get(element as usize).copied().flatten()?;
+        Some((self.runs.get(number)?, active))
     }
 
     fn is_whole(&self, parts: &Parts<'_>) -> bool {
@@ -100,14 +100,14 @@ impl Reach {
         let mut activations = run(&scenario)?.activations;
         activations.sort_by_key(|active| active.from);
         for active in activations.iter().filter(|active| active.to > active.from) {
-            let place = active.element as usize;
-            if self.found.len() <= place {
-                self.found.resize(place + 1, None);
+            let index = active.element as usize;
+            if self.found.len() <= index {
+                self.found.resize(index + 1, None);
             }
             // The first run that reaches something is the one with the fewest stimuli.
-            self.found[place].get_or_insert((self.ways.len(), *active));
+            self.found[index].get_or_insert((self.runs.len(), *active));
         }
-        self.ways.push(Way { seed, steps, activations });
+        self.runs.push(SampleRun { seed, steps, activations });
         Ok(())
     }
 
@@ -165,7 +165,7 @@ impl Reach {
     }
 
     /// Seed and steps of a run in which a component reports an outcome.
-    fn way_behind(
+    fn steps_behind(
         &self,
         parts: &Parts<'_>,
         quiet: &Scenario,
@@ -176,7 +176,7 @@ impl Reach {
             Some(_) => owner.or_else(|| self.reached_beside(parts, component)),
             None => Some(component),
         };
-        let (way, active) = self.of(element?)?;
+        let (before, active) = self.of(element?)?;
         let (from, to) = (active.from.as_nanos(), active.to.as_nanos());
         let at = ((from + to) / 2 / GRAIN * GRAIN).max(from);
         let (injection, text) = match outcome {
@@ -191,9 +191,9 @@ impl Reach {
             span: quiet.span,
         };
         // What would happen later belongs to the run of before.
-        let mut steps: Vec<_> = way.steps_before(at).cloned().collect();
+        let mut steps: Vec<_> = before.steps_before(at).cloned().collect();
         steps.push(Step { active, text, stimulus });
-        Some((way.seed, steps))
+        Some((before.seed, steps))
     }
 
     /// An element of the same plan as a global supervisor that some run reaches.
@@ -211,7 +211,7 @@ impl Step {
     }
 }
 
-impl Way {
+impl SampleRun {
     /// Since when a component is that is active at `at`.
     pub fn since(&self, component: u32, at: Instant) -> Option<Instant> {
         let mut active = self.activations.iter();

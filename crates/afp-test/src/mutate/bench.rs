@@ -47,7 +47,7 @@ struct Case {
 
 /// What became of a mutant.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum MutantStatus {
     /// It does not compile.
     Refused,
     /// These scenarios broke, or could not be run on it.
@@ -65,10 +65,10 @@ pub struct Judged {
     /// The mutant.
     pub mutant: Mutant,
     /// What became of it.
-    pub fate: Fate,
+    pub status: MutantStatus,
 }
 
-/// How many mutants there were of each fate.
+/// How many mutants there were of each status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// A scenario noticed them.
@@ -86,11 +86,11 @@ impl Tally {
     pub fn of<'j>(judged: impl IntoIterator<Item = &'j Judged>) -> Tally {
         let mut tally = Tally::default();
         for each in judged {
-            *match &each.fate {
-                Fate::Refused => &mut tally.refused,
-                Fate::Noticed(_) => &mut tally.noticed,
-                Fate::Missed { changed: true } => &mut tally.missed,
-                Fate::Missed { changed: false } => &mut tally.unchanged,
+            *match &each.status {
+                MutantStatus::Refused => &mut tally.refused,
+                MutantStatus::Noticed(_) => &mut tally.noticed,
+                MutantStatus::Missed { changed: true } => &mut tally.missed,
+                MutantStatus::Missed { changed: false } => &mut tally.unchanged,
             } += 1;
         }
         tally
@@ -156,8 +156,8 @@ impl<'a> Bench<'a> {
         let (mut noticed, mut changed) = (Vec::new(), false);
         for (suite, cases) in &self.suites {
             let compiled = self.compile(suite, Some(&mutant.text));
-            if compiled.scenarios.is_empty() && compiled.unsound.is_empty() {
-                return Some(Judged { mutant, fate: Fate::Refused });
+            if compiled.scenarios.is_empty() && compiled.invalid.is_empty() {
+                return Some(Judged { mutant, status: MutantStatus::Refused });
             }
             let scenarios = self.scenarios(&compiled);
             for case in cases {
@@ -166,7 +166,7 @@ impl<'a> Bench<'a> {
                     Some(scenario) => self.run(scenario, case, go_on)?,
                     // The mutant cannot do any more what it names.
                     None if case.quiet => continue,
-                    None => Came { broke: true, changed: true },
+                    None => Compared { broke: true, changed: true },
                 };
                 changed |= came.changed;
                 if came.broke && !case.quiet {
@@ -174,11 +174,11 @@ impl<'a> Bench<'a> {
                 }
             }
         }
-        let fate = match noticed.is_empty() {
-            true => Fate::Missed { changed },
-            false => Fate::Noticed(noticed),
+        let status = match noticed.is_empty() {
+            true => MutantStatus::Missed { changed },
+            false => MutantStatus::Noticed(noticed),
         };
-        Some(Judged { mutant, fate })
+        Some(Judged { mutant, status })
     }
 
     fn run(
@@ -186,11 +186,11 @@ impl<'a> Bench<'a> {
         scenario: &Scenario,
         case: &Case,
         go_on: &mut dyn FnMut() -> bool,
-    ) -> Option<Came> {
+    ) -> Option<Compared> {
         let came = run_while(scenario, &case.setting, self.robot, None, go_on);
         Some(match came.transpose()? {
-            Ok(verdict) => Came::new(&verdict, case),
-            Err(_) => Came { broke: true, changed: true },
+            Ok(verdict) => Compared::new(&verdict, case),
+            Err(_) => Compared { broke: true, changed: true },
         })
     }
 
@@ -199,8 +199,8 @@ impl<'a> Bench<'a> {
         let own = compiled.scenarios.iter().filter(|each| each.plan_file == self.plan_file);
         let mut all: Vec<Scenario> = own.cloned().collect();
         let mut plans: Vec<String> = Vec::new();
-        for place in 0..all.len() {
-            let Some(scenario) = all.get(place) else { continue };
+        for index in 0..all.len() {
+            let Some(scenario) = all.get(index) else { continue };
             let plan = scenario.graph.main();
             let open =
                 |entry: &afp_dsl::graph::Entry| entry.kind == EntryKind::In && entry.init.is_none();
@@ -233,13 +233,13 @@ impl<'a> Bench<'a> {
 }
 
 /// What a run of a mutant came to.
-struct Came {
+struct Compared {
     broke: bool,
     changed: bool,
 }
 
-impl Came {
-    fn new(verdict: &Verdict, case: &Case) -> Came {
-        Came { broke: !verdict.passed(), changed: verdict.trace != case.trace }
+impl Compared {
+    fn new(verdict: &Verdict, case: &Case) -> Compared {
+        Compared { broke: !verdict.passed(), changed: verdict.trace != case.trace }
     }
 }

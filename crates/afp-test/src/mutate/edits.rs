@@ -45,8 +45,8 @@ impl Finder<'_> {
     /// One of the names, but not this one.
     fn other(&mut self, names: &[String], than: &str) -> Option<String> {
         let others: Vec<_> = names.iter().filter(|name| *name != than).collect();
-        let place = self.noise.below(u32::try_from(others.len()).ok()?);
-        others.get(place as usize).map(|name| (*name).clone())
+        let index = self.noise.below(u32::try_from(others.len()).ok()?);
+        others.get(index as usize).map(|name| (*name).clone())
     }
 
     fn start(&mut self, node: &Node, elements: &[String]) {

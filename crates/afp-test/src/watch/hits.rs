@@ -70,13 +70,13 @@ impl Hits {
         })
     }
 
-    pub(crate) fn hear(&mut self, at: Instant, record: &Record<'_>) {
+    pub(crate) fn on_record(&mut self, at: Instant, record: &Record<'_>) {
         self.counts.record(at, record);
         if let Record::Committed { author, entry, .. } = *record {
-            let place = entry.0 as usize;
+            let index = entry.0 as usize;
             // A plan gives its own entries their first values.
-            let home = self.homes.get(place).map(|home| Author::Component(ComponentId(*home)));
-            if let Some(count) = self.entries.get_mut(place).filter(|_| home != Some(author)) {
+            let home = self.homes.get(index).map(|home| Author::Component(ComponentId(*home)));
+            if let Some(count) = self.entries.get_mut(index).filter(|_| home != Some(author)) {
                 *count += 1;
             }
         }
@@ -97,7 +97,7 @@ impl Hits {
         }
         for event in &log.events {
             if let Some(record) = event.record() {
-                self.hear(event.at, &record);
+                self.on_record(event.at, &record);
             }
         }
         true

@@ -3,8 +3,8 @@
 use afp_core::Instant;
 use afp_dsl::scenario::{Moment, MomentId};
 
-use super::look::{happens, holds};
-use super::{Happening, State};
+use super::expected::{happens, holds};
+use super::{Occurrence, State};
 use crate::verdict::Broken;
 
 /// Which moments have come, and when.
@@ -27,7 +27,7 @@ impl<'a> Moments<'a> {
     }
 
     /// Whether some have come since [`Moments::take`].
-    pub(crate) fn has_news(&self) -> bool {
+    pub(crate) fn has_unreported(&self) -> bool {
         !self.unreported.is_empty()
     }
 
@@ -42,12 +42,12 @@ impl<'a> Moments<'a> {
     }
 
     /// Something happened.
-    pub(super) fn happen(&mut self, at: u64, happening: &Happening) {
-        self.come(at, |moment| happens(&moment.claim, happening));
+    pub(super) fn on_occurrence(&mut self, at: u64, occurrence: &Occurrence) {
+        self.come(at, |moment| happens(&moment.claim, occurrence));
     }
 
     /// A step is over.
-    pub(super) fn settle(&mut self, at: u64, state: &State) {
+    pub(super) fn after_step(&mut self, at: u64, state: &State) {
         self.come(at, |moment| holds(&moment.claim, state) == Some(true));
     }
 

@@ -52,7 +52,7 @@ fn broken(records: &[Record<'static>]) -> Vec<String> {
     let scenario = scenario();
     let names = PlanNames::new(&scenario.graph);
     let mut watch = Watch::new(&scenario, &names, Signals::default());
-    records.iter().for_each(|record| watch.hear(Instant::from_nanos(5), record, &names));
+    records.iter().for_each(|record| watch.on_record(Instant::from_nanos(5), record, &names));
     let broken = watch.finish(Instant::from_nanos(9));
     broken.into_iter().map(|broken| format!("{}: {}", broken.text, broken.why)).collect()
 }
@@ -108,9 +108,9 @@ fn an_entry_that_changes_without_a_commit_is_noticed() {
     let scenario = scenario();
     let names = PlanNames::new(&scenario.graph);
     let mut watch = Watch::new(&scenario, &names, Signals::default());
-    sound().iter().for_each(|record| watch.hear(Instant::ZERO, record, &names));
+    sound().iter().for_each(|record| watch.on_record(Instant::ZERO, record, &names));
     let (one, two) = (Value::Float(1.0), Value::Float(2.0));
     assert!(watch.differs([one.borrow(), one.borrow()].into_iter()).is_none());
     let found = watch.differs([one.borrow(), two.borrow()].into_iter());
-    assert_eq!(found.map(|(place, ..)| place), Some(1));
+    assert_eq!(found.map(|(index, ..)| index), Some(1));
 }

@@ -250,8 +250,8 @@ fn call_with<T: Copy + Default>(
     value: impl Fn(&Formula) -> Result<T, Fault>,
 ) -> Result<[T; 3], Fault> {
     let mut values = [T::default(); 3];
-    for (place, operand) in values.iter_mut().zip(operands) {
-        *place = value(operand)?;
+    for (slot, operand) in values.iter_mut().zip(operands) {
+        *slot = value(operand)?;
     }
     Ok(values)
 }

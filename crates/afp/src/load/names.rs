@@ -40,18 +40,18 @@ impl PlanNames {
         self.0.all.components.get(id.0 as usize)
     }
 
-    /// A port; its unit is the `place`-th of that kind.
+    /// A port; its unit is the `index`-th of that kind.
     fn port<'a>(
         &'a self,
         id: ComponentId,
         kind: usize,
-        place: usize,
+        index: usize,
         names: &'a PortNames,
     ) -> PortName<'a> {
         let units = self.0.units.get(id.0 as usize).and_then(|units| units.get(kind));
         PortName {
             name: &names.name,
-            unit: units.and_then(|units| units.get(place)).map_or("", String::as_str),
+            unit: units.and_then(|units| units.get(index)).map_or("", String::as_str),
             range: names.range,
             entry: None,
             place: self.place(names.span),
@@ -121,17 +121,17 @@ impl Names for PlanNames {
     }
 
     fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
-        let place = usize::from(port);
-        let names = self.get(id).and_then(|names| names.inputs.get(place));
-        names.map_or(PortName::default(), |names| self.port(id, 0, place, names))
+        let index = usize::from(port);
+        let names = self.get(id).and_then(|names| names.inputs.get(index));
+        names.map_or(PortName::default(), |names| self.port(id, 0, index, names))
     }
 
     fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
         let all = self.get(id).map_or(&[][..], |names| &names.outputs);
         let bound = all.iter().enumerate().find(|(_, (position, _))| *position == port);
-        bound.map_or(PortName::default(), |(place, (_, names))| PortName {
+        bound.map_or(PortName::default(), |(index, (_, names))| PortName {
             entry: Some(&names.entry),
-            ..self.port(id, 1, place, names)
+            ..self.port(id, 1, index, names)
         })
     }
 

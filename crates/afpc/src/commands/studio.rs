@@ -1,6 +1,6 @@
 //! `afpc studio`: plans drawn and edited in the browser.
 
-mod desk;
+mod debug;
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use super::later::Listen;
 use super::print;
 use crate::Linked;
 use crate::plan_file::NoPlan;
-use desk::Desk;
+use debug::DebugService;
 
 /// Arguments of `afpc studio`.
 #[derive(Args, Debug)]
@@ -125,12 +125,12 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     show(&studio.address(), arguments.no_open)?;
     say("Ctrl-C ends the studio\n");
     let (folder, trusted) = (studio.folder(), studio.trusted());
-    let desk = Desk { linked, folder: &folder, trusted };
+    let debugging = DebugService { linked, folder: &folder, trusted };
     let served = thread::scope(|scope| {
         let (debuggers, arrived) = channel();
         scope.spawn(|| {
             for client in arrived {
-                scope.spawn(|| desk.debug(client));
+                scope.spawn(|| debugging.serve(client));
             }
         });
         studio.serve(debuggers)

@@ -10,7 +10,8 @@ use afp_core::Duration;
 use afp_run::options::{Failure, Press, failure, press};
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, hash};
 use afp_sweep::{
-    Axis, Engine, Findings, Header, Journal, Outcome, Place, Room, Seeds, Setting, Sweep,
+    Axis, Engine, Findings, Header, Journal, Outcome, OutputFiles, Seeds, Setting, Sweep,
+    WorldChoice,
 };
 use clap::Args;
 
@@ -102,8 +103,8 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let mut sweep = arguments.sweep()?;
     let setting = Setting::new(&mut sweep, &graph, &file.path, linked.robot)?;
     let header = Header::new(program(linked)?, (&file.compiled, &graph), &setting, &sweep);
-    let place = Place::new(arguments.output.as_deref(), &file.path, &header)?;
-    let (mut journal, mut outcomes) = Journal::open(&place.journal, &header, arguments.restart)?;
+    let output = OutputFiles::new(arguments.output.as_deref(), &file.path, &header)?;
+    let (mut journal, mut outcomes) = Journal::open(&output.journal, &header, arguments.restart)?;
     let stop =
         StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     let engine = Engine {
@@ -117,12 +118,12 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         watch: None,
     };
     let reporter = Reporter::new(&sweep, arguments.json);
-    reporter.head(&place, outcomes.len());
+    reporter.head(&output, outcomes.len());
     go_on(&engine, &reporter, &mut journal, &mut outcomes)?;
     outcomes.sort_by_key(|outcome| outcome.run);
-    place.write(&sweep, &outcomes)?;
+    output.write(&sweep, &outcomes)?;
     let findings = Findings::new(&outcomes);
-    reporter.end(&outcomes, &findings, &place)?;
+    reporter.end(&outcomes, &findings, &output)?;
     Ok(match (outcomes.len() as u64 == sweep.len(), findings.has_failures()) {
         (false, _) => EXIT_STOPPED,
         (true, true) => EXIT_PLAN_ERROR,
@@ -135,11 +136,11 @@ impl Arguments {
         let worlds: Vec<_> = self
             .world
             .iter()
-            .flat_map(|worlds| worlds.0.iter().cloned().map(Room::Named))
+            .flat_map(|worlds| worlds.0.iter().cloned().map(WorldChoice::Named))
             .collect();
         let sweep = Sweep {
             plan: self.plan.plan.clone(),
-            worlds: if worlds.is_empty() { vec![Room::OfPlan] } else { worlds },
+            worlds: if worlds.is_empty() { vec![WorldChoice::OfPlan] } else { worlds },
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
             caveat: None,

@@ -9,7 +9,7 @@ mod reporter;
 use std::path::{Path, PathBuf};
 use std::time::Instant as Wall;
 
-use afp_dsl::scenario::{Scenario, Unsound};
+use afp_dsl::scenario::{InvalidScenario, Scenario};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError, say};
 use afp_session::Loader;
 use afp_syntax::source::Span;
@@ -87,7 +87,7 @@ struct Case<'a> {
     /// The line of its name.
     line: usize,
     /// The scenario, or what is wrong with it.
-    scenario: Result<&'a Scenario, &'a Unsound>,
+    scenario: Result<&'a Scenario, &'a InvalidScenario>,
 }
 
 /// What became of a case.
@@ -100,7 +100,7 @@ struct Done {
 /// Why a case was not run.
 enum Failure {
     /// It is wrong, or its plan has changed: what the compiler says.
-    Unsound(String),
+    Invalid(String),
     /// Its world is not there, and the like.
     Run(RunError),
 }
@@ -160,7 +160,7 @@ fn read(files: &[PathBuf]) -> Result<(Vec<PlanFile>, u8), NoPlan> {
             Err(error) => return Err(error.into()),
         };
         // Scenarios that are wrong fail alone.
-        if file.compiled.diags.has_errors() && file.compiled.unsound.is_empty() {
+        if file.compiled.diags.has_errors() && file.compiled.invalid.is_empty() {
             say(file.compiled.render(true));
             code = EXIT_FAILED;
         }
@@ -188,20 +188,20 @@ fn cases(file: &PlanFile) -> impl Iterator<Item = Case<'_>> {
         line: line(span),
         scenario,
     };
-    let unsound = file.compiled.unsound.iter().map(move |each| case(Err(each), each.span));
-    let sound = file.compiled.scenarios.iter().map(move |each| case(Ok(each), each.span));
-    sound.chain(unsound)
+    let invalid = file.compiled.invalid.iter().map(move |each| case(Err(each), each.span));
+    let valid = file.compiled.scenarios.iter().map(move |each| case(Ok(each), each.span));
+    valid.chain(invalid)
 }
 
 impl<'a> Case<'a> {
     /// The scenario's name.
     fn name(&self) -> &'a str {
-        self.scenario.map_or_else(|unsound| &*unsound.name, |scenario| &scenario.name)
+        self.scenario.map_or_else(|invalid| &*invalid.name, |scenario| &scenario.name)
     }
 
     /// The name of its plan.
     fn plan(&self) -> &'a str {
-        self.scenario.map_or_else(|unsound| &*unsound.plan, |it| &it.graph.main().name)
+        self.scenario.map_or_else(|invalid| &*invalid.plan, |it| &it.graph.main().name)
     }
 }
 
@@ -281,9 +281,9 @@ fn run_one(case: &Case<'_>, robot: &dyn Loader) -> Done {
     let failed = |failure| Done { verdict: Err(failure), log: None };
     let scenario = match case.scenario {
         Ok(scenario) => scenario,
-        Err(unsound) => {
-            let said = unsound.errors.render(&case.plan_file.compiled.sources, true);
-            return failed(Failure::Unsound(said));
+        Err(invalid) => {
+            let said = invalid.errors.render(&case.plan_file.compiled.sources, true);
+            return failed(Failure::Invalid(said));
         }
     };
     let setting = match Setting::find(scenario, case.file, robot.kind()) {

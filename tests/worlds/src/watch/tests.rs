@@ -102,7 +102,7 @@ fn driving_on_without_a_usable_echo_breaks_a_rule() {
 fn a_sensor_that_nobody_has_asked_since_the_start_of_the_actor_does_not_count() {
     let (_, mut watch) = watched();
     watch.told(Sensor::Ultrasonic, false, at(0), at(0));
-    watch.hear(at(10), &Record::Started { component: ComponentId(1) }, &One);
+    watch.on_record(at(10), &Record::Started { component: ComponentId(1) }, &One);
     drive(&mut watch, 10, 1000);
     assert!(watch.broken.is_empty(), "{:?}", watch.broken);
 }
@@ -113,15 +113,15 @@ fn a_motion_left_behind_breaks_a_rule() {
     for record in [Record::Interrupted { element }, Record::Finished { element, state: 0 }] {
         let (_, mut watch) = watched();
         drive(&mut watch, 0, 20);
-        watch.hear(at(20), &record, &One);
+        watch.on_record(at(20), &record, &One);
         breaks(watch, "0.2 m/s, 0 rad/s stay");
     }
     for then in [Record::Started { component: element }, Record::StopRequested] {
         let (_, mut watch) = watched();
         drive(&mut watch, 0, 20);
         let fault = afp_carbot::guard::NO_RANGE;
-        watch.hear(at(20), &Record::Faulted { component: element, fault, detail: None }, &One);
-        watch.hear(at(20), &then, &One);
+        watch.on_record(at(20), &Record::Faulted { component: element, fault, detail: None }, &One);
+        watch.on_record(at(20), &then, &One);
         watch.stepped(at(20));
         breaks(watch, "failed");
     }
@@ -131,7 +131,7 @@ fn a_motion_left_behind_breaks_a_rule() {
 fn a_motion_after_the_end_breaks_a_rule() {
     let (_, mut watch) = watched();
     let (plan, ending) = (ComponentId(0), afp_core::Ending::Ok);
-    watch.hear(at(0), &Record::Ended { plan, ending }, &One);
+    watch.on_record(at(0), &Record::Ended { plan, ending }, &One);
     watch.stepped(at(0));
     assert!(watch.broken.is_empty());
     drive(&mut watch, 0, 10);

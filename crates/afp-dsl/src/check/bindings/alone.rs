@@ -31,7 +31,7 @@ pub(super) fn without_port(
 ) -> Diagnostic {
     let message = format!("'{}' has no port '{}'", signature.name, name.text);
     let error = Diagnostic::new(Code::E0202, name.span, message);
-    let Some(entry) = scope.indices.find(&name.text).map(|place| &scope.entries[place]) else {
+    let Some(entry) = scope.indices.find(&name.text).map(|index| &scope.entries[index]) else {
         let inputs = signature.inputs.iter().map(|input| &*input.name);
         let outputs = signature.outputs.iter().map(|output| &*output.name);
         let near = words::nearest(&name.text, inputs.clone().chain(outputs));

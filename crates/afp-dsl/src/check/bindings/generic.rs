@@ -99,8 +99,8 @@ fn by_outputs(
     ports: &Ports<'_>,
 ) -> Result<Option<(Type, Span)>, ()> {
     let mut decided = None;
-    for (place, entry, _) in &ports.outputs {
-        let generic = is_generic(signature.outputs[*place].ty.as_ref());
+    for (index, entry, _) in &ports.outputs {
+        let generic = is_generic(signature.outputs[*index].ty.as_ref());
         let Some(entry) = entry.filter(|_| generic) else { continue };
         let found = scope.entries.iter().find(|known| known.name.text == entry.text);
         let ty = found.and_then(|found| found.ty.clone()).ok_or(())?;

@@ -23,10 +23,10 @@ pub(super) fn check(
     let mut outputs = Vec::new();
     let mut complete = ports.complete;
     let mut written: Vec<&Name> = Vec::new();
-    for (place, entry, formula) in &ports.outputs {
+    for (index, entry, formula) in &ports.outputs {
         if let Some(formula) = formula {
             scope.names_only(formula);
-            let name = &signature.outputs[*place].name;
+            let name = &signature.outputs[*index].name;
             diags.push(
                 Diagnostic::new(
                     Code::E0219,
@@ -51,8 +51,8 @@ pub(super) fn check(
             continue;
         }
         written.push(entry);
-        let ty = actual(signature.outputs[*place].ty.as_ref(), generic);
-        match output(scope, *place, ty, entry, diags) {
+        let ty = actual(signature.outputs[*index].ty.as_ref(), generic);
+        match output(scope, *index, ty, entry, diags) {
             Some(output) => outputs.push(output),
             None => complete = false,
         }
@@ -67,7 +67,7 @@ fn output(
     entry: &Name,
     diags: &mut Diagnostics,
 ) -> Option<Output> {
-    let Some(place) = scope.entry(entry) else {
+    let Some(index) = scope.entry(entry) else {
         let writable =
             scope.entries.iter().filter(|e| matches!(e.kind, EntryKind::Var | EntryKind::Out));
         let known = writable.map(|known| known.name.text.as_str());
@@ -76,7 +76,7 @@ fn output(
         diags.push(unknown(Code::E0209, entry.span, message, &entry.text, known, &none));
         return None;
     };
-    let target = &scope.entries[place];
+    let target = &scope.entries[index];
     if matches!(target.kind, EntryKind::In | EntryKind::Const) {
         let word = target.kind.word();
         let message = format!("'{}' is an entry that the plan does not write", entry.text);
@@ -104,7 +104,7 @@ fn output(
     }
     Some(Output {
         port: u16::try_from(port).ok()?,
-        entry: EntryId(u16::try_from(place).ok()?),
+        entry: EntryId(u16::try_from(index).ok()?),
         conversion,
         span: entry.span,
     })

@@ -19,6 +19,8 @@ use afp_syntax::ast::{self, ElementKind, Frame};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
+use super::faults::{Faults, Owner, add_remarks};
+
 /// A component, as far as it could be checked.
 pub(super) struct Checked<T> {
     /// What the graph has of it; `None` where something is wrong.
@@ -175,11 +177,9 @@ impl Components<'_> {
         let binds = bindings::meant(&signature, &binds);
         let mut remarks = Diagnostics::default();
         let bound = bindings::check(self.scope, &signature, &binds, site, &mut remarks);
-        // Who connects 'Error' has dealt with inputs that fail.
-        let deals = written.edges.iter().any(|edge| edge.name.text == edges::ERROR);
-        remarks.retain(|remark| remark.code != Code::E0208 || !deals);
-        diags.extend(remarks);
-        if let Some((inputs, outputs)) = &bound.sound {
+        let taken = written.edges.iter().any(|edge| edge.name.text == edges::ERROR);
+        add_remarks(remarks, if taken { Faults::Taken } else { Faults::Unconnected }, diags);
+        if let Some((inputs, outputs)) = &bound.valid {
             tables::fits(self.scope, &signature, (inputs, outputs), &binds, diags);
         }
         let signatures = &self.context.program.signatures;
@@ -198,7 +198,7 @@ impl Components<'_> {
         bound: bindings::Bound,
         connected: Connected,
     ) -> Option<Element> {
-        let (name, (inputs, outputs)) = (name?, bound.sound?);
+        let (name, (inputs, outputs)) = (name?, bound.valid?);
         Some(Element {
             doc: frame.doc.clone(),
             component: signature.component()?,
@@ -219,7 +219,7 @@ impl Components<'_> {
     pub fn supervisor(
         &self,
         node: &ast::Guard,
-        owner: Option<ElementId>,
+        owner: Option<Owner>,
         diags: &mut Diagnostics,
     ) -> Checked<Supervisor> {
         let written = WrittenParts {
@@ -236,7 +236,7 @@ impl Components<'_> {
     fn check_supervisor(
         &self,
         node: &ast::Guard,
-        owner: Option<ElementId>,
+        owner: Option<Owner>,
         (frame, written): (&Frame, &WrittenParts),
         diags: &mut Diagnostics,
     ) -> Parts<Supervisor> {
@@ -257,7 +257,9 @@ impl Components<'_> {
         let broken = diags.syntax_errors_within(frame.span).next().is_some();
         let site = Site { reference: reference.span(), broken };
         let binds = bindings::meant(&signature, &written.binds);
-        let bound = bindings::check(self.scope, &signature, &binds, &site, diags);
+        let mut remarks = Diagnostics::default();
+        let bound = bindings::check(self.scope, &signature, &binds, &site, &mut remarks);
+        add_remarks(remarks, owner.map_or(Faults::EndPlan, |owner| owner.faults), diags);
         let span = name.as_ref().map_or(frame.span, |name| name.span);
         let origin =
             Origin { signature: &signature, name: name.as_ref(), span, broken, supervisor: true };
@@ -269,6 +271,7 @@ impl Components<'_> {
             generic: bound.generic.clone(),
             times: Some(times),
         };
+        let owner = owner.and_then(|owner| owner.id);
         let built = self.build_supervisor(node, owner, &signature, bound, connected, times);
         Parts { built, user, made }
     }
@@ -277,8 +280,8 @@ impl Components<'_> {
         let mut written = Written::default();
         for time in node.timings() {
             let Some(keyword) = time.keyword() else { continue };
-            let place = usize::from(keyword.text == "deadline");
-            if let Some(first) = written.words[place] {
+            let index = usize::from(keyword.text == "deadline");
+            if let Some(first) = written.words[index] {
                 if let Some(value) = time.value() {
                     self.scope.names_only(&value);
                 }
@@ -293,9 +296,9 @@ impl Components<'_> {
                 );
                 continue;
             }
-            written.words[place] = Some(keyword.span);
+            written.words[index] = Some(keyword.span);
             let value = timing::of_supervisor(&time, self.scope, diags);
-            written.values[place] = value.map(|value| (value, time.span()));
+            written.values[index] = value.map(|value| (value, time.span()));
         }
         written
     }
@@ -307,7 +310,7 @@ impl Components<'_> {
             _ => None,
         });
         let entries = names.filter_map(|name| self.scope.indices.find(&name.text));
-        entries.filter_map(|place| u16::try_from(place).ok().map(EntryId)).collect()
+        entries.filter_map(|index| u16::try_from(index).ok().map(EntryId)).collect()
     }
 
     fn build_supervisor(
@@ -319,7 +322,7 @@ impl Components<'_> {
         connected: Connected,
         times: Times,
     ) -> Option<Supervisor> {
-        let (name, (inputs, outputs)) = (node.name()?, bound.sound?);
+        let (name, (inputs, outputs)) = (node.name()?, bound.valid?);
         let (template, _) = signature.template.as_ref()?;
         Some(Supervisor {
             doc: node.doc(),

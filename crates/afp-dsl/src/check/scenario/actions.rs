@@ -222,17 +222,17 @@ impl Checker<'_> {
             Outcome::Special => Vec::new(),
         };
         let mut values: Vec<Option<Constant>> = vec![None; wanted.len()];
-        let mut sound = true;
+        let mut valid = true;
         for bind in binds {
             let port = bind.port();
-            let place = wanted.iter().position(|(_, known, _)| known.name == port.text);
-            let Some(place) = place else {
+            let index = wanted.iter().position(|(_, known, _)| known.name == port.text);
+            let Some(index) = index else {
                 let message =
                     format!("'{}' brings no connected output '{}'", path.text(), port.text);
                 let known = wanted.iter().map(|(_, port, _)| port.name.as_str());
                 let none = "remove the value";
                 diags.push(unknown(Code::E0608, port.span, message, &port.text, known, none));
-                sound = false;
+                valid = false;
                 continue;
             };
             let Bind::In { formula: Some(formula), .. } = bind else {
@@ -240,15 +240,15 @@ impl Checker<'_> {
                     Diagnostic::new(Code::E0608, port.span, "an output needs a value here")
                         .help(format!("write '{} = ...'", port.text)),
                 );
-                sound = false;
+                valid = false;
                 continue;
             };
-            values[place] = self.constant(formula, &wanted[place].2, diags).map(|(_, value)| value);
-            sound &= values[place].is_some();
+            values[index] = self.constant(formula, &wanted[index].2, diags).map(|(_, value)| value);
+            valid &= values[index].is_some();
         }
         let missing = wanted.iter().zip(&values).filter(|(_, value)| value.is_none());
         let missing: Vec<_> = missing.map(|((_, port, ty), _)| (port, ty)).collect();
-        if sound && !missing.is_empty() {
+        if valid && !missing.is_empty() {
             let names = words::list(missing.iter().map(|(port, _)| port.name.as_str()), "and");
             let message = format!("'{}' also brings {names}, which has no value here", path.text());
             let object = missing.iter().any(|(_, ty)| matches!(ty, Type::Object(_)));
@@ -265,7 +265,7 @@ impl Checker<'_> {
             return None;
         }
         let values: Option<Vec<_>> =
-            wanted.iter().zip(values).map(|((place, ..), value)| Some((*place, value?))).collect();
+            wanted.iter().zip(values).map(|((index, ..), value)| Some((*index, value?))).collect();
         values
     }
 }

@@ -92,7 +92,13 @@ impl Checker<'_> {
         by_path: Option<&Path>,
         diags: &mut Diagnostics,
     ) -> Option<Claim> {
-        let from = self.element(from_path, diags);
+        let from = match self.left_by(from_path, to, by_path) {
+            Some(error) => {
+                diags.push(error);
+                None
+            }
+            None => self.element(from_path, diags),
+        };
         let found = match to.path() {
             Some(path) => Some(self.element(path, diags)?),
             None => None,
@@ -130,6 +136,28 @@ impl Checker<'_> {
                 outcome,
             }),
         })
+    }
+
+    /// What is wrong where the state or event by which an element is left stands in place of the element, as it does in
+    /// timelines: `go.Done -> home`.
+    fn left_by(&self, path: &Path, to: &ClaimTarget, by: Option<&Path>) -> Option<Diagnostic> {
+        let names = path.names();
+        let (found, rest) = self.paths.find(self.paths.main(), &names).ok()?;
+        let [outcome] = rest else { return None };
+        self.paths.outcome(found, &outcome.text).filter(|_| by.is_none())?;
+        let (text, to) = (path.text(), written(to));
+        let owner = match found.part {
+            Part::Element(_) => names.len() - 1,
+            Part::Supervisor(_) => names.len() - 2,
+        };
+        let owner: Vec<_> = names.iter().take(owner).map(|name| &*name.text).collect();
+        let element = self.paths.find(self.paths.main(), &names[..owner.len()]);
+        let help = match element.is_ok_and(|(at, _)| matches!(at.part, Part::Element(_))) {
+            true => format!("write '{} -> {to} by {text}'", owner.join(".")),
+            false => format!("write the element that is left: 'ELEMENT -> {to} by {text}'"),
+        };
+        let message = format!("'{text}' is no element");
+        Some(Diagnostic::new(Code::E0602, path.span(), message).help(help))
     }
 
     /// Reports when no edge leads from one to the other.
@@ -216,7 +244,7 @@ impl Checker<'_> {
     /// How an outcome is named behind `by`.
     fn outcome_name(&self, from: Found, found: Found, outcome: Outcome) -> String {
         let name = match outcome {
-            Outcome::Declared(place) => self.paths.outcomes(found)[usize::from(place)],
+            Outcome::Declared(index) => self.paths.outcomes(found)[usize::from(index)],
             Outcome::Special => self.paths.special(found),
         };
         match found == from {
@@ -237,15 +265,16 @@ impl Checker<'_> {
         let first = names.first()?;
         let paths = &self.paths;
         let here = from.instance;
-        let (found, rest) = match paths.names.cause(paths.main, here.place(), from.part, &names)? {
-            resolve::Cause::Own(outcome) => return Some((from, Some(outcome))),
-            resolve::Cause::Near(part) => (Found { instance: here, part }, &names[1..]),
-            resolve::Cause::Inside(walk) => paths.arrived(here, walk, &names).ok()?,
-            resolve::Cause::Outside(walk) => paths
-                .arrived(paths.main(), walk, &names)
-                .map_err(|_| diags.push(self.unknown_cause(from, first)))
-                .ok()?,
-        };
+        let (found, rest) =
+            match paths.names.cause(paths.main, here.plan_index(), from.part, &names)? {
+                resolve::Cause::Own(outcome) => return Some((from, Some(outcome))),
+                resolve::Cause::Near(part) => (Found { instance: here, part }, &names[1..]),
+                resolve::Cause::Inside(walk) => paths.arrived(here, walk, &names).ok()?,
+                resolve::Cause::Outside(walk) => paths
+                    .arrived(paths.main(), walk, &names)
+                    .map_err(|_| diags.push(self.unknown_cause(from, first)))
+                    .ok()?,
+            };
         self.outcome(found, rest, diags).map(|outcome| (found, outcome))
     }
 

@@ -64,10 +64,10 @@ impl Checker<'_> {
         diags: &mut Diagnostics,
     ) {
         let Some(node) = node else { return };
-        let is_sound = diags.syntax_errors_within(node.span()).next().is_none();
-        let claim = self.claim(node, diags).filter(|_| is_sound);
+        let is_readable = diags.syntax_errors_within(node.span()).next().is_none();
+        let claim = self.claim(node, diags).filter(|_| is_readable);
         let from = u16::try_from(scenario.moments.len()).ok().map(MomentId);
-        let lines = sound(lines, diags);
+        let lines = readable(lines, diags);
         let stretch = Stretch::of(&lines, from, diags);
         // What is wrong with the lines is reported where the claim is wrong, too.
         let mut rest = Scenario::quiet("", scenario.graph.clone(), "", stretch.until);
@@ -120,7 +120,7 @@ impl Checker<'_> {
 
 /// The lines that can be read; those that count from a moment are looked at one by one. Where a bracket alone is missing the
 /// line is whole, and its edit is withdrawn if something else is wrong.
-pub(super) fn sound(mut lines: Vec<Line>, diags: &Diagnostics) -> Vec<Line> {
+pub(super) fn readable(mut lines: Vec<Line>, diags: &Diagnostics) -> Vec<Line> {
     let brackets = OnceCell::new();
     let is_bracket = |place: &Span| {
         let missing = || diags.iter().filter(|each| each.code == Code::E0103);

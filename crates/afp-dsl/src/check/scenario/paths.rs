@@ -16,15 +16,15 @@ pub(super) struct Paths<'a> {
     pub graph: &'a Graph,
     /// What names mean.
     pub names: Resolver<'a>,
-    /// The plan, by its place in [`crate::check::Program::plans`].
+    /// The plan, by its index in [`crate::check::Program::plans`].
     pub main: usize,
 }
 
 /// One plan or sub-plan at its place among the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Instance {
-    /// By its place in [`crate::check::Program::plans`].
-    place: usize,
+    /// by its index in [`crate::check::Program::plans`].
+    plan_index: usize,
     plan: PlanId,
     /// The number of its first element.
     components: u32,
@@ -47,9 +47,9 @@ impl Instance {
         self.plan
     }
 
-    /// The plan, by its place in [`crate::check::Program::plans`].
-    pub fn place(self) -> usize {
-        self.place
+    /// The plan, by its index in [`crate::check::Program::plans`].
+    pub fn plan_index(self) -> usize {
+        self.plan_index
     }
 }
 
@@ -60,7 +60,7 @@ impl<'a> Paths<'a> {
 
     /// The plan that runs.
     pub fn main(&self) -> Instance {
-        Instance { place: self.main, plan: self.graph.main, components: 1, entries: 0 }
+        Instance { plan_index: self.main, plan: self.graph.main, components: 1, entries: 0 }
     }
 
     fn plan(&self, instance: Instance) -> &'a Plan {
@@ -76,7 +76,7 @@ impl<'a> Paths<'a> {
         instance: Instance,
         names: &'n [Name],
     ) -> Result<(Found, &'n [Name]), Box<Diagnostic>> {
-        self.arrived(instance, self.names.component(instance.place, names), names)
+        self.arrived(instance, self.names.component(instance.plan_index, names), names)
     }
 
     /// What a walk from `instance` has led to, and the names that are left.
@@ -101,7 +101,7 @@ impl<'a> Paths<'a> {
             let Component::SubPlan(inner) = element.component else { break };
             let child = self.graph.rows(instance.plan).elements[id.index()].child;
             instance = Instance {
-                place: walk.plan,
+                plan_index: walk.plan,
                 plan: inner,
                 components: instance.components + child.components,
                 entries: instance.entries + child.entries,
@@ -117,8 +117,8 @@ impl<'a> Paths<'a> {
     pub fn entry(&self, names: &[Name]) -> Result<(u32, PlanId, EntryId), Box<Diagnostic>> {
         let walk = self.names.entry(self.main, names);
         let instance = self.enter(self.main(), &walk);
-        let place = u16::try_from(walk.end?).unwrap_or(u16::MAX);
-        Ok((instance.entries + u32::from(place), instance.plan, EntryId(place)))
+        let index = u16::try_from(walk.end?).unwrap_or(u16::MAX);
+        Ok((instance.entries + u32::from(index), instance.plan, EntryId(index)))
     }
 
     /// The components of the outermost plan, each with its dotted name.
@@ -176,7 +176,7 @@ impl<'a> Paths<'a> {
 
     /// The names of the component's states or events.
     pub fn outcomes(&self, found: Found) -> Vec<&'a str> {
-        self.names.outcomes(found.instance.place, found.part)
+        self.names.outcomes(found.instance.plan_index, found.part)
     }
 
     /// What its undeclared outcome is called.
@@ -186,19 +186,19 @@ impl<'a> Paths<'a> {
 
     /// A state or event of that name.
     pub fn outcome(&self, found: Found, name: &str) -> Option<Outcome> {
-        self.names.outcome(found.instance.place, found.part, name)
+        self.names.outcome(found.instance.plan_index, found.part, name)
     }
 
     /// Where a state or event leads; `None` where it is not connected.
     pub fn target(&self, found: Found, outcome: Outcome) -> Option<Target> {
         let plan = self.plan(found.instance);
         match (found.part, outcome) {
-            (Part::Element(id), Outcome::Declared(place)) => {
-                plan.elements[id.index()].states.get(usize::from(place)).copied().flatten()
+            (Part::Element(id), Outcome::Declared(index)) => {
+                plan.elements[id.index()].states.get(usize::from(index)).copied().flatten()
             }
             (Part::Element(id), Outcome::Special) => plan.elements[id.index()].on_error,
-            (Part::Supervisor(id), Outcome::Declared(place)) => {
-                plan.supervisors[id.index()].events.get(usize::from(place)).copied()
+            (Part::Supervisor(id), Outcome::Declared(index)) => {
+                plan.supervisors[id.index()].events.get(usize::from(index)).copied()
             }
             (Part::Supervisor(id), Outcome::Special) => plan.supervisors[id.index()].on_miss,
         }
@@ -241,7 +241,7 @@ impl<'a> Paths<'a> {
             }
         };
         let edge = match outcome {
-            Outcome::Declared(place) => edges.outcomes.get(usize::from(place)).copied().flatten(),
+            Outcome::Declared(index) => edges.outcomes.get(usize::from(index)).copied().flatten(),
             Outcome::Special => edges.extra,
         };
         edge.unwrap_or(span)
@@ -292,7 +292,7 @@ fn event(outcome: Outcome) -> Option<u16> {
     }
 }
 
-/// The outputs of a component that an outcome carries and that are connected, each with its place
+/// The outputs of a component that an outcome carries and that are connected, each with its index
 /// and the type of its value.
 pub(super) fn outputs(
     graph: &Graph,

@@ -87,7 +87,7 @@ impl<'a> Resolver<'a> {
         let mut walk = Walk { trail: Vec::new(), entered: Vec::new(), plan, end: Err(empty()) };
         for (at, name) in names.iter().enumerate() {
             let element = self.members[walk.plan].indices.find(&name.text);
-            let id = element.and_then(|place| u16::try_from(place).ok()).map(ElementId);
+            let id = element.and_then(|index| u16::try_from(index).ok()).map(ElementId);
             let inner = id.and_then(|id| Some((id, self.sub_plan(walk.plan, id)?)));
             if let (Some((id, inner)), true) = (inner, at + 1 < names.len()) {
                 walk.trail.extend(self.declaration(walk.plan, Part::Element(id)));
@@ -96,13 +96,13 @@ impl<'a> Resolver<'a> {
                 continue;
             }
             let head = &self.program.plans[walk.plan];
-            let Some(place) = head.indices.find(&name.text) else {
+            let Some(index) = head.indices.find(&name.text) else {
                 walk.end = Err(self.unknown_entry(walk.plan, name));
                 return walk;
             };
-            walk.trail.push(head.entries[place].name.span);
+            walk.trail.push(head.entries[index].name.span);
             walk.end = match names.get(at + 1) {
-                None => Ok(place),
+                None => Ok(index),
                 Some(more) => {
                     let message = format!("'{}' is an entry and has no parts", name.text);
                     let error = Diagnostic::new(Code::E0209, more.span, message);
@@ -134,11 +134,11 @@ impl<'a> Resolver<'a> {
     /// An element or global supervisor of a plan.
     fn part(&self, plan: usize, name: &str) -> Option<Part> {
         let members = &self.members[plan];
-        if let Some(place) = members.indices.find(name) {
-            return u16::try_from(place).ok().map(ElementId).map(Part::Element);
+        if let Some(index) = members.indices.find(name) {
+            return u16::try_from(index).ok().map(ElementId).map(Part::Element);
         }
-        let place = members.globals.iter().position(|member| is_called(member, name))?;
-        u16::try_from(place).ok().map(SupervisorId).map(Part::Supervisor)
+        let index = members.globals.iter().position(|member| is_called(member, name))?;
+        u16::try_from(index).ok().map(SupervisorId).map(Part::Supervisor)
     }
 
     /// A local supervisor of an element.
@@ -146,9 +146,9 @@ impl<'a> Resolver<'a> {
         let Part::Element(id) = element else { return None };
         let members = &self.members[plan];
         let own = &members.elements.get(id.index())?.supervisors;
-        let place = own.iter().position(|member| is_called(member, name))?;
+        let index = own.iter().position(|member| is_called(member, name))?;
         let before = members.elements[..id.index()].iter().map(|element| element.supervisors.len());
-        let number = members.globals.len() + before.sum::<usize>() + place;
+        let number = members.globals.len() + before.sum::<usize>() + index;
         u16::try_from(number).ok().map(SupervisorId).map(Part::Supervisor)
     }
 
@@ -202,7 +202,7 @@ impl<'a> Resolver<'a> {
     pub fn outcome(&self, plan: usize, part: Part, name: &str) -> Option<Outcome> {
         let declared = self.outcomes(plan, part).iter().position(|known| *known == name);
         match declared {
-            Some(place) => Some(Outcome::Declared(u16::try_from(place).ok()?)),
+            Some(index) => Some(Outcome::Declared(u16::try_from(index).ok()?)),
             None => (name == Self::special(part)).then_some(Outcome::Special),
         }
     }
@@ -211,8 +211,8 @@ impl<'a> Resolver<'a> {
     pub fn record_outcome(&self, plan: usize, part: Part, name: &Name, record: &Recorder) {
         let signature = self.signature(plan, part);
         let declared = match self.outcome(plan, part, &name.text) {
-            Some(Outcome::Declared(place)) => {
-                signature.and_then(|signature| signature.outcome_span(usize::from(place)))
+            Some(Outcome::Declared(index)) => {
+                signature.and_then(|signature| signature.outcome_span(usize::from(index)))
             }
             Some(Outcome::Special) => None,
             None => return record.unknown(name.span),
@@ -250,8 +250,8 @@ impl<'a> Resolver<'a> {
 
     /// Two names in one: an element, and something in it.
     fn without_point(&self, plan: usize, name: &str) -> Option<String> {
-        (0..).zip(&self.members[plan].elements).find_map(|(place, element)| {
-            let (id, outer) = (ElementId(place), &element.name.as_ref()?.text);
+        (0..).zip(&self.members[plan].elements).find_map(|(index, element)| {
+            let (id, outer) = (ElementId(index), &element.name.as_ref()?.text);
             let inner = name.strip_prefix(outer.as_str())?;
             let is_local = self.local(plan, Part::Element(id), inner).is_some();
             let inside = || self.part(self.sub_plan(plan, id)?, inner);

@@ -67,9 +67,9 @@ pub(super) fn output(
     let all = 0..u16::try_from(outcomes.len()).unwrap_or(u16::MAX);
     for state in node.on().unwrap_or_default() {
         match outcomes.iter().position(|outcome| outcome.name == state.text) {
-            Some(place) => {
-                record.definition(state.span, outcomes[place].span);
-                on.extend(u16::try_from(place));
+            Some(index) => {
+                record.definition(state.span, outcomes[index].span);
+                on.extend(u16::try_from(index));
             }
             None => {
                 record.unknown(state.span);

@@ -201,7 +201,7 @@ fn states_of(
         diags.push(Diagnostic::new(Code::E0510, output.span, message).help("remove the output"));
     }
     let port = port?;
-    let Some(place) = template.inputs.iter().position(|input| input.name == port.text) else {
+    let Some(index) = template.inputs.iter().position(|input| input.name == port.text) else {
         site.record.unknown(port.span);
         let known = template.inputs.iter().map(|input| input.name.as_str());
         let message = format!("the template has no input '{}'", port.text);
@@ -209,7 +209,7 @@ fn states_of(
         diags.push(unknown(Code::E0202, port.span, message, &port.text, known, none));
         return None;
     };
-    let input = &template.inputs[place];
+    let input = &template.inputs[index];
     site.record.definition(port.span, input.span);
     if input.ty != Type::Discrete {
         let message = format!("'{}' is {}", input.name, a_type(&input.ty));
@@ -219,7 +219,7 @@ fn states_of(
                 .help("give the port the type 'discrete', to which plans can bind any enum"),
         );
     }
-    u16::try_from(place).ok()
+    u16::try_from(index).ok()
 }
 
 fn set_time(time: &ast::Timing, template: &mut Template, seen: &mut Seen, diags: &mut Diagnostics) {

@@ -84,8 +84,8 @@ fn files() -> Vec<Source> {
 fn after(files: &[Source], home: usize, change: &Change) -> Vec<String> {
     let edits =
         edit(files, &toolboxes(), home, change).unwrap_or_else(|why| panic!("{change:?}: {why}"));
-    let text = |(place, file): (usize, &Source)| {
-        let own = edits.iter().filter(|edit| usize::from(edit.span.file) == place);
+    let text = |(index, file): (usize, &Source)| {
+        let own = edits.iter().filter(|edit| usize::from(edit.span.file) == index);
         apply(&file.text, &own.cloned().collect::<Vec<_>>())
     };
     files.iter().enumerate().map(text).collect()

@@ -122,7 +122,7 @@ impl Course {
             let now = self.sim.now();
             Navigator::drive(&mut self.sim, speed, turn, now);
             self.sim.advance_to(now + PIECE);
-            self.senses.hear(&mut self.sim);
+            self.senses.update(&mut self.sim);
         }
         self.senses.look(&self.sim);
         self.steps += 1;

@@ -121,7 +121,7 @@ impl Courses {
         finite(actions.iter())?;
         self.prepare(again)?;
         for (place, action) in self.batch.places().zip(actions.rows()) {
-            let mut place = sound(place)?;
+            let mut place = unbroken(place)?;
             if place.course.is_none() && place.start.is_none() {
                 return Err(PyRuntimeError::new_err("call reset() before step()"));
             }
@@ -130,7 +130,7 @@ impl Courses {
         self.round(py, Task::Step)?;
         let (mut rewards, mut ended, mut late) = (Vec::new(), Vec::new(), Vec::new());
         for place in self.batch.places() {
-            let outcome = sound(place)?.outcome;
+            let outcome = unbroken(place)?.outcome;
             rewards.push(outcome.reward);
             ended.push(outcome.ended);
             late.push(outcome.late);
@@ -178,7 +178,7 @@ impl Courses {
         let _use = self.take()?;
         let (mut times, mut poses, mut hits) = (Vec::new(), Vec::new(), Vec::new());
         for place in self.batch.places() {
-            let (time, pose, hit) = truth(&begun(&*sound(place)?)?.sim);
+            let (time, pose, hit) = truth(&begun(&*unbroken(place)?)?.sim);
             times.push(time);
             poses.push(pose);
             hits.push(hit);
@@ -234,7 +234,7 @@ impl Courses {
 
     fn place_at(&self, index: usize) -> PyResult<MutexGuard<'_, Place>> {
         let none = || PyIndexError::new_err(format!("there is no episode {index}"));
-        sound(self.batch.place(index).ok_or_else(none)?)
+        unbroken(self.batch.place(index).ok_or_else(none)?)
     }
 
     /// Notes which episodes are about to begin, all or none of them.
@@ -257,7 +257,7 @@ impl Courses {
         py.detach(|| pool::run(&round))?;
         let mut first = None;
         for place in self.batch.places() {
-            first = first.or(sound(place)?.failed.take());
+            first = first.or(unbroken(place)?.failed.take());
         }
         first.map_or(Ok(()), |why| Err(error(why)))
     }
@@ -266,7 +266,7 @@ impl Courses {
     fn seen(&self) -> PyResult<Array2<f32>> {
         let mut seen = Array2::zeros((self.batch.len(), self.batch.bounds.len()));
         for (place, mut row) in self.batch.places().zip(seen.rows_mut()) {
-            row.iter_mut().zip(&sound(place)?.seen).for_each(|(to, value)| *to = *value);
+            row.iter_mut().zip(&unbroken(place)?.seen).for_each(|(to, value)| *to = *value);
         }
         Ok(seen)
     }
@@ -296,7 +296,7 @@ fn finite<'a>(mut numbers: impl Iterator<Item = &'a f64>) -> PyResult<()> {
 }
 
 /// A place, unless its episode panicked.
-fn sound(place: LockResult<MutexGuard<'_, Place>>) -> PyResult<MutexGuard<'_, Place>> {
+fn unbroken(place: LockResult<MutexGuard<'_, Place>>) -> PyResult<MutexGuard<'_, Place>> {
     place.map_err(|_| broke())
 }
 

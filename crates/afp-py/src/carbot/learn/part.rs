@@ -126,9 +126,9 @@ impl Senses {
         senses
     }
 
-    /// Hears a new echo of the fan, and lets the sensor look elsewhere then; between two pings at least once.
-    pub fn hear(&mut self, sim: &mut Simulation) {
-        self.fan.hear(sim);
+    /// Takes a new echo of the fan, and points the sensor elsewhere then; between two pings at least once.
+    pub fn update(&mut self, sim: &mut Simulation) {
+        self.fan.update(sim);
     }
 
     /// Asks all devices.
@@ -200,7 +200,7 @@ impl Fan {
         }
     }
 
-    fn hear(&mut self, sim: &mut Simulation) {
+    fn update(&mut self, sim: &mut Simulation) {
         if self.bearings.is_empty() {
             return;
         }

@@ -1,4 +1,4 @@
-//! How far off the robot is about where it is.
+//! The localisation error over a run.
 
 use crate::truth::Pose;
 use afp_session::{Figure, FigureValue};

@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use afp_debug::wire::{Frames, WireError, frame};
-use afp_debug::{Adapter, ClientId, Told};
+use afp_debug::{Adapter, ClientId, Outgoing};
 use afp_run::{RunError, say};
 use afp_token::Token;
 
@@ -28,7 +28,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 const LOOK: Duration = Duration::from_millis(1);
 
 /// What comes from outside.
-enum Came {
+enum Arrival {
     /// A client.
     Client(TcpStream),
     /// Bytes of one.
@@ -52,7 +52,7 @@ struct Peers<'a> {
     begin: Instant,
     all: BTreeMap<usize, Peer>,
     connected: usize,
-    sender: Sender<Came>,
+    sender: Sender<Arrival>,
 }
 
 /// Serves clients on a port of this machine, for ever.
@@ -70,7 +70,7 @@ pub(super) fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
     let connected = sender.clone();
     thread::spawn(move || {
         for stream in listener.incoming().flatten() {
-            if connected.send(Came::Client(stream)).is_err() {
+            if connected.send(Arrival::Client(stream)).is_err() {
                 return;
             }
         }
@@ -82,19 +82,19 @@ pub(super) fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
 }
 
 impl Peers<'_> {
-    fn serve(&mut self, arrived: &Receiver<Came>) {
+    fn serve(&mut self, arrived: &Receiver<Arrival>) {
         loop {
-            let came = match self.adapter.due() {
+            let arrival = match self.adapter.due() {
                 None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some(due) => arrived.recv_timeout(due),
             };
-            match came {
-                Ok(Came::Client(stream)) => self.connect(stream),
-                Ok(Came::Bytes(from, bytes)) => self.hear(from, &bytes),
-                Ok(Came::Gone(from)) => self.forget(from),
+            match arrival {
+                Ok(Arrival::Client(stream)) => self.connect(stream),
+                Ok(Arrival::Bytes(from, bytes)) => self.on_bytes(from, &bytes),
+                Ok(Arrival::Gone(from)) => self.forget(from),
                 Err(RecvTimeoutError::Timeout) => {
-                    let told = self.adapter.tick(self.begin.elapsed());
-                    self.tell(told);
+                    let outgoing = self.adapter.tick(self.begin.elapsed());
+                    self.send(outgoing);
                 }
                 Err(RecvTimeoutError::Disconnected) => return,
             }
@@ -111,9 +111,9 @@ impl Peers<'_> {
         self.connected += 1;
         let (number, sender) = (self.connected, self.sender.clone());
         thread::spawn(move || {
-            read(from, |bytes| sender.send(Came::Bytes(number, bytes)).is_ok());
+            read(from, |bytes| sender.send(Arrival::Bytes(number, bytes)).is_ok());
             // Without a server nobody is told.
-            let _ = sender.send(Came::Gone(number));
+            let _ = sender.send(Arrival::Gone(number));
         });
         let (to, messages) = sync_channel(WAITING);
         thread::spawn(move || write(back, &messages));
@@ -121,7 +121,7 @@ impl Peers<'_> {
         self.all.insert(number, peer);
     }
 
-    fn hear(&mut self, from: usize, bytes: &[u8]) {
+    fn on_bytes(&mut self, from: usize, bytes: &[u8]) {
         let Some(peer) = self.all.get_mut(&from) else { return };
         let id = peer.id;
         peer.frames.push(bytes);
@@ -130,8 +130,8 @@ impl Peers<'_> {
             let Some(peer) = self.all.get_mut(&from) else { return };
             match peer.frames.next_message() {
                 Ok(Some(message)) => {
-                    let told = self.adapter.handle(id, &message, self.begin.elapsed());
-                    self.tell(told);
+                    let outgoing = self.adapter.handle(id, &message, self.begin.elapsed());
+                    self.send(outgoing);
                 }
                 Ok(None) => break,
                 Err(why) => {
@@ -161,13 +161,13 @@ impl Peers<'_> {
         drop(to);
         // Its reader ends, its writer once all is written.
         let _ = stream.shutdown(Shutdown::Read);
-        let told = self.adapter.leave(id);
-        self.tell(told);
+        let outgoing = self.adapter.leave(id);
+        self.send(outgoing);
     }
 
-    /// Tells clients; one that does not read is waited for, then it loses its connection.
-    fn tell(&mut self, told: Vec<Told>) {
-        for Told { to, message } in told {
+    /// Sends messages; a client that does not read is waited for, then it loses its connection.
+    fn send(&mut self, outgoing: Vec<Outgoing>) {
+        for Outgoing { to, message } in outgoing {
             let found = self.all.iter().find(|(_, peer)| peer.id == to);
             let Some((&number, peer)) = found else { continue };
             if !is_sent(&peer.to, frame(&message)) {

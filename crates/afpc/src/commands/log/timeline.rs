@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use afp_log::LogData;
-use afp_log::statistics::{Statistics, statistics};
+use afp_log::statistics::{ElementStatistics, Statistics, SupervisorStatistics, statistics};
 
 /// The whole text.
 pub(super) fn text(log: &LogData) -> String {
@@ -19,7 +19,9 @@ pub(super) fn text(log: &LogData) -> String {
 }
 
 fn elements(text: &mut String, all: &Statistics) {
-    let ran: Vec<_> = all.elements.iter().filter(|element| element.activations > 0).collect();
+    // What failed to start was never active.
+    let used = |element: &&ElementStatistics| element.activations + element.faults > 0;
+    let ran: Vec<_> = all.elements.iter().filter(used).collect();
     let width = ran.iter().map(|element| element.path.len()).max().unwrap_or(0).max(7);
     let _ = writeln!(text, "\n{:<width$}  activations  interruptions  faults  active", "element");
     for element in ran {
@@ -36,23 +38,25 @@ fn elements(text: &mut String, all: &Statistics) {
 }
 
 fn supervisors(text: &mut String, all: &Statistics) {
-    let ran: Vec<_> = all.supervisors.iter().filter(|each| each.activations > 0).collect();
+    let used = |each: &&SupervisorStatistics| each.activations + each.faults > 0;
+    let ran: Vec<_> = all.supervisors.iter().filter(used).collect();
     if ran.is_empty() {
         return;
     }
     let width = ran.iter().map(|each| each.path.len()).max().unwrap_or(0).max(10);
     let _ = writeln!(
         text,
-        "\n{:<width$}    polls  events  missed late/long  skipped  worst",
+        "\n{:<width$}    polls  events  faults  missed late/long  skipped  worst",
         "supervisor"
     );
     for each in ran {
         let _ = writeln!(
             text,
-            "{:<width$}  {:>7}  {:>6}  {:>11}/{:<4}  {:>7}  {:.3} ms",
+            "{:<width$}  {:>7}  {:>6}  {:>6}  {:>11}/{:<4}  {:>7}  {:.3} ms",
             each.path,
             each.polls,
             each.events,
+            each.faults,
             each.late_releases,
             each.long_polls,
             each.skipped,

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::fmt::Write;
 
 use afp_run::say;
-use afp_sweep::{Ending, Findings, Group, Measure, Outcome, Place, Spread, Sweep, Touched};
+use afp_sweep::{Ending, Findings, Group, Measure, Outcome, OutputFiles, Spread, Sweep, Touched};
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
@@ -39,8 +39,8 @@ impl<'a> Reporter<'a> {
     }
 
     /// Says that a sweep goes on, and how to begin anew.
-    pub fn head(&self, place: &Place, done: usize) {
-        let (all, journal) = (self.sweep.len(), place.journal.display());
+    pub fn head(&self, output: &OutputFiles, done: usize) {
+        let (all, journal) = (self.sweep.len(), output.journal.display());
         if done as u64 == all {
             say(format_args!("all {all} runs are done ({journal}); '--restart' does them again"));
         } else if done > 0 {
@@ -68,11 +68,11 @@ impl<'a> Reporter<'a> {
         &self,
         outcomes: &[Outcome],
         findings: &Findings,
-        place: &Place,
+        output: &OutputFiles,
     ) -> Result<(), NoPlan> {
         match self.json {
             true => print(&self.lines(outcomes, findings))?,
-            false => print(&self.summary(outcomes, findings, place))?,
+            false => print(&self.summary(outcomes, findings, output))?,
         };
         Ok(())
     }
@@ -128,7 +128,7 @@ impl<'a> Reporter<'a> {
         })
     }
 
-    fn summary(&self, outcomes: &[Outcome], findings: &Findings, place: &Place) -> String {
+    fn summary(&self, outcomes: &[Outcome], findings: &Findings, output: &OutputFiles) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
         for group in findings.groups.iter().filter(|it| !it.ending.is_failure()).take(GROUPS) {
@@ -150,7 +150,7 @@ impl<'a> Reporter<'a> {
             let _ = writeln!(text, "{name:>20} {min:>10} {median:>10} {max:>10}");
         }
         let _ = writeln!(text, "\n{}", self.last_line(outcomes, findings));
-        for (path, _) in &place.tables {
+        for (path, _) in &output.tables {
             let _ = writeln!(text, "{QUIET}table:{QUIET:#} {}", path.display());
         }
         text

@@ -67,7 +67,7 @@ fn generate(
     let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
     let setting = Setting::find(&quiet, file, robot.kind())?;
     let devices = robot.kind().devices();
-    afp_test::generate(&way(file, to)?, &quiet, devices, &mut |scenario| {
+    afp_test::generate(&relative_path(file, to)?, &quiet, devices, &mut |scenario| {
         afp_test::run(scenario, &setting, robot, None)
     })
 }
@@ -87,13 +87,13 @@ fn place(file: &Path, output: Option<&Path>, several: bool) -> Result<PathBuf, R
     Ok(path)
 }
 
-/// The way from the file `to` to a plan, as `use` takes it.
-fn way(file: &Path, to: &Path) -> Result<String, RunError> {
+/// The relative path from the file `to` to a plan, as `use` takes it.
+fn relative_path(file: &Path, to: &Path) -> Result<String, RunError> {
     let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let whole = |path: &Path| path.canonicalize().map_err(RunError::file("cannot find", path));
     let (file, folder) = (whole(file)?, whole(folder)?);
-    let way = pathdiff::diff_paths(&file, folder).unwrap_or(file);
-    Ok(way
+    let path = pathdiff::diff_paths(&file, folder).unwrap_or(file);
+    Ok(path
         .components()
         .map(|part| part.as_os_str().to_string_lossy())
         .collect::<Vec<_>>()

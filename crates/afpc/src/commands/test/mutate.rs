@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use afp_dsl::files::{Disk, Files};
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag};
-use afp_test::mutate::{Bench, Fate, Judged, Mutant, Suite, Tally, mutants};
+use afp_test::mutate::{Bench, Judged, Mutant, MutantStatus, Suite, Tally, mutants};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use serde_json::json;
 
@@ -124,30 +124,30 @@ fn table(plan: &str, bench: &Bench<'_>, judged: &[Judged]) -> String {
     let change = |mutant: &Mutant| format!("{} becomes {}", mutant.was, mutant.is);
     let widest = judged.iter().map(|each| change(&each.mutant).chars().count()).max().unwrap_or(0);
     let mut sorted: Vec<_> = judged.iter().collect();
-    sorted.sort_by_key(|each| order(&each.fate));
-    for Judged { mutant, fate } in sorted {
+    sorted.sort_by_key(|each| order(&each.status));
+    for Judged { mutant, status } in sorted {
         let (line, kind) = (mutant.line, mutant.kind.to_string());
         let change = change(mutant);
-        let _ = writeln!(text, "{line:>5}  {kind:<8}  {change:<widest$}  {}", word(fate));
+        let _ = writeln!(text, "{line:>5}  {kind:<8}  {change:<widest$}  {}", word(status));
     }
     text
 }
 
-fn order(fate: &Fate) -> u8 {
-    match fate {
-        Fate::Missed { changed: true } => 0,
-        Fate::Missed { changed: false } => 1,
-        Fate::Noticed(_) => 2,
-        Fate::Refused => 3,
+fn order(status: &MutantStatus) -> u8 {
+    match status {
+        MutantStatus::Missed { changed: true } => 0,
+        MutantStatus::Missed { changed: false } => 1,
+        MutantStatus::Noticed(_) => 2,
+        MutantStatus::Refused => 3,
     }
 }
 
-fn word(fate: &Fate) -> String {
-    match fate {
-        Fate::Refused => "does not compile".to_owned(),
-        Fate::Missed { changed: true } => "NOBODY noticed".to_owned(),
-        Fate::Missed { changed: false } => "changes no run".to_owned(),
-        Fate::Noticed(names) => {
+fn word(status: &MutantStatus) -> String {
+    match status {
+        MutantStatus::Refused => "does not compile".to_owned(),
+        MutantStatus::Missed { changed: true } => "NOBODY noticed".to_owned(),
+        MutantStatus::Missed { changed: false } => "changes no run".to_owned(),
+        MutantStatus::Noticed(names) => {
             let named: Vec<_> = names.iter().take(NAMED).map(|name| format!("'{name}'")).collect();
             let more = match names.len().saturating_sub(NAMED) {
                 0 => String::new(),
@@ -175,15 +175,15 @@ fn sum(plan: &str, tally: &Tally, json: bool) -> String {
 }
 
 fn object(plan: &str, judged: &Judged) -> serde_json::Value {
-    let Judged { mutant, fate } = judged;
-    let (word, by) = match fate {
-        Fate::Refused => ("refused", &[][..]),
-        Fate::Missed { changed: true } => ("missed", &[][..]),
-        Fate::Missed { changed: false } => ("unchanged", &[][..]),
-        Fate::Noticed(names) => ("noticed", names.as_slice()),
+    let Judged { mutant, status } = judged;
+    let (word, by) = match status {
+        MutantStatus::Refused => ("refused", &[][..]),
+        MutantStatus::Missed { changed: true } => ("missed", &[][..]),
+        MutantStatus::Missed { changed: false } => ("unchanged", &[][..]),
+        MutantStatus::Noticed(names) => ("noticed", names.as_slice()),
     };
     json!({
         "file": plan, "line": mutant.line, "kind": mutant.kind.to_string(), "was": mutant.was,
-        "is": mutant.is, "fate": word, "noticed_by": by,
+        "is": mutant.is, "status": word, "noticed_by": by,
     })
 }

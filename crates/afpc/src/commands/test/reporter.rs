@@ -120,7 +120,7 @@ fn broken(case: &Case<'_>, done: &Done) -> String {
     let mut text = format!("{BAD}{name}{BAD:#}\n  --> {}:{line}\n", file.display());
     match &done.verdict {
         Ok(verdict) => text += &verdict.report(),
-        Err(Failure::Unsound(said)) => text += said,
+        Err(Failure::Invalid(said)) => text += said,
         Err(Failure::Run(error)) => text += &format!("{}\n", error.styled()),
     }
     if let Some(log) = &done.log {
@@ -138,7 +138,7 @@ fn object(case: &Case<'_>, done: &Done) -> serde_json::Value {
     });
     let more = match &done.verdict {
         Ok(verdict) => verdict_object(verdict),
-        Err(Failure::Unsound(said)) => json!({ "error": strip_str(said).to_string() }),
+        Err(Failure::Invalid(said)) => json!({ "error": strip_str(said).to_string() }),
         Err(Failure::Run(error)) => json!({ "error": error.to_string() }),
     };
     merged(head, more)

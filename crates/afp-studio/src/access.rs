@@ -1,4 +1,4 @@
-//! Who is let in: a code that works once becomes a cookie; foreign hosts and pages are turned away.
+//! Access: a code that works once becomes a cookie; foreign hosts and pages are refused.
 
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};

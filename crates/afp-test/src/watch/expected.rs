@@ -6,14 +6,14 @@ use afp_dsl::scenario::{Claim, Expectation, Operand, Subject, Wanted, Window};
 use afp_dsl::toolbox::Constant;
 
 use super::moments::Moments;
-use super::{Happening, State, ends, fits, leads};
+use super::{Occurrence, State, ends, fits, leads};
 use crate::verdict::Broken;
 
 /// So many times are told.
 const MOST: usize = 5;
 
 /// What has been seen of an expectation so far.
-pub(super) struct Look<'a> {
+pub(super) struct Expected<'a> {
     expectation: &'a Expectation,
     /// Whether the claim holds since the last step, and when that was.
     now: Option<(u64, bool)>,
@@ -27,14 +27,26 @@ pub(super) struct Look<'a> {
     times: Vec<u64>,
 }
 
-impl<'a> Look<'a> {
+impl<'a> Expected<'a> {
     pub(super) fn new(expectation: &'a Expectation) -> Self {
-        Look { expectation, now: None, held: None, failed: None, outside: None, times: Vec::new() }
+        Expected {
+            expectation,
+            now: None,
+            held: None,
+            failed: None,
+            outside: None,
+            times: Vec::new(),
+        }
     }
 
     /// Something happened.
-    pub(super) fn happen(&mut self, at: u64, happening: &Happening, moments: &Moments<'_>) {
-        if !happens(&self.expectation.claim, happening) {
+    pub(super) fn on_occurrence(
+        &mut self,
+        at: u64,
+        occurrence: &Occurrence,
+        moments: &Moments<'_>,
+    ) {
+        if !happens(&self.expectation.claim, occurrence) {
             return;
         }
         match self.window(moments).is_some_and(|window| window.contains(at)) {
@@ -49,7 +61,7 @@ impl<'a> Look<'a> {
     }
 
     /// A step is over.
-    pub(super) fn settle(&mut self, at: u64, state: &State, moments: &Moments<'_>) {
+    pub(super) fn after_step(&mut self, at: u64, state: &State, moments: &Moments<'_>) {
         let Some(holds) = holds(&self.expectation.claim, state) else { return };
         self.pass(at, moments);
         self.now = Some((at, holds));
@@ -151,15 +163,16 @@ impl<'a> Look<'a> {
 }
 
 /// Whether a claim is about this.
-pub(super) fn happens(claim: &Claim, happening: &Happening) -> bool {
-    match (claim, happening) {
-        (Claim::Transition { from, to, by }, Happening::Edge { from: left, to: goal, by: why }) => {
-            from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why))
-        }
-        (Claim::Happens(wanted), Happening::Outcome(cause)) => fits(wanted, *cause),
-        (Claim::End(wanted), Happening::End(ending, last)) => ends(*wanted, *ending, *last),
-        (Claim::Interrupt(wanted), Happening::Interrupt(element)) => wanted == element,
-        (Claim::Commit { of, by }, Happening::Commit { entry, author, first }) => {
+pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
+    match (claim, occurrence) {
+        (
+            Claim::Transition { from, to, by },
+            Occurrence::Edge { from: left, to: goal, by: why },
+        ) => from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why)),
+        (Claim::Happens(wanted), Occurrence::Outcome(cause)) => fits(wanted, *cause),
+        (Claim::End(wanted), Occurrence::End(ending, last)) => ends(*wanted, *ending, *last),
+        (Claim::Interrupt(wanted), Occurrence::Interrupt(element)) => wanted == element,
+        (Claim::Commit { of, by }, Occurrence::Commit { entry, author, first }) => {
             let by = by.is_none_or(|by| *author == Author::Component(ComponentId(by)));
             by && of.map_or(*first, |of| of == *entry)
         }

@@ -27,21 +27,25 @@ const FORMATS: &[(&str, Make)] = &[
 ];
 
 /// The files of a sweep.
-pub struct Place {
+pub struct OutputFiles {
     /// Outcomes as they come.
     pub journal: PathBuf,
     /// Tables, written whole.
     pub tables: Vec<(PathBuf, Make)>,
 }
 
-impl Place {
-    /// The place that was asked for, or the default for this plan and grid; makes the folder.
+impl OutputFiles {
+    /// The files that were asked for, or the default for this plan and grid; makes the folder.
     ///
     /// # Errors
     /// A name that says no format, a folder that cannot be made, a table that may not be written: after hours of
     /// runs it would be too late to say so.
-    pub fn new(asked: Option<&Path>, plan: &Path, header: &Header) -> Result<Place, RunError> {
-        let place = match asked {
+    pub fn new(
+        asked: Option<&Path>,
+        plan: &Path,
+        header: &Header,
+    ) -> Result<OutputFiles, RunError> {
+        let output = match asked {
             Some(path) => named(path)?,
             None => {
                 let stem = plan.file_stem().unwrap_or_default().to_string_lossy();
@@ -50,14 +54,14 @@ impl Place {
                 single(&Path::new(SWEEPS).join(name), to_csv)
             }
         };
-        let folder = place.journal.parent().unwrap_or(Path::new("."));
+        let folder = output.journal.parent().unwrap_or(Path::new("."));
         if asked.is_none_or(|path| folder == path) {
             fs::create_dir_all(folder).map_err(RunError::file("cannot make the folder", folder))?;
         }
-        for (path, _) in &place.tables {
+        for (path, _) in &output.tables {
             check_writable(WHAT, path)?;
         }
-        Ok(place)
+        Ok(output)
     }
 
     /// Writes the tables.
@@ -74,13 +78,16 @@ impl Place {
 }
 
 /// The files of `-o`.
-fn named(path: &Path) -> Result<Place, RunError> {
+fn named(path: &Path) -> Result<OutputFiles, RunError> {
     let ends = path.to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR]);
     if path.is_dir() || ends {
         let formats = FORMATS.iter();
         let tables =
             formats.map(|(ending, make)| (path.join("outcomes").with_extension(ending), *make));
-        return Ok(Place { journal: path.join("outcomes.journal"), tables: tables.collect() });
+        return Ok(OutputFiles {
+            journal: path.join("outcomes.journal"),
+            tables: tables.collect(),
+        });
     }
     let ending = path.extension().and_then(|extension| extension.to_str());
     match FORMATS.iter().find(|(known, _)| ending == Some(known)) {
@@ -98,8 +105,8 @@ fn named(path: &Path) -> Result<Place, RunError> {
 }
 
 /// One table, the journal beside it.
-fn single(path: &Path, make: Make) -> Place {
+fn single(path: &Path, make: Make) -> OutputFiles {
     let mut journal = path.as_os_str().to_owned();
     journal.push(".journal");
-    Place { journal: journal.into(), tables: vec![(path.to_owned(), make)] }
+    OutputFiles { journal: journal.into(), tables: vec![(path.to_owned(), make)] }
 }

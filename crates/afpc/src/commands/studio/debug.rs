@@ -22,7 +22,7 @@ use relay::{Conversation, relay};
 const SOON: Duration = Duration::from_millis(500);
 
 /// What the clients of one studio share.
-pub(super) struct Desk<'a> {
+pub(super) struct DebugService<'a> {
     pub(super) linked: &'a Linked<'a>,
     /// Nothing outside of it is run.
     pub(super) folder: &'a Path,
@@ -37,9 +37,9 @@ struct Elsewhere {
     said: Conversation,
 }
 
-impl Desk<'_> {
+impl DebugService<'_> {
     /// Runs and debugs plans for a client until it is gone.
-    pub(super) fn debug(&self, client: Debugging) {
+    pub(super) fn serve(&self, client: Debugging) {
         let Debugging { said, told } = client;
         // Who reads too little loses the connection.
         let tell = |message: String| told.try_send(message).is_ok();
@@ -120,7 +120,7 @@ impl Desk<'_> {
             ));
         }
         let what = format!("building {names}: minutes, the first time");
-        match saying(&what, tell, || runner::built(parts, self.linked)) {
+        match with_notice(&what, tell, || runner::built(parts, self.linked)) {
             Ok(program) => Ok(Some(program)),
             Err(NoPlan::File(why)) => Err(why.to_string()),
             Err(why) => {
@@ -145,7 +145,11 @@ fn refused(request: &Value, why: &str) -> String {
 }
 
 /// Does what may take long; then the client is told what it waits for.
-fn saying<T>(what: &str, tell: &(impl Fn(String) -> bool + Sync), work: impl FnOnce() -> T) -> T {
+fn with_notice<T>(
+    what: &str,
+    tell: &(impl Fn(String) -> bool + Sync),
+    work: impl FnOnce() -> T,
+) -> T {
     thread::scope(|scope| {
         let (done, waits) = channel::<()>();
         scope.spawn(move || {

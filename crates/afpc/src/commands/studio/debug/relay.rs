@@ -14,7 +14,7 @@ use super::super::super::dap::read;
 use super::output;
 
 /// What a program may take to end by itself once its client is gone: it stops the robot first.
-const FAREWELL: Duration = Duration::from_secs(2);
+const GRACE_PERIOD: Duration = Duration::from_secs(2);
 
 /// What a client has said up to now.
 #[derive(Default)]
@@ -59,14 +59,14 @@ pub(super) fn relay(
     let (Some(to), Some(from)) = (child.stdin.take(), child.stdout.take()) else { return };
     let greeted = before.greeting.is_some();
     thread::scope(|scope| {
-        scope.spawn(|| hear(from, greeted, tell));
-        pass(to, before, said);
+        scope.spawn(|| forward_answers(from, greeted, tell));
+        forward_requests(to, before, said);
         end(&mut child);
     });
 }
 
 /// Hands on what the program says; its answer to the greeting is the second one.
-fn hear(from: ChildStdout, greeted: bool, tell: &(impl Fn(String) -> bool + Sync)) {
+fn forward_answers(from: ChildStdout, greeted: bool, tell: &(impl Fn(String) -> bool + Sync)) {
     let mut frames = Frames::default();
     let mut answered = !greeted;
     read(from, |bytes| {
@@ -88,7 +88,7 @@ fn is_greeting(message: &str) -> bool {
 }
 
 /// Hands on what the client says until it is gone, or the program is.
-fn pass(mut to: ChildStdin, before: Conversation, said: &Receiver<String>) {
+fn forward_requests(mut to: ChildStdin, before: Conversation, said: &Receiver<String>) {
     let mut send =
         |message: String| to.write_all(&frame(&message)).and_then(|()| to.flush()).is_ok();
     let before = before.greeting.into_iter().chain(before.rest);
@@ -98,7 +98,7 @@ fn pass(mut to: ChildStdin, before: Conversation, said: &Receiver<String>) {
 /// Waits for a program whose input has ended; one that goes on is killed.
 fn end(child: &mut Child) {
     let begin = Instant::now();
-    while begin.elapsed() < FAREWELL {
+    while begin.elapsed() < GRACE_PERIOD {
         if let Ok(Some(_)) = child.try_wait() {
             return;
         }

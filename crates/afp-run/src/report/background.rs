@@ -8,19 +8,24 @@ use std::thread::{self, JoinHandle};
 const WAITING: usize = 1024;
 
 /// A writer that never waits before it is finished.
-pub(super) struct Behind {
+pub(super) struct BackgroundWriter {
     pieces: Option<SyncSender<Vec<u8>>>,
     writer: Option<JoinHandle<io::Result<()>>>,
     piece: Vec<u8>,
     lost: u64,
 }
 
-impl Behind {
+impl BackgroundWriter {
     pub(super) fn new(out: Box<dyn Write + Send>) -> io::Result<Self> {
         let (pieces, waiting) = sync_channel(WAITING);
         let thread = thread::Builder::new().name("afp-report".into());
         let writer = thread.spawn(move || write_all(out, &waiting))?;
-        Ok(Behind { pieces: Some(pieces), writer: Some(writer), piece: Vec::new(), lost: 0 })
+        Ok(BackgroundWriter {
+            pieces: Some(pieces),
+            writer: Some(writer),
+            piece: Vec::new(),
+            lost: 0,
+        })
     }
 
     /// Sends what was written since the last line ended.
@@ -48,7 +53,7 @@ impl Behind {
     }
 }
 
-impl Write for Behind {
+impl Write for BackgroundWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.piece.extend_from_slice(bytes);
         if self.piece.ends_with(b"\n") {
@@ -68,7 +73,7 @@ pub(super) enum Out {
     /// By whoever reports.
     Here(Box<dyn Write>),
     /// By a thread of its own.
-    Behind(Behind),
+    Background(BackgroundWriter),
 }
 
 impl Out {
@@ -76,9 +81,9 @@ impl Out {
     pub(super) fn finish(self) -> io::Result<u64> {
         match self {
             Out::Here(mut out) => out.flush().map(|()| 0),
-            Out::Behind(mut behind) => {
-                let written = behind.finish();
-                written.map(|()| behind.lost)
+            Out::Background(mut writer) => {
+                let written = writer.finish();
+                written.map(|()| writer.lost)
             }
         }
     }
@@ -88,14 +93,14 @@ impl Write for Out {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Out::Here(out) => out.write(bytes),
-            Out::Behind(behind) => behind.write(bytes),
+            Out::Background(writer) => writer.write(bytes),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
             Out::Here(out) => out.flush(),
-            Out::Behind(behind) => behind.flush(),
+            Out::Background(writer) => writer.flush(),
         }
     }
 }
@@ -134,13 +139,13 @@ mod tests {
     fn a_reader_who_waits_holds_nobody_up_and_loses_the_last_lines_alone() {
         let (go, word) = channel();
         let (out, written) = channel();
-        let mut behind = Behind::new(Box::new(Slow(word, out))).unwrap();
+        let mut writer = BackgroundWriter::new(Box::new(Slow(word, out))).unwrap();
         for line in 0..WAITING + 10 {
-            writeln!(behind, "{line}").unwrap();
+            writeln!(writer, "{line}").unwrap();
         }
         assert_eq!(written.recv_timeout(Duration::from_millis(1)).ok(), None, "nothing is written");
         drop(go);
-        let lost = Out::Behind(behind).finish().unwrap();
+        let lost = Out::Background(writer).finish().unwrap();
         let text: Vec<u8> = written.iter().flatten().collect();
         let lines = String::from_utf8(text).unwrap().lines().count();
         // One line has left the queue or not when the others come.
@@ -152,10 +157,10 @@ mod tests {
     fn an_error_of_the_reader_is_told() {
         let (out, written) = channel();
         drop(written);
-        let mut behind = Behind::new(Box::new(Slow(channel().1, out))).unwrap();
+        let mut writer = BackgroundWriter::new(Box::new(Slow(channel().1, out))).unwrap();
         let told = (0..1000).find_map(|_| {
             std::thread::sleep(Duration::from_millis(1));
-            writeln!(behind, "line").err()
+            writeln!(writer, "line").err()
         });
         assert_eq!(told.map(|error| error.kind()), Some(io::ErrorKind::BrokenPipe));
     }

@@ -1,4 +1,4 @@
-//! The server's doors, from outside: what a browser, another user and a foreign page get.
+//! Access to the server, from outside: what a browser, another user and a foreign page get.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
