@@ -87,9 +87,9 @@ impl Runner {
             let name: String = name.extract()?;
             inputs.push((Given::new(&value)?, name));
         }
-        let texts = compiled.plan_texts();
+        let (texts, toolboxes) = (compiled.plan_texts(), setting::own_toolboxes(&compiled));
         let log = log.as_deref();
-        let setting = Setting { graph, world, seed, file: &file, texts, log, camera };
+        let setting = Setting { graph, world, seed, file: &file, texts, toolboxes, log, camera };
         let mut run = Run::logged(session, &setting)?;
         for (given, name) in inputs {
             let entry = run.entry(&name)?;
