@@ -169,3 +169,25 @@ fn split(argument: &str) -> (PathBuf, Option<&str>) {
         _ => (argument.into(), None),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_says_which_of_its_toolboxes_are_not_here() {
+        let plan = "use std\nuse mine\nplan P {\n    start a\n    actor a: Beep { Done -> terminate }\n}\n";
+        let mine = "toolbox mine\nactor Beep { state Done }\n";
+        let texts = [("p.afp", plan), ("toolbox/mine", mine), ("toolbox/other", "toolbox other\n")];
+        let facts = [("plan", "P"), ("plan_file", "/nowhere/p.afp"), ("plan_text", "p.afp")];
+        let owned = |(name, text): (&str, &str)| (name.to_owned(), text.to_owned());
+        let log = LogData {
+            facts: facts.map(owned).into(),
+            attachments: texts.map(owned).into(),
+            ..LogData::default()
+        };
+        let file = PlanFile::of_log(&log).unwrap();
+        assert!(file.compiled.graph.is_some(), "{}", file.compiled.render(false));
+        assert_eq!(file.foreign, ["mine"], "the plan does not use the other one");
+    }
+}
