@@ -32,8 +32,9 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds)]
     seeds: Seeds,
 
-    /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5
-    #[arg(long, value_name = "NAME=VALUES", value_parser = afp_sweep::axis)]
+    /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5; with one value
+    /// sets it, as '--set' does
+    #[arg(long, alias = "set", value_name = "NAME=VALUES", value_parser = afp_sweep::axis)]
     vary: Vec<Axis>,
 
     /// World file, map (.yaml) or random:SEED; several times for several, or random:7..99
