@@ -87,9 +87,8 @@ impl Runner {
             let name: String = name.extract()?;
             inputs.push((Given::new(&value)?, name));
         }
-        let (texts, toolboxes) = (compiled.plan_texts(), setting::own_toolboxes(&compiled));
-        let log = log.as_deref();
-        let setting = Setting { graph, world, seed, file: &file, texts, toolboxes, log, camera };
+        let (file, log) = (&*file, log.as_deref());
+        let setting = Setting { compiled: &compiled, graph, world, seed, file, log, camera };
         let mut run = Run::logged(session, &setting)?;
         for (given, name) in inputs {
             let entry = run.entry(&name)?;

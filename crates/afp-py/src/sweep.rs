@@ -236,8 +236,8 @@ impl Sweeper {
         };
         let host = components.host(py)?;
         let (world, log) = (&loaded, log.as_deref());
-        let (file, texts) = (&*self.file, self.compiled.plan_texts());
-        let setting = Begun { graph, world, seed: row.seed, file, texts, log, camera };
+        let (file, compiled) = (&*self.file, &self.compiled);
+        let setting = Begun { compiled, graph, world, seed: row.seed, file, log, camera };
         let runner = Runner::new(Run::logged(session, &setting)?, host, &self.compiled);
         Ok((runner, World { loaded }))
     }

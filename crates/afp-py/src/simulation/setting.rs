@@ -10,14 +10,11 @@ use afp_session::{Build, Recipe, TextFile};
 
 /// What a run begins with.
 pub struct Setting<'a> {
+    pub compiled: &'a Compiled,
     pub graph: &'a Graph,
     pub world: &'a LoadedWorld,
     pub seed: u64,
     pub file: &'a Path,
-    /// Path and text of the plan's file and of those that it uses.
-    pub texts: Vec<(String, String)>,
-    /// Names and texts of the toolboxes that it uses beyond the built-in ones, those of Python, too.
-    pub toolboxes: Vec<(String, String)>,
     pub log: Option<&'a Path>,
     /// Whether the log gets what the camera sees.
     pub camera: bool,
@@ -30,8 +27,8 @@ impl Setting<'_> {
         let mut about = About::new(&Recipe {
             plan: self.graph.main().name.clone(),
             file: self.file.display().to_string(),
-            texts: text_files(&self.texts),
-            toolboxes: text_files(&self.toolboxes),
+            texts: text_files(self.compiled.plan_texts()),
+            toolboxes: text_files(own_toolboxes(self.compiled)),
             robot: "sim".to_owned(),
             world: text_file(world.name(), text),
             start: *start,
@@ -45,16 +42,18 @@ impl Setting<'_> {
 }
 
 /// Names and texts of the toolboxes of a plan beyond the built-in ones: of Python, or of its project.
-pub fn own_toolboxes(compiled: &Compiled) -> Vec<(String, String)> {
-    let built_in = |(_, text): &(&str, &str)| afp_toolboxes::ALL.iter().any(|it| it.text == *text);
-    let own = compiled.toolbox_texts().filter(|it| !built_in(it));
-    own.map(|(name, text)| (name.to_owned(), text.to_owned())).collect()
+fn own_toolboxes(compiled: &Compiled) -> impl Iterator<Item = (&str, &str)> {
+    let built_in = |text: &str| afp_toolboxes::ALL.iter().any(|it| it.text == text);
+    compiled.toolbox_texts().filter(move |(_, text)| !built_in(text))
 }
 
-fn text_files(files: &[(String, String)]) -> Vec<TextFile> {
-    files.iter().map(|(name, text)| text_file(name, text)).collect()
+fn text_files(
+    files: impl IntoIterator<Item = (impl Into<String>, impl Into<String>)>,
+) -> Vec<TextFile> {
+    let file = |(name, text): (_, _)| text_file(name, text);
+    files.into_iter().map(file).collect()
 }
 
-fn text_file(name: &str, text: &str) -> TextFile {
-    TextFile { name: name.to_owned(), text: text.to_owned() }
+fn text_file(name: impl Into<String>, text: impl Into<String>) -> TextFile {
+    TextFile { name: name.into(), text: text.into() }
 }
