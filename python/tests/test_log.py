@@ -67,3 +67,24 @@ def test_a_log_has_the_entries_at_its_end_as_a_result_has(tmp_path: Path, wall_f
     assert log.entries == result.entries and len(log.configurations) > 1
     assert log.configurations[0][1] != log.entries
     assert set(log.columns) == set(result.columns)
+
+
+def test_a_log_holds_the_toolboxes_that_its_plan_uses_beyond_the_built_in_ones(tmp_path: Path) -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.actor(states=["Done"])
+    class Rest:
+        """Says that it is done."""
+
+        def poll(self) -> str:
+            return "Done"
+
+    text = "use std\nuse tools\nplan P { start rest actor rest: Rest { Done -> terminate } }"
+    with afp.Simulation(afp.Plan(text, toolboxes=[tools]), log=tmp_path / "run.mcap") as simulation:
+        trace = simulation.run().trace_hash
+    written = (tmp_path / "run.mcap").read_bytes()
+    assert b"toolbox/tools" in written and b"toolbox/std" not in written
+    log = afp.Log(tmp_path / "run.mcap")
+    assert log.simulation(toolboxes=[tools]).run().trace_hash == trace
+    with pytest.raises(afp.PlanError, match="there is no toolbox 'tools'"):
+        log.simulation()

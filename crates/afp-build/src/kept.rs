@@ -104,9 +104,10 @@ impl Kept {
                    use built-in toolboxes alone run without it"
                     .to_owned(),
         };
+        let declared: Vec<_> = parts.toolboxes.iter().map(|own| &*own.declared).collect();
         let files = match self.product {
-            Product::Runner(_) => runner_files(&self.options),
-            Product::Extension => extension_files(&self.options),
+            Product::Runner(_) => runner_files(&self.options, &declared),
+            Product::Extension => extension_files(&self.options, &declared),
         };
         let files = files.map_err(|path| {
             RunError::usage(format!("'{path}' is no path of a module"), "mend 'module' in afp.toml")

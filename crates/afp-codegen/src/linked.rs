@@ -1,10 +1,12 @@
 //! The crates that link a project's robot and toolboxes: the command line with them, and the Python extension.
 
+use afp_dsl::toolbox::Toolbox;
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::layout::file;
 use crate::manifest::{Dependency, Origin, manifest};
+use crate::toolbox::{Support, register_supported};
 
 /// What is linked.
 #[derive(Clone, Debug)]
@@ -29,22 +31,31 @@ pub struct LinkOptions {
 const PROFILE: &str = "[profile.release]\n\
                        debug = \"line-tables-only\"\n";
 
-/// The files of a runner: path below its folder, and text.
+/// The files of a runner: path below its folder, and text. `declared` is what the toolboxes declare, in their order.
 ///
 /// # Errors
 /// A path that Rust cannot say; it is given back.
-pub fn runner_files(options: &LinkOptions) -> Result<Vec<(String, String)>, String> {
+pub fn runner_files(
+    options: &LinkOptions,
+    declared: &[&Toolbox],
+) -> Result<Vec<(String, String)>, String> {
     let ours = Dependency::ours("afpc", &options.origin).with_only(&options.features);
     let dependencies = dependencies(options, ours);
     let manifest = manifest(" run' as a runner", &options.package, dependencies, PROFILE);
-    Ok(vec![("Cargo.toml".to_owned(), manifest), ("src/main.rs".to_owned(), program(options)?)])
+    Ok(vec![
+        ("Cargo.toml".to_owned(), manifest),
+        ("src/main.rs".to_owned(), program(options, declared)?),
+    ])
 }
 
-/// The files of a Python extension: path below its folder, and text.
+/// The files of a Python extension, as [`runner_files`].
 ///
 /// # Errors
 /// A path that Rust cannot say; it is given back.
-pub fn extension_files(options: &LinkOptions) -> Result<Vec<(String, String)>, String> {
+pub fn extension_files(
+    options: &LinkOptions,
+    declared: &[&Toolbox],
+) -> Result<Vec<(String, String)>, String> {
     let ours = Dependency::ours("afp-py", &options.origin);
     // The Carbot is a feature of it.
     let ours = if options.robot.is_some() { ours.with_only(&[]) } else { ours };
@@ -54,7 +65,7 @@ pub fn extension_files(options: &LinkOptions) -> Result<Vec<(String, String)>, S
     Ok(vec![
         ("Cargo.toml".to_owned(), manifest),
         ("build.rs".to_owned(), build_script()),
-        ("src/lib.rs".to_owned(), extension(options)?),
+        ("src/lib.rs".to_owned(), extension(options, declared)?),
     ])
 }
 
@@ -76,27 +87,52 @@ fn about(options: &LinkOptions) -> String {
     names.join(", ")
 }
 
-/// A closure that registers the templates, those of the built-in toolboxes too for a robot of one's own.
-fn register(options: &LinkOptions, robot: Option<&str>) -> Result<TokenStream, String> {
-    let own = options.toolboxes.iter().map(|(_, path)| {
-        let module = tokens(path)?;
-        Ok(quote!(#module::templates::register(registry);))
-    });
-    let own = own.collect::<Result<TokenStream, String>>()?;
-    Ok(match robot.map(tokens).transpose()? {
-        None => quote!(|registry| { #own }),
-        // Templates of the Carbot need its devices, which another robot may have in part.
-        Some(ty) => quote!(|registry| {
-            afp_std::register!(registry, #ty);
-            afp_carbot::register!(registry, #ty);
-            #own
-        }),
-    })
+/// What registers templates.
+struct Registering<'a> {
+    options: &'a LinkOptions,
+    /// What the toolboxes declare, in their order.
+    declared: &'a [&'a Toolbox],
+    /// The path of `afp_core`.
+    core: TokenStream,
+    /// The path of the Carbot's type.
+    carbot: TokenStream,
 }
 
-fn program(options: &LinkOptions) -> Result<String, String> {
+impl Registering<'_> {
+    /// A closure that registers the templates that a robot supports, those of the built-in toolboxes too for one of one's
+    /// own. A plan that uses another one is refused by its name, which is more than the Rust compiler would say.
+    fn on(&self, robot: Option<&str>) -> Result<TokenStream, String> {
+        let platform = robot.map(tokens).transpose()?;
+        // Templates of the Carbot need its devices, which another robot may have in part.
+        let built_in = platform.as_ref().map(|ty| {
+            quote! {
+                afp_std::register!(registry, #ty);
+                afp_carbot::register!(registry, #ty);
+            }
+        });
+        let platform = platform.unwrap_or_else(|| self.carbot.clone());
+        let own = self.options.toolboxes.iter().zip(self.declared).map(|((_, path), toolbox)| {
+            let support = Support {
+                core: self.core.clone(),
+                file: String::new(),
+                module: tokens(path)?,
+                registry: quote!(registry),
+                platform: platform.clone(),
+                traits: None,
+            };
+            let registered = register_supported(toolbox, &support);
+            Ok(quote!(#registered;))
+        });
+        let own = own.collect::<Result<TokenStream, String>>()?;
+        Ok(quote!(|registry| { #built_in #own }))
+    }
+}
+
+fn program(options: &LinkOptions, declared: &[&Toolbox]) -> Result<String, String> {
     let about = format!(" The command line with {} linked in.", about(options));
-    let made = register(options, options.robot.as_deref())?;
+    let (core, carbot) = (quote!(afpc::__private::afp_core), quote!(afpc::__private::Simulation));
+    let register = Registering { options, declared, core, carbot };
+    let made = register.on(options.robot.as_deref())?;
     let toolboxes = options.toolboxes.iter().map(|(name, _)| name);
     let (robot, own_robot) = match &options.robot {
         None => (quote!(afpc::carbot(#made)), quote!(None)),
@@ -108,7 +144,7 @@ fn program(options: &LinkOptions) -> Result<String, String> {
     let (opener, hardware) = match (&options.robot, &options.hardware) {
         (Some(sim), Some(name)) => {
             let (sim, ty) = (tokens(sim)?, tokens(name)?);
-            let made = register(options, Some(name))?;
+            let made = register.on(Some(name))?;
             let opener = quote!(let hardware = afpc::hardware::<#sim, #ty, _>(#made););
             (opener, quote!(Some((#name, &hardware))))
         }
@@ -133,10 +169,13 @@ fn program(options: &LinkOptions) -> Result<String, String> {
     }))
 }
 
-fn extension(options: &LinkOptions) -> Result<String, String> {
+fn extension(options: &LinkOptions, declared: &[&Toolbox]) -> Result<String, String> {
     let about =
         format!(" The native half of the Python package with {} linked in.", about(options));
-    let register = register(options, options.robot.as_deref())?;
+    let (core, carbot) =
+        (quote!(afp_py::__private::afp_core), quote!(afp_py::__private::Simulation));
+    let register = Registering { options, declared, core, carbot };
+    let register = register.on(options.robot.as_deref())?;
     let toolboxes = options.toolboxes.iter().map(|(name, _)| name);
     let toolboxes = quote!(&[#(#toolboxes),*]);
     let link = match &options.robot {

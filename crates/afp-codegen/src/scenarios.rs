@@ -9,6 +9,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Ident, LitStr, Path, Token, Type};
 
 use crate::names::{UniqueNames, ident, snake};
+use crate::toolbox::{Support, register_supported};
 
 /// The tests of the scenarios of some files, a module for each file.
 pub struct ScenarioTests<'a> {
@@ -112,7 +113,18 @@ impl<'a> ScenarioTests<'a> {
             let path: TokenStream = toolbox.rust_path.parse().unwrap_or_default();
             match (self.is_built_in)(&toolbox.rust_path) {
                 true => quote!(::#path::register!(registry, #robot);),
-                false => quote!(#path::templates::register(registry);),
+                false => {
+                    let support = Support {
+                        core: quote!(::afp_session::__private::afp_core),
+                        file: String::new(),
+                        module: path,
+                        registry: quote!(registry),
+                        platform: robot.clone(),
+                        traits: None,
+                    };
+                    let registered = register_supported(toolbox, &support);
+                    quote!(#registered;)
+                }
             }
         });
         quote! {

@@ -14,6 +14,7 @@ pub(crate) mod edges;
 mod endings;
 mod entries;
 mod enums;
+mod foreign;
 mod formula;
 mod imports;
 mod meant;

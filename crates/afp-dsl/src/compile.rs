@@ -81,6 +81,15 @@ impl Compiled {
         let texts = self.plan_sources().map(|source| source.text.clone());
         below_all(&paths).into_iter().zip(texts).collect()
     }
+
+    /// Name and text of each toolbox that the plan and the files that it uses name; none for a plan with errors.
+    pub fn toolbox_texts(&self) -> impl Iterator<Item = (&str, &str)> {
+        let toolboxes = self.graph.iter().flat_map(|graph| &graph.toolboxes);
+        toolboxes.filter_map(|toolbox| {
+            let source = self.sources.get(toolbox.span.file)?;
+            Some((toolbox.name.as_str(), source.text.as_str()))
+        })
+    }
 }
 
 /// Compiles the first plan of a file. `files` has the files that it uses; without any,

@@ -114,7 +114,17 @@ fn rust_path(krate: &CrateLink, root: &Path) -> String {
     let is_here = krate.folder.is_some() && krate.folder == root.canonicalize().ok();
     let is_library = env::var("CARGO_CRATE_NAME").is_ok_and(|name| name == krate.rust_name())
         && env::var_os("CARGO_BIN_NAME").is_none();
-    if is_here && is_library { krate.in_crate("crate") } else { krate.rust_path() }
+    if is_here && (is_library || !has_library(root)) {
+        krate.in_crate("crate")
+    } else {
+        krate.rust_path()
+    }
+}
+
+/// Whether a package has a library; of one without, a program holds its own templates.
+fn has_library(root: &Path) -> bool {
+    let manifest = fs::read_to_string(root.join("Cargo.toml")).unwrap_or_default();
+    root.join("src/lib.rs").exists() || manifest.lines().any(|line| line.trim() == "[lib]")
 }
 
 /// The folder of the manifest.
@@ -126,4 +136,17 @@ pub fn root() -> PathBuf {
 fn include(path: &Path) -> TokenStream {
     let path = path.to_string_lossy();
     quote!(include_str!(#path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_package_has_a_library_or_holds_its_templates_itself() {
+        let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+        assert!(has_library(here));
+        assert!(!has_library(&here.join("tests/wrong")));
+        assert!(!has_library(&here.join("../../xtask")));
+    }
 }

@@ -80,7 +80,8 @@ impl Output {
     /// Puts the file in its place.
     ///
     /// # Errors
-    /// The disk is full or fails; what was written stays at [`Output::path`].
+    /// The disk is full or fails, somebody else has begun to write a file of that name; what was written stays at
+    /// [`Output::path`].
     pub fn finish(mut self) -> io::Result<()> {
         self.file.flush()?;
         let Some(target) = &self.becomes else {
@@ -88,6 +89,7 @@ impl Output {
             return if self.file.metadata()?.is_file() { self.file.sync_all() } else { Ok(()) };
         };
         self.file.sync_all()?;
+        part::refuse_taken(target)?;
         if !target::is_replaceable(target, &self.file)? {
             fill(target, &mut self.file)?;
             return fs::remove_file(&self.path);

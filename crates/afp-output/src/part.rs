@@ -32,8 +32,9 @@ impl Part {
     /// Creates an empty part for a file. What a dead process left of one is overwritten.
     ///
     /// # Errors
-    /// The folder is not there or not writable; another one writes the file.
+    /// The folder is not there or not writable; another one writes the file, or is at it as the part of another file.
     pub(crate) fn create(target: &Path, taken: Taken) -> io::Result<Part> {
+        refuse_taken(target)?;
         let begin = Instant::now();
         let mut number = 1;
         loop {
@@ -61,6 +62,26 @@ impl Part {
             }
         }
     }
+}
+
+/// Refuses a file that somebody is at, who would be left with one that has no name: the part of another file, a journal.
+/// One that has got its final name just now is free at once.
+///
+/// # Errors
+/// Another one has locked it.
+pub(crate) fn refuse_taken(target: &Path) -> io::Result<()> {
+    let begin = Instant::now();
+    let is_taken = || match File::open(target).map(|file| file.try_lock_shared()) {
+        Ok(locked) => matches!(locked, Err(TryLockError::WouldBlock)),
+        Err(_) => false,
+    };
+    while is_taken() {
+        if begin.elapsed() > PATIENCE {
+            return Err(busy());
+        }
+        thread::sleep(LOOK_AGAIN);
+    }
+    Ok(())
 }
 
 fn busy() -> io::Error {

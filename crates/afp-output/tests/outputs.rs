@@ -173,6 +173,33 @@ fn two_at_once_do_not_share_a_file() {
     assert!(Output::create(&path).is_ok());
 }
 
+#[test]
+fn the_part_of_another_file_is_not_replaced() {
+    let folder = folder();
+    let path = folder.path().join("run.mcap");
+    let mut one = Output::create(&path).unwrap();
+    one.write_all(b"one").unwrap();
+    let part = one.path().to_owned();
+    let refused = [
+        Output::create(&part).map(|_| ()),
+        Output::create_beside_part(&part).map(|_| ()),
+        write_whole(&part, b"two"),
+        check_writable(&part),
+    ];
+    for why in refused {
+        assert_eq!(why.unwrap_err().kind(), ErrorKind::ResourceBusy);
+    }
+    one.finish().unwrap();
+    assert_eq!((text(&path).as_str(), files(folder.path())), ("one", vec!["run.mcap".to_owned()]));
+    // Who came first finds it out at the end.
+    let mut two = Output::create(&part).unwrap();
+    two.write_all(b"two").unwrap();
+    let three = Output::create(&path).unwrap();
+    assert_eq!(two.finish().unwrap_err().kind(), ErrorKind::ResourceBusy);
+    three.finish().unwrap();
+    assert_eq!(text(&folder.path().join("run.mcap.part.part")), "two");
+}
+
 /// Nor is it waited for without an end.
 #[test]
 fn what_is_written_for_long_is_not_written_at_once() {

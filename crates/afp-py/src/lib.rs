@@ -34,6 +34,14 @@ pub use errors::{error, run_error};
 pub use link::{AnyLink, Link, linked};
 pub use pyo3;
 
+/// What generated extensions name of the crates below.
+#[doc(hidden)]
+pub mod __private {
+    pub use afp_core;
+    #[cfg(feature = "carbot")]
+    pub use afp_sim::Simulation;
+}
+
 /// Fills the native half of the package `afp` with its classes, for a robot and its templates.
 ///
 /// # Errors

@@ -87,9 +87,8 @@ impl Runner {
             let name: String = name.extract()?;
             inputs.push((Given::new(&value)?, name));
         }
-        let texts = compiled.plan_texts();
-        let log = log.as_deref();
-        let setting = Setting { graph, world, seed, file: &file, texts, log, camera };
+        let (file, log) = (&*file, log.as_deref());
+        let setting = Setting { compiled: &compiled, graph, world, seed, file, log, camera };
         let mut run = Run::logged(session, &setting)?;
         for (given, name) in inputs {
             let entry = run.entry(&name)?;

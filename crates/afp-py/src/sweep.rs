@@ -9,6 +9,7 @@ mod rows;
 mod watch;
 mod work;
 
+use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
@@ -19,7 +20,7 @@ use afp_core::Duration;
 use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
-use afp_session::Loader;
+use afp_session::{Build, Loader};
 use afp_sweep::{Header, Journal, Outcome, OutputFiles, Row, Setting, Sweep};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -100,7 +101,7 @@ impl Sweeper {
             }
             let setting = Setting::new(&mut sweep, graph, &file, robot);
             let setting = setting.map_err(|why| run_error(&why))?;
-            Ok(Header::new(program(mark), (&compiled, graph), &setting, &sweep))
+            Ok(Header::new(program(py, mark)?, (&compiled, graph), &setting, &sweep))
         })?;
         Ok(Sweeper { compiled, file, toolboxes, sweep, header, done: Mutex::default() })
     }
@@ -235,8 +236,8 @@ impl Sweeper {
         };
         let host = components.host(py)?;
         let (world, log) = (&loaded, log.as_deref());
-        let (file, texts) = (&*self.file, self.compiled.plan_texts());
-        let setting = Begun { graph, world, seed: row.seed, file, texts, log, camera };
+        let (file, compiled) = (&*self.file, &self.compiled);
+        let setting = Begun { compiled, graph, world, seed: row.seed, file, log, camera };
         let runner = Runner::new(Run::logged(session, &setting)?, host, &self.compiled);
         Ok((runner, World { loaded }))
     }
@@ -333,13 +334,18 @@ fn graph(compiled: &Compiled) -> PyResult<&Graph> {
     compiled.graph.as_ref().ok_or_else(|| error("the plan has errors"))
 }
 
-/// What runs the plans; `afpc sweep` goes on with a journal of plans without components in Python.
-fn program(mark: &str) -> String {
-    let version = env!("CARGO_PKG_VERSION");
-    match mark {
-        "" => version.to_owned(),
-        mark => format!("{version} python {}", hash(mark)),
+/// What runs the plans: with parts of a project, what the extension was built from counts too. `afpc sweep` goes on with a
+/// journal of plans without components in Python, on the Carbot with built-in toolboxes.
+fn program(py: Python<'_>, mark: &str) -> PyResult<String> {
+    let mut program = Build::this().to_string();
+    if link().own_robot().is_some() || !link().toolboxes().is_empty() {
+        let extension: PathBuf = py.import("afp._afp")?.getattr("__file__")?.extract()?;
+        program += &format!(" {}", hash(&String::from_utf8_lossy(&fs::read(extension)?)));
     }
+    if !mark.is_empty() {
+        program += &format!(" python {}", hash(mark));
+    }
+    Ok(program)
 }
 
 /// Passes rows to a function of Python, one after the other.

@@ -1,7 +1,7 @@
 //! The Escape key of the terminal, which presses the control that stops what runs.
 
 #[cfg(unix)]
-pub(crate) use terminal::{Keys, give_back};
+pub(crate) use terminal::{Keys, give_back, without_terminal};
 
 #[cfg(unix)]
 mod terminal {
@@ -70,10 +70,17 @@ mod terminal {
 
     /// Gives the terminal back as it was, if it is taken.
     pub(crate) fn give_back() {
-        if let Some(before) = before().take() {
+        without_terminal(|| ());
+    }
+
+    /// Gives the terminal back, if it is taken, and does something before anybody can take it again.
+    pub(crate) fn without_terminal(act: impl FnOnce()) {
+        let mut taken = before();
+        if let Some(before) = taken.take() {
             // Nothing can be done about a terminal that is gone.
             let _ = tcsetattr(io::stdin(), OptionalActions::Now, &before);
         }
+        act();
     }
 
     fn before() -> MutexGuard<'static, Option<Termios>> {

@@ -49,15 +49,20 @@ pub struct RunOptions {
     pub set: Vec<(String, String)>,
 
     /// Seed of all noise in the simulator
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_hyphen_values = true)]
     pub seed: u64,
 
     /// Stops the plan at this time [default: 60s at speed max, else never]
-    #[arg(long, value_name = "TIME", value_parser = afp_project::duration)]
+    #[arg(
+        long,
+        value_name = "TIME",
+        value_parser = afp_project::duration,
+        allow_hyphen_values = true
+    )]
     pub until: Option<Duration>,
 
     /// Speed of simulated time: 1x is real time, max as fast as it goes [default: max; 1x where others watch]
-    #[arg(long, value_name = "SPEED", value_parser = parse::speed)]
+    #[arg(long, value_name = "SPEED", value_parser = parse::speed, allow_hyphen_values = true)]
     pub speed: Option<Speed>,
 
     /// Presses a control of the robot: --press NAME@3s, --press DEVICE.NAME@3s

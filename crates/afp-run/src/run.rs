@@ -1,5 +1,6 @@
 //! One run from its options to its summary.
 
+mod driver;
 mod gate;
 mod hardware;
 mod paths;
@@ -8,11 +9,11 @@ use std::cell::RefCell;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use afp_core::{Ending, Instant, StartError};
+use afp_core::{Ending, Instant};
 use afp_log::{About, OwnedNames, SessionLog, Written};
 use afp_project::ProjectFile;
 use afp_session::{
-    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, Go, LastResort, Observer, Recipe,
+    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
     Requested, SessionError, TextFile, Track,
 };
 
@@ -30,7 +31,8 @@ use crate::svg::{self, Picture};
 use crate::world::LoadedWorld;
 use crate::{Program, inputs, requests};
 
-use gate::{Halt, RunGate};
+use driver::Driver;
+use gate::RunGate;
 use paths::Paths;
 
 pub(crate) use hardware::HARDWARE;
@@ -199,11 +201,8 @@ fn drive(
         vec![&mut counts, &mut track, &mut requests, &mut shown];
     let logs = log.iter_mut().chain(&mut sent);
     observers.extend(logs.map(|log| log as &mut dyn Observer));
-    let run_to_end = match keeper {
-        TimeKeeper::Robot => hardware::run_to_end,
-        TimeKeeper::Nobody | TimeKeeper::Gate(_) => run_to_end,
-    };
-    let went = run_to_end(session, end, &mut gate, live.as_ref(), &mut observers);
+    let driver = Driver { keeper, end, live: live.as_ref() };
+    let went = driver.run_to_end(session, &mut gate, &mut observers);
     // The robot stands before anything is written that may take its time.
     let measured = session.end();
     stop.set_last_resort(None);
@@ -220,44 +219,16 @@ fn drive(
     Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
 }
 
-/// The flag that signals raise; where the robot itself runs, nothing puts the process to sleep.
+/// The flag that signals raise. Where the robot itself runs, nothing puts the process to sleep; where keys are read, it goes to
+/// sleep without the terminal.
 fn stop_flag(keeper: TimeKeeper) -> io::Result<StopFlag> {
     let stop = StopFlag::on_signals()?;
-    if matches!(keeper, TimeKeeper::Robot) {
-        stop.stay_awake()?;
+    match keeper {
+        TimeKeeper::Robot => stop.stay_awake()?,
+        TimeKeeper::Gate(_) => stop.lend_terminal()?,
+        TimeKeeper::Nobody => {}
     }
     Ok(stop)
-}
-
-/// Runs the plan to its end, or until it is stopped.
-fn run_to_end(
-    session: &mut dyn AnySession,
-    end: Instant,
-    gate: &mut RunGate<'_>,
-    live: Option<&Live>,
-    observers: &mut [&mut dyn Observer],
-) -> Result<Option<StoppedBy>, StartError> {
-    loop {
-        let went = session.run(end, gate, observers)?;
-        match (gate.take_halt(), live) {
-            (Some((Halt::Escape, at)), _) => {
-                requests::press_stop(session, at);
-                continue;
-            }
-            (Some((Halt::Asked, at)), Some(live)) => {
-                live.serve(session, at);
-                continue;
-            }
-            _ => {}
-        }
-        let stopped_by = match (went, session.ending()) {
-            (_, Some(_)) => return Ok(None),
-            (Go::Stop, None) => StoppedBy::Signal,
-            (_, None) => StoppedBy::Until,
-        };
-        session.stop(observers);
-        return Ok(Some(stopped_by));
-    }
 }
 
 /// How a run came out.

@@ -15,6 +15,8 @@ struct Stop {
     raised: AtomicBool,
     /// The number of the signal that asked, where others than the user send it; else zero.
     signal: AtomicU8,
+    /// Whether SIGTSTP asks, too, instead of putting the process to sleep.
+    awake: AtomicBool,
     /// What is done before the process ends by force.
     last_resort: Mutex<Option<LastResort>>,
 }
@@ -51,8 +53,19 @@ impl StopFlag {
     /// # Errors
     /// Signals cannot be handled.
     pub(crate) fn stay_awake(&self) -> std::io::Result<()> {
+        self.0.awake.store(true, Ordering::Relaxed);
         #[cfg(unix)]
-        signals::stay_awake()?;
+        signals::take_sleep()?;
+        Ok(())
+    }
+
+    /// From now on the terminal is given back before the process is put to sleep (SIGTSTP, from whoever sends it).
+    ///
+    /// # Errors
+    /// Signals cannot be handled.
+    pub(crate) fn lend_terminal(&self) -> std::io::Result<()> {
+        #[cfg(unix)]
+        signals::take_sleep()?;
         Ok(())
     }
 
@@ -124,7 +137,8 @@ mod signals {
         Ok(flag)
     }
 
-    pub(super) fn stay_awake() -> io::Result<()> {
+    /// From now on SIGTSTP comes to the thread, too.
+    pub(super) fn take_sleep() -> io::Result<()> {
         let made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         made.as_ref().map_or(Ok(()), |(_, handle)| handle.add_signal(SIGTSTP))
     }
@@ -133,10 +147,10 @@ mod signals {
     /// others hang.
     fn handle(mut signals: Signals, flag: &StopFlag) {
         for signal in signals.forever() {
-            if signal == SIGQUIT {
-                keys::give_back();
-                // There is no other end than this one; nothing is to be done about a failure.
-                let _ = low_level::emulate_default_handler(signal);
+            let sleeps = signal == SIGTSTP && !flag.0.awake.load(Ordering::Relaxed);
+            if signal == SIGQUIT || sleeps {
+                // There is no other end, and no other sleep, than this one; nothing is to be done about a failure.
+                keys::without_terminal(|| drop(low_level::emulate_default_handler(signal)));
                 continue;
             }
             if let (SIGTERM | SIGHUP, Ok(number)) = (signal, u8::try_from(signal)) {

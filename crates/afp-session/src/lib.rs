@@ -63,3 +63,9 @@ pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};
 pub use world::{AnyWorld, Drawing, Patch, Thing, World, WorldError};
+
+/// What macros name in the crates of others.
+#[doc(hidden)]
+pub mod __private {
+    pub use afp_core;
+}

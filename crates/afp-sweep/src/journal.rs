@@ -27,7 +27,7 @@ const SYNC: Duration = Duration::from_secs(1);
 pub struct Header {
     /// The version of the format, 2.
     pub sweep_journal: u32,
-    /// The program: its version, and for one with toolboxes of one's own what it was built from.
+    /// The program: its version and commit, and for one with toolboxes of one's own what it was built from.
     pub program: String,
     /// The hash of the plan's texts.
     pub plan: String,

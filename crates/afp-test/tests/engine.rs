@@ -93,7 +93,9 @@ fn what_the_run_did_not_come_to_is_no_success() {
     // The robot rests for a second when its plan has ended.
     breaks(&format!("{short} at 30 s: press touch"), "not done: the run was over at 2.000 s", 2.0);
     breaks(&format!("{short} at 30 s: fail wheels.slip"), "not done: the run was over", 2.0);
-    breaks(&format!("{short} never collision after 15 s"), "that time never came", 2.0);
+    for late in ["never collision", "expect robot.pose.x > 1 m", "expect halted"] {
+        breaks(&format!("{short} {late} after 15 s"), "that time never came", 2.0);
+    }
     passes(&format!("{short} never running after 15 s\n never collision after 500 ms"));
 }
 

@@ -32,8 +32,10 @@ enum Call<'a> {
 /// The plan has nothing of that name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName {
-    /// What was looked for: `component`, `state or event of 'go'`, `entry`.
-    what: String,
+    /// What has nothing of that name: the plan, or a component.
+    owner: String,
+    /// What was looked for: a component, a state or event, an entry.
+    what: &'static str,
     name: String,
     /// The names that there are.
     known: Vec<String>,
@@ -62,7 +64,8 @@ impl<'a, N: Names> Callbacks<'a, N> {
         let mut known = all().take_while(|(_, name)| !name.is_empty());
         let number = known.find(|(_, name)| *name == outcome).map(|(number, _)| number);
         let number = number.ok_or_else(|| UnknownName {
-            what: format!("state or event of '{component}'"),
+            owner: format!("'{component}'"),
+            what: "state or event",
             name: outcome.to_owned(),
             known: all().map_while(|(_, n)| (!n.is_empty()).then(|| n.to_owned())).collect(),
         })?;
@@ -96,7 +99,8 @@ impl<'a, N: Names> Callbacks<'a, N> {
         let ids = || (0..self.names.entries()).map(TraceEntryId);
         let found = ids().find(|id| self.names.entry(*id).path == entry);
         let id = found.ok_or_else(|| UnknownName {
-            what: "entry".to_owned(),
+            owner: "the plan".to_owned(),
+            what: "entry",
             name: entry.to_owned(),
             known: ids().map(|id| self.names.entry(id).path.to_owned()).collect(),
         })?;
@@ -108,7 +112,8 @@ impl<'a, N: Names> Callbacks<'a, N> {
         let ids = || (0..self.names.components()).map(ComponentId);
         let found = ids().find(|id| self.names.component(*id).path == path);
         found.ok_or_else(|| UnknownName {
-            what: "component".to_owned(),
+            owner: "the plan".to_owned(),
+            what: "component",
             name: path.to_owned(),
             known: ids().skip(1).map(|id| self.names.component(id).path.to_owned()).collect(),
         })
@@ -154,7 +159,7 @@ impl<N> fmt::Debug for Callbacks<'_, N> {
 
 impl fmt::Display for UnknownName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the plan has no {} '{}'", self.what, self.name)?;
+        write!(f, "{} has no {} '{}'", self.owner, self.what, self.name)?;
         match self.known.is_empty() {
             true => Ok(()),
             false => write!(f, "; there are: {}", self.known.join(", ")),

@@ -22,6 +22,13 @@ use afp_session::{Loader, Opener};
 pub use afp_session::{hardware, simulated};
 pub use afp_sim::carbot;
 
+/// What runners name of the crates below.
+#[doc(hidden)]
+pub mod __private {
+    pub use afp_session::__private::afp_core;
+    pub use afp_sim::Simulation;
+}
+
 /// Trees are many small pieces; checking a large plan takes a third less time than with the
 /// allocator of the system.
 #[global_allocator]

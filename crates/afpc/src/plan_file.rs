@@ -11,7 +11,7 @@ use afp_log::LogData;
 use afp_project::ProjectError;
 use afp_resolve::OwnToolboxes;
 use afp_run::RunError;
-use afp_session::Recipe;
+use afp_session::{Recipe, TextFile};
 use afp_syntax::source::Source;
 
 use crate::nearby::unreadable;
@@ -25,6 +25,8 @@ pub struct PlanFile {
     pub compiled: Compiled,
     /// The project that it belongs to, and its toolboxes.
     pub own: OwnToolboxes,
+    /// The toolboxes that it uses whose texts are of a log alone: of Python, or of another project.
+    pub foreign: Vec<String>,
 }
 
 /// Why there is no graph.
@@ -86,7 +88,7 @@ impl PlanFile {
     /// # Errors
     /// The log names no plan, or its file cannot be read.
     pub fn of_log(log: &LogData) -> Result<PlanFile, RunError> {
-        let Recipe { plan, file, texts, .. } = log.recipe();
+        let Recipe { plan, file, texts, toolboxes, .. } = log.recipe();
         if file.is_empty() {
             return Err(RunError::usage("the log does not say which plan ran", "name a whole log"));
         }
@@ -98,7 +100,7 @@ impl PlanFile {
             found.map(|it| it.text.clone()).ok_or_else(|| "it is not in the log".to_owned())
         };
         let source = Source::new(&first.name, &first.text);
-        PlanFile::compile(file.into(), &source, &read, Some(&plan))
+        PlanFile::compile_with((file.into(), &source), &read, Some(&plan), &toolboxes)
     }
 
     fn compile(
@@ -107,10 +109,28 @@ impl PlanFile {
         files: &dyn Files,
         plan: Option<&str>,
     ) -> Result<PlanFile, RunError> {
+        PlanFile::compile_with((path, source), files, plan, &[])
+    }
+
+    /// Compiles a plan with toolboxes that its project may not have, for their declarations.
+    fn compile_with(
+        (path, source): (PathBuf, &Source),
+        files: &dyn Files,
+        plan: Option<&str>,
+        others: &[TextFile],
+    ) -> Result<PlanFile, RunError> {
         let own = OwnToolboxes::of_plan(&path)?;
-        let toolboxes = own.with_built_in()?;
+        let mut toolboxes = own.with_built_in()?;
+        let mut foreign = Vec::new();
+        for TextFile { name, text } in others {
+            if toolboxes.get(name).is_none() {
+                toolboxes.add(Source::new(name, text), name);
+                foreign.push(name.clone());
+            }
+        }
         let compiled = compile_plan(source, &toolboxes, files, plan);
-        Ok(PlanFile { path, compiled, own })
+        foreign.retain(|name| compiled.toolbox_texts().any(|(used, _)| used == name));
+        Ok(PlanFile { path, compiled, own, foreign })
     }
 
     /// Tells what is wrong.
@@ -147,5 +167,27 @@ fn split(argument: &str) -> (PathBuf, Option<&str>) {
             (path.into(), Some(plan))
         }
         _ => (argument.into(), None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_says_which_of_its_toolboxes_are_not_here() {
+        let plan = "use std\nuse mine\nplan P {\n    start a\n    actor a: Beep { Done -> terminate }\n}\n";
+        let mine = "toolbox mine\nactor Beep { state Done }\n";
+        let texts = [("p.afp", plan), ("toolbox/mine", mine), ("toolbox/other", "toolbox other\n")];
+        let facts = [("plan", "P"), ("plan_file", "/nowhere/p.afp"), ("plan_text", "p.afp")];
+        let owned = |(name, text): (&str, &str)| (name.to_owned(), text.to_owned());
+        let log = LogData {
+            facts: facts.map(owned).into(),
+            attachments: texts.map(owned).into(),
+            ..LogData::default()
+        };
+        let file = PlanFile::of_log(&log).unwrap();
+        assert!(file.compiled.graph.is_some(), "{}", file.compiled.render(false));
+        assert_eq!(file.foreign, ["mine"], "the plan does not use the other one");
     }
 }

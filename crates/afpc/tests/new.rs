@@ -86,6 +86,21 @@ fn what_is_there_is_not_written_over_and_names_are_looked_at() {
     assert!(place.files().iter().all(|name| name.starts_with("patrol/")), "{:?}", place.files());
 }
 
+#[cfg(unix)]
+#[test]
+fn what_cannot_be_made_whole_leaves_nothing() {
+    let place = Place::new();
+    let mut shell = Command::new("sh");
+    // No file may grow; without the signal, writing fails as on a full disk.
+    shell.args(["-c", "trap '' XFSZ; ulimit -f 0; exec \"$AFPC\" new patrol"]);
+    let full = shell.env("AFPC", env!("CARGO_BIN_EXE_afpc")).current_dir(place.path(""));
+    said(full.output().unwrap()).fails(1, &["cannot write 'patrol/", "File too large"]);
+    assert!(!place.path("patrol").exists());
+    std::os::unix::fs::symlink("nowhere", place.path("link")).unwrap();
+    place.afpc("new link").fails(2, &["'link' is there already"]);
+    place.afpc("new patrol").succeeds();
+}
+
 #[test]
 fn a_plan_without_a_command_is_told_of_run() {
     let place = Place::with_plan();

@@ -176,6 +176,9 @@ fn options_that_wait_for_something_say_for_what() {
         .fails(2, &["no control 'start'; it has 'touch', 'escape'"]);
     place.afpc("run wall_following.afp --fail sonar.lost@1s").fails(2, &["there are battery, "]);
     place.afpc("run wall_following.afp --until 5").fails(2, &["20s or 500ms"]);
+    place.afpc("run wall_following.afp --until -1s").fails(2, &["a time cannot be negative"]);
+    place.afpc("run wall_following.afp --speed -2x").fails(2, &["a multiple of real time"]);
+    place.afpc("run wall_following.afp --seed -1").fails(2, &["invalid digit found in string"]);
     place.afpc("run wall_following.afp --live=here").fails(2, &["expected a port, 8765, or"]);
     assert_eq!(place.files(), ["wall_following.afp"]);
 }

@@ -142,6 +142,31 @@ fn a_suspended_run_lends_the_terminal_until_it_goes_on() {
 }
 
 #[test]
+fn a_run_that_others_suspend_lends_the_terminal_and_goes_on() {
+    let (place, mut terminal) = (place(), Terminal::open());
+    let run = format!("echo $$ > pid; exec $AFPC {RUN} 1x > out");
+    let script = format!("set -m; sh -c '{run}'; read line; fg; exit");
+    let mut child = terminal.start(&place, &["sh", "-c", &script]);
+    let length = || place.bytes("out").len();
+    terminal.becomes(false);
+    let pid = place.read("pid");
+    Command::new("kill").args(["-TSTP", pid.trim()]).status().unwrap();
+    terminal.becomes(true);
+    thread::sleep(Duration::from_millis(200));
+    assert!(terminal.is_free(), "it took the terminal again before it slept");
+    let so_far = length();
+    thread::sleep(Duration::from_millis(200));
+    assert_eq!(length(), so_far, "it did not sleep");
+    terminal.press("go on\n");
+    terminal.becomes(false);
+    let so_far = length();
+    until(|| (length() > so_far).then_some(()));
+    terminal.press("\x03");
+    ended(&mut child);
+    assert!(terminal.is_free());
+}
+
+#[test]
 fn a_run_in_the_background_leaves_the_terminal_alone() {
     let (place, mut terminal) = (place(), Terminal::open());
     let script = format!("set -m; $AFPC {RUN} 1x > out & read line; fg; exit");

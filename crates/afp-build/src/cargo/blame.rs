@@ -122,8 +122,13 @@ fn declared<'a>(own: &'a OwnToolbox, message: &Message) -> Option<Found<'a>> {
     let head = if inside { head(message).unwrap_or_default() } else { String::new() };
     let line = message.place.as_ref().filter(|_| inside).map_or("", |place| &place.line);
     let span = declaration(&own.declared, &said, &words(line), &words(&head))?;
-    let name = &own.name;
-    let message = format!("the Rust of the toolbox '{name}' does not compile: {}", message.title);
+    let (name, title) = (&own.name, &message.title);
+    let message = match inside {
+        false if title.starts_with("the trait bound ") => {
+            format!("the robot does not have all that the toolbox '{name}' asks for here: {title}")
+        }
+        _ => format!("the Rust of the toolbox '{name}' does not compile: {title}"),
+    };
     Some(Found { source: &own.source, span, message })
 }
 

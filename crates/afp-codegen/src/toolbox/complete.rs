@@ -2,6 +2,9 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
+use syn::parse::Parser;
+use syn::punctuated::Punctuated;
+use syn::{Token, TypeParamBound};
 
 use super::{bound, words};
 use crate::names::{camel, ident, snake};
@@ -15,7 +18,21 @@ pub enum Asked {
     Type(TokenStream),
 }
 
-/// A function that compiles when the Rust implements every template for such a robot.
+impl Asked {
+    /// The names of the traits, without their paths.
+    fn names(&self) -> Vec<String> {
+        let Asked::Traits(traits) = self else { return Vec::new() };
+        let bounds = Punctuated::<TypeParamBound, Token![+]>::parse_terminated;
+        let bounds = bounds.parse2(traits.clone()).unwrap_or_default();
+        let names = bounds.iter().filter_map(|bound| match bound {
+            TypeParamBound::Trait(of) => of.path.segments.last().map(|last| last.ident.to_string()),
+            _ => None,
+        });
+        names.collect()
+    }
+}
+
+/// A function that compiles when the Rust implements every template for such a robot, and the names of what they ask for.
 ///
 /// Generic code is compiled before anybody names a robot, so a template that nobody implements would
 /// show only where a plan that uses it is built.
@@ -30,7 +47,12 @@ pub fn complete(core: &TokenStream, toolbox: &Toolbox, asked: &Asked) -> TokenSt
         Asked::Type(_) => TokenStream::new(),
     };
     let asserted = super::implemented(toolbox).map(|template| asserted(core, template, &robot));
+    let names = asked.names();
     quote! {
+        /// The traits that the templates ask of a robot.
+        #[doc(hidden)]
+        pub const ASKED: &[&str] = &[#(#names),*];
+
         #[allow(dead_code)]
         const _: () = {
             fn actor<T: #core::ActorTemplate, E: ?Sized, C: #core::Actor<T, E>>() {}

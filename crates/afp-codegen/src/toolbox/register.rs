@@ -57,8 +57,9 @@ pub struct Support {
     pub registry: TokenStream,
     /// The type of the platform.
     pub platform: TokenStream,
-    /// The paths of the traits that the toolbox asks for, to name those that are missing.
-    pub traits: Vec<TokenStream>,
+    /// The paths of the traits that the toolbox asks for, to name those that are missing; without them all are named that
+    /// `toolbox!` was told.
+    pub traits: Option<Vec<TokenStream>>,
 }
 
 impl Parse for Support {
@@ -73,7 +74,7 @@ impl Parse for Support {
         bracketed!(list in input);
         let traits =
             Punctuated::<_, Token![,]>::parse_terminated_with(&list, Path::parse_mod_style)?;
-        let traits = traits.into_iter().map(ToTokens::into_token_stream).collect();
+        let traits = Some(traits.into_iter().map(ToTokens::into_token_stream).collect());
         Ok(Support { core, file, module, registry, platform, traits })
     }
 }
@@ -92,7 +93,13 @@ fn next<T: ToTokens>(
 /// does not implement.
 pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
     let Support { core, module, registry, platform, traits, .. } = support;
-    let missing = traits.iter().map(|path| missing(platform, path));
+    let missing = match traits {
+        Some(traits) => {
+            let missing = traits.iter().map(|path| missing(platform, path));
+            quote!(&[#(#missing),*])
+        }
+        None => quote!(#module::templates::ASKED),
+    };
     let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, module, template);
         let method = ident(&snake(&words(template.kind).component.to_string()));
@@ -118,7 +125,7 @@ pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
         #[allow(unused_imports)]
         use #core::rt::{ActorSupported as _, SupervisorSupported as _, Unsupported as _};
         #[allow(unused_variables)]
-        let missing: &[&'static str] = &[#(#missing),*];
+        let missing: &[&'static str] = #missing;
         let registry = &mut *#registry;
         #(#templates)*
         #(#objects)*

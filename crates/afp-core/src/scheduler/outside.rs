@@ -58,7 +58,9 @@ impl fmt::Display for SetError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SetError::Unknown => f.write_str("the plan has no such entry"),
-            SetError::Unreadable(why) => why.fmt(f),
+            SetError::Unreadable(why) => {
+                write!(f, "{why}; write it as in the plan, a quantity with its unit: '80 cm'")
+            }
             SetError::Refused(why) => why.fmt(f),
         }
     }

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use crate::check::foreign;
 use crate::check::names::{ambiguous, unknown};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Context, PlanHead};
@@ -75,6 +76,7 @@ impl Context<'_> {
             false => record.definition(name.span, span),
         }
         if is_fit {
+            foreign::check(self.program.toolboxes, &signature, reference.span(), diags);
             return Some(signature);
         }
         let of_itself =

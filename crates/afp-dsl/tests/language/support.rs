@@ -25,7 +25,8 @@ pub fn toolboxes() -> Toolboxes {
 pub const CASE: &str = "case.afp";
 
 /// Compiles a plan file with those that follow it below lines `// file: PATH`, or reads a toolbox; a
-/// first line `// plan: NAME` chooses the plan, one `// target: NAME` what it shall run on.
+/// first line `// plan: NAME` chooses the plan, one `// target: NAME` what it shall run on, one `// robot: NAME` the
+/// toolbox of the project's robot.
 pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
     let (text, files) = &Texts::in_one(text);
     let source = Source::new(CASE, text);
@@ -37,10 +38,11 @@ pub fn compile(text: &str, toolboxes: &Toolboxes) -> Compiled {
         (compiled.diags, compiled.sources) = (diags, sources.clone());
         return compiled;
     }
-    let plan = text.lines().next().and_then(|line| line.strip_prefix("// plan: "));
-    let mut compiled = afp_dsl::compile_plan(&source, toolboxes, files, plan);
-    let target = text.lines().next().and_then(|line| line.strip_prefix("// target: "));
-    if let (Some(name), Some(graph)) = (target, &compiled.graph) {
+    let said = |word| text.lines().next().and_then(|line| line.strip_prefix(word));
+    let mut toolboxes = toolboxes.clone();
+    said("// robot: ").iter().for_each(|name| toolboxes.set_robot(name));
+    let mut compiled = afp_dsl::compile_plan(&source, &toolboxes, files, said("// plan: "));
+    if let (Some(name), Some(graph)) = (said("// target: "), &compiled.graph) {
         compiled.diags.extend(check_target(graph, &Target::built_in(name).unwrap()));
         compiled.diags.sort();
         compiled.outline.attach(&compiled.diags);

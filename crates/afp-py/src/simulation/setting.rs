@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_log::About;
 use afp_run::world::LoadedWorld;
@@ -9,12 +10,11 @@ use afp_session::{Build, Recipe, TextFile};
 
 /// What a run begins with.
 pub struct Setting<'a> {
+    pub compiled: &'a Compiled,
     pub graph: &'a Graph,
     pub world: &'a LoadedWorld,
     pub seed: u64,
     pub file: &'a Path,
-    /// Path and text of the plan's file and of those that it uses.
-    pub texts: Vec<(String, String)>,
     pub log: Option<&'a Path>,
     /// Whether the log gets what the camera sees.
     pub camera: bool,
@@ -27,7 +27,8 @@ impl Setting<'_> {
         let mut about = About::new(&Recipe {
             plan: self.graph.main().name.clone(),
             file: self.file.display().to_string(),
-            texts: self.texts.iter().map(|(name, text)| text_file(name, text)).collect(),
+            texts: text_files(self.compiled.plan_texts()),
+            toolboxes: text_files(own_toolboxes(self.compiled)),
             robot: "sim".to_owned(),
             world: text_file(world.name(), text),
             start: *start,
@@ -40,6 +41,19 @@ impl Setting<'_> {
     }
 }
 
-fn text_file(name: &str, text: &str) -> TextFile {
-    TextFile { name: name.to_owned(), text: text.to_owned() }
+/// Names and texts of the toolboxes of a plan beyond the built-in ones: of Python, or of its project.
+fn own_toolboxes(compiled: &Compiled) -> impl Iterator<Item = (&str, &str)> {
+    let built_in = |text: &str| afp_toolboxes::ALL.iter().any(|it| it.text == text);
+    compiled.toolbox_texts().filter(move |(_, text)| !built_in(text))
+}
+
+fn text_files(
+    files: impl IntoIterator<Item = (impl Into<String>, impl Into<String>)>,
+) -> Vec<TextFile> {
+    let file = |(name, text): (_, _)| text_file(name, text);
+    files.into_iter().map(file).collect()
+}
+
+fn text_file(name: impl Into<String>, text: impl Into<String>) -> TextFile {
+    TextFile { name: name.into(), text: text.into() }
 }

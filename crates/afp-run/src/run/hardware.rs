@@ -1,17 +1,13 @@
-//! One run on the robot itself: its time passes by itself, and it stops at every end.
+//! One run on the robot itself, which is stopped at every end.
 
 use std::sync::Arc;
 
-use afp_core::{Duration, Instant, StartError};
-use afp_session::{AnySession, Go, NoWorld, Observer, Opened, Recipe, SessionError, Settings};
+use afp_session::{NoWorld, Opened, Recipe, SessionError, Settings};
 
-use super::gate::{Halt, RunGate};
 use super::{Setting, drive, recipe};
 use crate::error::RunError;
-use crate::live::Live;
 use crate::options::RunOptions;
 use crate::picture::Rasterizer;
-use crate::report::StoppedBy;
 use crate::world::LoadedWorld;
 use crate::{Program, inputs};
 
@@ -20,9 +16,6 @@ pub(crate) const HARDWARE: &str = "hardware";
 
 /// What the name of a setting begins with that is one of the robot.
 const PREFIX: &str = "robot.";
-
-/// The robot sleeps no longer than this before keys and signals are looked at.
-const SLICE: Duration = Duration::from_millis(10);
 
 /// Opens the robot and puts the plan on it.
 pub type OpenHardware<'a> = dyn FnOnce(&Settings) -> Result<Opened, SessionError> + 'a;
@@ -79,34 +72,4 @@ fn settings(program: &Program<'_>, set: &[(String, String)]) -> Result<Settings,
     let said =
         set.iter().map(|(name, text)| (name.strip_prefix(PREFIX).unwrap_or(name), text.as_str()));
     Ok(Settings::new(program.hardware.iter().copied().chain(said)))
-}
-
-/// Runs the plan to its end, or until it is stopped. Keys and signals are looked at every [`SLICE`], however long the
-/// plan has nothing to do, and before each step, however late it is.
-pub(super) fn run_to_end(
-    session: &mut dyn AnySession,
-    end: Instant,
-    gate: &mut RunGate<'_>,
-    live: Option<&Live>,
-    observers: &mut [&mut dyn Observer],
-) -> Result<Option<StoppedBy>, StartError> {
-    let stopped_by = loop {
-        let now = session.now();
-        if session.ending().is_some() {
-            return Ok(None);
-        }
-        if now >= end {
-            break StoppedBy::Until;
-        }
-        let went = session.tick(end.min(now + SLICE), gate, observers)?;
-        match (gate.take_halt(), live) {
-            // Nobody can press the robot's own buttons from here: the key stops it.
-            (Some((Halt::Escape, _)), _) => break StoppedBy::Signal,
-            (Some((Halt::Asked, at)), Some(live)) => live.serve(session, at),
-            _ if went == Go::Stop => break StoppedBy::Signal,
-            _ => {}
-        }
-    };
-    session.stop(observers);
-    Ok(Some(stopped_by))
 }

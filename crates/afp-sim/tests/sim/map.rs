@@ -92,6 +92,7 @@ fn what_is_wrong_with_a_map_is_said() {
             YAML.replace("trinary", "5"),
             "line 2, column 1: mode: is to be 'trinary' or 'scale' or 'raw'",
         ),
+        (YAML.replace("negate: 0", "negate: 2"), "line 5, column 1: negate: is to be 0 or 1"),
         (YAML.replace("0.65", "1.5"), "occupied_thresh: is not within 0 and 1"),
         (YAML.replace("0.196", "0.7"), "free_thresh: is more than 'occupied_thresh'"),
         (YAML.replace("0.65", "1.0"), "no cell of the map is occupied"),

@@ -152,6 +152,7 @@ codes! {
     E0515 Error "device that cannot be declared so"
     E0516 Error "unknown device"
     E0517 Error "device of two toolboxes"
+    E0518 Error "template of another robot"
     E0601 Error "line of a scenario that cannot stand here"
     E0602 Error "unknown component in a scenario"
     E0603 Error "what a scenario names cannot happen"

@@ -99,9 +99,14 @@ impl<'a> Expected<'a> {
         // That its moment has not come is told of the moment.
         let window = self.window(moments)?;
         let unsaid = self.now.is_none() && is_about_signal(&expectation.claim);
+        // How the robot was left stays so, which is all that 'always' says of that time.
+        let stays = self.outlives_the_run() || expectation.wanted == Wanted::Always;
+        let never_came = window.from > end && !stays;
+        // That it happened at another time says more.
+        let elsewhere = expectation.wanted == Wanted::Once && self.outside.is_some();
         let (at, why) = match expectation.wanted {
             _ if unsaid => (window.to.min(end), self.missing(state)),
-            Wanted::Never if window.from > end && !self.outlives_the_run() => {
+            _ if never_came && !elsewhere => {
                 let over = end as f64 / 1e9;
                 (end, format!("that time never came: the run was over at {over:.3} s"))
             }

@@ -21,8 +21,10 @@ pub enum LoadError {
         toolbox: String,
         /// The template.
         template: String,
-        /// Traits that the toolbox asks for and the platform does not implement.
+        /// Traits that the toolbox asks for and that the platform does not all implement.
         missing: Vec<&'static str>,
+        /// The first place in the plan that uses it: file, line, column.
+        at: String,
     },
     /// No Rust type was registered for an object type.
     NoObject {
@@ -49,12 +51,13 @@ impl fmt::Display for LoadError {
             LoadError::NoComponent { toolbox, template } => {
                 write!(f, "no implementation of '{toolbox}.{template}' is registered")
             }
-            LoadError::Unsupported { toolbox, template, missing } => {
-                write!(f, "the robot does not support '{toolbox}.{template}'")?;
+            LoadError::Unsupported { toolbox, template, missing, at } => {
+                write!(f, "the robot does not support '{toolbox}.{template}', used at {at}")?;
                 let names: Vec<_> = missing.iter().map(|name| format!("'{name}'")).collect();
-                match names.is_empty() {
-                    true => Ok(()),
-                    false => write!(f, ": it does not implement {}", names.join(", ")),
+                match &*names {
+                    [] => Ok(()),
+                    [one] => write!(f, ": it does not implement {one}"),
+                    all => write!(f, ": it does not implement all of {}", all.join(", ")),
                 }
             }
             LoadError::NoObject { toolbox, name } => {

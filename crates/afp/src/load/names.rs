@@ -58,7 +58,8 @@ impl PlanNames {
         }
     }
 
-    fn place(&self, span: Span) -> Option<TextPlace<'_>> {
+    /// A place in the plan's texts; none where it is in none of them.
+    pub(super) fn place(&self, span: Span) -> Option<TextPlace<'_>> {
         let unfold::TextPlace { file, line, column } = self.0.all.texts.place(span)?;
         Some(TextPlace { file, line, column })
     }

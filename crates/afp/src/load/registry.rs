@@ -173,6 +173,9 @@ impl<E: ?Sized + 'static> rt::Registry<E> for Registry<E> {
         missing: &[&'static str],
     ) {
         let missing = missing.iter().copied().filter(|name| !name.is_empty()).collect();
+        // What a toolbox of this name had before is not meant any more.
+        self.actors.get_mut(toolbox).and_then(|of| of.remove(template));
+        self.supervisors.get_mut(toolbox).and_then(|of| of.remove(template));
         add(&mut self.unsupported, toolbox, template, missing);
     }
 }

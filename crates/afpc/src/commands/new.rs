@@ -54,21 +54,35 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     };
     let files = afp_new::files(&name, kind, &origin::as_written(afp.clone()));
     let files = files.map_err(|NameError { message, help }| RunError::usage(message, help))?;
-    if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) || folder.is_file() {
+    let is_there = folder.symlink_metadata().is_ok();
+    // A folder that is empty is as good as none; what cannot be looked into is something else.
+    if is_there && fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_some()) {
         let message = format!("'{}' is there already", folder.display());
         return Err(RunError::usage(message, "give another name, or remove it").into());
     }
-    for file in &files {
-        let path = folder.join(&file.path);
-        let parent = path.parent().unwrap_or(folder);
-        fs::create_dir_all(parent).map_err(RunError::file("cannot make the folder", parent))?;
-        write_whole("cannot write", &path, &file.text)?;
+    if let Err(why) = write(folder, &files) {
+        // Half a project would be in the way of the next try. What is told is why there is none.
+        if !is_there {
+            let _ = fs::remove_dir_all(folder);
+        }
+        return Err(why.into());
     }
     if kind != Kind::Plan {
         crate_folder::pin(folder, &afp)?;
     }
     print(&next(folder, &files, kind))?;
     Ok(EXIT_OK)
+}
+
+/// Writes the files below a folder, which is made.
+fn write(folder: &Path, files: &[afp_new::File]) -> Result<(), RunError> {
+    for file in files {
+        let path = folder.join(&file.path);
+        let parent = path.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(RunError::file("cannot make the folder", parent))?;
+        write_whole("cannot write", &path, &file.text)?;
+    }
+    Ok(())
 }
 
 /// The project around a new folder, which may say where the afp crates are.

@@ -1,5 +1,7 @@
 //! `afpc run`: compiles a plan in memory and drives the robot of the project with it, simulated or itself.
 
+use std::path::Path;
+
 use afp_build::no_hardware;
 use afp_run::options::{OnRobot, RunOptions};
 use afp_run::{Program, RunError};
@@ -20,6 +22,20 @@ pub struct Arguments {
     options: RunOptions,
 }
 
+/// The plan of a log whose run can be repeated here.
+fn of_log(log: &Path) -> Result<PlanFile, RunError> {
+    let file = PlanFile::of_log(&afp_log::read(log)?)?;
+    let Some(name) = file.foreign.first() else { return Ok(file) };
+    let path = log.display();
+    Err(RunError::usage(
+        format!("the run of '{path}' used the toolbox '{name}', whose Rust is not here"),
+        format!(
+            "where it is written in Python, Python repeats the run: \
+             afp.Log(\"{path}\").simulation(toolboxes=[{name}]).run(); where it is of a project, name it in '[toolboxes]' of afp.toml"
+        ),
+    ))
+}
+
 /// Runs a plan; gives the exit code.
 ///
 /// # Errors
@@ -28,7 +44,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     arguments.options.check()?;
     let file = match (&arguments.plan, &arguments.options.again) {
         (Some(plan), _) => PlanFile::read(plan)?,
-        (None, Some(log)) => PlanFile::of_log(&afp_log::read(log).map_err(RunError::from)?)?,
+        (None, Some(log)) => of_log(log)?,
         (None, None) => return Err(RunError::usage("no plan is named", "name its file").into()),
     };
     let itself = arguments.options.robot == OnRobot::Hardware;

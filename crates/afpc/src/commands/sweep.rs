@@ -9,6 +9,7 @@ use std::thread;
 use afp_core::Duration;
 use afp_run::options::{Failure, Press, failure, press};
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, hash};
+use afp_session::Build;
 use afp_sweep::{
     Axis, Engine, Findings, Header, Journal, Outcome, OutputFiles, Seeds, Setting, Sweep,
     WorldChoice,
@@ -32,8 +33,9 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds)]
     seeds: Seeds,
 
-    /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5
-    #[arg(long, value_name = "NAME=VALUES", value_parser = afp_sweep::axis)]
+    /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5; with one value
+    /// sets it, as '--set' does
+    #[arg(long, alias = "set", value_name = "NAME=VALUES", value_parser = afp_sweep::axis)]
     vary: Vec<Axis>,
 
     /// World file, map (.yaml) or random:SEED; several times for several, or random:7..99
@@ -182,13 +184,14 @@ fn go_on(
     broken.map_or(Ok(()), Err)
 }
 
-/// What runs the plans: with toolboxes of one's own, what the program was built from counts too.
+/// What runs the plans: with toolboxes of one's own, what the program was built from counts too. Python says the same of
+/// plans that it has no part in, and goes on with their sweeps.
 fn program(linked: &Linked<'_>) -> Result<String, RunError> {
-    let version = env!("CARGO_PKG_VERSION").to_owned();
+    let build = Build::this().to_string();
     if !linked.is_runner() {
-        return Ok(version);
+        return Ok(build);
     }
     let me = std::env::current_exe().map_err(RunError::file("cannot find", "afpc".as_ref()))?;
     let bytes = std::fs::read(&me).map_err(RunError::file("cannot read", &me))?;
-    Ok(format!("{version} {}", hash(&String::from_utf8_lossy(&bytes))))
+    Ok(format!("{build} {}", hash(&String::from_utf8_lossy(&bytes))))
 }

@@ -70,7 +70,7 @@ impl Settings {
             None => false,
             Some(value) => value
                 .as_bool()
-                .or_else(|| value.as_integer().map(|n| n != 0))
+                .or_else(|| value.as_integer().filter(|n| (0..=1).contains(n)).map(|n| n == 1))
                 .ok_or_else(|| keys.error("negate", "is to be 0 or 1"))?,
         };
         let threshold = keys.share("occupied_thresh")?;

@@ -6,6 +6,7 @@ use afp_core::Environment;
 use afp_core::rt::{Child, Machine, Tables};
 use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
 use afp_dsl::types::Type;
+use afp_syntax::source::Span;
 
 use super::{EntryInfo, LoadedPlan, WatchSlot, numbered};
 use crate::load::config::Config;
@@ -74,12 +75,14 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
         child: Child,
     ) -> Result<ElementSlot<E>, LoadError> {
         let component = match element.component {
-            Component::Actor(id) => Running::Actor(self.find(id, Registry::new_actor)?),
+            Component::Actor(id) => {
+                Running::Actor(self.find(id, element.span, Registry::new_actor)?)
+            }
             Component::Computation(id) => {
                 let reads = self.graph.template(id).reads_table.as_ref();
                 Running::Computation(match reads.and_then(|reads| reads.table.as_ref()) {
                     Some(table) => Box::new(RowSlot::new(table)),
-                    None => self.find(id, Registry::new_computation)?,
+                    None => self.find(id, element.span, Registry::new_computation)?,
                 })
             }
             Component::SubPlan(id) => {
@@ -98,13 +101,14 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             inputs: Inputs::new(&supervisor.inputs),
             outputs: Binding::all(&supervisor.outputs, entries),
             injected: None,
-            slot: self.find(supervisor.template, Registry::new_supervisor)?,
+            slot: self.find(supervisor.template, supervisor.span, Registry::new_supervisor)?,
         })
     }
 
     fn find<T>(
         &self,
         id: graph::TemplateId,
+        used: Span,
         new: impl FnOnce(&Registry<E>, &str, &str) -> Option<T>,
     ) -> Result<T, LoadError> {
         let toolbox = &self.graph.toolboxes[id.toolbox.index()].name;
@@ -113,7 +117,16 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
             let missing = self.registry.missing(toolbox, template).map(<[_]>::to_vec);
             let (toolbox, template) = (toolbox.clone(), template.clone());
             match missing {
-                Some(missing) => LoadError::Unsupported { toolbox, template, missing },
+                Some(missing) => {
+                    let place = self.names.place(used);
+                    let at = place.map(|it| format!("{}:{}:{}", it.file, it.line, it.column));
+                    LoadError::Unsupported {
+                        toolbox,
+                        template,
+                        missing,
+                        at: at.unwrap_or_default(),
+                    }
+                }
                 None => LoadError::NoComponent { toolbox, template },
             }
         })

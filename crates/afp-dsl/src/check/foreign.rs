@@ -1,0 +1,101 @@
+//! Templates of another robot than the one that plans run on.
+//!
+//! A robot has what its toolbox declares. It may have devices of another robot's toolbox, by their names, and then does
+//! what the templates of that toolbox ask of them.
+
+use crate::check::signature::Signature;
+use crate::toolbox::{Device, DeviceKind, TemplateKind, Toolbox, Toolboxes};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// Reports a template of another robot's toolbox that needs what the robot of the project does not have: a device that it
+/// commands, or, of a supervisor, any sensor of that toolbox.
+pub(crate) fn check(
+    toolboxes: &Toolboxes,
+    signature: &Signature,
+    used: Span,
+    diags: &mut Diagnostics,
+) {
+    let (Some(template), Some((_, toolbox))) = (signature.template(), &signature.template) else {
+        return;
+    };
+    let Some(robot) = toolboxes.said_robot().filter(|_| toolboxes.is_of_another_robot(toolbox))
+    else {
+        return;
+    };
+    let lacks = |device: &&Device| robot.devices.iter().all(|own| own.name != device.name);
+    let commanded = |device: &&Device| template.uses.contains(&device.name);
+    let (name, other, own) = (&template.name, &toolbox.name, &robot.name);
+    let looks = template.kind == TemplateKind::Supervisor;
+    let missing = toolbox.devices.iter().filter(commanded).find(lacks);
+    let (message, help) = match missing {
+        Some(device) => (
+            format!(
+                "'{name}' of '{other}' commands '{}', which the robot '{own}' does not have",
+                device.name
+            ),
+            format!(
+                "use a template of '{own}'; or, if the robot does what '{name}' asks for, declare '{} {} {{}}' in its toolbox",
+                if device.kind == DeviceKind::Sensor { "sensor" } else { "device" },
+                device.name
+            ),
+        ),
+        None if looks && sensors(toolbox).all(|sensor| lacks(&sensor)) => (
+            format!("'{name}' looks at sensors of '{other}', of which the robot '{own}' has none"),
+            format!(
+                "use a supervisor of '{own}'; or, if the robot has what '{name}' looks at, declare it in its toolbox \
+                 under its name in '{other}'"
+            ),
+        ),
+        None => return,
+    };
+    let mut diagnostic = Diagnostic::new(Code::E0518, used, message).help(help);
+    if let Some(device) = missing {
+        diagnostic = diagnostic.note(device.span, "declared here");
+    }
+    diags.push(diagnostic.note(robot.span, "the toolbox of the robot that plans run on"));
+}
+
+fn sensors(toolbox: &Toolbox) -> impl Iterator<Item = &Device> {
+    toolbox.devices.iter().filter(|device| device.kind == DeviceKind::Sensor)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::compile_plan;
+    use crate::files::Texts;
+    use crate::toolbox::Toolboxes;
+    use afp_syntax::source::Source;
+
+    const CRANE: &str = "toolbox crane version \"1\"\ndevice arm { fault stuck }\nsensor eye { signal near: bool }\n\
+                         robot { truth pose: pose }\nactor Grip { uses arm state Done }\n\
+                         supervisor Look { event Seen }\ncomputation Guess { state Done }\n";
+    const PLAN: &str = "use crane\nplan P {\n    start guess\n    supervise look: Look { Seen -> terminate }\n    \
+                        computation guess: Guess { Done -> grip }\n    actor grip: Grip { Done -> terminate }\n}\n";
+
+    /// The columns of the names that are refused where the robot is a cart with these devices.
+    fn refused(devices: &str) -> Vec<String> {
+        let cart = format!("toolbox cart version \"1\"\nrobot {{ truth pose: pose }}\n{devices}\n");
+        let files = [("crane.afp", CRANE, "crane"), ("cart.afp", &cart, "cart")];
+        let mut toolboxes: Toolboxes = files.into_iter().collect();
+        toolboxes.set_robot("cart");
+        let compiled =
+            compile_plan(&Source::new("p.afp", PLAN), &toolboxes, &Texts::default(), None);
+        let told = compiled.diags.iter().map(|it| {
+            assert_eq!(it.code.as_str(), "E0518");
+            compiled.sources.text(it.span).to_owned()
+        });
+        told.collect()
+    }
+
+    #[test]
+    fn a_robot_runs_what_needs_no_more_than_it_has() {
+        assert_eq!(refused(""), ["Look", "Grip"]);
+        assert_eq!(refused("device arm { fault torn }"), ["Look"]);
+        assert_eq!(refused("sensor eye { signal far: bool }"), ["Grip"]);
+        assert_eq!(
+            refused("device arm {}\nsensor eye { signal near: bool }"),
+            Vec::<String>::new()
+        );
+    }
+}
