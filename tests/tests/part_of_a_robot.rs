@@ -87,7 +87,7 @@ fn what_it_cannot_serve_is_refused_by_name_with_what_is_missing() {
         "actor a: Forward { supervise touch: CheckTouchSensor { TouchSensorPressed -> terminate }
         ForwardSuccessful -> terminate }";
     let refused = load(plan).err().map(|error| error.to_string()).unwrap_or_default();
-    let begins = "the robot does not support 'carbot.CheckTouchSensor', used at plan.afp:4:31: ";
+    let begins = "the robot does not support 'carbot.CheckTouchSensor', used at plan.afp:4:30: ";
     assert!(refused.starts_with(begins), "{refused}");
     assert!(refused.contains("'TouchSensor'") && !refused.contains("'Navigator'"), "{refused}");
 }
