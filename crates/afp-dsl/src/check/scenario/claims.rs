@@ -1,5 +1,7 @@
 //! What a scenario expects.
 
+mod left;
+
 use super::often::wanted;
 use super::paths::{Found, Part};
 use super::resolve;
@@ -136,28 +138,6 @@ impl Checker<'_> {
                 outcome,
             }),
         })
-    }
-
-    /// What is wrong where the state or event by which an element is left stands in place of the element, as it does in
-    /// timelines: `go.Done -> home`.
-    fn left_by(&self, path: &Path, to: &ClaimTarget, by: Option<&Path>) -> Option<Diagnostic> {
-        let names = path.names();
-        let (found, rest) = self.paths.find(self.paths.main(), &names).ok()?;
-        let [outcome] = rest else { return None };
-        self.paths.outcome(found, &outcome.text).filter(|_| by.is_none())?;
-        let (text, to) = (path.text(), written(to));
-        let owner = match found.part {
-            Part::Element(_) => names.len() - 1,
-            Part::Supervisor(_) => names.len() - 2,
-        };
-        let owner: Vec<_> = names.iter().take(owner).map(|name| &*name.text).collect();
-        let element = self.paths.find(self.paths.main(), &names[..owner.len()]);
-        let help = match element.is_ok_and(|(at, _)| matches!(at.part, Part::Element(_))) {
-            true => format!("write '{} -> {to} by {text}'", owner.join(".")),
-            false => format!("write the element that is left: 'ELEMENT -> {to} by {text}'"),
-        };
-        let message = format!("'{text}' is no element");
-        Some(Diagnostic::new(Code::E0602, path.span(), message).help(help))
     }
 
     /// Reports when no edge leads from one to the other.
