@@ -36,6 +36,17 @@ pub struct Outcome {
     pub timeline: String,
     /// What the robot came to touch, each time, oldest first.
     pub contacts: Vec<Contact>,
+    /// What was seen of it on the way.
+    pub seen: Seen,
+    /// When the plan ended, or the case.
+    pub at: Instant,
+    /// Where the robot is then.
+    pub pose: Pose,
+}
+
+/// What is seen of a robot that is looked at every [`LOOK`].
+#[derive(Clone, Debug, Default)]
+pub struct Seen {
     /// For how long its drive was told to move into something that it touched.
     pub pushing: Duration,
     /// For how long it touched something while its drive was told to move, into it or away from it.
@@ -44,10 +55,20 @@ pub struct Outcome {
     pub pushes: Pushes,
     /// When it first took itself to be more than [`ASTRAY`] from where it was.
     pub astray: Option<Instant>,
-    /// When the plan ended, or the case.
-    pub at: Instant,
-    /// Where the robot is then.
-    pub pose: Pose,
+}
+
+impl Seen {
+    fn look(&mut self, robot: &Witness, things: &[String]) {
+        if self.pushes.look(robot, things) {
+            self.pushing = self.pushing + LOOK;
+        }
+        let truth = robot.sim.truth();
+        if truth.touching().next().is_some() && !truth.is_halted() {
+            self.touching = self.touching + LOOK;
+        }
+        let off = robot.sim.localisation_error().filter(|[off, _]| *off > ASTRAY);
+        self.astray = self.astray.or(off.map(|_| robot.sim.now()));
+    }
 }
 
 /// Drives a case to its end.
@@ -79,9 +100,8 @@ pub fn run(case: &Case) -> Outcome {
     let start = scheduler.start(&mut robot, &mut sink, &clock, Instant::ZERO);
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
-    let ([mut pushing, mut touching], mut at) = ([Duration::ZERO; 2], case.until);
+    let (mut seen, mut at) = (Seen::default(), case.until);
     let things: Vec<String> = case.world.obstacles.iter().map(|it| it.name.clone()).collect();
-    let (mut pushes, mut astray) = (Pushes::default(), None);
     while robot.sim.now() < end {
         let due = match wake {
             Wake::At(due) => due.max(clock.free()),
@@ -93,15 +113,7 @@ pub fn run(case: &Case) -> Outcome {
         if now == look {
             watch.borrow_mut().look(&robot.sim);
             diary.borrow_mut().poses.push(robot.sim.truth().pose());
-            if pushes.look(&robot, &things) {
-                pushing = pushing + LOOK;
-            }
-            let truth = robot.sim.truth();
-            if truth.touching().next().is_some() && !truth.is_halted() {
-                touching = touching + LOOK;
-            }
-            let off = robot.sim.localisation_error().filter(|[off, _]| *off > ASTRAY);
-            astray = astray.or(off.map(|_| now));
+            seen.look(&robot, &things);
             look = look + LOOK;
         }
         case.chance.happen(&mut next, &mut robot.sim);
@@ -121,7 +133,7 @@ pub fn run(case: &Case) -> Outcome {
     drop((robot, scheduler));
     let watch = Rc::into_inner(watch).expect("nobody else holds it any more");
     let broken = watch.into_inner().broken();
-    Outcome { trace, ending, broken, timeline, contacts, pushing, touching, pushes, astray, at, pose }
+    Outcome { trace, ending, broken, timeline, contacts, seen, at, pose }
 }
 
 /// Whoever watches a case, before it begins.

@@ -68,8 +68,8 @@ impl Single {
     pub fn objections(&self, outcome: &Outcome) -> Vec<String> {
         let mut wrong: Vec<String> =
             outcome.broken.iter().map(|(at, why)| format!("{at}: {why}")).collect();
-        if outcome.pushing > TOO_LONG {
-            wrong.push(format!("it pushed for {}", outcome.pushing));
+        if outcome.seen.pushing > TOO_LONG {
+            wrong.push(format!("it pushed for {}", outcome.seen.pushing));
         }
         if let Some(Ending::Error(fault)) = outcome.ending
             && !self.explains(fault.code())
@@ -85,7 +85,7 @@ impl Single {
         // Who goes round things by touching them touches several, and does so with a dead bumper, too: `TOO_LONG` holds.
         let feels =
             ["avoid_obstacle", "find_object", "patrol"].contains(&self.case.plan.name.as_str());
-        !feels && outcome.pushing > LONG
+        !feels && outcome.seen.pushing > LONG
     }
 
     /// Whether a reason is one that this fault may have.
@@ -138,8 +138,8 @@ impl Account {
         };
         *row.endings.entry(ending.to_owned()).or_default() += 1;
         row.contacts += outcome.contacts.len();
-        row.pushing = row.pushing + outcome.pushing;
-        row.longest = row.longest.max(outcome.pushing);
+        row.pushing = row.pushing + outcome.seen.pushing;
+        row.longest = row.longest.max(outcome.seen.pushing);
     }
 
     /// The account as tables in Markdown, one for each plan.

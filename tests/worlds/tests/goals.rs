@@ -53,9 +53,9 @@ impl Account {
         if !touches.is_empty() {
             self.touched.push((room, touches));
         }
-        self.pushed.push((outcome.pushing.as_secs_f64(), room));
-        self.touching.push(outcome.touching.as_secs_f64());
-        self.astray.extend(outcome.astray.map(|at| (room, at)));
+        self.pushed.push((outcome.seen.pushing.as_secs_f64(), room));
+        self.touching.push(outcome.seen.touching.as_secs_f64());
+        self.astray.extend(outcome.seen.astray.map(|at| (room, at)));
     }
 
     /// Puts rooms and times in order and says it all.
@@ -112,7 +112,7 @@ fn sent(name: &str, errand: fn(u64) -> Option<Errand>) -> Account {
             let outcome = run(&errand.case);
             if env::var_os("AFP_GOAL").is_some() {
                 println!("{}\n{}\n{}", errand.text, errand.case, outcome.timeline);
-                println!("{}", outcome.pushes);
+                println!("{}", outcome.seen.pushes);
             }
             account.lock().unwrap_or_else(PoisonError::into_inner).add(&errand, &outcome);
         }

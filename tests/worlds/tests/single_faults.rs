@@ -34,8 +34,8 @@ fn shown(name_of: &str, all: &[Single]) {
     let single = single.unwrap_or_else(|| panic!("no case '{name_of}'"));
     let outcome = run(&single.case);
     println!("{}{}{:?}", single.case, outcome.timeline, outcome.ending);
-    println!("{} contacts, pushing for {}", outcome.contacts.len(), outcome.pushing);
-    print!("{}", outcome.pushes);
+    println!("{} contacts, pushing for {}", outcome.contacts.len(), outcome.seen.pushing);
+    print!("{}", outcome.seen.pushes);
     assert_eq!(single.objections(&outcome), [""; 0]);
 }
 
@@ -59,8 +59,13 @@ fn any_single_fault_ends_well() {
             let outcome = run(&single.case);
             account.lock().expect("nobody panics here").add(single, &outcome);
             long.fetch_add(usize::from(single.pushes_long(&outcome)), Ordering::Relaxed);
-            if outcome.pushing > TOLD {
-                print!("{} pushes for {}\n{}", name(single), outcome.pushing, outcome.pushes);
+            if outcome.seen.pushing > TOLD {
+                print!(
+                    "{} pushes for {}\n{}",
+                    name(single),
+                    outcome.seen.pushing,
+                    outcome.seen.pushes
+                );
             }
             let wrong = single.objections(&outcome);
             if let Some(first) = wrong.first() {
