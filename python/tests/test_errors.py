@@ -147,11 +147,11 @@ def test_a_quantity_stays_one_in_whatever_it_is_computed_with() -> None:
         ("n", True, "'n' is an int, not a bool"),
         ("b", 2, "'b' is a bool, not 2"),
         ("b", np.float32(0.5), "'b' is a bool, not 0.5"),
-        ("t", 3, "'t' is a text, not 3"),
+        ("t", 3, "'t' is a string, not 3"),
     ],
 )
 def test_a_number_of_another_kind_is_told_as_it_is(entry: str, value: object, said: str) -> None:
-    entries = 'in n: int = 1 in b: bool = true in t: text = "a"'
+    entries = 'in n: int = 1 in b: bool = true in t: string = "a"'
     plan = afp.Plan(f"use std\nplan P {{ {entries} start w actor w: Wait(duration = 1 s) {{ Elapsed -> terminate }} }}")
     with pytest.raises(TypeError, match=f"^{said}$"):
         afp.Simulation(plan, set={entry: value})
