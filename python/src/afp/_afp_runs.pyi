@@ -378,14 +378,14 @@ class Sweeper:
     ) -> list[str]:
         """Does runs for another process; their outcomes as lines of JSON."""
     def accept(self, lines: list[str], on_run: Callable[[dict[str, Any]], Any] | None = None) -> int:
-        """Keeps outcomes of another process, and tells `on_run` their rows; those of runs that are done are dropped. How many
+        """Keeps outcomes of another process, and passes their rows to `on_run`; those of runs that are done are dropped. How many
         were new."""
     def runner(
         self, run: int, log: str | os.PathLike[str] | None = None, camera: bool = False
     ) -> tuple[Runner, World]:
         """A run about to begin again, and its world; its log is written to a file, perhaps with what the camera sees."""
     def write(self) -> list[Path]:
-        """Writes the table, if it has a place, and lets go of the journal; its paths."""
+        """Writes the table, if it is written anywhere, and closes the journal; its paths."""
     def columns(self) -> dict[str, tuple[list[Any], str]]:
         """The outcomes so far by column, in the order of the runs; the second of a pair is the type."""
     def __reduce__(self) -> NoReturn: ...
