@@ -22,6 +22,7 @@ import pytest
 
 from . import Simulation, World, load
 from ._afp import Plan, Scenario, Toolbox, Verdict
+from .places import Place
 from .plan import Plan as TypedPlan
 
 LOGS = Path("target/afp/tests")
@@ -143,7 +144,7 @@ class _SimulationMaker(Protocol):
     def __call__(
         self,
         plan: Plan | str | os.PathLike[str],
-        world: World | str | os.PathLike[str] | None = None,
+        world: Place | None = None,
         *,
         seed: int = 0,
         set: Mapping[str, Any] | None = None,
@@ -195,7 +196,7 @@ def afp_simulation(
 
     def make(
         plan: Plan | str | os.PathLike[str],
-        world: World | str | os.PathLike[str] | None = None,
+        world: Place | None = None,
         *,
         seed: int = 0,
         set: Mapping[str, Any] | None = None,

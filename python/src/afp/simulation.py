@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ._afp import Driven, Event, Plan, Runner, World
 from .picture import Picture
-from .places import place_of
+from .places import Place, place_of
 from .result import ComponentError, Result
 from .seeds import seed_of
 from .snapshot import Snapshot
@@ -38,7 +38,7 @@ class Simulation(Driven):
     def __init__(
         self,
         plan: Plan,
-        world: World | str | os.PathLike[str] | None = None,
+        world: Place | None = None,
         *,
         seed: int = 0,
         set: Mapping[str, Any] | None = None,
