@@ -92,15 +92,16 @@ impl Given {
             Given::Plain(_, Some(unit)) if unit != about.unit => {
                 Err(wrong(format!("a quantity in {unit}")))
             }
-            Given::Plain(value, _) => match (&value, about.ty) {
-                (Value::Bool(_), "bool") | (Value::Int(_), "int") => Ok(value),
-                (Value::Int(_) | Value::Float(_), "float") => Ok(value),
-                (Value::Int(_) | Value::Float(_), _) if !about.unit.is_empty() => Ok(value),
-                (Value::Bool(_), _) => Err(wrong("a bool".to_owned())),
-                (Value::Int(number), _) => Err(wrong(number.to_string())),
-                (Value::Float(number), _) => Err(wrong(number.to_string())),
-                _ => Ok(value),
-            },
+            Given::Plain(value, _) => {
+                let is_number = about.ty == "float" || !about.unit.is_empty();
+                let (fits, what) = match value {
+                    Value::Bool(_) => (about.ty == "bool", "a bool".to_owned()),
+                    Value::Int(number) => (about.ty == "int" || is_number, number.to_string()),
+                    Value::Float(number) => (is_number, number.to_string()),
+                    _ => return Ok(value),
+                };
+                if fits { Ok(value) } else { Err(wrong(what)) }
+            }
             Given::Other(name) => Err(wrong(name)),
         }
     }
