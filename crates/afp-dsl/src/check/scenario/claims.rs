@@ -53,12 +53,16 @@ impl Checker<'_> {
             return Some(found);
         }
         let message = format!("'{}' is no element", path.text());
-        let help = match (rest, self.paths.outcomes(found).first()) {
-            ([more, ..], _) => format!("remove '.{}'", more.text),
-            ([], Some(event)) => {
-                format!("expect one of its events, such as '{}.{event}'", path.text())
+        let events = self.paths.outcomes(found);
+        let named = rest.first().and_then(|name| events.iter().find(|event| **event == name.text));
+        let help = match (rest, named.or(events.first())) {
+            (_, Some(event)) if !matches!(found.part, Part::Element(_)) => {
+                let own = names.iter().take(names.len() - rest.len());
+                let supervisor: Vec<_> = own.map(|name| name.text.as_str()).collect();
+                format!("expect its event alone: 'expect {}.{event}'", supervisor.join("."))
             }
-            ([], None) => "write the name of an element".to_owned(),
+            ([more, ..], _) => format!("remove '.{}'", more.text),
+            ([], _) => "write the name of an element".to_owned(),
         };
         diags.push(Diagnostic::new(Code::E0602, path.span(), message).help(help));
         None
