@@ -67,6 +67,17 @@ mod tests {
     }
 
     #[test]
+    fn who_begins_near_the_end_is_there_and_who_comes_from_afar_drives_on_to_it() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(follow(&mut robot, &[[0.0, 0.0], [0.09, 0.0]], 1), Ok(Some(State::Arrived)));
+        assert_eq!(robot.motion.x.si(), 0.0);
+        // Near the end, but a way round before it.
+        let round = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6], [0.0, 0.05]];
+        assert_eq!(follow(&mut robot, &round, 2), Ok(None));
+        assert!(robot.motion.x.si() > 0.2);
+    }
+
+    #[test]
     fn the_map_need_not_begin_where_the_robot_does() {
         let mut robot = Fake::new(&[]);
         robot.map_offset = [2.0, -1.0];

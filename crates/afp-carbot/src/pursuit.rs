@@ -7,6 +7,7 @@ use crate::path::Path;
 use crate::tracking::Tracking;
 use afp_core::quantity::{Length, Speed};
 use afp_core::{Duration, Fault, Instant};
+use core::mem;
 
 /// Speed is gained and lost at this many metres a second squared, and turn rate at so many radians.
 const ACCELERATION: f64 = 0.5;
@@ -39,6 +40,8 @@ pub(crate) struct Pursuit {
     position: Guard,
     /// Since when the robot has not been on its path.
     doubt: Option<Instant>,
+    /// Whether the robot has been told to drive.
+    underway: bool,
     /// What the robot comes to a standstill for.
     ending: Option<Pursued>,
 }
@@ -80,6 +83,7 @@ impl Pursuit {
             odometry: Guard::new(NO_ODOMETRY, now),
             position: Guard::new(NO_POSITION, now),
             doubt: None,
+            underway: false,
             ending: None,
         }
     }
@@ -153,6 +157,12 @@ impl Pursuit {
             return None;
         };
         self.doubt = None;
+        // Who begins so near to the end is there; who comes from farther away drives on to the end itself.
+        let begun = mem::replace(&mut self.underway, true);
+        if !begun && near.rest.max(end) <= self.tolerance {
+            self.ending = Some(Pursued::Arrived);
+            return None;
+        }
         // Beside the end of the path the way to it is no longer along the path.
         let (aim, rest) = if near.rest > CLOSE {
             (path.place(near.rest - LOOK_AHEAD)?, near.rest)

@@ -48,6 +48,8 @@ pub struct EchoField {
     cells: Arc<[AtomicU16]>,
     /// Cosine and sine of each direction.
     directions: Arc<[Vector2<f64>]>,
+    /// The map's lower left corner.
+    low: Vector2<f64>,
     cell: f64,
     columns: usize,
     rows: usize,
@@ -73,6 +75,7 @@ impl EchoField {
             map: Arc::new(map),
             cells,
             directions,
+            low,
             cell,
             columns,
             rows,
@@ -87,8 +90,7 @@ impl EchoField {
 
     /// What a sensor at a place (metres) that looks along a direction (radians against the x axis) should hear.
     pub fn expected(&self, [x, y]: [f64; 2], direction: f64) -> Expected {
-        let [low, _] = self.map.bounds();
-        let [across, up] = [(x - low[0]) / self.cell, (y - low[1]) / self.cell];
+        let [across, up] = [(x - self.low.x) / self.cell, (y - self.low.y) / self.cell];
         let inside = across >= 0.0 && up >= 0.0;
         let (column, row) = (across as usize, up as usize);
         if !inside || column >= self.columns || row >= self.rows {
@@ -123,9 +125,7 @@ impl EchoField {
     }
 
     fn middle(&self, column: usize, row: usize) -> Vector2<f64> {
-        let [low, _] = self.map.bounds();
-        let at = Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell;
-        Vector2::from(low) + at
+        self.low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell
     }
 
     /// Computes a room for all directions. Whoever does it at the same time computes the same.

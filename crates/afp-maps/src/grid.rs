@@ -72,11 +72,11 @@ impl Grid {
         up.flat_map(move |row| across.clone().map(move |column| row * columns + column))
     }
 
-    /// Takes something small at a place into account.
-    pub(crate) fn add(&mut self, place: [f64; 2]) {
+    /// Takes something small at a place into account, as if it were so much farther away, metres.
+    pub(crate) fn add(&mut self, place: [f64; 2], farther: f64) {
         for index in self.around(place, place, f64::from(MAX_CLEARANCE)) {
             let [x, y] = self.place(index);
-            self.limit(index, libm::hypot(x - place[0], y - place[1]));
+            self.limit(index, libm::hypot(x - place[0], y - place[1]) + farther);
         }
     }
 
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn what_is_added_takes_room() {
         let mut grid = grid();
-        grid.add([1.0, 1.0]);
+        grid.add([1.0, 1.0], 0.0);
         let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
         assert!(clearance(1.0, 1.0) < 0.04 && (clearance(1.324, 1.0) - 0.325).abs() < 0.03);
         assert_eq!(clearance(0.2, 1.0), MAX_CLEARANCE);

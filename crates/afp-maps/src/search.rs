@@ -209,7 +209,7 @@ mod tests {
     fn round_what_was_found() {
         let mut grid = rooms(2.5);
         for n in 0..10 {
-            grid.add([3.0, 1.6 + 0.05 * f64::from(n)]);
+            grid.add([3.0, 1.6 + 0.05 * f64::from(n)], 0.0);
         }
         let path = places(&grid, [1.0, 2.0], [5.0, 2.0]).unwrap();
         assert!(path.iter().any(|[_, y]| (y - 2.0).abs() > 0.25), "{path:?}");

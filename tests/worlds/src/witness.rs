@@ -1,6 +1,7 @@
 //! The robot with a witness between it and the plan, who sees every reading and every command.
 
 use std::cell::{Cell, RefCell};
+use std::fmt;
 use std::rc::Rc;
 
 use afp_carbot::Path;
@@ -34,9 +35,10 @@ impl Witness {
     }
 
     /// A reading that says nonsense breaks a promise.
-    fn sane(&self, what: &str, sane: bool) {
+    fn sane(&self, what: &str, value: &dyn fmt::Debug, sane: bool) {
         if !sane {
-            self.watch.borrow_mut().breaks(self.sim.now(), format!("a valid reading of {what}"));
+            let why = format!("a valid reading of {what} is {value:?}");
+            self.watch.borrow_mut().breaks(self.sim.now(), why);
         }
     }
 }
@@ -73,7 +75,7 @@ impl Odometry for Witness {
         let reading = self.told(Sensor::Odometry, self.sim.motion());
         if let Ok(Motion { x, y, heading, speed, turn }) = reading.value {
             let all = [x.si(), y.si(), heading.si(), speed.si(), turn.si()];
-            self.sane(&format!("odometry is {all:?}"), all.iter().all(|value| value.is_finite()));
+            self.sane("odometry", &all, all.iter().all(|value| value.is_finite()));
         }
         self.counted.set(reading.value.ok());
         reading
@@ -93,10 +95,7 @@ impl Ultrasonic for Witness {
         let reading = self.told(Sensor::Ultrasonic, self.sim.echo());
         if let Ok(Echo { distance: Some(distance), .. }) = reading.value {
             let beam = self.beam();
-            self.sane(
-                &format!("range is {distance:?}"),
-                beam.min <= distance && distance <= beam.max,
-            );
+            self.sane("range", &distance, beam.min <= distance && distance <= beam.max);
         }
         reading
     }
@@ -116,7 +115,7 @@ impl RotatingTelemetry for Witness {
     fn bearing(&self) -> Reading<Angle> {
         let reading = self.told(Sensor::Rotator, self.sim.bearing());
         if let Ok(bearing) = reading.value {
-            self.sane(&format!("the rotator is {bearing:?}"), bearing.si().abs() < 4.0);
+            self.sane("the rotator", &bearing, bearing.si().abs() < 4.0);
         }
         reading
     }

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use std::{env, thread};
 
 use afp_core::Instant;
-use afp_worlds::{Contact, Errand, Outcome, run};
+use afp_worlds::{Contact, Errand, Outcome, Pushes, run};
 
 /// Rooms unless told otherwise: the first seed and how many.
 const ROOMS: (u64, usize) = (1000, 12);
@@ -34,8 +34,8 @@ struct Account {
     touched: Vec<(u64, Vec<Contact>)>,
     /// For how long it drove to its goal, seconds.
     took: Vec<f64>,
-    /// For how long it pushed, seconds, and in which room.
-    pushed: Vec<(f64, u64)>,
+    /// For how long it pushed, seconds, in which room, and against what.
+    pushed: Vec<(f64, u64, Pushes)>,
     /// For how long it touched something while it drove, into it or away from it, seconds.
     touching: Vec<f64>,
     /// The rooms in which it did not know where it was, and since when.
@@ -53,7 +53,8 @@ impl Account {
         if !touches.is_empty() {
             self.touched.push((room, touches));
         }
-        self.pushed.push((outcome.seen.pushing.as_secs_f64(), room));
+        let pushes = outcome.seen.pushes.clone();
+        self.pushed.push((outcome.seen.pushing.as_secs_f64(), room, pushes));
         self.touching.push(outcome.seen.touching.as_secs_f64());
         self.astray.extend(outcome.seen.astray.map(|at| (room, at)));
     }
@@ -69,10 +70,11 @@ impl Account {
         println!("  after {:.0} s mostly, {:.0} s of nine in ten", share(50), share(90));
         println!("  in a minute: {}", self.took.iter().filter(|took| **took <= 60.0).count());
         self.pushed.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let long: Vec<_> = self.pushed.iter().take_while(|(time, _)| *time > PUSHED).collect();
-        let told: Vec<_> =
-            long.iter().map(|(time, room)| format!("{time:.1} s in {room}")).collect();
-        println!("  pushed for more than {PUSHED} s in {}: {}", long.len(), told.join(", "));
+        let long: Vec<_> = self.pushed.iter().take_while(|(time, ..)| *time > PUSHED).collect();
+        println!("  pushed for more than {PUSHED} s in {}", long.len());
+        for (time, room, pushes) in long {
+            print!("  pushed for {time:.1} s in random:{room}\n{pushes}");
+        }
         let touching = self.touching.iter().filter(|time| **time > PUSHED).count();
         println!("  touched something for more than {PUSHED} s while it drove in {touching}");
         self.astray.sort();

@@ -20,7 +20,8 @@ const SLANT_LOST_AT_EDGE: f64 = 0.1;
 #[derive(Clone, Copy, Debug)]
 struct Met {
     range: f64,
-    slant: f64,
+    /// Of the slant at which it meets it.
+    cos: f64,
 }
 
 /// An echo.
@@ -42,6 +43,8 @@ pub(super) fn echoes(
     for face in faces {
         cast(face, directions, from, range, &mut met);
     }
+    // Slant by ray: each is heard by several directions.
+    let met = met.map(|met| met.map(|Met { range, cos }| (range, libm::acos(cos.min(1.0)))));
     std::array::from_fn(|direction| listen(&met, direction))
 }
 
@@ -73,16 +76,15 @@ fn cast(
         let cos = -along.dot(&face.normal);
         let far = off / cos;
         if cos > 0.0 && far <= range && nearest.is_none_or(|met| far < met.range) {
-            *nearest = Some(Met { range: far, slant: libm::acos(cos.min(1.0)) });
+            *nearest = Some(Met { range: far, cos });
         }
     }
 }
 
 /// The nearest ray of the cone that is heard.
-fn listen(met: &[Option<Met>; DIRECTIONS], direction: usize) -> Option<Heard> {
+fn listen(met: &[Option<(f64, f64)>; DIRECTIONS], direction: usize) -> Option<Heard> {
     let rays = (0..=2 * SIDE).filter_map(|ray| {
-        let Met { range, slant } =
-            (*met.get((direction + DIRECTIONS + ray - SIDE) % DIRECTIONS)?)?;
+        let (range, slant) = (*met.get((direction + DIRECTIONS + ray - SIDE) % DIRECTIONS)?)?;
         let edge = ray.abs_diff(SIDE) as f64 / SIDE as f64;
         let heard = SLANT - SLANT_LOST * (range - 1.0).max(0.0) - SLANT_LOST_AT_EDGE * edge * edge;
         (slant <= heard).then_some(Heard { range, ray: ray as u16 })

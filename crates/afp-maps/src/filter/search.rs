@@ -16,6 +16,9 @@ const DOUBTING: usize = 250;
 const CONTENT: usize = 25;
 /// A belief that explains the latest echoes less well than this is doubted; 1 is as well as can be.
 const DOUBT: f64 = 0.6;
+/// A place is tried by so many of the echoes first, and left when it explains them so much less well than the rival does all.
+const PROBES: usize = 8;
+const HOPELESS: f64 = 0.2;
 /// So many places near the rival, metres and radians.
 const NEARBY: usize = 12;
 const OFF: f64 = 0.12;
@@ -23,13 +26,13 @@ const TURNED: f64 = 0.12;
 
 /// How well a place explains echoes: the mean likelihood, 1 where there are none.
 pub(super) fn explained(field: &EchoField, echoes: &[Echo], place: Pose2) -> f64 {
-    mean(summed(field, echoes, place, f64::NEG_INFINITY, likelihood), echoes)
+    mean(summed(field, echoes.iter(), place, f64::NEG_INFINITY, likelihood), echoes)
 }
 
 /// The same for the belief. A rival has to explain echoes by the map; the belief need not, so that a box that was put before
 /// the robot does not carry it off to where a wall is as near.
 pub(super) fn excused(field: &EchoField, echoes: &[Echo], place: Pose2) -> f64 {
-    mean(summed(field, echoes, place, f64::NEG_INFINITY, sonar::excused), echoes)
+    mean(summed(field, echoes.iter(), place, f64::NEG_INFINITY, sonar::excused), echoes)
 }
 
 fn mean(sum: f64, echoes: &[Echo]) -> f64 {
@@ -38,12 +41,19 @@ fn mean(sum: f64, echoes: &[Echo]) -> f64 {
 
 /// The likelihoods added up, or something below `least` where they cannot reach it.
 fn sum(field: &EchoField, echoes: &[Echo], place: Pose2, least: f64) -> f64 {
-    summed(field, echoes, place, least, likelihood)
+    summed(field, echoes.iter(), place, least, likelihood)
 }
 
-fn summed(
+/// Whether a place may be better than one of which the likelihoods add up to `least`, by some of the echoes.
+fn is_promising(field: &EchoField, echoes: &[Echo], place: Pose2, least: f64) -> bool {
+    let probes = echoes.iter().step_by((echoes.len() / PROBES).max(1)).take(PROBES);
+    let least = (least / echoes.len() as f64 - HOPELESS) * probes.len() as f64;
+    summed(field, probes, place, least, likelihood) >= least
+}
+
+fn summed<'e>(
     field: &EchoField,
-    echoes: &[Echo],
+    echoes: impl ExactSizeIterator<Item = &'e Echo>,
     place: Pose2,
     least: f64,
     likelihood: fn(Expected, Option<f64>) -> f64,
@@ -95,7 +105,10 @@ impl Rival {
         let [low, high] = field.map().bounds();
         for _ in 0..if doubted < DOUBT { DOUBTING } else { CONTENT } {
             let [x, y] = [0, 1].map(|i| low[i] + (high[i] - low[i]) * noise.uniform());
-            attempt(&mut best, Pose2 { x, y, heading: TAU * noise.uniform() });
+            let place = Pose2 { x, y, heading: TAU * noise.uniform() };
+            if is_promising(field, echoes, place, best.map_or(0.0, |(_, sum)| sum)) {
+                attempt(&mut best, place);
+            }
         }
         for _ in 0..NEARBY {
             let Some((place, _)) = best else { break };
