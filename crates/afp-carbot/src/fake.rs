@@ -74,6 +74,8 @@ pub(crate) struct Fake {
     pub(crate) late_echoes: u64,
     /// The shares of the commanded speed and turn rate that the wheels follow.
     pub(crate) follows: (f64, f64),
+    /// How often it was told that its drive is blocked.
+    pub(crate) blocked: u32,
     /// It turns by so much more than commanded, radians a second.
     pub(crate) drifts: f64,
     pub(crate) top_speed: f64,
@@ -131,6 +133,7 @@ impl Fake {
             range_freezes: u64::MAX,
             late_echoes: 0,
             follows: (1.0, 1.0),
+            blocked: 0,
             drifts: 0.0,
             top_speed: f64::INFINITY,
             map_offset: [0.0, 0.0],
@@ -300,6 +303,10 @@ impl Navigator for Fake {
 
     fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
         (Speed::from_si(speed.si().clamp(-self.top_speed, self.top_speed)), turn)
+    }
+
+    fn note_blocked(&mut self, _: Instant) {
+        self.blocked += 1;
     }
 
     fn body(&self) -> Body {

@@ -69,7 +69,7 @@ impl Tracking {
     ///
     /// # Errors
     /// [`DRIVE_BLOCKED`], [`DRIVE_STALLED`] or [`NO_PROGRESS`] when the robot has not done what it was told before;
-    /// then nothing is commanded.
+    /// then nothing is commanded, and the platform is told if it was to go ahead.
     pub(crate) fn drive<E: Navigator + ?Sized>(
         &mut self,
         env: &mut E,
@@ -77,7 +77,12 @@ impl Tracking {
         (speed, turn): (f64, f64),
         now: Instant,
     ) -> Result<(), Fault> {
-        self.compare(motion, now)?;
+        if let Err(fault) = self.compare(motion, now) {
+            if self.command.0 > 0.0 {
+                env.note_blocked(now);
+            }
+            return Err(fault);
+        }
         let (speed, turn) = (Speed::from_si(speed), AngularSpeed::from_si(turn));
         let (able, ably) = env.reduced(speed, turn);
         self.command = (able.si(), ably.si());
@@ -184,6 +189,18 @@ mod tests {
             let (millis, fault) = drive(&mut robot, command, 5).expect_err("it stands");
             assert_eq!(fault, DRIVE_BLOCKED);
             assert!(millis < 650, "{command:?}: {millis}");
+        }
+    }
+
+    #[test]
+    fn the_platform_is_told_of_what_stands_ahead_and_of_nothing_else() {
+        for (command, told) in
+            [((0.3, 0.0), 1), ((0.2, 0.5), 1), ((-0.05, 0.0), 0), ((0.0, 1.5), 0)]
+        {
+            let mut robot = Fake::new(&[]);
+            robot.follows = (0.0, 0.0);
+            assert!(drive(&mut robot, command, 5).is_err());
+            assert_eq!(robot.blocked, told, "{command:?}");
         }
     }
 

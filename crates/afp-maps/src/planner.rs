@@ -98,7 +98,8 @@ impl<W: Worker<SearchJob>> Planner<W> {
         self.finds.on_echo(&heard, &self.field, now);
     }
 
-    /// Takes in that the bumper is pressed where the robot takes itself to be.
+    /// Takes in that something stands right before the robot, where it takes itself to be: its bumper is pressed, or its drive
+    /// does not get ahead.
     pub fn on_bump(&mut self, robot: &Belief, now: Instant) {
         if is_certain(robot) {
             self.finds.on_bump(pose(robot), now);

@@ -65,6 +65,10 @@ impl Navigator for Witness {
         self.sim.reduced(speed, turn)
     }
 
+    fn note_blocked(&mut self, now: Instant) {
+        self.sim.note_blocked(now);
+    }
+
     fn body(&self) -> Body {
         self.sim.body()
     }

@@ -36,6 +36,12 @@ pub trait Navigator {
         self.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0), now);
     }
 
+    /// The drive, told to go ahead, did not: something that no sensor may show stands right before the robot. A platform that
+    /// keeps what was met keeps this, too, and plans ways round it; by default nobody does.
+    fn note_blocked(&mut self, now: Instant) {
+        let _ = now;
+    }
+
     /// The robot's outline.
     fn body(&self) -> Body;
 }

@@ -92,6 +92,10 @@ impl Navigator for Simulation {
         (Speed::from_si(speed), AngularSpeed::from_si(turn))
     }
 
+    fn note_blocked(&mut self, now: Instant) {
+        self.plan_round(now);
+    }
+
     fn body(&self) -> Body {
         Body {
             front: Length::from_si(HALF_LENGTH),

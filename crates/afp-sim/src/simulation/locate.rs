@@ -10,6 +10,7 @@ use crate::devices::sonar;
 use crate::truth::Pose;
 use crate::world::{Obstacle, World, isometry};
 use afp_carbot::table::signal;
+use afp_core::Instant;
 use afp_maps::{EchoField, Filter, LocateJob, Locator, Map, Planner, SearchJob};
 use afp_session::{SampleRef, Samples, Shape};
 use afp_worker::VirtualWorker;
@@ -84,6 +85,16 @@ impl Simulation {
         }
     }
 
+    /// Lets ways lead round what stands right before the robot, where it takes itself to be.
+    pub(super) fn plan_round(&mut self, now: Instant) {
+        let motion = self.lines.odometry.read(self.raw_motion());
+        if let (Some(planner), Some(locator)) = (&mut self.planner, &self.locator)
+            && let Ok(place) = locator.latest(motion).value
+        {
+            planner.on_bump(&place, now);
+        }
+    }
+
     /// Lets the filter hear what range sensor and odometry say, by lines that may be broken.
     pub(super) fn locate(&mut self) {
         let (now, truth) = (self.now, self.truth().pose());
@@ -97,13 +108,11 @@ impl Simulation {
             if let Some((echo, place)) = fresh.zip(locator.belief_at(echo.time)) {
                 planner.on_echo(&echo, &place, now);
             }
-            let touched = self.lines.touch.read(touched).value == Ok(true);
-            if let Ok(place) = locator.latest(motion).value
-                && touched
-            {
-                planner.on_bump(&place, now);
-            }
         }
+        if self.lines.touch.read(touched).value == Ok(true) {
+            self.plan_round(now);
+        }
+        let Some(locator) = &self.locator else { return };
         if let Ok(belief) = locator.latest(motion).value {
             let believed =
                 Pose { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() };
