@@ -39,6 +39,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("slips", slips),
     ("messages", messages),
     ("goals", goals),
+    ("maps", maps),
     ("objects", objects),
     ("arm", arm::run),
     ("pi", pi::run),
@@ -154,6 +155,10 @@ fn again(name: &str) -> String {
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
         "goals" => format!("    AFP_GOALS={GOALS} cargo test --release -p afp-worlds --test goals"),
+        "maps" => {
+            "    AFP_MAPS=FOLDER cargo test --release -p afp-worlds --test maps -- --nocapture"
+                .to_owned()
+        }
         "objects" => format!("    AFP_VIEWS={VIEWS} cargo test --release -p afp-sim objects"),
         "python long" => "    cargo xtask nightly 'python long'".to_owned(),
         "wheels" => "    cargo xtask wheels".to_owned(),
@@ -228,6 +233,12 @@ fn single_faults() -> Result<(), Failure> {
 fn goals() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--test", "goals"];
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_GOALS", GOALS))
+}
+
+/// How often places on public maps are reached, where `AFP_MAPS` says in which folder they are.
+fn maps() -> Result<(), Failure> {
+    let test = ["test", "--release", "--package", "afp-worlds", "--test", "maps"];
+    run_command(cargo().args(test).args(["--", "--nocapture"]))
 }
 
 /// Objects found in many views of rooms made up.

@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn a_robot_that_knows_not_where_it_is_stands_and_says_so() {
         let mut robot = Fake::new(&[]);
-        robot.spread = 0.8;
+        robot.spread = 1.5;
         let state = drive(&mut robot, [5.0, 0.0, 0.0], 3);
         assert_eq!((state, robot.motion.x.si()), (Ok(Some(State::PathLost)), 0.0));
     }

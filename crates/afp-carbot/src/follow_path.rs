@@ -99,7 +99,7 @@ mod tests {
         let state = follow(&mut robot, &[[2.0, 2.0], [5.0, 2.0]], 3);
         assert_eq!((state, robot.motion.x.si()), (Ok(Some(State::PathLost)), 0.0));
         let mut robot = Fake::new(&[]);
-        robot.spread = 0.8;
+        robot.spread = 1.5;
         let state = follow(&mut robot, &[[0.0, 0.0], [5.0, 0.0]], 3);
         assert_eq!((state, robot.motion.x.si()), (Ok(Some(State::PathLost)), 0.0));
         assert_eq!(follow(&mut Fake::new(&[]), &[], 3), Ok(Some(State::PathLost)));

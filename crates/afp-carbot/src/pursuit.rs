@@ -23,7 +23,7 @@ const TURN: f64 = 0.8;
 const CLOSE: f64 = 0.01;
 /// Farther from the path than this, or less certain of its place, the robot is not on it, metres.
 const OFF: f64 = 0.6;
-const UNCERTAIN: f64 = 0.4;
+const UNCERTAIN: f64 = 1.0;
 /// For so long it waits to know better.
 const DOUBT: Duration = Duration::from_secs(1);
 

@@ -27,6 +27,8 @@ const BETTER: f64 = 0.08;
 /// A rival must explain so much at least: where much is not on the map, no place explains it well.
 const CONVINCING: f64 = 0.68;
 const ENOUGH: usize = 32;
+/// So many of them must be no silence, which many places explain.
+const HEARD: usize = 32;
 
 /// A ping: where the odometry took the robot to be when it was sent, where the sensor looked, and what came back.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +99,9 @@ impl Filter {
             let believed = (self.belief, self.explained);
             let excused = search::excused(&self.field, echoes, self.belief);
             let rival = self.rival.improve(&self.field, echoes, believed, &mut self.noise);
+            let heard = echoes.iter().filter(|echo| echo.distance.is_some()).count();
             if let Some((place, explained)) = rival
+                && heard >= HEARD
                 && explained > CONVINCING.max(excused + BETTER)
             {
                 self.cloud.add(place, &mut self.noise);

@@ -87,13 +87,23 @@ impl Errand {
 
     /// To a place of the map.
     pub fn place(number: u64) -> Option<Errand> {
-        static GO_TO: OnceLock<Plan> = OnceLock::new();
         let text = World::random_text(number);
         let world = parsed(&text);
         let reach = Reach::of(&world);
-        let goal = somewhere(&world, number, |place| reach.has(place))?;
+        Errand::within_reach((&world, &reach), text, number, 180)
+    }
+
+    /// To a place of a world that can be reached, in so many seconds; the number decides which place.
+    pub fn within_reach(
+        (world, reach): (&World, &Reach),
+        text: String,
+        number: u64,
+        seconds: u64,
+    ) -> Option<Errand> {
+        static GO_TO: OnceLock<Plan> = OnceLock::new();
+        let goal = somewhere(world, number, |place| reach.has(place))?;
         let plan = GO_TO.get_or_init(|| part("parts/go_to", "GoTo"));
-        let mut case = lasting(Case::quiet(plan, world, number), 180);
+        let mut case = lasting(Case::quiet(plan, world.clone(), number), seconds);
         case.inputs = ["x", "y"].into_iter().zip(goal.map(|at| format!("{at} m"))).collect();
         Some(Errand { case, text, goal, within: 0.3, beyond: false })
     }

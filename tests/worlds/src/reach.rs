@@ -42,6 +42,11 @@ impl Reach {
         reach
     }
 
+    /// How much floor it can get to, square metres.
+    pub fn area(&self) -> f64 {
+        self.reached.iter().filter(|reached| **reached).count() as f64 * CELL * CELL
+    }
+
     /// Whether the robot can get to a place.
     pub fn has(&self, place: [f64; 2]) -> bool {
         self.near(place, CELL / 2.0).next().is_some()
