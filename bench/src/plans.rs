@@ -22,6 +22,16 @@ pub mod wall_following {
     afp_macros::plan!("../plans/wall_following.afp");
 }
 
+pub mod navigate_room {
+    //! To another room, by localisation.
+    afp_macros::plan!("../plans/navigate_room.afp");
+}
+
+pub mod find_object {
+    //! To an object, by the camera.
+    afp_macros::plan!("../plans/find_object.afp");
+}
+
 /// The plan of [`step`], interpreted.
 pub fn loaded_step() -> LoadedPlan<Board> {
     load(include_str!("../plans/step.afp"))

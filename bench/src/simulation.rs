@@ -3,6 +3,7 @@
 //! The baseline is the same number of rapier steps of the same room and body, and the same rays as
 //! the range sensor casts on the way.
 
+mod applications;
 mod crowd;
 
 use std::hint::black_box;
@@ -64,6 +65,7 @@ pub fn run(rounds: u32, report: &mut Report) {
         });
     }
     crowd::run(rounds, report);
+    applications::run(rounds, report);
 }
 
 /// The engine alone.

@@ -9,7 +9,7 @@ pub const PATIENCE: Duration = Duration::from_millis(500);
 /// The wheels' counters say nothing usable.
 pub const NO_ODOMETRY: Fault = Fault::new(&Reason {
     code: "no-odometry",
-    text: "the odometry gave no valid reading for 500 ms",
+    text: "the odometry gave no valid reading for 500 ms: the counters of the wheels are silent, or the drive's controller, which reads them",
 });
 /// The range sensor says nothing usable.
 pub const NO_RANGE: Fault = Fault::new(&Reason {

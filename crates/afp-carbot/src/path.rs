@@ -74,6 +74,22 @@ impl Path {
         Some(best)
     }
 
+    /// What is left of it for whoever is at a place within so many metres of it: from there to its end. None for who is farther
+    /// away.
+    pub fn rest_from(&self, place: [f64; 2], within: f64) -> Option<Path> {
+        let near = self.nearest(place).filter(|near| near.off <= within)?;
+        let (mut beyond, mut last, mut passed) = (0.0, self.end()?, self.corners.len());
+        for from in self.places().rev() {
+            beyond += difference(from, last).1;
+            if beyond >= near.rest && beyond > 0.0 {
+                break;
+            }
+            (last, passed) = (from, passed - 1);
+        }
+        let ahead = self.places().skip(passed);
+        Path::new([place].into_iter().chain(ahead)).ok()
+    }
+
     /// The place from which so much of the way is left; before its first place it is that one, and beyond the end the last
     /// piece goes straight on.
     pub(crate) fn place(&self, rest: f64) -> Option<[f64; 2]> {
@@ -105,6 +121,19 @@ mod tests {
     /// One metre along x, then two along y.
     fn corner() -> Path {
         Path::new([[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]).unwrap()
+    }
+
+    #[test]
+    fn what_is_left_begins_where_somebody_is_and_ends_where_it_ended() {
+        let path = Path::new([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]).unwrap();
+        let rest = |x, y| {
+            path.rest_from([x, y], 0.1).map(|path| path.places().collect::<std::vec::Vec<_>>())
+        };
+        assert_eq!(rest(0.5, 0.0), Some(std::vec![[0.5, 0.0], [1.0, 0.0], [1.0, 1.0]]));
+        assert_eq!(rest(1.0, 0.5), Some(std::vec![[1.0, 0.5], [1.0, 1.0]]));
+        assert_eq!(rest(1.0, 1.0), Some(std::vec![[1.0, 1.0], [1.0, 1.0]]));
+        assert_eq!(rest(0.5, 0.5), None);
+        assert_eq!(Path::default().rest_from([0.0, 0.0], 1.0), None);
     }
 
     #[test]

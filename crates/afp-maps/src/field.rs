@@ -83,6 +83,11 @@ impl EchoField {
         }
     }
 
+    /// Whether what one of them has computed the other one knows.
+    pub fn shares_with(&self, other: &EchoField) -> bool {
+        Arc::ptr_eq(&self.cells, &other.cells)
+    }
+
     /// The map.
     pub fn map(&self) -> &Map {
         &self.map

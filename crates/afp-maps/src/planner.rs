@@ -22,6 +22,9 @@ const CERTAIN: f64 = 0.25;
 /// far as an echo and a belief err.
 const DOUBTED: [f64; 2] = [0.0, 0.1];
 
+/// A robot within so many metres of its path is on it.
+const ON_IT: f64 = 0.1;
+
 /// A search for a path, and what it needs.
 #[derive(Clone, Debug)]
 pub struct SearchJob {
@@ -32,6 +35,18 @@ pub struct SearchJob {
     to: [f64; 2],
     near: f64,
     path: Option<Path>,
+    /// What the last search was for: what had been found, and where it led.
+    last: (Vec<[f64; 2]>, [f64; 2], f64),
+}
+
+impl SearchJob {
+    /// What is left of the path that was found last, where that still is one: nothing else has been found, and the robot is on it.
+    fn rest_of_the_last(&self) -> Option<Path> {
+        let same = self.last.0 == self.found && (self.last.1, self.last.2) == (self.to, self.near);
+        let rest = self.path.as_ref().filter(|_| same)?.rest_from(self.from, ON_IT)?;
+        let next = rest.places().nth(1)?;
+        search::is_free(&self.grid, self.from, next).then_some(rest)
+    }
 }
 
 impl Job for SearchJob {
@@ -39,6 +54,12 @@ impl Job for SearchJob {
     const TAKES: Duration = Duration::from_millis(60);
 
     fn run(&mut self) -> Result<(), Fault> {
+        if let Some(rest) = self.rest_of_the_last() {
+            self.path = Some(rest);
+            return Ok(());
+        }
+        self.last.0.clone_from(&self.found);
+        (self.last.1, self.last.2) = (self.to, self.near);
         self.path = None;
         for doubted in DOUBTED {
             self.grid.clone_clearance(&self.map);
@@ -80,6 +101,7 @@ impl<W: Worker<SearchJob>> Planner<W> {
             to: [0.0; 2],
             near: 0.0,
             path: None,
+            last: (Vec::new(), [0.0; 2], 0.0),
         };
         let worker = make_worker(vec![job; SLOTS]);
         Planner { worker, field, finds: Finds::new(), forward: forward.si() }
@@ -161,6 +183,7 @@ mod tests {
             to: [3.4, 1.0],
             near: 0.0,
             path: None,
+            last: (Vec::new(), [0.0; 2], 0.0),
         };
         job.run().expect("the path has few corners");
         job.path.is_some()

@@ -123,6 +123,11 @@ fn pulled_tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> V
     corners
 }
 
+/// Whether the robot fits all along a straight piece.
+pub(crate) fn is_free(grid: &Grid, from: [f64; 2], to: [f64; 2]) -> bool {
+    is_clear(grid, from, to, FITS - LESS)
+}
+
 /// Whether there is so much clearance all along a straight piece.
 fn is_clear(grid: &Grid, from: [f64; 2], to: [f64; 2], clearance: f32) -> bool {
     let [x, y] = [to[0] - from[0], to[1] - from[1]];

@@ -30,7 +30,7 @@ use crate::scene::Scene;
 use crate::stage::{DT, Stage};
 use crate::truth::{Pose, Truth};
 use crate::vehicle::drive::Drive;
-use crate::world::{Light, World, WorldError};
+use crate::world::{Audible, Light, World, WorldError};
 use afp_carbot::devices::{Bump, Color, Echo, Glow, Invalid, Reading};
 use afp_carbot::table::Fault;
 use afp_carbot::trail::Trail;
@@ -85,6 +85,8 @@ pub struct Simulation {
     exposed_before: Option<Arc<Exposure>>,
     /// Made for whoever asks for the flow first.
     flow: Option<Box<SimulatedFlow>>,
+    /// What the range sensor should hear; all simulations of a world share it.
+    audible: Audible,
     /// Made for whoever asks first where the robot is.
     locator: Option<Box<SimulatedLocator>>,
     /// How far off it was.
@@ -151,6 +153,7 @@ impl Simulation {
             locator: None,
             located: Located::default(),
             planner: None,
+            audible: world.audible.clone(),
             shown: (false, None),
             seed,
             held: false,

@@ -3,6 +3,7 @@
 //! Written in TOML with the units in the keys; a key that does not exist is an error that names it
 //! and its line, so a misspelt one cannot be overlooked.
 
+mod audible;
 mod error;
 mod file;
 mod look;
@@ -19,6 +20,7 @@ pub use look::{Look, Rgb, Texture};
 pub use outline::Outline;
 pub use path::Path;
 
+pub(crate) use audible::Audible;
 use error::at_key;
 pub(crate) use outline::isometry;
 pub(crate) use session::shape;
@@ -51,6 +53,7 @@ pub struct World {
     /// The corners of what its map shows, a convex polygon, metres, counter-clockwise; nothing is known beyond it. Empty
     /// where the world is no map.
     pub map: Vec<[f64; 2]>,
+    pub(crate) audible: Audible,
 }
 
 /// Something that stands or moves on the floor.

@@ -34,7 +34,22 @@ const MORE: f64 = 1.3;
 #[derive(Clone, Copy, Debug)]
 struct Particle {
     pose: Pose2,
+    /// Cosine and sine of its heading.
+    towards: [f64; 2],
     weight: f64,
+}
+
+impl Particle {
+    fn new(pose: Pose2, weight: f64) -> Self {
+        let (sin, cos) = libm::sincos(pose.heading);
+        Particle { pose, towards: [cos, sin], weight }
+    }
+
+    /// What lies so far ahead of it and to its left, metres.
+    fn beyond(&self, ahead: f64, left: f64) -> [f64; 2] {
+        let ([cos, sin], Pose2 { x, y, .. }) = (self.towards, self.pose);
+        [x + ahead * cos - left * sin, y + ahead * sin + left * cos]
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -47,7 +62,7 @@ pub(super) struct Cloud {
 impl Cloud {
     /// Around a place.
     pub(super) fn around(place: Pose2, noise: &mut Noise) -> Self {
-        let particle = |_| Particle { pose: near(place, START, noise), weight: 1.0 / COUNT as f64 };
+        let particle = |_| Particle::new(near(place, START, noise), 1.0 / COUNT as f64);
         Cloud { particles: (0..COUNT).map(particle).collect(), drawn: Vec::with_capacity(COUNT) }
     }
 
@@ -60,22 +75,22 @@ impl Cloud {
         }
         let off = WAY * libm::sqrt(way);
         let turned_off = libm::sqrt(TURN * TURN * turn + TURN_OF_WAY * TURN_OF_WAY * way);
-        for Particle { pose, .. } in &mut self.particles {
-            let (x, y) = (moved.x + off * noise.normal(), moved.y + off * noise.normal());
-            let heading = moved.heading + turned_off * noise.normal();
-            *pose = pose.beyond(Pose2 { x, y, heading });
+        for particle in &mut self.particles {
+            let (ahead, left) = (moved.x + off * noise.normal(), moved.y + off * noise.normal());
+            let turned = moved.heading + turned_off * noise.normal();
+            let ([x, y], heading) = (particle.beyond(ahead, left), particle.pose.heading + turned);
+            *particle = Particle::new(Pose2 { x, y, heading }, particle.weight);
         }
     }
 
     /// Weighs all by a ping.
     pub(super) fn weigh(&mut self, field: &EchoField, forward: f64, ping: &Ping) {
         let mut sum = 0.0;
-        for Particle { pose, weight } in &mut self.particles {
-            let (sin, cos) = libm::sincos(pose.heading);
-            let sensor = [pose.x + forward * cos, pose.y + forward * sin];
-            let expected = field.expected(sensor, pose.heading + ping.bearing);
-            *weight *= likelihood(expected, ping.distance);
-            sum += *weight;
+        for particle in &mut self.particles {
+            let sensor = particle.beyond(forward, 0.0);
+            let expected = field.expected(sensor, particle.pose.heading + ping.bearing);
+            particle.weight *= likelihood(expected, ping.distance);
+            sum += particle.weight;
         }
         // The least likelihood is no smaller than a fiftieth, so a sum never vanishes between two draws.
         self.particles.iter_mut().for_each(|particle| particle.weight /= sum);
@@ -85,7 +100,7 @@ impl Cloud {
     pub(super) fn add(&mut self, place: Pose2, noise: &mut Noise) {
         let from = noise.below((COUNT - ADDED) as u32) as usize;
         for particle in self.particles.iter_mut().skip(from).take(ADDED) {
-            *particle = Particle { pose: near(place, TRIED, noise), weight: 1.0 / COUNT as f64 };
+            *particle = Particle::new(near(place, TRIED, noise), 1.0 / COUNT as f64);
         }
     }
 
@@ -143,7 +158,7 @@ impl Cloud {
     fn middle_near(&self, place: Pose2) -> Pose2 {
         let mut sum = Vector3::zeros();
         let mut weights = 0.0;
-        for Particle { pose, weight } in self.near(place) {
+        for Particle { pose, weight, .. } in self.near(place) {
             let turned = wrap(pose.heading - place.heading);
             sum += Vector3::new(pose.x - place.x, pose.y - place.y, turned) * *weight;
             weights += weight;
@@ -159,7 +174,7 @@ impl Cloud {
     /// How far particles are from a place, root mean square: metres and radians.
     pub(super) fn spread(&self, place: Pose2) -> [f64; 2] {
         let [mut off, mut turned, mut weights] = [0.0; 3];
-        for Particle { pose, weight } in &self.particles {
+        for Particle { pose, weight, .. } in &self.particles {
             let (x, y) = (pose.x - place.x, pose.y - place.y);
             let turn = wrap(pose.heading - place.heading);
             off += weight * (x * x + y * y);

@@ -33,6 +33,7 @@ impl Simulation {
             locator: self.locator.clone(),
             located: self.located.clone(),
             planner: self.planner.clone(),
+            audible: self.audible.clone(),
             shown: self.shown,
             seed: self.seed,
             held: self.held,

@@ -8,10 +8,10 @@ use super::Simulation;
 use super::robot::{WORLD, frame};
 use crate::devices::sonar;
 use crate::truth::Pose;
-use crate::world::{Obstacle, World, isometry};
+use crate::world::isometry;
 use afp_carbot::table::signal;
 use afp_core::Instant;
-use afp_maps::{EchoField, Filter, LocateJob, Locator, Map, Planner, SearchJob};
+use afp_maps::{Filter, LocateJob, Locator, Planner, SearchJob};
 use afp_session::{SampleRef, Samples, Shape};
 use afp_worker::VirtualWorker;
 use std::f64::consts::TAU;
@@ -32,23 +32,20 @@ impl Simulation {
     /// What looks for the robot; it is made for whoever asks first. It is told the map and the start, as somebody who
     /// puts a robot down tells it, and nothing else that is true.
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
-        let Simulation { locator, stage, start, seed, .. } = self;
-        let obstacles = &stage.obstacles;
+        let Simulation { locator, audible, stage, start, seed, .. } = self;
         locator.get_or_insert_with(|| {
-            let (map, beam) = (map(obstacles), sonar::beam());
-            let filter = Filter::new(EchoField::new(map, &beam), &beam, *start, *seed);
+            let field = audible.field(&stage.obstacles);
+            let filter = Filter::new(field, &sonar::beam(), *start, *seed);
             Box::new(Locator::new(VirtualWorker::new([LocateJob::new(filter)]), *start))
         })
     }
 
     /// What searches for ways; it is made for whoever asks first, of the same map.
     pub(super) fn planner(&mut self) -> &mut SimulatedPlanner {
-        let Simulation { planner, stage, .. } = self;
-        let obstacles = &stage.obstacles;
+        let Simulation { planner, audible, stage, .. } = self;
         planner.get_or_insert_with(|| {
-            let beam = sonar::beam();
-            let field = EchoField::new(map(obstacles), &beam);
-            Box::new(Planner::new(field, beam.forward, VirtualWorker::new))
+            let field = audible.field(&stage.obstacles);
+            Box::new(Planner::new(field, sonar::beam().forward, VirtualWorker::new))
         })
     }
 
@@ -119,18 +116,6 @@ impl Simulation {
             self.located.note(truth, believed);
         }
     }
-}
-
-impl World {
-    /// The map that the robot has: what it shows and what is high enough for the range sensor.
-    pub fn audible_map(&self) -> Map {
-        map(&self.obstacles)
-    }
-}
-
-fn map(obstacles: &[Obstacle]) -> Map {
-    let heard = obstacles.iter().filter(|it| it.mapped && it.height >= sonar::HEIGHT);
-    Map::new(heard.map(|it| it.outline.corners()))
 }
 
 fn circle(middle: [f64; 2], radius: f64) -> Vec<[f64; 2]> {

@@ -6,7 +6,7 @@ mod tables;
 use super::error::at_key;
 use super::look::parse_color;
 use super::{
-    Light, Look, Mobility, Obstacle, Outline, OwnTables, Patch, Path, Rgb, Texture, World,
+    Audible, Light, Look, Mobility, Obstacle, Outline, OwnTables, Patch, Path, Rgb, Texture, World,
     WorldError,
 };
 use crate::truth::Pose;
@@ -75,6 +75,7 @@ pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
         obstacles,
         patches: patches.collect::<Result<_, _>>()?,
         lights: lights.collect::<Result<_, _>>()?,
+        audible: Audible::default(),
     };
     Ok((world, own))
 }

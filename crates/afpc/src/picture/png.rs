@@ -1,7 +1,9 @@
 //! Drawings as pixels: the SVG, painted with the fonts that come along, so that a picture is the
 //! same on every machine.
 
-use png::{BitDepth, ColorType, Compression, Encoder, EncodingError};
+use std::collections::HashMap;
+
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg;
 
@@ -49,23 +51,63 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Failure> {
     encoded(&pixels).map_err(|error| renderer(&error))
 }
 
-/// Pixels as a file; without their opacity where all of them are opaque, as those of our pictures are.
+/// Pixels as a file: by a palette where they have few enough colours, which takes half the bytes; without their opacity
+/// where all of them are opaque, as those of our pictures are.
 fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, EncodingError> {
-    let opaque = pixels.pixels().iter().all(|pixel| pixel.alpha() == u8::MAX);
-    let bytes: Vec<u8> = pixels
-        .pixels()
-        .iter()
-        .flat_map(|pixel| {
+    let colors = || {
+        pixels.pixels().iter().map(|pixel| {
             let plain = pixel.demultiply();
-            let all = [plain.red(), plain.green(), plain.blue(), plain.alpha()];
-            all.into_iter().take(if opaque { 3 } else { 4 })
+            [plain.red(), plain.green(), plain.blue(), plain.alpha()]
         })
-        .collect();
+    };
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
-    encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::High);
+    let opaque = pixels.pixels().iter().all(|pixel| pixel.alpha() == u8::MAX);
+    let bytes: Vec<u8> = match indexed(colors()).filter(|_| opaque) {
+        Some((palette, bytes)) => {
+            encoder.set_color(ColorType::Indexed);
+            encoder.set_palette(palette);
+            encoder.set_filter(Filter::NoFilter);
+            bytes
+        }
+        None => {
+            encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
+            colors().flat_map(|color| color.into_iter().take(if opaque { 3 } else { 4 })).collect()
+        }
+    };
     encoder.write_header()?.write_image_data(&bytes)?;
     Ok(file)
+}
+
+/// The colours in the order in which they come, and which of them each pixel has; none where there are too many for a byte.
+fn indexed(colors: impl Iterator<Item = [u8; 4]>) -> Option<(Vec<u8>, Vec<u8>)> {
+    let mut known = HashMap::new();
+    let mut palette = Vec::new();
+    let indices = colors.map(|color| {
+        let next = known.len();
+        let index = *known.entry(color).or_insert_with(|| {
+            palette.extend_from_slice(&color[..3]);
+            next
+        });
+        u8::try_from(index).ok()
+    });
+    let indices = indices.collect::<Option<Vec<_>>>()?;
+    Some((palette, indices))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_have_their_colour_by_its_place_in_the_palette_unless_there_are_too_many() {
+        let (red, blue) = ([200, 0, 0, 255], [0, 0, 200, 255]);
+        let (palette, indices) = indexed([red, blue, red].into_iter()).unwrap();
+        assert_eq!((palette, indices), (vec![200, 0, 0, 0, 0, 200], vec![0, 1, 0]));
+        let many = |count: u16| (0..count).map(|n| [(n >> 8) as u8, n as u8, 0, 255]);
+        assert_eq!(indexed(many(256)).map(|(_, indices)| indices.last().copied()), Some(Some(255)));
+        assert!(indexed(many(257)).is_none());
+    }
 }
