@@ -56,8 +56,10 @@ struct Picture {
 impl Picture {
     fn put(&mut self, x: usize, y: usize, color: Rgb) {
         let first = (y * COLUMNS + x) * 3;
-        if let Some(pixel) = self.rgb.get_mut(first..first + 3) {
-            pixel.copy_from_slice(&color);
+        // As an array: a copy of three bytes between slices is a call, and took a quarter of the time.
+        let pixel = self.rgb.get_mut(first..).and_then(<[u8]>::first_chunk_mut);
+        if let Some(pixel) = pixel {
+            *pixel = color;
         }
     }
 
