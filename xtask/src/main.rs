@@ -70,8 +70,11 @@ enum Chore {
         /// Suites by name; all without any.
         suites: Vec<String>,
     },
-    /// Checks formatting and lints.
-    Lint,
+    /// Checks formatting, lints, and the links of doc comments.
+    Lint {
+        /// Suites by name; all without any.
+        suites: Vec<String>,
+    },
     /// Renders the book of docs/ with mdBook.
     Book,
     /// Packs the extension for Visual Studio Code and the grammar for tree-sitter.
@@ -104,7 +107,7 @@ fn main() -> ExitCode {
         Chore::Fuzz { targets, seconds } => fuzz::run(&targets, seconds),
         Chore::Gate => suites::run(suites::GATE, &[]),
         Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites),
-        Chore::Lint => suites::run(suites::LINT, &[]),
+        Chore::Lint { suites } => suites::run(suites::LINT, &suites),
         Chore::Book => book::run(),
         Chore::Editors => editors::pack(),
         Chore::Gallery { plans } => gallery::run(&plans),

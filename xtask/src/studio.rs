@@ -42,7 +42,7 @@ pub fn test() -> Result<(), Failure> {
 /// optimised program with nothing beside it.
 ///
 /// # Errors
-/// As [`test`]; a figure that is worse than its bar.
+/// As [`test`](fn@test); a figure that is worse than its bar.
 pub fn long() -> Result<(), Failure> {
     tested(&[("AFP_GESTURES", "2000"), ("AFP_SCREENS", "1"), ("AFP_ROBOT", "1")])?;
     let features =

@@ -67,8 +67,11 @@ pub const NIGHTLY: &[Suite] = &[
 pub const GATE: &[Suite] = &[("gate", gate::run), ("web", wasm::run)];
 
 /// What `cargo xtask lint` runs.
-pub const LINT: &[Suite] =
-    &[("format", || run_command(cargo().args(["fmt", "--all", "--check"]))), ("clippy", clippy)];
+pub const LINT: &[Suite] = &[
+    ("format", || run_command(cargo().args(["fmt", "--all", "--check"]))),
+    ("clippy", clippy),
+    ("docs", docs),
+];
 
 /// Random plans that the nightly run compares, each compiled to Rust, in parts for which a machine has memory.
 const RANDOM_PLANS: &[&str] = &["0..400", "400..800", "800..1200", "1200..1600", "1600..2000"];
@@ -140,7 +143,7 @@ fn conclude(account: &[(&str, Duration, bool)]) -> Result<(), Failure> {
 fn again(name: &str) -> String {
     match name {
         "format" => "    cargo fmt --all".to_owned(),
-        "clippy" => "    cargo xtask lint".to_owned(),
+        "clippy" | "docs" => format!("    cargo xtask lint {name}"),
         "random plans" => {
             let each = RANDOM_PLANS.iter();
             let run =
@@ -251,6 +254,15 @@ fn objects() -> Result<(), Failure> {
 fn long_run() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-tests", "--test", "no_allocation"];
     run_command(cargo().args(test).env("AFP_STEPS", STEPS))
+}
+
+/// Links and tags of doc comments. What needs a Python or the web to be built is left out.
+fn docs() -> Result<(), Failure> {
+    let left_out = ["afp-py", "afp-py-wheel", "afp-wasm"];
+    let mut doc = cargo();
+    doc.args(["doc", "--quiet", "--workspace", "--no-deps"]);
+    doc.args(left_out.iter().flat_map(|name| ["--exclude", name]));
+    run_command(doc.env("RUSTDOCFLAGS", "--deny warnings"))
 }
 
 fn clippy() -> Result<(), Failure> {

@@ -32,7 +32,7 @@ impl Path {
     /// Through these places, metres.
     ///
     /// # Errors
-    /// [`LONG_PATH`]: there are more than [`MOST`].
+    /// The fault `long-path`: there are more than 128.
     pub fn new(places: impl IntoIterator<Item = [f64; 2]>) -> Result<Path, Fault> {
         let mut corners = Vec::new();
         for [x, y] in places {

@@ -2,7 +2,7 @@
 //!
 //! Loaded plans convert them, generated code prints them, so the two back ends cannot disagree. They
 //! are plain data with checked sizes: what a table has no room for is refused by the check
-//! (`check/size.rs`), and [`lower`] gives nothing rather than a number that wrapped.
+//! (`check/size.rs`), and `lower` gives nothing rather than a number that wrapped.
 
 mod ids;
 mod lower;

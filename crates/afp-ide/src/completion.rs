@@ -1,6 +1,6 @@
 //! What can be written at a place, best first.
 //!
-//! Where the place is in the grammar is asked of the tree, see [`context`]; what can stand there is
+//! Where the place is in the grammar is asked of the tree, see `context`; what can stand there is
 //! asked of index and outline, so that whatever the check understands is offered.
 
 pub(crate) mod bodies;

@@ -1,4 +1,8 @@
 //! The options of `afpc run` and of every generated binary.
+#![allow(
+    rustdoc::invalid_html_tags,
+    reason = "the comments are the help, in which '<plan>' is a name"
+)]
 
 mod help;
 mod parse;

@@ -1,4 +1,4 @@
-//! Workers: who does the [`Job`](afp_core::Job)s of components, in virtual and in real time.
+//! Workers: who does the [`Job`]s of components, in virtual and in real time.
 //!
 //! [`VirtualWorker`] computes when it is asked and has the result ready after the declared time, so
 //! that a run is the same on every machine. [`ThreadWorker`] has a thread of its own and the result

@@ -22,7 +22,7 @@ impl Outline {
 }
 
 impl Plan {
-    /// The file that it stands in, as [`Span::file`] says it.
+    /// The file that it stands in, as [`Span::file`](afp_syntax::source::Span::file) says it.
     pub fn file(&self) -> u16 {
         self.span.file
     }
