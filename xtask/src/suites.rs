@@ -280,7 +280,7 @@ mod tests {
     #[test]
     fn an_unknown_suite_is_named_with_those_that_exist() {
         let Err(Failure(text)) = run(LINT, &["clipy".to_owned()]) else { panic!("it passed") };
-        assert_eq!(text, "error: no suite 'clipy'; there are: format, clippy");
+        assert_eq!(text, "error: no suite 'clipy'; there are: format, clippy, docs");
     }
 
     #[test]
