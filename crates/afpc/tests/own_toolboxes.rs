@@ -238,7 +238,7 @@ fn program(place: &Place, binary: &Path) -> String {
 /// `plan!` finds the toolbox through `afp.toml`.
 fn compiled_in(place: &Place, interpreted: &str) {
     place.write("host/src/main.rs", HOST);
-    let ours = ["afp", "afp-carbot", "afp-run"];
+    let ours = ["afp", "afp-carbot", "afp-run", "afp-sim"];
     let toolbox = "robot-gestures = { path = \"../gestures\" }\n";
     place.write("host/Cargo.toml", &manifest("host", &ours, toolbox));
     place.write("host/Cargo.lock", &std::fs::read_to_string(root().join("Cargo.lock")).unwrap());
