@@ -25,25 +25,36 @@ const DOUBTED: [f64; 2] = [0.0, 0.1];
 /// A robot within so many metres of its path is on it.
 const ON_IT: f64 = 0.1;
 
+/// What a search is for: what has been found so far, and where it leads.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Quest {
+    found: Vec<[f64; 2]>,
+    to: [f64; 2],
+    near: f64,
+}
+
 /// A search for a path, and what it needs.
 #[derive(Clone, Debug)]
 pub struct SearchJob {
     map: Arc<Grid>,
     grid: Grid,
-    found: Vec<[f64; 2]>,
     from: [f64; 2],
-    to: [f64; 2],
-    near: f64,
+    quest: Quest,
     path: Option<Path>,
-    /// What the last search was for: what had been found, and where it led.
-    last: (Vec<[f64; 2]>, [f64; 2], f64),
+    /// For which the path was found.
+    last: Quest,
 }
 
 impl SearchJob {
+    fn new(map: Arc<Grid>) -> Self {
+        let (quest, last) = (Quest::default(), Quest::default());
+        SearchJob { grid: (*map).clone(), map, from: [0.0; 2], quest, path: None, last }
+    }
+
     /// What is left of the path that was found last, where that still is one: nothing else has been found, and the robot is on it.
     fn rest_of_the_last(&self) -> Option<Path> {
-        let same = self.last.0 == self.found && (self.last.1, self.last.2) == (self.to, self.near);
-        let rest = self.path.as_ref().filter(|_| same)?.rest_from(self.from, ON_IT)?;
+        let path = self.path.as_ref().filter(|_| self.last == self.quest)?;
+        let rest = path.rest_from(self.from, ON_IT)?;
         let next = rest.places().nth(1)?;
         search::is_free(&self.grid, self.from, next).then_some(rest)
     }
@@ -58,14 +69,14 @@ impl Job for SearchJob {
             self.path = Some(rest);
             return Ok(());
         }
-        self.last.0.clone_from(&self.found);
-        (self.last.1, self.last.2) = (self.to, self.near);
+        self.last.clone_from(&self.quest);
         self.path = None;
+        let Quest { found, to, near } = &self.quest;
         for doubted in DOUBTED {
             self.grid.clone_clearance(&self.map);
-            self.found.iter().for_each(|place| self.grid.add(*place, doubted));
-            self.path = search::path(&self.grid, self.from, self.to, self.near)?;
-            if self.path.is_some() || self.found.is_empty() {
+            found.iter().for_each(|place| self.grid.add(*place, doubted));
+            self.path = search::path(&self.grid, self.from, *to, *near)?;
+            if self.path.is_some() || found.is_empty() {
                 break;
             }
         }
@@ -92,17 +103,7 @@ impl<W: Worker<SearchJob>> Planner<W> {
     ) -> Self {
         /// Two elements of a plan may search at a time.
         const SLOTS: usize = 2;
-        let map = Arc::new(Grid::new(field.map()));
-        let job = SearchJob {
-            grid: (*map).clone(),
-            map,
-            found: Vec::new(),
-            from: [0.0; 2],
-            to: [0.0; 2],
-            near: 0.0,
-            path: None,
-            last: (Vec::new(), [0.0; 2], 0.0),
-        };
+        let job = SearchJob::new(Arc::new(Grid::new(field.map())));
         let worker = make_worker(vec![job; SLOTS]);
         Planner { worker, field, finds: Finds::new(), forward: forward.si() }
     }
@@ -135,11 +136,11 @@ impl<W: Worker<SearchJob>> Planner<W> {
     pub fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
         let finds = &self.finds;
         let mut prepare = |job: &mut SearchJob| {
-            job.found.clear();
-            job.found.extend(finds.places());
             job.from = [trip.from.0.si(), trip.from.1.si()];
-            job.to = [trip.to.0.si(), trip.to.1.si()];
-            job.near = trip.near.si();
+            job.quest.found.clear();
+            job.quest.found.extend(finds.places());
+            job.quest.to = [trip.to.0.si(), trip.to.1.si()];
+            job.quest.near = trip.near.si();
         };
         self.worker.begin(now, &mut prepare)
     }
@@ -174,17 +175,9 @@ mod tests {
         let wall =
             |x: [f64; 2], y: [f64; 2]| vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
         let map = Map::new([wall([0.0, 4.0], [0.0, 0.1]), wall([0.0, 4.0], [1.9, 2.0])]);
-        let map = Arc::new(Grid::new(&map));
-        let mut job = SearchJob {
-            grid: (*map).clone(),
-            map,
-            found: found.to_vec(),
-            from: [0.6, 1.0],
-            to: [3.4, 1.0],
-            near: 0.0,
-            path: None,
-            last: (Vec::new(), [0.0; 2], 0.0),
-        };
+        let mut job = SearchJob::new(Arc::new(Grid::new(&map)));
+        job.from = [0.6, 1.0];
+        job.quest = Quest { found: found.to_vec(), to: [3.4, 1.0], near: 0.0 };
         job.run().expect("the path has few corners");
         job.path.is_some()
     }
@@ -198,5 +191,22 @@ mod tests {
         };
         assert!(leads_past(&row(4, 0.5)));
         assert!(!leads_past(&row(6, 0.3)));
+    }
+
+    #[test]
+    fn a_path_is_kept_for_as_long_as_nothing_else_is_found_and_the_robot_is_on_it() {
+        let wall = |y: f64| vec![[0.0, y], [4.0, y], [4.0, y + 0.1], [0.0, y + 0.1]];
+        let mut job = SearchJob::new(Arc::new(Grid::new(&Map::new([wall(0.0), wall(1.9)]))));
+        let mut ask = |from: [f64; 2], found: &[[f64; 2]]| {
+            job.from = from;
+            job.quest = Quest { found: found.to_vec(), to: [3.4, 1.0], near: 0.0 };
+            let kept = job.rest_of_the_last().is_some();
+            job.run().expect("the path has few corners");
+            (kept, job.path.is_some())
+        };
+        assert_eq!(ask([0.6, 1.0], &[]), (false, true));
+        assert_eq!(ask([1.0, 1.05], &[]), (true, true));
+        assert_eq!(ask([1.0, 1.4], &[]), (false, true));
+        assert_eq!(ask([1.0, 1.4], &[[2.0, 1.0]]), (false, true));
     }
 }

@@ -53,6 +53,7 @@ pub struct World {
     /// The corners of what its map shows, a convex polygon, metres, counter-clockwise; nothing is known beyond it. Empty
     /// where the world is no map.
     pub map: Vec<[f64; 2]>,
+    /// What the range sensor should hear among the obstacles, kept for all simulations.
     pub(crate) audible: Audible,
 }
 

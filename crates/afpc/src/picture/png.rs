@@ -51,7 +51,7 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Failure> {
     encoded(&pixels).map_err(|error| renderer(&error))
 }
 
-/// Pixels as a file: by a palette where they have few enough colours, which takes half the bytes; without their opacity
+/// Pixels as a file: by a palette where they have few enough colours, which takes a third fewer bytes; without their opacity
 /// where all of them are opaque, as those of our pictures are.
 fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, EncodingError> {
     let colors = || {
