@@ -9,7 +9,7 @@ mod crowd;
 use std::hint::black_box;
 use std::time;
 
-use afp_core::rt::NamedPlan;
+use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{NoTrace, Sink};
 use afp_core::{Instant, Scheduler, StillClock, Wake};
 use afp_log::robot::{Pose2, Ranging};
@@ -143,10 +143,16 @@ impl RobotSink for Recorder {
     }
 }
 
-/// The plan drives the robot until the end.
+/// The plan of the paper drives the robot until the end.
 fn follow(world: &World, log: &mut impl RobotSink) {
+    let (_, ended) = drive(WallFollowing::new(), world, log);
+    assert!(!ended, "the robot follows the wall for as long as it is let");
+}
+
+/// A plan drives the robot until it ends or its time is up: when that was, and whether it has ended.
+fn drive(plan: impl Plan<Simulation>, world: &World, log: &mut impl RobotSink) -> (Instant, bool) {
     let mut sim = Simulation::new(world, SEED).unwrap_or_else(|why| panic!("{why:?}"));
-    let mut plan = Scheduler::new(WallFollowing::new());
+    let mut plan = Scheduler::new(plan);
     let wake = plan.start(&mut sim, log, &StillClock, Instant::ZERO);
     let mut wake = wake.unwrap_or_else(|why| panic!("{why:?}"));
     while let Wake::At(due) = wake
@@ -156,7 +162,7 @@ fn follow(world: &World, log: &mut impl RobotSink) {
         wake = plan.step(&mut sim, log, &StillClock, due);
         log.robot(&sim);
     }
-    assert!(plan.ending().is_none(), "the robot follows the wall for as long as it is let");
+    (sim.now(), plan.ending().is_some())
 }
 
 /// The same, recorded.

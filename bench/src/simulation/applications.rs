@@ -1,12 +1,9 @@
 //! Applications in the simulator, against real time: what localisation, the search for ways and the camera cost.
 
-use afp_core::rt::Plan;
-use afp_core::trace::NoTrace;
-use afp_core::{Instant, Scheduler, StillClock, Wake};
-use afp_sim::{Simulation, World};
+use afp_sim::World;
 use std::hint::black_box;
 
-use super::{END, SEED};
+use super::{NoLog, drive};
 use crate::measure::Race;
 use crate::plans::{find_object::GoToObject, navigate_room::NavigateRoom};
 use crate::report::{Report, Row};
@@ -19,9 +16,9 @@ pub(super) fn run(rounds: u32, report: &mut Report) {
     let world = |text| World::parse(text).unwrap_or_else(|why| panic!("{why:?}"));
     let flat = world(include_str!("../../../worlds/navigate_room.toml"));
     let hall = world(include_str!("../../../worlds/find_object.toml"));
-    let navigate = || drive(NavigateRoom::new(), &flat);
-    let find = || drive(GoToObject::new(), &hall);
-    let seconds = [navigate(), find()].map(|end| end.as_nanos() as f64 / 1e9);
+    let navigate = || drive(NavigateRoom::new(), &flat, &mut NoLog);
+    let find = || drive(GoToObject::new(), &hall, &mut NoLog);
+    let seconds = [navigate(), find()].map(|(end, _)| end.as_nanos() as f64 / 1e9);
     let mut race = Race::default();
     race.add("navigate_room, localisation", |count| {
         (0..count).for_each(|_| {
@@ -40,19 +37,4 @@ pub(super) fn run(rounds: u32, report: &mut Report) {
         let row = row.against("real time", speed);
         report.add(row.limit(format!(">= {least}"), speed >= least));
     }
-}
-
-/// The plan drives the robot until it ends; when that is.
-fn drive(plan: impl Plan<Simulation>, world: &World) -> Instant {
-    let mut sim = Simulation::new(world, SEED).unwrap_or_else(|why| panic!("{why:?}"));
-    let mut plan = Scheduler::new(plan);
-    let wake = plan.start(&mut sim, &mut NoTrace, &StillClock, Instant::ZERO);
-    let mut wake = wake.unwrap_or_else(|why| panic!("{why:?}"));
-    while let Wake::At(due) = wake
-        && due <= END
-    {
-        sim.advance_to(due);
-        wake = plan.step(&mut sim, &mut NoTrace, &StillClock, due);
-    }
-    sim.now()
 }
