@@ -1,11 +1,13 @@
 //! The crates that link a project's robot and toolboxes: the command line with them, and the Python extension.
 
+use std::collections::BTreeMap;
+
 use afp_dsl::toolbox::Toolbox;
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::layout::file;
-use crate::manifest::{Dependency, Origin, manifest};
+use crate::manifest::{Dependency, Origin, manifest, quoted};
 use crate::toolbox::{Support, register_supported};
 
 /// What is linked.
@@ -27,9 +29,29 @@ pub struct LinkOptions {
     pub features: Vec<String>,
 }
 
-/// A plan is interpreted here: what counts is that the build is done soon.
-const PROFILE: &str = "[profile.release]\n\
-                       debug = \"line-tables-only\"\n";
+/// Packages of the command line that a run spends no time in, and the levels at which they are optimised: those of this
+/// workspace's own manifest.
+const LEVELS: [(&str, u8); 7] = [
+    ("annotate-snippets", 1),
+    ("clap_builder", 1),
+    ("image", 0),
+    ("moxcms", 0),
+    ("pxfm", 0),
+    ("saphyr-parser", 1),
+    ("spade", 1),
+];
+/// The same of those that its feature `png` brings.
+const LEVELS_OF_PNG: [(&str, u8); 9] = [
+    ("fontdb", 1),
+    ("harfrust", 1),
+    ("image-webp", 0),
+    ("kurbo", 1),
+    ("read-fonts", 0),
+    ("resvg", 1),
+    ("skrifa", 0),
+    ("svgtypes", 1),
+    ("usvg", 1),
+];
 
 /// The files of a runner: path below its folder, and text. `declared` is what the toolboxes declare, in their order.
 ///
@@ -41,7 +63,10 @@ pub fn runner_files(
 ) -> Result<Vec<(String, String)>, String> {
     let ours = Dependency::ours("afpc", &options.origin).with_only(&options.features);
     let dependencies = dependencies(options, ours);
-    let manifest = manifest(" run' as a runner", &options.package, dependencies, PROFILE);
+    let png = options.features.iter().any(|feature| feature == "png");
+    let of_png = if png { &LEVELS_OF_PNG[..] } else { &[] };
+    let profile = profile(options, LEVELS.iter().chain(of_png));
+    let manifest = manifest(" run' as a runner", &options.package, dependencies, &profile);
     Ok(vec![
         ("Cargo.toml".to_owned(), manifest),
         ("src/main.rs".to_owned(), program(options, declared)?),
@@ -59,7 +84,7 @@ pub fn extension_files(
     let ours = Dependency::ours("afp-py", &options.origin);
     // The Carbot is a feature of it.
     let ours = if options.robot.is_some() { ours.with_only(&[]) } else { ours };
-    let library = format!("[lib]\ncrate-type = [\"cdylib\"]\n\n{PROFILE}");
+    let library = format!("[lib]\ncrate-type = [\"cdylib\"]\n\n{}", profile(options, []));
     let manifest =
         manifest("' for Python", &options.package, dependencies(options, ours), &library);
     Ok(vec![
@@ -67,6 +92,24 @@ pub fn extension_files(
         ("build.rs".to_owned(), build_script()),
         ("src/lib.rs".to_owned(), extension(options, declared)?),
     ])
+}
+
+/// A plan is interpreted here: what counts is that the build is done soon. Crates of the project, in which a panic may
+/// be looked for, know their lines.
+fn profile<'l>(
+    options: &LinkOptions,
+    levels: impl IntoIterator<Item = &'l (&'l str, u8)>,
+) -> String {
+    let levels = levels.into_iter().map(|(name, level)| (*name, format!("opt-level = {level}")));
+    let own = options.dependencies.iter().map(|own| &*own.package);
+    let own = own.map(|package| (package, "debug = \"line-tables-only\"".to_owned()));
+    // One section for each package, of one of the project's own whatever its name.
+    let sections: BTreeMap<&str, String> = levels.chain(own).collect();
+    let mut profile = "[profile.release]\nlto = \"off\"\n".to_owned();
+    for (package, line) in sections {
+        profile += &format!("[profile.release.package.{}]\n{line}\n", quoted(package));
+    }
+    profile
 }
 
 /// What the crate needs beside the one that does everything.
@@ -213,4 +256,47 @@ fn build_script() -> String {
 /// The tokens of a path in Rust.
 fn tokens(path: &str) -> Result<TokenStream, String> {
     path.parse().map_err(|_| path.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEVELS, LEVELS_OF_PNG, LinkOptions, Origin, runner_files};
+    use crate::manifest::{Dependency, Features};
+
+    #[test]
+    fn packages_are_optimised_as_in_the_workspace() {
+        let workspace = include_str!("../../../Cargo.toml");
+        for (package, level) in LEVELS.iter().chain(&LEVELS_OF_PNG) {
+            let said = format!("[profile.release.package.{package}]\nopt-level = {level}\n");
+            assert!(workspace.contains(&said), "'{said}' is not in Cargo.toml");
+        }
+    }
+    #[test]
+    fn every_package_has_one_section_of_the_profile() {
+        let path = Origin::Path("/robots".to_owned());
+        let own = |key: &str, package: &str| Dependency {
+            key: key.to_owned(),
+            package: package.to_owned(),
+            origin: path.clone(),
+            features: Features::Default,
+        };
+        let options = LinkOptions {
+            package: "afp-runner".to_owned(),
+            origin: Origin::Version("0.1.0".to_owned()),
+            robot: Some("mole::Mole".to_owned()),
+            hardware: None,
+            toolboxes: vec![("mole".to_owned(), "mole".to_owned())],
+            dependencies: vec![own("mole", "mole"), own("tools", "mole"), own("image", "image")],
+            features: vec!["png".to_owned()],
+        };
+        let files = runner_files(&options, &[]).expect("the paths are those of modules");
+        let (_, manifest) = &files[0];
+        let sections: Vec<_> =
+            manifest.lines().filter(|line| line.starts_with("[profile.release.package")).collect();
+        let mut once = sections.clone();
+        once.dedup();
+        assert_eq!(sections, once);
+        let own = "[profile.release.package.\"image\"]\ndebug = \"line-tables-only\"\n";
+        assert!(manifest.contains(own), "{manifest}");
+    }
 }
