@@ -86,5 +86,6 @@ def test_a_log_holds_the_toolboxes_that_its_plan_uses_beyond_the_built_in_ones(t
     assert b"toolbox/tools" in written and b"toolbox/std" not in written
     log = afp.Log(tmp_path / "run.mcap")
     assert log.simulation(toolboxes=[tools]).run().trace_hash == trace
-    with pytest.raises(afp.PlanError, match="there is no toolbox 'tools'"):
+    hint = r"the log has the declarations of 'tools' but not the components: write log.simulation\(toolboxes=\[tools\]\)"
+    with pytest.raises(ValueError, match=hint):
         log.simulation()

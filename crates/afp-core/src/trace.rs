@@ -290,6 +290,8 @@ pub struct EntryName<'a> {
 pub struct PortName<'a> {
     /// Its name.
     pub name: &'a str,
+    /// The name of its type where that is an enum or an object type; empty else.
+    pub ty: &'a str,
     /// The SI unit of its values, empty for plain numbers and everything else.
     pub unit: &'a str,
     /// Least and greatest value in SI units, where it has a range; of an output that of its entry.
@@ -366,6 +368,10 @@ pub trait Names {
     /// An input port of a component with its bounds; without them where nobody knows.
     fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
         PortName { name: self.input(id, port), ..PortName::default() }
+    }
+    /// The text of a value of an input port whose type is an enum; empty for others.
+    fn input_choice(&self, _: ComponentId, _: u16, _: u16) -> &str {
+        ""
     }
     /// An output port of a component, with the bounds of the entry that it is bound to.
     fn output_port(&self, _: ComponentId, _: u16) -> PortName<'_> {

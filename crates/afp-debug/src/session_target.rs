@@ -6,8 +6,8 @@ use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, EntryName, TraceEntryId, TraceHash};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
-    AnySession, Applied, Datum, Figures, NamedRecord, Observer, Open, Pose2, Request, RunEvent,
-    SampleRef, SetError, Stimulus, View, refusal,
+    AnySession, Applied, Datum, Figures, Holder, NamedRecord, Observer, Open, Pose2, Request,
+    RunEvent, SampleRef, SetError, Stimulus, View, refusal,
 };
 
 use crate::program::Program;
@@ -287,7 +287,8 @@ impl Target for SessionTarget<'_> {
             other => format!("'{text}': {other}"),
         })?;
         let id = id.map(|id| TraceEntryId(id as u32));
-        let datum = Datum::new(self.run.session.names(), id, value.borrow());
+        let of = id.map_or(Holder::Unknown, Holder::Entry);
+        let datum = Datum::new(self.run.session.names(), of, value.borrow());
         let unit = id.map_or("", |id| self.run.session.names().entry(id).unit);
         Ok(datum.in_unit(unit))
     }

@@ -115,6 +115,15 @@ impl Type {
             _ => None,
         }
     }
+
+    /// The name of an enum or object type; empty for what the language itself has.
+    pub fn declared_name(&self) -> &str {
+        match self {
+            Type::Enum(home) => &home.name,
+            Type::Object(home) => &home.name,
+            _ => "",
+        }
+    }
 }
 
 /// Names of types that are no dimensions and that plans can write.

@@ -5,7 +5,7 @@ use afp_core::trace::{
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_session::{
-    Datum, Done, EndingKind, EventKind, Miss, Pose2, Put, Requested, RunEvent, Stimulus,
+    Datum, Done, EndingKind, EventKind, Holder, Miss, Pose2, Put, Requested, RunEvent, Stimulus,
 };
 use prost::Message;
 use prost_types::Timestamp;
@@ -295,7 +295,7 @@ pub(crate) fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: Valu
         name: path.to_owned(),
         r#type: ty.to_owned(),
         unit: unit.to_owned(),
-        value: Some(encode_value(Datum::new(names, Some(id), value))),
+        value: Some(encode_value(Datum::new(names, Holder::Entry(id), value))),
     }
 }
 

@@ -32,6 +32,9 @@ struct Component {
 #[derive(Clone, Debug, Default)]
 struct Port {
     name: String,
+    ty: String,
+    /// The values of an enum that an input takes.
+    choices: Vec<String>,
     unit: String,
     range: Option<(f64, f64)>,
     entry: Option<String>,
@@ -110,7 +113,10 @@ impl Component {
             missed: both(DEADLINE_MISSED),
             error: both(ERROR),
             inputs: (0..u16::MAX)
-                .map(|port| Port::copy(&names.input_port(id, port)))
+                .map(|port| Port {
+                    choices: until_empty(|value| names.input_choice(id, port, value)),
+                    ..Port::copy(&names.input_port(id, port))
+                })
                 .take_while(|port| !port.name.is_empty())
                 .collect(),
             outputs: (0..names.outputs(id))
@@ -147,6 +153,8 @@ impl Port {
     fn copy(port: &PortName<'_>) -> Self {
         Port {
             name: port.name.to_owned(),
+            ty: port.ty.to_owned(),
+            choices: Vec::new(),
             unit: port.unit.to_owned(),
             range: port.range,
             entry: port.entry.map(str::to_owned),
@@ -157,6 +165,7 @@ impl Port {
     fn get(&self) -> PortName<'_> {
         PortName {
             name: &self.name,
+            ty: &self.ty,
             unit: &self.unit,
             range: self.range,
             entry: self.entry.as_deref(),
@@ -221,6 +230,11 @@ impl Names for OwnedNames {
     fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
         let port = self.get(id).and_then(|component| component.inputs.get(usize::from(port)));
         port.map_or(PortName::default(), Port::get)
+    }
+
+    fn input_choice(&self, id: ComponentId, port: u16, value: u16) -> &str {
+        let port = self.get(id).and_then(|component| component.inputs.get(usize::from(port)));
+        text(port.and_then(|port| port.choices.get(usize::from(value))))
     }
 
     fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {

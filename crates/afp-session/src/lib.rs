@@ -44,7 +44,9 @@ mod world;
 pub use any::{AnySession, SetError, refusal};
 pub use command::{DEFAULT_UNTIL, shell_word};
 pub use counts::{Counts, Usage};
-pub use event::{Datum, Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
+pub use event::{
+    Datum, Done, EndingKind, EventKind, Holder, Miss, OUTSIDE, Requested, RunEvent, author,
+};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
 pub use hardware::{Hardware, LastResort, NoWorld, Opened, Settings};

@@ -11,7 +11,7 @@ use afp_core::trace::{ComponentId, Names, TraceEntryId};
 use afp_core::trace::{DEADLINE_MISSED, ERROR};
 use afp_number::Measured;
 
-use crate::event::Datum;
+use crate::event::{Datum, Holder};
 use crate::request::{Put, Request, RequestError};
 use crate::sample::Pose2;
 
@@ -81,7 +81,7 @@ impl Stimulus {
                 let id = TraceEntryId((*entry).into());
                 Stimulus::Write {
                     entry: names.entry(id).path.to_owned(),
-                    value: Datum::new(names, Some(id), value.borrow()),
+                    value: Datum::new(names, Holder::Entry(id), value.borrow()),
                     unit: names.entry(id).unit.to_owned(),
                 }
             }
@@ -102,7 +102,9 @@ impl Stimulus {
                 outcome: names.outcome(*component, *outcome).to_owned(),
                 outputs: outputs
                     .iter()
-                    .map(|(port, value)| (*port, Datum::new(names, None, value.borrow())))
+                    .map(|(port, value)| {
+                        (*port, Datum::new(names, Holder::Unknown, value.borrow()))
+                    })
                     .collect(),
             },
             Request::Idle(element) => {
@@ -129,7 +131,7 @@ impl Stimulus {
                 let unknown = || RequestError::NoEntry(entry.clone());
                 let id = ids.find(|id| names.entry(*id).path == entry).ok_or_else(unknown)?;
                 let number = u16::try_from(id.0).map_err(|_| unknown())?;
-                let value = value.value(names, Some(id)).ok_or_else(unknown)?;
+                let value = value.value(names, Holder::Entry(id)).ok_or_else(unknown)?;
                 Request::Write(number, value)
             }
             Stimulus::Press { control, held } => {
@@ -171,8 +173,9 @@ fn injection(
         .chain([ERROR, DEADLINE_MISSED])
         .find(|number| named(*number) == outcome)
         .ok_or_else(|| RequestError::NoOutcome(format!("{path}.{outcome}")))?;
-    let outputs =
-        outputs.iter().filter_map(|(port, value)| Some((*port, value.value(names, None)?)));
+    let outputs = outputs
+        .iter()
+        .filter_map(|(port, value)| Some((*port, value.value(names, Holder::Unknown)?)));
     Ok(Request::Inject(Injection { component, outcome, outputs: outputs.collect() }))
 }
 

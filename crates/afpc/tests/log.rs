@@ -21,7 +21,7 @@ fn a_log_tells_what_the_run_told() {
     let live: Vec<&str> = run.out.lines().filter(|line| line.contains(['▶', '⚡', '◆'])).collect();
     assert!(live.len() > 10);
     for line in live {
-        assert!(said.out.contains(line), "{line} is not in {}", said.out);
+        assert!(said.out.contains(&line), "{line} is not in {}", said.out);
     }
     assert!(said.out.contains("searchFirstWall.touch"), "{}", said.out);
     assert!(said.out.contains("  never: escape.EscapeButtonPressed"), "{}", said.out);
@@ -40,18 +40,23 @@ fn what_a_plan_writes_to_its_log_is_in_the_timeline() {
 plan P {
     in gap: length = 42 cm
     in side: string = "right"
+    var turn: Side = Side.left
     start wide
     computation wide: Log(value = gap * 2) { Done -> where }
-    computation where: Log(value = side) { Done -> terminate }
+    computation where: Log(value = side) { Done -> round }
+    computation round: Log(value = turn) { Done -> terminate }
 }
+enum Side { right, left }
 "#;
     place.write("p.afp", text);
     let run = place.afpc("run p.afp --log a.mcap --svg none");
     let log = place.afpc("log a.mcap");
     for said in [run, log] {
         said.succeeds();
-        for line in ["0.000  ✎ wide: value = 84 cm", r#"0.000  ✎ where: value = "right""#] {
-            assert!(said.out.contains(line), "{line} is not in {}", said.out);
+        let lines =
+            ["✎ wide: value = 84 cm", r#"✎ where: value = "right""#, "✎ round: value = Side.left"];
+        for line in lines.map(|line| format!("0.000  {line}")) {
+            assert!(said.out.contains(&line), "{line} is not in {}", said.out);
         }
     }
 }

@@ -67,8 +67,12 @@ class Log(tables.Events):
         """The run again up to a moment, from the log alone; it goes on from there as it did, or otherwise if it is disturbed.
 
         Whatever came from outside comes again, later than that moment, too. Components in Python come from `toolboxes`.
+
+        Raises:
+            ValueError: a toolbox that the plan uses is neither built in nor among `toolboxes`.
         """
         at = seconds("at", at)
+        self._require(toolboxes)
         files, name, world, seed = read_recipe(self.file)
         path, text = files[0]
         plan = Plan(text, path, name=name, toolboxes=list(toolboxes))
@@ -78,6 +82,16 @@ class Log(tables.Events):
         if at > 0:
             simulation.run_to(at)
         return simulation
+
+    def _require(self, toolboxes: Sequence[Toolbox]) -> None:
+        """Raises an error where a toolbox that the log carries, because it is not built in, is not among these."""
+        carried = [name.removeprefix("toolbox/") for name in self.attachments if name.startswith("toolbox/")]
+        given = {toolbox.name for toolbox in toolboxes}
+        missing = [name for name in carried if name not in given]
+        if missing:
+            names = ", ".join(f"'{name}'" for name in missing)
+            hint = f"log.simulation(toolboxes=[{', '.join([*sorted(given), *missing])}])"
+            raise ValueError(f"the log has the declarations of {names} but not the components: write {hint}")
 
     def picture(self) -> Picture:
         """The path of the run in its world, as `afpc log --svg` draws it."""

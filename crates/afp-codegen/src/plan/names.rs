@@ -96,8 +96,17 @@ fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
 /// A port and what is bound to it.
 fn port(names: &PortNames, texts: &PlanTexts) -> TokenStream {
     let (name, unit) = (&names.name, unit(&names.ty));
+    let of = match &names.ty {
+        Type::Enum(choices) => {
+            let (ty, variants) = (&choices.name, &choices.variants);
+            Some(quote!(.of(#ty, &[#(#variants),*])))
+        }
+        ty => {
+            Some(ty.declared_name()).filter(|name| !name.is_empty()).map(|ty| quote!(.of(#ty, &[])))
+        }
+    };
     let (within, at) = (within(names.range), placed(texts.place(names.span)));
-    quote!(PortRow::new(#name, #unit) #within #at)
+    quote!(PortRow::new(#name, #unit) #of #within #at)
 }
 
 fn within(range: Option<(f64, f64)>) -> Option<TokenStream> {

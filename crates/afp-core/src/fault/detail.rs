@@ -123,6 +123,7 @@ impl<'a, N: Names + ?Sized> Explained<'a, N> {
         let entry = self.names.entry(id);
         PortName {
             name: entry.path,
+            ty: "",
             unit: entry.unit,
             range: entry.range,
             place: self.names.initial(id),

@@ -49,8 +49,10 @@ pub struct EntryRow {
 /// The name of one port.
 #[derive(Clone, Copy, Debug)]
 pub struct PortRow {
-    /// Name, unit, range and place.
+    /// Name, type, unit, range and place.
     pub name: PortName<'static>,
+    /// The values of an enum.
+    pub choices: &'static [&'static str],
     /// Its position in the template, where not all ports have a row.
     pub position: u16,
 }
@@ -58,8 +60,16 @@ pub struct PortRow {
 impl PortRow {
     /// An input port.
     pub const fn new(name: &'static str, unit: &'static str) -> Self {
-        let name = PortName { name, unit, range: None, entry: None, place: None };
-        PortRow { name, position: 0 }
+        let name = PortName { name, ty: "", unit, range: None, entry: None, place: None };
+        PortRow { name, choices: &[], position: 0 }
+    }
+
+    /// The row of a port that takes an enum with those values, or an object without any.
+    #[must_use]
+    pub const fn of(mut self, ty: &'static str, choices: &'static [&'static str]) -> Self {
+        self.name.ty = ty;
+        self.choices = choices;
+        self
     }
 
     /// An output port, by position in the template, that is bound to an entry.
@@ -234,6 +244,11 @@ impl Names for NameTable {
     fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
         let row = self.row(id).and_then(|row| row.inputs.get(usize::from(port)));
         row.map_or(PortName::default(), |row| row.name)
+    }
+
+    fn input_choice(&self, id: ComponentId, port: u16, value: u16) -> &str {
+        let row = self.row(id).and_then(|row| row.inputs.get(usize::from(port)));
+        row.and_then(|row| row.choices.get(usize::from(value))).map_or("", |name| name)
     }
 
     fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {

@@ -5,7 +5,7 @@ use afp_core::trace::{
 };
 use afp_core::{Fault, ValueRef};
 
-use super::{Datum, EndingKind, EventKind, Miss, OUTSIDE, RunEvent, author};
+use super::{Datum, EndingKind, EventKind, Holder, Miss, OUTSIDE, RunEvent, author};
 
 /// Puts names in place of ids.
 pub(super) struct Namer<'a, N: ?Sized> {
@@ -47,7 +47,7 @@ impl<N: Names + ?Sized> Namer<'_, N> {
                 let PortName { name, unit, .. } = self.names.input_port(component, port);
                 RunEvent {
                     port: name.to_owned(),
-                    value: Some(Datum::new(self.names, None, value)),
+                    value: Some(Datum::new(self.names, Holder::Input(component, port), value)),
                     unit: unit.to_owned(),
                     ..self.about(EventKind::Input, component)
                 }
@@ -153,8 +153,8 @@ impl<N: Names + ?Sized> Namer<'_, N> {
             entry: path.to_owned(),
             entry_id: entry,
             unit: unit.to_owned(),
-            old: Some(Datum::new(self.names, Some(entry), old)),
-            value: Some(Datum::new(self.names, Some(entry), new)),
+            old: Some(Datum::new(self.names, Holder::Entry(entry), old)),
+            value: Some(Datum::new(self.names, Holder::Entry(entry), new)),
             ..RunEvent::default()
         }
     }

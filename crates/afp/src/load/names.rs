@@ -51,6 +51,7 @@ impl PlanNames {
         let units = self.0.units.get(id.0 as usize).and_then(|units| units.get(kind));
         PortName {
             name: &names.name,
+            ty: names.ty.declared_name(),
             unit: units.and_then(|units| units.get(index)).map_or("", String::as_str),
             range: names.range,
             entry: None,
@@ -125,6 +126,15 @@ impl Names for PlanNames {
         let index = usize::from(port);
         let names = self.get(id).and_then(|names| names.inputs.get(index));
         names.map_or(PortName::default(), |names| self.port(id, 0, index, names))
+    }
+
+    fn input_choice(&self, id: ComponentId, port: u16, value: u16) -> &str {
+        match self.get(id).and_then(|names| names.inputs.get(usize::from(port))) {
+            Some(PortNames { ty: Type::Enum(choices), .. }) => {
+                choices.variants.get(usize::from(value)).map_or("", String::as_str)
+            }
+            _ => "",
+        }
     }
 
     fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
