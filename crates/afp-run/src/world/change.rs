@@ -156,9 +156,18 @@ fn set(item: &mut Item, name: &str, index: Option<usize>, to: Value) -> Result<(
         table.insert(name, value(to));
         return Ok(());
     };
-    let list = table.get_mut(name).and_then(Item::as_array_mut);
-    let place = list.and_then(|list| list.get_mut(index));
-    *place.ok_or_else(|| format!("'{name}' has no number {index}"))? = to;
+    let known = table.iter().map(|(name, _)| format!("'{name}'")).collect::<Vec<_>>().join(", ");
+    let Some(list) = table.get_mut(name) else {
+        return Err(format!("there is no '{name}' among {known}"));
+    };
+    let Some(list) = list.as_array_mut() else {
+        return Err(format!("'{name}' is no list, so that it has no number {index}"));
+    };
+    let count = list.len();
+    let place = list.get_mut(index);
+    *place.ok_or_else(|| {
+        format!("'{name}' has {count} values, from 0 on, and no number {index}")
+    })? = to;
     Ok(())
 }
 
@@ -222,10 +231,12 @@ mod tests {
             ("box.clost.height_m", "1m", "no 'clost' among 'closet'"),
             ("box.closet.height_m", "1", "a number with a unit: m, cm"),
             ("box.closet.height_m", "1s", "a number with a unit: m, cm"),
-            ("robot.pose_m_deg.3", "1m", "no number 3"),
             ("robot.charg", "0.5", "charg"),
             ("robot.charge", "2", "charge"),
             ("box.height_m", "1m", "name one of them first"),
+            ("robot.pose.1", "4.5m", "there is no 'pose' among 'pose_m_deg'"),
+            ("robot.pose_m_deg.3", "1m", "'pose_m_deg' has 3 values, from 0 on, and no number 3"),
+            ("robot.charge.1", "4.5", "'charge' is no list, so that it has no number 1"),
         ] {
             let refused = room().with(&[(key, text)], &ROBOT).err().map(|error| error.to_string());
             let error = refused.unwrap_or_default();
