@@ -236,7 +236,7 @@ mod tests {
             ("box.height_m", "1m", "name one of them first"),
             ("robot.pose.1", "4.5m", "there is no 'pose' among 'pose_m_deg'"),
             ("robot.pose_m_deg.3", "1m", "'pose_m_deg' has 3 values, from 0 on, and no number 3"),
-            ("robot.charge.1", "4.5", "'charge' is no list, so that it has no number 1"),
+            ("name.1", "4.5", "'name' is no list, so that it has no number 1"),
         ] {
             let refused = room().with(&[(key, text)], &ROBOT).err().map(|error| error.to_string());
             let error = refused.unwrap_or_default();
