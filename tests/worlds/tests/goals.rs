@@ -3,12 +3,12 @@
 //! `AFP_GOAL=5017`.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::env;
 use std::sync::{Mutex, PoisonError};
-use std::{env, thread};
 
 use afp_core::Instant;
 use afp_worlds::{Contact, Errand, Outcome, Pushes, run};
+use rayon::iter::{ParallelBridge, ParallelIterator};
 
 /// Rooms unless told otherwise: the first seed and how many.
 const ROOMS: (u64, usize) = (1000, 12);
@@ -104,25 +104,15 @@ impl Account {
 /// Sends the robot on its errand in the first rooms that are fit.
 fn sent(name: &str, errand: fn(u64) -> Option<Errand>) -> Account {
     let (first, count) = rooms();
-    let (next, account) = (AtomicUsize::new(0), Mutex::new(Account::default()));
+    let account = Mutex::new(Account::default());
     // Rooms are looked at while others are driven in; two in three are fit.
-    let errands = Mutex::new((first..).filter_map(errand).take(count));
-    let work = || {
-        while next.fetch_add(1, Ordering::Relaxed) < count {
-            let errand = errands.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some(errand) = errand else { return };
-            let outcome = run(&errand.case);
-            if env::var_os("AFP_GOAL").is_some() {
-                println!("{}\n{}\n{}", errand.text, errand.case, outcome.timeline);
-                println!("{}", outcome.seen.pushes);
-            }
-            account.lock().unwrap_or_else(PoisonError::into_inner).add(&errand, &outcome);
+    (first..).filter_map(errand).take(count).par_bridge().for_each(|errand| {
+        let outcome = run(&errand.case);
+        if env::var_os("AFP_GOAL").is_some() {
+            println!("{}\n{}\n{}", errand.text, errand.case, outcome.timeline);
+            println!("{}", outcome.seen.pushes);
         }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
-        }
+        account.lock().unwrap_or_else(PoisonError::into_inner).add(&errand, &outcome);
     });
     let mut account = account.into_inner().unwrap_or_else(PoisonError::into_inner);
     account.tell(name);

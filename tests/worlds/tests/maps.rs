@@ -4,11 +4,11 @@
 
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::{env, fs, thread};
+use std::{env, fs};
 
 use afp_sim::{Pose, World};
 use afp_worlds::{Errand, Reach, run};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde::Deserialize;
 
 const LIST: &str = include_str!("../maps.toml");
@@ -56,31 +56,22 @@ impl Entry {
         let (text, world) = self.load(folder)?;
         let reach = Reach::of(&world);
         println!("{}: {:.0} square metres", self.path, reach.area());
-        let (next, account) = (AtomicU64::new(0), Mutex::new([0; 3]));
-        let work = || {
-            while let number = next.fetch_add(1, Ordering::Relaxed)
-                && number < places
-            {
-                let map = (&world, &reach);
-                let errand = Errand::within_reach(map, text.clone(), number, PATIENCE);
-                let Some(errand) = errand else { continue };
-                let outcome = run(&errand.case);
-                let (why, touches) = (errand.objection(&outcome), errand.touches(&outcome).count());
-                if let Some(why) = &why {
-                    println!("  {number} ({:?}): {why}", errand.case.inputs);
-                    if let Some(at) = outcome.seen.astray {
-                        println!("    it did not know where it was from {at} on");
-                    }
+        let account = Mutex::new([0; 3]);
+        (0..places).into_par_iter().for_each(|number| {
+            let map = (&world, &reach);
+            let errand = Errand::within_reach(map, text.clone(), number, PATIENCE);
+            let Some(errand) = errand else { return };
+            let outcome = run(&errand.case);
+            let (why, touches) = (errand.objection(&outcome), errand.touches(&outcome).count());
+            if let Some(why) = &why {
+                println!("  {number} ({:?}): {why}", errand.case.inputs);
+                if let Some(at) = outcome.seen.astray {
+                    println!("    it did not know where it was from {at} on");
                 }
-                let counts = [usize::from(why.is_some()), usize::from(touches > 0), 1];
-                let mut account = account.lock().expect("nobody panics here");
-                account.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
             }
-        };
-        thread::scope(|scope| {
-            for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-                scope.spawn(work);
-            }
+            let counts = [usize::from(why.is_some()), usize::from(touches > 0), 1];
+            let mut account = account.lock().expect("nobody panics here");
+            account.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
         });
         Ok(account.into_inner().expect("nobody panics here"))
     }

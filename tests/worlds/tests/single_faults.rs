@@ -6,10 +6,11 @@
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::{env, fs, thread};
+use std::{env, fs};
 
 use afp_core::Duration;
 use afp_worlds::{Account, Single, run};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 /// Rooms unless told otherwise.
 const ROOMS: u64 = 1;
@@ -52,31 +53,20 @@ fn any_single_fault_ends_well() {
     if let Ok(name) = env::var("AFP_SINGLE") {
         return shown(&name, &all);
     }
-    let (next, findings) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let findings = Mutex::new(Vec::new());
     let (account, long) = (Mutex::new(Account::default()), AtomicUsize::new(0));
-    let work = || {
-        while let Some(single) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let outcome = run(&single.case);
-            account.lock().expect("nobody panics here").add(single, &outcome);
-            long.fetch_add(usize::from(single.pushes_long(&outcome)), Ordering::Relaxed);
-            if outcome.seen.pushing > TOLD {
-                print!(
-                    "{} pushes for {}\n{}",
-                    name(single),
-                    outcome.seen.pushing,
-                    outcome.seen.pushes
-                );
-            }
-            let wrong = single.objections(&outcome);
-            if let Some(first) = wrong.first() {
-                let finding = format!("AFP_SINGLE='{}': {first}", name(single));
-                findings.lock().expect("nobody panics here").push(finding);
-            }
+    all.par_iter().for_each(|single| {
+        let outcome = run(&single.case);
+        account.lock().expect("nobody panics here").add(single, &outcome);
+        long.fetch_add(usize::from(single.pushes_long(&outcome)), Ordering::Relaxed);
+        if outcome.seen.pushing > TOLD {
+            let (name, seen) = (name(single), &outcome.seen);
+            print!("{name} pushes for {}\n{}", seen.pushing, seen.pushes);
         }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
+        let wrong = single.objections(&outcome);
+        if let Some(first) = wrong.first() {
+            let finding = format!("AFP_SINGLE='{}': {first}", name(single));
+            findings.lock().expect("nobody panics here").push(finding);
         }
     });
     let tables = account.into_inner().expect("nobody panics here").markdown();

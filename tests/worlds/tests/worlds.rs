@@ -4,10 +4,10 @@ use std::env;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
 use std::time::{Duration, Instant};
 
 use afp_worlds::{Case, Outcome, run};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// How many worlds are driven through unless told otherwise.
 const WORLDS: u64 = 200;
@@ -53,32 +53,21 @@ fn in_any_world_every_promise_is_kept() {
         return tell(number);
     }
     let worlds = asked("AFP_WORLDS").unwrap_or(WORLDS);
-    let (next, done) = (AtomicU64::new(0), AtomicU64::new(0));
+    let done = AtomicU64::new(0);
     let findings = Mutex::new(Vec::new());
     let (begin, told) = (Instant::now(), Mutex::new(Instant::now()));
-    let work = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            if number >= worlds {
-                return;
-            }
-            let (_, broken) = verdict(number);
-            if let Some(first) = broken.first() {
-                let finding = format!("world {number}: {first}\n    {}", again(number));
-                eprintln!("{finding}");
-                findings.lock().expect("nobody panics here").push(finding);
-            }
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            let mut told = told.lock().expect("nobody panics here");
-            if told.elapsed() > NEWS {
-                *told = Instant::now();
-                eprintln!("{done} of {worlds} worlds, {:.0} s", begin.elapsed().as_secs_f64());
-            }
+    (0..worlds).into_par_iter().for_each(|number| {
+        let (_, broken) = verdict(number);
+        if let Some(first) = broken.first() {
+            let finding = format!("world {number}: {first}\n    {}", again(number));
+            eprintln!("{finding}");
+            findings.lock().expect("nobody panics here").push(finding);
         }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        let mut told = told.lock().expect("nobody panics here");
+        if told.elapsed() > NEWS {
+            *told = Instant::now();
+            eprintln!("{done} of {worlds} worlds, {:.0} s", begin.elapsed().as_secs_f64());
         }
     });
     let findings = findings.into_inner().expect("nobody panics here");
