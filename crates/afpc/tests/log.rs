@@ -21,7 +21,7 @@ fn a_log_tells_what_the_run_told() {
     let live: Vec<&str> = run.out.lines().filter(|line| line.contains(['▶', '⚡', '◆'])).collect();
     assert!(live.len() > 10);
     for line in live {
-        assert!(said.out.contains(&line), "{line} is not in {}", said.out);
+        assert!(said.out.contains(line), "{line} is not in {}", said.out);
     }
     assert!(said.out.contains("searchFirstWall.touch"), "{}", said.out);
     assert!(said.out.contains("  never: escape.EscapeButtonPressed"), "{}", said.out);
