@@ -41,6 +41,7 @@ pub fn run(rounds: u32, report: &mut Report) {
     // A plan of a thousand actors stays in the caches, one of ten thousand does not.
     report.add(against(large, small, 14.0));
     report.add(milliseconds(tokens));
+    // Both grow with the text: what is told here is that the check does not grow faster.
     report.add(against(large, tokens, 24.0));
     let within = again.best < 15e6 || again.ratio(small) <= 1.0 / 3.0;
     report.add(

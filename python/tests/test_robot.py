@@ -16,7 +16,7 @@ from conftest import ROOT
 VACUUM = ROOT / "examples/vacuum"
 
 DRIVE = """
-import json, pickle, afp
+import json, pickle, tempfile, afp
 afp.use("VACUUM")
 afp.use("VACUUM")
 plan = afp.load("plans/clean.afp")
@@ -34,6 +34,10 @@ again = afp.Simulation(plan, seed=3, set={"time": 60.0})
 again.fail("wheels", "slip", share=0.9, at=5.0, lasting=1.0)
 again.press("bumper.left", at=8.0)
 found["again"] = again.run(until=70.0).trace_hash == result.trace_hash
+log = tempfile.mkdtemp() + "/run.mcap"
+with afp.Simulation(plan, seed=3, log=log) as logged:
+    trace = logged.run(until=10.0).trace_hash
+found["from_log"] = afp.Log(log).simulation().run(until=10.0).trace_hash == trace
 halted = afp.Simulation(plan)
 halted.press(at=1.0)
 found["halted"] = halted.run(until=10.0).time
@@ -85,6 +89,7 @@ def test_a_project_brings_its_robot() -> None:
     assert 0.0 < found["cleaned"] < 1.0 and found["left"] is False and found["path"] > 2900
     assert ["wheels", "slip"] in found["faults"] and ["ultrasonic", "frozen"] not in found["faults"]
     assert found["again"] and found["halted"] < 1.2
+    assert found["from_log"], "the log carries the linked toolbox, and needs no other"
     assert found["scenarios"] and all(found["scenarios"].values()), found["scenarios"]
     assert found["runs"] == 4 and found["pickled"] and found["mixed"] == "ok"
     (time, drop, level), truth, other, middle = found["seen"]

@@ -271,6 +271,7 @@ mod tests {
             assert!(workspace.contains(&said), "'{said}' is not in Cargo.toml");
         }
     }
+
     #[test]
     fn every_package_has_one_section_of_the_profile() {
         let path = Origin::Path("/robots".to_owned());

@@ -10,13 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import plots, tables
-from ._afp import Event, Toolbox, draw_log, read_log, read_recipe
+from ._afp import Event, PlanError, Toolbox, draw_log, read_log, read_recipe
 from .picture import Picture
 from .plan import Plan
 from .simulation import Simulation
 from .units import seconds
 
 __all__ = ["Log"]
+
+_NO_TOOLBOX = "E0238"
+"""The rule that a plan names a toolbox that is not there."""
 
 
 class Log(tables.Events):
@@ -69,29 +72,32 @@ class Log(tables.Events):
         Whatever came from outside comes again, later than that moment, too. Components in Python come from `toolboxes`.
 
         Raises:
-            ValueError: a toolbox that the plan uses is neither built in nor among `toolboxes`.
+            ValueError: a toolbox that the plan uses is neither linked nor among `toolboxes`.
         """
         at = seconds("at", at)
-        self._require(toolboxes)
         files, name, world, seed = read_recipe(self.file)
         path, text = files[0]
         plan = Plan(text, path, name=name, toolboxes=list(toolboxes))
         plan._set_others(dict(files[1:]))
-        simulation = Simulation(plan, world, seed=seed)
+        try:
+            simulation = Simulation(plan, world, seed=seed)
+        except PlanError as error:
+            missing = self._missing(toolboxes)
+            if not missing or all(diagnostic.code != _NO_TOOLBOX for diagnostic in error.diagnostics):
+                raise
+            names = ", ".join(f"'{name}'" for name in missing)
+            hint = f"log.simulation(toolboxes=[{', '.join([*(toolbox.name for toolbox in toolboxes), *missing])}])"
+            raise ValueError(f"the log has the declarations of {names} but not the components: write {hint}") from error
         simulation._runner.repeat(self.file)
         if at > 0:
             simulation.run_to(at)
         return simulation
 
-    def _require(self, toolboxes: Sequence[Toolbox]) -> None:
-        """Raises an error where a toolbox that the log carries, because it is not built in, is not among these."""
+    def _missing(self, toolboxes: Sequence[Toolbox]) -> list[str]:
+        """The toolboxes that the log carries, because they are not built in, and that are not among these."""
         carried = [name.removeprefix("toolbox/") for name in self.attachments if name.startswith("toolbox/")]
         given = {toolbox.name for toolbox in toolboxes}
-        missing = [name for name in carried if name not in given]
-        if missing:
-            names = ", ".join(f"'{name}'" for name in missing)
-            hint = f"log.simulation(toolboxes=[{', '.join([*sorted(given), *missing])}])"
-            raise ValueError(f"the log has the declarations of {names} but not the components: write {hint}")
+        return [name for name in carried if name not in given]
 
     def picture(self) -> Picture:
         """The path of the run in its world, as `afpc log --svg` draws it."""

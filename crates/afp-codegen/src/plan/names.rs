@@ -96,15 +96,8 @@ fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
 /// A port and what is bound to it.
 fn port(names: &PortNames, texts: &PlanTexts) -> TokenStream {
     let (name, unit) = (&names.name, unit(&names.ty));
-    let of = match &names.ty {
-        Type::Enum(choices) => {
-            let (ty, variants) = (&choices.name, &choices.variants);
-            Some(quote!(.of(#ty, &[#(#variants),*])))
-        }
-        ty => {
-            Some(ty.declared_name()).filter(|name| !name.is_empty()).map(|ty| quote!(.of(#ty, &[])))
-        }
-    };
+    let (ty, choices) = (names.ty.declared_name(), variants(&names.ty));
+    let of = (!ty.is_empty()).then(|| quote!(.of(#ty, &[#(#choices),*])));
     let (within, at) = (within(names.range), placed(texts.place(names.span)));
     quote!(PortRow::new(#name, #unit) #of #within #at)
 }
@@ -130,6 +123,14 @@ fn unit(ty: &Type) -> String {
     }
 }
 
+/// The values of an enum; none of other types.
+fn variants(ty: &Type) -> &[String] {
+    match ty {
+        Type::Enum(choices) => &choices.variants,
+        _ => &[],
+    }
+}
+
 /// An edge of an element that holds instead of one of a global supervisor.
 fn reaction(reaction: &Reaction, target: &str) -> TokenStream {
     let supervisor = Literal::u32_unsuffixed(reaction.supervisor);
@@ -151,10 +152,7 @@ fn entry(names: &EntryNames, texts: &PlanTexts) -> TokenStream {
         EntryKind::Const => quote!(Const),
     };
     let unit = unit(ty);
-    let choices = match ty {
-        Type::Enum(choices) => choices.variants.as_slice(),
-        _ => &[],
-    };
+    let choices = variants(ty);
     let ty = ty.to_string();
     let (within, at) = (within(*range), placed(names.initial.and_then(|span| texts.place(span))));
     quote!(EntryRow::new(#path, EntryKind::#kind, #ty, #unit, &[#(#choices),*]) #within #at)
