@@ -45,8 +45,8 @@ pub(crate) struct Breakpoint {
     pub from_hit: u64,
     /// Counts as hit only while this holds.
     pub condition: Option<Watched>,
-    /// Hits so far.
-    pub hits: u64,
+    /// The step of each hit so far.
+    pub hits: Vec<u64>,
 }
 
 /// What a breakpoint is set with.
@@ -164,8 +164,15 @@ impl Breakpoints {
         all.into_iter().find(|(_, each)| each.id == id)
     }
 
-    /// What an event comes to, as the next hit of those that are set there.
-    pub fn hits(&mut self, event: &RunEvent, program: &Program, state: &State) -> Hits {
+    /// A run was taken back to where so many steps are over: what was hit later was not yet.
+    pub fn go_back(&mut self, steps: u64) {
+        for each in self.sets.values_mut().flatten() {
+            each.hits.retain(|step| *step < steps);
+        }
+    }
+
+    /// What an event comes to, as the next hit of those that are set there; so many steps are over before it.
+    pub fn hits(&mut self, event: &RunEvent, steps: u64, program: &Program, state: &State) -> Hits {
         let exception = self.filters.values().find_map(|filters| filters.exception(event));
         let mut hits = Hits { exception, ..Hits::default() };
         let numbers: Vec<_> = spots(event, program)
@@ -178,11 +185,11 @@ impl Breakpoints {
             if found.condition.as_ref().is_some_and(|condition| !condition.holds(program, state)) {
                 continue;
             }
-            found.hits += 1;
+            found.hits.push(steps);
             let plan = found.spots.first().map_or(ComponentId(0), |spot| program.plan_at(*spot));
             match &found.wanted.log {
                 Some(text) => hits.logs.push(filled(text, plan, program, state)),
-                None if found.hits >= found.from_hit => hits.stop.push((id, kind)),
+                None if found.hits.len() as u64 >= found.from_hit => hits.stop.push((id, kind)),
                 None => {}
             }
         }

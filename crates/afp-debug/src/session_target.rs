@@ -29,8 +29,10 @@ pub struct SessionTarget<'m> {
     program: Arc<Program>,
     make: Box<MakeSession<'m>>,
     run: Run,
-    /// The furthest step so far.
-    furthest: u64,
+    /// How far time has passed so far.
+    furthest: Instant,
+    /// When each of the session's requests was made, in order.
+    asked: Vec<Instant>,
     /// Copies of the run, by time.
     keyframes: Vec<Run>,
     /// How much time lies between two of them.
@@ -52,7 +54,9 @@ impl<'m> SessionTarget<'m> {
     pub fn new(program: Arc<Program>, mut make: Box<MakeSession<'m>>) -> Result<Self, String> {
         let run = Run { session: make()?, state: State::default(), steps: 0 };
         let keyframes = run.keyframe().into_iter().collect();
-        Ok(SessionTarget { program, make, run, furthest: 0, keyframes, apart: KEYFRAMES })
+        let furthest = run.session.now();
+        let asked = vec![furthest; run.session.requests().len()];
+        Ok(SessionTarget { program, make, run, furthest, asked, keyframes, apart: KEYFRAMES })
     }
 
     /// The same without copies, as of a robot that cannot be copied: going back always runs again from the start.
@@ -60,10 +64,12 @@ impl<'m> SessionTarget<'m> {
         SessionTarget { keyframes: Vec::new(), ..self }
     }
 
-    /// Keeps a copy of the run where the last one lies far enough back.
+    /// Keeps a copy of the run where the last one lies far enough back. A run of what has been once holds what was
+    /// asked for later.
     fn keep(&mut self) {
         let Some(last) = self.keyframes.last() else { return };
-        if self.run.session.now() < last.session.now() + self.apart {
+        let now = self.run.session.now();
+        if now < self.furthest || now < last.session.now() + self.apart {
             return;
         }
         self.keyframes.extend(self.run.keyframe());
@@ -107,17 +113,30 @@ impl<'m> SessionTarget<'m> {
 
     /// Forgets what was asked for later than now, for what happens next is another run.
     fn forget_later(&mut self) -> Result<(), String> {
-        if self.run.steps >= self.furthest {
+        let (now, steps) = (self.run.session.now(), self.run.steps);
+        if now >= self.furthest {
             return Ok(());
         }
-        let now = self.run.session.now();
-        let asked: Vec<_> =
-            self.run.session.requests().iter().filter(|(at, _)| *at <= now).cloned().collect();
-        let steps = self.run.steps;
-        self.keyframes.retain(|run| run.steps <= steps);
+        let requests = self.run.session.requests();
+        let had = self.asked.partition_point(|asked| *asked < now);
+        // Of what was asked for at this very instant that which has been done, and what was asked for along with it.
+        let along = self.asked.partition_point(|asked| *asked <= now);
+        let begun = requests.iter().skip(had).take(along - had).any(|(at, _)| *at <= now);
+        self.asked.truncate(if begun { along } else { had });
+        let asked = requests.get(..self.asked.len()).unwrap_or(requests).to_vec();
+        self.keyframes.retain(|run| run.session.now() <= now && run.steps <= steps);
         self.run = self.replayed(&asked, Position::Step(steps))?;
-        self.furthest = steps;
+        // Between two steps, too.
+        while self.run.session.now() < now && self.run.session.ending().is_none() {
+            self.run.advance(now, &self.program, &mut |_, _| {})?;
+        }
+        self.furthest = now;
         Ok(())
+    }
+
+    /// Notes when what was asked for just now was.
+    fn note_asked(&mut self) {
+        self.asked.resize(self.run.session.requests().len(), self.run.session.now());
     }
 }
 
@@ -175,7 +194,7 @@ impl Target for SessionTarget<'_> {
             return Ok(Advance::Ended);
         }
         let advance = self.run.advance(limit, &self.program, report)?;
-        self.furthest = self.furthest.max(self.run.steps);
+        self.furthest = self.furthest.max(self.run.session.now());
         self.keep();
         Ok(advance)
     }
@@ -286,6 +305,7 @@ impl Target for SessionTarget<'_> {
             }
             other => format!("'{text}': {other}"),
         })?;
+        self.note_asked();
         let id = id.map(|id| TraceEntryId(id as u32));
         let of = id.map_or(Holder::Unknown, Holder::Entry);
         let datum = Datum::new(self.run.session.names(), of, value.borrow());
@@ -301,6 +321,7 @@ impl Target for SessionTarget<'_> {
         self.forget_later()?;
         let at = self.run.session.now() + later;
         self.run.session.at(at, request).map_err(|why| why.to_string())?;
+        self.note_asked();
         Ok(self.run.session.requests().last().map_or(at, |(at, _)| *at))
     }
 

@@ -125,9 +125,7 @@ fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), St
         Asked::Fail { fault, amount, seconds } => {
             let lasting = match seconds {
                 None => Duration::MAX,
-                Some(seconds) if seconds > 0.0 && seconds < 1e9 => {
-                    Duration::from_nanos((seconds * 1e9) as u64)
-                }
+                Some(seconds) if seconds > 0.0 && seconds < 1e9 => Duration::from_secs_f64(seconds),
                 Some(_) => return Err("'seconds' is a number above 0".to_owned()),
             };
             ask(session, at, &Stimulus::Break { fault, amount, lasting })

@@ -56,6 +56,15 @@ pub trait Robot: Platform {
         Err(RequestError::Refused)
     }
 
+    /// Whether something could be put somewhere now, as [`Robot::put`] does it.
+    ///
+    /// # Errors
+    /// As of [`Robot::put`].
+    fn check_put(&self, what: &Put, at: Pose2) -> Result<(), RequestError> {
+        let _ = (what, at);
+        Err(RequestError::Refused)
+    }
+
     /// Says what its signals are now. What is dear to compute is asked for with [`Samples::wants`].
     fn sample(&self, to: &mut Samples<'_, '_>);
 

@@ -53,7 +53,7 @@ impl Adapter<'_> {
             return Err(Refusal(format!("'seconds' is a number above 0, at most {AT_MOST}")));
         }
         let run = self.run()?;
-        let until = run.target.now() + Duration::from_nanos((seconds * 1e9) as u64);
+        let until = run.target.now() + Duration::from_secs_f64(seconds);
         let path = wanted.path.trim().to_owned();
         let what = match wanted.value {
             Some(value) => {

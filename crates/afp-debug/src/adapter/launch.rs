@@ -228,7 +228,7 @@ impl Adapter<'_> {
     fn begin(&mut self, launch: Launch, now: Wall) -> Answer<()> {
         let target = self.host.launch(&launch)?;
         let pace = Pace::new(launch.speed, target.now(), now);
-        let nanos = launch.until.map(|until| Duration::from_nanos((until * 1e9) as u64));
+        let nanos = launch.until.map(Duration::from_secs_f64);
         let end = nanos.map_or(Instant::MAX, |until| target.now() + until);
         self.run = Some(Run {
             target,

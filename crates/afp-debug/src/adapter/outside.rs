@@ -66,9 +66,7 @@ impl Adapter<'_> {
         let id = found.ok_or_else(unknown)?;
         let lasting = match fault.seconds {
             None => Duration::MAX,
-            Some(seconds) if seconds > 0.0 && seconds < 1e9 => {
-                Duration::from_nanos((seconds * 1e9) as u64)
-            }
+            Some(seconds) if seconds > 0.0 && seconds < 1e9 => Duration::from_secs_f64(seconds),
             Some(_) => return Err("'seconds' is a number above 0".into()),
         };
         target.ask(Duration::ZERO, Request::Break(id, fault.amount, lasting))?;

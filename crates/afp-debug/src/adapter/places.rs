@@ -67,7 +67,7 @@ impl Wanted {
         let text = self.condition.as_deref().filter(|text| !text.trim().is_empty());
         let condition = text.map(|text| Watched::condition(program, plan, text)).transpose()?;
         let from_hit = hit(self.hits.as_deref())?;
-        Ok(Breakpoint { id, spots, line, condition, from_hit, hits: 0, wanted: self })
+        Ok(Breakpoint { id, spots, line, condition, from_hit, hits: Vec::new(), wanted: self })
     }
 
     /// The file that it is in, where it was set in one.

@@ -66,7 +66,7 @@ impl Pace {
             None => Instant::MAX,
             Some(factor) => {
                 let passed = now.saturating_sub(wall).as_secs_f64() * factor;
-                at + Duration::from_nanos((passed * 1e9) as u64)
+                at + Duration::from_secs_f64(passed)
             }
         }
     }
@@ -209,7 +209,7 @@ impl Adapter<'_> {
             let before = run.target.steps();
             let breakpoints = &mut self.breakpoints;
             let advance = run.target.advance(limit, &mut |what, state| {
-                hits.push(breakpoints.hits(&what.event, &program, state));
+                hits.push(breakpoints.hits(&what.event, before, &program, state));
                 happened.push(what.clone());
             });
             let advance = match advance {

@@ -1,6 +1,6 @@
 //! Seeking to another time: back, and ahead without stopping at breakpoints.
 
-use afp_core::Instant;
+use afp_core::{Duration, Instant};
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 use serde_json::Value;
@@ -24,8 +24,7 @@ impl Adapter<'_> {
             Some(SteppingGranularity::Instruction) => now.saturating_sub(1),
             _ => run.transitions.iter().rfind(|step| **step < now).copied().unwrap_or(0),
         };
-        run.forces.clear();
-        run.target.seek(Position::Step(to))?;
+        self.go_back(Position::Step(to))?;
         let reason = if to == 0 { Reason::Entry } else { Reason::Step };
         self.stopped(reason, "stepped back", Vec::new());
         Ok(Value::Null)
@@ -37,13 +36,14 @@ impl Adapter<'_> {
         let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
         let end = run.target.steps();
         let program = run.target.program().clone();
-        run.forces.clear();
         run.target.seek(Position::Step(0))?;
+        breakpoints.go_back(0);
         let mut last = None;
         while run.target.steps() + 1 < end {
+            let before = run.target.steps();
             let mut hit = Hits::default();
             let advance = run.target.advance(Instant::MAX, &mut |happened, state| {
-                let hits = breakpoints.hits(&happened.event, &program, state);
+                let hits = breakpoints.hits(&happened.event, before, &program, state);
                 hit.stop.extend(hits.stop);
                 hit.exception = hit.exception.or(hits.exception);
             })?;
@@ -55,7 +55,7 @@ impl Adapter<'_> {
             }
         }
         let (to, hits) = last.unwrap_or_default();
-        run.target.seek(Position::Step(to))?;
+        self.go_back(Position::Step(to))?;
         let reason = if to == 0 { Reason::Entry } else { Reason::Breakpoint };
         let ids = hits.into_iter().map(|(id, _)| id).collect();
         self.stopped(reason, "went back", ids);
@@ -68,18 +68,33 @@ impl Adapter<'_> {
         if !(seek.at >= 0.0 && seek.at < 1e9) {
             return Err("'at' is a time in seconds from the start".into());
         }
-        let at = Instant::from_nanos((seek.at * 1e9) as u64);
+        let at = Instant::ZERO + Duration::from_secs_f64(seek.at);
         let run = self.run()?;
-        run.forces.clear();
-        if at > run.target.now() && run.mode != Mode::Over {
-            run.mode = Mode::Seek(at);
-            return Ok(Value::Null);
-        }
-        if at < run.target.now() {
-            run.target.seek(Position::At(at))?;
+        let now = run.target.now();
+        match run.mode {
+            // Nothing comes after the end.
+            Mode::Over if at >= now => return Ok(Value::Null),
+            _ if at > now => {
+                run.forces.clear();
+                run.mode = Mode::Seek(at);
+                return Ok(Value::Null);
+            }
+            _ if at < now => self.go_back(Position::At(at))?,
+            _ => run.forces.clear(),
         }
         self.stopped(Reason::Goto, "went to another time", Vec::new());
         Ok(Value::Null)
+    }
+
+    /// Takes the run back: what came later has not been yet.
+    fn go_back(&mut self, to: Position) -> Answer<()> {
+        let run = self.run()?;
+        run.forces.clear();
+        run.target.seek(to)?;
+        let steps = run.target.steps();
+        run.transitions.retain(|step| *step <= steps);
+        self.breakpoints.go_back(steps);
+        Ok(())
     }
 
     /// Goes on to the instant that is looked for, or the end of the run.
@@ -87,8 +102,13 @@ impl Adapter<'_> {
         let limit = at.min(run.end);
         let program = run.target.program().clone();
         for _ in 0..BATCH {
-            let mut happened = Vec::new();
-            let advance = run.target.advance(limit, &mut |what, _| happened.push(what.clone()));
+            let (mut happened, before) = (Vec::new(), run.target.steps());
+            let breakpoints = &mut self.breakpoints;
+            let advance = run.target.advance(limit, &mut |what, state| {
+                // It does not stand still there, but they count.
+                breakpoints.hits(&what.event, before, &program, state);
+                happened.push(what.clone());
+            });
             run.keep_trace(&happened);
             if happened.iter().any(|what| is_transition(what, &program, None)) {
                 run.note(run.target.steps());

@@ -1,7 +1,7 @@
 //! Why an element runs, or does not: the edge that led to it, and what all edges to it wait for.
 
-use afp_core::Instant;
 use afp_core::trace::{ComponentId, ERROR};
+use afp_core::{Duration, Instant};
 use afp_dsl::unfold::ComponentKind;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -88,7 +88,7 @@ impl Run<'_> {
         if !(0.0..1e9).contains(&at) {
             return Err("'at' is a time in seconds from the start".into());
         }
-        let (at, now) = (Instant::from_nanos((at * 1e9) as u64), self.target.now());
+        let (at, now) = (Instant::ZERO + Duration::from_secs_f64(at), self.target.now());
         if at > now {
             let now = now.as_secs_f64();
             return Err(Refusal(format!(

@@ -13,7 +13,7 @@ use crate::observer::{Applied, Observer};
 use crate::record::Keep;
 #[cfg(feature = "load")]
 use crate::record::Kept;
-use crate::request::{Request, RequestError, RequestId, Waiting};
+use crate::request::{Put, Request, RequestError, RequestId, Waiting};
 use crate::robot::Robot;
 use crate::sample::Pose2;
 use crate::stimulus::Stimulus;
@@ -63,7 +63,7 @@ where
         if at < now {
             return Err(RequestError::Over { at, now });
         }
-        self.check(&request)?;
+        self.check(&request, at == now)?;
         let at = self.after_step_at(at);
         self.asked.push((at, request.clone()));
         Ok(self.requests.add(at, request))
@@ -89,8 +89,8 @@ where
         &self.asked
     }
 
-    /// Whether a request can be met at all.
-    fn check(&self, request: &Request) -> Result<(), RequestError> {
+    /// Whether a request can be met: at all, or where it is one for now.
+    fn check(&self, request: &Request, is_now: bool) -> Result<(), RequestError> {
         let of_plan =
             !matches!(request, Request::Press(..) | Request::Break(..) | Request::Put(..));
         if of_plan && self.scheduler.ending().is_some() {
@@ -105,11 +105,21 @@ where
             #[cfg(feature = "load")]
             Request::Inject(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
             Request::Idle(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
-            Request::Put(_, Pose2 { x, y, heading }) => {
-                let finite = [x, y, heading].into_iter().all(|number| number.is_finite());
-                if finite { Ok(()) } else { Err(RequestError::Nowhere) }
-            }
+            Request::Put(what, at) => self.check_put(what, *at, is_now),
             Request::Stop => Ok(()),
+        }
+    }
+
+    fn check_put(&self, what: &Put, at: Pose2, is_now: bool) -> Result<(), RequestError> {
+        let Pose2 { x, y, heading } = at;
+        if ![x, y, heading].into_iter().all(f64::is_finite) {
+            return Err(RequestError::Nowhere);
+        }
+        let is_next = is_now && self.requests.next() > self.robot.now();
+        match self.robot.check_put(what, at) {
+            // Until then there may be room, and such a thing.
+            Err(RequestError::Occupied(_) | RequestError::NoThing(_)) if !is_next => Ok(()),
+            checked => checked,
         }
     }
 

@@ -31,19 +31,19 @@ const BODIES: [(f64, f64); SHAPES.len()] = [(0.3, 2.0), (0.12, 0.3), (0.4, 30.0)
 /// Things that were dropped are no more than this: each costs time in every step.
 const MOST: usize = 64;
 
+/// Something at a place where there is room for it.
+enum Placed {
+    Robot,
+    Thing { body: RigidBodyHandle, to: Isometry },
+    New { obstacle: Obstacle, start: Isometry, shape: SharedShape },
+}
+
 impl Simulation {
     pub(super) fn put_by_hand(&mut self, what: &Put, at: Pose) -> Result<(), RequestError> {
-        let far = at.x.abs().max(at.y.abs()) > FARTHEST;
-        if far || is_beyond(&self.map, [at.x, at.y]) {
-            return Err(RequestError::Nowhere);
-        }
-        match what {
-            Put::Robot => {
-                self.look_for_room(&*self.robot(), &isometry(at), None)?;
-                self.carry_to(at);
-            }
-            Put::Thing(name) => self.carry(name, at)?,
-            Put::New(shape) => self.drop_new(shape, at)?,
+        match self.placed(what, at)? {
+            Placed::Robot => self.carry_to(at),
+            Placed::Thing { body, to } => self.set_down(body, to),
+            Placed::New { obstacle, start, shape } => self.drop_new(obstacle, start, shape)?,
         }
         // Rays and pictures of this instant see it there.
         self.stage.physics.detect_collisions(&(), &());
@@ -51,9 +51,29 @@ impl Simulation {
         Ok(())
     }
 
-    /// Carries a thing that can be pushed, by its name or the one that scenes give it: its middle to a place, and turned
+    /// Whether something can be put somewhere now.
+    pub(super) fn check_hand(&self, what: &Put, at: Pose) -> Result<(), RequestError> {
+        self.placed(what, at).map(|_| ())
+    }
+
+    fn placed(&self, what: &Put, at: Pose) -> Result<Placed, RequestError> {
+        let far = at.x.abs().max(at.y.abs()) > FARTHEST;
+        if far || is_beyond(&self.map, [at.x, at.y]) {
+            return Err(RequestError::Nowhere);
+        }
+        match what {
+            Put::Robot => {
+                self.look_for_room(&*self.robot(), &isometry(at), None)?;
+                Ok(Placed::Robot)
+            }
+            Put::Thing(name) => self.carried(name, at),
+            Put::New(shape) => self.dropped(shape, at),
+        }
+    }
+
+    /// A thing that can be pushed, by its name or the one that scenes give it: its middle at a place, and turned
     /// against how it stood at the start.
-    fn carry(&mut self, name: &str, at: Pose) -> Result<(), RequestError> {
+    fn carried(&self, name: &str, at: Pose) -> Result<Placed, RequestError> {
         let unknown = || RequestError::NoThing(name.to_owned());
         let is_it = |index: usize, it: &Obstacle| {
             let named = it.name == name || shape(index, it).id == name;
@@ -65,12 +85,11 @@ impl Simulation {
         });
         let mover = found.ok_or_else(unknown)?;
         let (index, body) = (mover.obstacle(), mover.handle());
-        let (_, shape) = self.stage.shapes.get(index).cloned().ok_or_else(unknown)?;
+        let (_, shape) = self.stage.shapes.get(index).ok_or_else(unknown)?;
         let to = isometry(at) * isometry(self.middle(index)).inverse() * mover.start();
-        self.look_for_room(&*shape, &to, Some(index))?;
-        self.look_for_robot(&*shape, &to)?;
-        self.set_down(body, to);
-        Ok(())
+        self.look_for_room(&**shape, &to, Some(index))?;
+        self.look_for_robot(&**shape, &to)?;
+        Ok(Placed::Thing { body, to })
     }
 
     /// The middle of an obstacle at the start.
@@ -82,7 +101,7 @@ impl Simulation {
         Pose { x: sum[0] / count, y: sum[1] / count, heading: 0.0 }
     }
 
-    fn drop_new(&mut self, shape: &str, at: Pose) -> Result<(), RequestError> {
+    fn dropped(&self, shape: &str, at: Pose) -> Result<Placed, RequestError> {
         let unknown = || RequestError::NoShape(shape.to_owned());
         let (known, (height, mass)) = SHAPES
             .iter()
@@ -105,6 +124,16 @@ impl Simulation {
         let (start, body) = obstacle.outline.shape().ok_or_else(unknown)?;
         self.look_for_room(&*body, &start, None)?;
         self.look_for_robot(&*body, &start)?;
+        Ok(Placed::New { obstacle, start, shape: body })
+    }
+
+    fn drop_new(
+        &mut self,
+        obstacle: Obstacle,
+        start: Isometry,
+        body: SharedShape,
+    ) -> Result<(), RequestError> {
+        let unknown = || RequestError::NoShape(obstacle.name.clone());
         let index = self.stage.obstacles.len();
         let built = Mover::body(&obstacle, start).ok_or_else(unknown)?;
         let (handle, _) = self

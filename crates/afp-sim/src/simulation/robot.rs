@@ -66,6 +66,10 @@ impl Robot for Simulation {
         self.put_by_hand(what, at)
     }
 
+    fn check_put(&self, what: &Put, at: Pose2) -> Result<(), RequestError> {
+        self.check_hand(what, at)
+    }
+
     fn sample(&self, to: &mut Samples<'_, '_>) {
         self.sample_truth(to);
         self.sample_ranging(to);
