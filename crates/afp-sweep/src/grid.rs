@@ -151,10 +151,11 @@ impl Sweep {
     pub fn signature(&self) -> String {
         let mut text = format!("seeds {}, until {}", self.seeds, spelled(self.until));
         for world in &self.worlds {
-            let _ = write!(text, ", world {}", world.name().unwrap_or("of the plan"));
+            let name = world.name().map_or("of the plan".into(), shell_word);
+            let _ = write!(text, ", world {name}");
         }
         for axis in &self.axes {
-            let points = axis.points.iter().map(|point| point.text.as_str());
+            let points = axis.points.iter().map(|point| shell_word(&point.text));
             let _ = write!(text, ", {} = {}", axis.name, points.collect::<Vec<_>>().join(" "));
         }
         for press in &self.presses {
@@ -203,6 +204,25 @@ mod tests {
         assert_eq!(sweep.row(1).seed, 6);
         assert_eq!(sweep.row(4).values[1].1.text, "25cm");
         assert_eq!(sweep.row(36).world.name(), Some("random:7"));
+    }
+
+    #[test]
+    fn other_points_are_another_sweep() {
+        let signature =
+            |points: &str| Sweep { axes: vec![axis(points).unwrap()], ..sweep() }.signature();
+        assert_ne!(signature("name=a b"), signature("name=a,b"));
+        assert_ne!(signature("name=p q r"), signature("name=p q,r"));
+        assert_ne!(signature("name=a b,'"), signature("name=a,b '"));
+        assert!(signature("name=20cm,30cm").contains("name = 20cm 30cm, "));
+        let world = |name: &str| {
+            let worlds = vec![WorldChoice::Named(name.to_owned())];
+            Sweep { worlds, ..sweep() }.signature()
+        };
+        assert_ne!(world("a, world b"), world("a"));
+        assert_ne!(
+            world("of the plan"),
+            Sweep { worlds: vec![WorldChoice::OfPlan], ..sweep() }.signature()
+        );
     }
 
     #[test]
