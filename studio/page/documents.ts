@@ -214,9 +214,12 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
   });
   lsp().on("afp/changed", ({ uri, text: now, clean }: { uri: string; text: string; clean: boolean }) => {
     if (!documents.peek().has(uri)) return;
-    if (clean) return arrived(uri, now);
+    if (clean) {
+      conflicts.value = conflicts.value.filter((one) => one.uri !== uri || !one.held);
+      return arrived(uri, now);
+    }
     const choose = (keep: Keep) => lsp().request<void>("afp/choose", { uri, keep });
-    if (pen.value) dispute({ uri, choices: ["mine", "theirs", "both"], choose });
+    if (pen.value) dispute({ uri, choices: ["mine", "theirs", "both"], held: true, choose });
   });
   lsp().on("afp/pen", ({ yours }) => {
     // Who begins to change things begins a history of his own.
@@ -231,6 +234,8 @@ export type Keep = "mine" | "theirs" | "both";
 export interface Conflict {
   uri: string;
   choices: Keep[];
+  /** Whether the room holds both texts, and says when it is over. */
+  held: boolean;
   choose(keep: Keep): Promise<void>;
 }
 
@@ -248,8 +253,8 @@ function dispute(one: Conflict): void {
 /** Takes over a text of the room. What was saved here is so still: theirs lies in the file. */
 function arrived(uri: string, now: string, tell = true): void {
   const { text: before, written, version } = documents.peek().get(uri)!;
-  const steps = make(difference(uri, before, now), "outside", tell);
-  record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
+  const steps = before === now ? [] : make(difference(uri, before, now), "outside", tell);
+  if (steps.length > 0) record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
   const document = documents.peek().get(uri)!;
   put({ ...document, written: written >= version ? document.version : written, base: now, failed: null });
 }
@@ -273,7 +278,7 @@ export async function again(first: Lsp): Promise<void> {
       const choose = async (keep: Keep) => {
         if (keep === "mine") push({ label: words.keep.mine, changes: difference(uri, text(uri), mine) });
       };
-      if (mine !== base) dispute({ uri, choices: ["mine", "theirs"], choose });
+      if (mine !== base) dispute({ uri, choices: ["mine", "theirs"], held: false, choose });
     }
   }
 }

@@ -77,19 +77,37 @@ impl Compiled {
     /// from the deepest folder that all of them are in, so that they still find each other when
     /// they are put elsewhere.
     pub fn plan_texts(&self) -> Vec<(String, String)> {
-        let paths: Vec<_> = self.plan_sources().map(|source| normalised(&source.name)).collect();
-        let texts = self.plan_sources().map(|source| source.text.clone());
-        below_all(&paths).into_iter().zip(texts).collect()
+        texts_of(self.plan_sources().collect())
     }
 
-    /// Name and text of each toolbox that the plan and the files that it uses name; none for a plan with errors.
-    pub fn toolbox_texts(&self) -> impl Iterator<Item = (&str, &str)> {
-        let toolboxes = self.graph.iter().flat_map(|graph| &graph.toolboxes);
-        toolboxes.filter_map(|toolbox| {
+    /// The same for the plan of a scenario, whose file comes first.
+    pub fn scenario_texts(&self, scenario: &Scenario) -> Vec<(String, String)> {
+        let is_first = |source: &&Source| source.name == scenario.plan_file;
+        let mut sources: Vec<_> = self.plan_sources().collect();
+        // A file of scenarios is none that its plans use.
+        if !sources.first().is_some_and(is_first) && sources.iter().any(is_first) {
+            sources.remove(0);
+        }
+        sources.sort_by_key(|source| !is_first(source));
+        texts_of(sources)
+    }
+
+    /// Name and text of each toolbox that a plan of these and the files that it uses name.
+    pub fn toolbox_texts<'a>(
+        &'a self,
+        graph: &'a Graph,
+    ) -> impl Iterator<Item = (&'a str, &'a str)> {
+        graph.toolboxes.iter().filter_map(|toolbox| {
             let source = self.sources.get(toolbox.span.file)?;
             Some((toolbox.name.as_str(), source.text.as_str()))
         })
     }
+}
+
+fn texts_of(sources: Vec<&Source>) -> Vec<(String, String)> {
+    let paths: Vec<_> = sources.iter().map(|source| normalised(&source.name)).collect();
+    let texts = sources.into_iter().map(|source| source.text.clone());
+    below_all(&paths).into_iter().zip(texts).collect()
 }
 
 /// Compiles the first plan of a file. `files` has the files that it uses; without any,

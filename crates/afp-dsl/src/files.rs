@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::PathBuf;
 
-pub use afp_output::read_text;
+pub use afp_output::{read_text, read_text_file};
 
 /// Where the texts of used plan files come from.
 pub trait Files {
@@ -38,9 +38,11 @@ pub struct Disk(pub PathBuf);
 
 impl Files for Disk {
     fn read(&self, path: &str) -> Result<String, String> {
-        read_text(&self.0.join(path)).map_err(|error| match error.kind() {
+        read_text_file(&self.0.join(path)).map_err(|error| match error.kind() {
             ErrorKind::NotFound => "there is no such file".to_owned(),
-            ErrorKind::InvalidData | ErrorKind::FileTooLarge => error.to_string(),
+            ErrorKind::InvalidData | ErrorKind::InvalidInput | ErrorKind::FileTooLarge => {
+                error.to_string()
+            }
             _ => error.to_string().to_lowercase(),
         })
     }

@@ -29,7 +29,7 @@ pub use error::LogError;
 pub use event::{pack, unpack};
 pub use names::OwnedNames;
 pub use read::{Configured, Heard, LogData, TopicInfo, configuration, read};
-pub use recipe::WORLD;
+pub use recipe::{WORLD, attached_toolbox, toolbox_attachment};
 pub use recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
 pub use recover::{Recovered, recover, recovered_name};
 pub use session::SessionLog;

@@ -8,8 +8,18 @@ use crate::recorder::About;
 
 /// The attachment that holds the world.
 pub const WORLD: &str = "world.toml";
-/// What the attachments of toolboxes begin with.
+/// What the attachments of toolboxes begin with. Their names have no ending, and the files that plans use have one.
 const TOOLBOX: &str = "toolbox/";
+
+/// The name of the attachment that holds a toolbox.
+pub fn toolbox_attachment(toolbox: &str) -> String {
+    format!("{TOOLBOX}{toolbox}")
+}
+
+/// The name of the toolbox that an attachment holds; none of another attachment.
+pub fn attached_toolbox(attachment: &str) -> Option<&str> {
+    attachment.strip_prefix(TOOLBOX).filter(|name| !name.contains(['.', '/']))
+}
 
 const TEXT: &str = "text/plain";
 
@@ -35,10 +45,8 @@ impl About {
         ];
         facts.retain(|(_, value)| !value.is_empty());
         let texts = recipe.texts.iter().map(|it| (it.name.clone(), TEXT, it.text.clone()));
-        let toolboxes = recipe
-            .toolboxes
-            .iter()
-            .map(|it| (format!("{TOOLBOX}{}", it.name), TEXT, it.text.clone()));
+        let toolboxes =
+            recipe.toolboxes.iter().map(|it| (toolbox_attachment(&it.name), TEXT, it.text.clone()));
         let world = (WORLD.to_owned(), "application/toml", recipe.world.text.clone());
         About {
             facts: facts.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
@@ -81,7 +89,7 @@ impl LogData {
 
     /// The plan's file, then those that it uses.
     fn texts(&self, plan: &str) -> Vec<TextFile> {
-        let is_text = |name: &&String| *name != WORLD && !name.starts_with(TOOLBOX);
+        let is_text = |name: &&String| *name != WORLD && attached_toolbox(name).is_none();
         let mut names: Vec<_> = self.attachments.keys().filter(is_text).collect();
         names.sort_by_key(|name| name.as_str() != plan);
         let file = |name: &String| {
@@ -93,7 +101,7 @@ impl LogData {
 
     fn toolboxes(&self) -> Vec<TextFile> {
         let toolbox = |(name, text): (&String, &String)| {
-            let name = name.strip_prefix(TOOLBOX)?.to_owned();
+            let name = attached_toolbox(name)?.to_owned();
             Some(TextFile { name, text: text.clone() })
         };
         self.attachments.iter().filter_map(toolbox).collect()

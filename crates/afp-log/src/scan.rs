@@ -1,6 +1,7 @@
 //! Walks over the records of an MCAP file, chunks unpacked and all checksums verified.
 
-use std::fs;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use mcap::parse_record;
@@ -18,10 +19,14 @@ const LONGEST: usize = 256 * 1024 * 1024;
 /// It cannot be read, or does not begin like one.
 pub(crate) fn load(path: &Path) -> Result<Vec<u8>, LogError> {
     let failed = |error| LogError::Open { path: path.to_owned(), error };
-    let bytes = fs::read(path).map_err(failed)?;
-    if !bytes.starts_with(mcap::MAGIC) {
+    let mut file = File::open(path).map_err(failed)?;
+    let mut bytes = Vec::new();
+    // A log may be long; what has no end does not begin like one.
+    (&mut file).take(mcap::MAGIC.len() as u64).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes != mcap::MAGIC {
         return Err(LogError::NotALog { path: path.to_owned() });
     }
+    file.read_to_end(&mut bytes).map_err(failed)?;
     Ok(bytes)
 }
 

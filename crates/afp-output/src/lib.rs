@@ -17,7 +17,7 @@ use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use part::{Part, Taken};
-pub use read::{read_bytes, read_text};
+pub use read::{read_bytes, read_file, read_text, read_text_file};
 use target::Target;
 
 /// A file that is being written.

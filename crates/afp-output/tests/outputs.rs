@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
-use afp_output::{Output, check_writable, write_whole};
+use afp_output::{Output, check_writable, read_file, read_text_file, write_whole};
 use tempfile::TempDir;
 
 fn folder() -> TempDir {
@@ -150,6 +150,30 @@ fn a_pipe_is_written_into() {
     write_whole(&pipe, b"new").unwrap();
     assert_eq!(reader.join().unwrap(), "new");
     assert_eq!(files(folder.path()), ["pipe"]);
+}
+
+#[test]
+fn what_was_found_is_a_file_or_not_read() {
+    let folder = folder();
+    let path = folder.path().join("pipe");
+    let made = Command::new("mkfifo").arg(&path).status().unwrap();
+    assert!(made.success());
+    let kind = |path: &Path| read_text_file(path).unwrap_err().kind();
+    // Nobody writes into the pipe: to open it would be to wait for ever.
+    assert_eq!(kind(&path), ErrorKind::InvalidInput);
+    assert_eq!(kind(Path::new("/dev/zero")), ErrorKind::InvalidInput);
+    assert_eq!(kind(folder.path()), ErrorKind::IsADirectory);
+    assert_eq!(kind(&folder.path().join("none")), ErrorKind::NotFound);
+    let file = folder.path().join("a");
+    fs::write(&file, vec![b'a'; 3 << 20]).unwrap();
+    assert_eq!(read_file(&file, 3 << 20).unwrap().len(), 3 << 20);
+    let long = read_file(&file, 2 << 20).unwrap_err();
+    assert_eq!(
+        (long.kind(), long.to_string()),
+        (ErrorKind::FileTooLarge, "it is longer than 2 MiB".to_owned())
+    );
+    fs::write(&file, [0xff]).unwrap();
+    assert_eq!(kind(&file), ErrorKind::InvalidData);
 }
 
 #[test]

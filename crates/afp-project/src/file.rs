@@ -1,9 +1,10 @@
 //! The project file of a folder, and the toolbox files that it names.
 
 use std::path::{Path, PathBuf};
-use std::{fmt, fs, io};
+use std::{fmt, io};
 
 use afp_excerpt::{Mark, Report, Severity};
+use afp_output::read_text_file;
 
 use crate::krate::{self, CrateLink, HardwareLink, RobotLink};
 use crate::project::{Mistake, Project, Toolbox};
@@ -72,7 +73,7 @@ impl ProjectFile {
             return Ok(ProjectFile { folder, exists: false, text, project });
         };
         let path = home.join(NAME);
-        let text = match fs::read_to_string(&path) {
+        let text = match read_text_file(&path) {
             Ok(text) => text,
             Err(error) => return Err(ProjectError::Unreadable { path, error }),
         };
@@ -107,7 +108,7 @@ impl ProjectFile {
         let (mut files, mut mistakes) = (Vec::new(), Vec::new());
         for toolbox in &self.project.toolboxes {
             let path = self.folder.join(&toolbox.path);
-            match fs::read_to_string(&path) {
+            match read_text_file(&path) {
                 Ok(text) => {
                     let krate = krate::link(&self.folder, toolbox, &path);
                     files.push(ToolboxFile { toolbox: toolbox.clone(), path, text, krate });

@@ -1,8 +1,8 @@
 //! The Rust crate of a toolbox or of the robot: where it is and what it is called.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use afp_output::read_text_file;
 use toml_edit::Document;
 
 use crate::file::{NAME, shown};
@@ -195,7 +195,7 @@ impl Names {
         let shown = shown(manifest);
         let shown = shown.display();
         let help = "'crate = { path = \"...\" }' names the folder of its Cargo.toml".to_owned();
-        let text = match fs::read_to_string(manifest) {
+        let text = match read_text_file(manifest) {
             Ok(text) => text,
             Err(error) => {
                 return Err((format!("cannot read the manifest '{shown}': {error}"), help));

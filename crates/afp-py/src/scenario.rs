@@ -10,7 +10,7 @@ use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario as Checked;
 use afp_session::shell_word;
 use afp_syntax::source::Span;
-use afp_test::Setting;
+use afp_test::{Recording, Setting};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -96,7 +96,7 @@ impl Scenario {
             }
             raised.is_none() && !components.is_over()
         };
-        let log = log.as_deref();
+        let log = log.as_deref().map(|path| Recording { path, compiled: &self.compiled });
         let came = py.detach(|| afp_test::run_while(checked, &setting, &*robot, log, &mut go_on));
         components.raised(py)?;
         if let Some(why) = raised {

@@ -6,10 +6,11 @@
 //! (ARCHITECTURE.md).
 #![forbid(unsafe_code)]
 
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use afp_dsl::Compiled;
+use afp_dsl::files::read_text_file;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
 use afp_project::{CrateLink, Mistake, ProjectError, ProjectFile, ToolboxFile, shown};
@@ -158,11 +159,20 @@ impl OwnToolboxes {
         }
         let own = self.files.iter().find(|file| file.toolbox.name == toolbox.name);
         if let Some(folder) = own.and_then(|file| file.path.parent()) {
-            return fs::read_to_string(folder.join("icons").join(format!("{name}.svg"))).ok();
+            return read_text_file(&folder.join("icons").join(format!("{name}.svg"))).ok();
         }
         let built_in = afp_toolboxes::ALL.iter().any(|each| each.name == toolbox.name);
         built_in.then(|| afp_toolboxes::icon(name)).flatten().map(str::to_owned)
     }
+}
+
+/// Names and texts of the toolboxes of a plan of these beyond the built-in ones: of its project, or of another language.
+pub fn own_toolbox_texts<'a>(
+    compiled: &'a Compiled,
+    graph: &'a Graph,
+) -> impl Iterator<Item = (&'a str, &'a str)> {
+    let built_in = |text: &str| afp_toolboxes::ALL.iter().any(|it| it.text == text);
+    compiled.toolbox_texts(graph).filter(move |(_, text)| !built_in(text))
 }
 
 /// The path of the crate behind a toolbox. Plans can be checked before there is one; whoever needs it asks for it.

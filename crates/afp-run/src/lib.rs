@@ -24,6 +24,8 @@ pub mod world;
 use std::process::ExitCode;
 
 use afp_core::rt::{NamedPlan, Plan};
+use afp_log::attached_toolbox;
+pub use afp_log::toolbox_attachment;
 use afp_session::{
     AnyRobot, AnySession, AnyWorld, Hardware, Opened, Robot, Session, Settings, Simulated,
     TextFile, kind,
@@ -49,7 +51,7 @@ pub struct Program<'a> {
     pub name: &'a str,
     /// The plan's file, as it was named; the world is looked for beside its folder.
     pub file: &'a str,
-    /// Path and text of the plan's file, then of those that it uses, then of toolboxes ([`Program::TOOLBOX`]), for the
+    /// Path and text of the plan's file, then of those that it uses, then of toolboxes ([`toolbox_attachment`]), for the
     /// log.
     pub texts: &'a [(&'a str, &'a str)],
     /// What the project says of the robot's hardware, name and value.
@@ -57,16 +59,13 @@ pub struct Program<'a> {
 }
 
 impl Program<'_> {
-    /// What the texts of toolboxes are called, before their names.
-    pub const TOOLBOX: &'static str = "toolbox/";
-
     /// The texts of the plan, and those of toolboxes by their names.
     pub(crate) fn text_files(&self) -> (Vec<TextFile>, Vec<TextFile>) {
         let file =
             |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
         let (mut plan, mut toolboxes) = (Vec::new(), Vec::new());
         for (path, text) in self.texts {
-            match path.strip_prefix(Self::TOOLBOX) {
+            match attached_toolbox(path) {
                 Some(name) => toolboxes.push(file(name, text)),
                 None => plan.push(file(path, text)),
             }

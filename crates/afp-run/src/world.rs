@@ -6,11 +6,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use afp_output::{read_bytes, read_text};
+use afp_output::{read_file, read_text};
 use afp_project::{ProjectFile, shown};
 use afp_session::{AnyRobot, AnyWorld, Pose2, WorldError};
 
 use crate::error::RunError;
+
+/// The greatest length of the picture of a map, in bytes.
+const LONGEST_PICTURE: u64 = 64 << 20;
 
 /// A world and its text.
 #[derive(Clone, Debug)]
@@ -159,8 +162,8 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
         message: error.message,
     };
     let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong)?);
-    let bytes =
-        read_bytes(&picture).map_err(RunError::file("cannot read the map's picture", &picture))?;
+    let bytes = read_file(&picture, LONGEST_PICTURE)
+        .map_err(RunError::file("cannot read the map's picture", &picture))?;
     let name = path.file_stem().map(|name| name.to_string_lossy()).unwrap_or_default();
     robot.text_of_map(&name, &yaml, &bytes).map_err(wrong)
 }

@@ -55,13 +55,22 @@ pub(crate) fn copy(
 ) -> Result<(), String> {
     let example = examples.iter().find(|example| example.name == name);
     let example = example.ok_or_else(|| format!("there is no example '{name}'"))?;
-    write(folder, plan, &example.plan)?;
     let place = plan.parent().unwrap_or(folder.root());
-    if let Some((text, path)) = example.world.as_ref().zip(world_of(plan)) {
-        write_new(folder, &path, text)?;
+    let world = example.world.as_ref().zip(world_of(plan)).map(|(text, path)| (path, text));
+    let uses = example.uses.iter().map(|(path, text)| (place.join(path), text));
+    let others: Vec<_> = world.into_iter().chain(uses).filter(|(path, _)| !path.exists()).collect();
+    // All or nothing: half an example would be in the way of the next try.
+    check_place(folder, plan)?;
+    if let Some((path, _)) = others.iter().find(|(path, _)| !leads_into(folder, path)) {
+        return Err(format!(
+            "'{}' would lie outside of '{}': put the plan into a folder of its own, such as 'plans'",
+            path.display(),
+            folder.root().display()
+        ));
     }
-    for (path, text) in &example.uses {
-        write_new(folder, &place.join(path), text)?;
+    write(folder, plan, &example.plan)?;
+    for (path, text) in others {
+        write(folder, &path, text)?;
     }
     Ok(())
 }
@@ -72,20 +81,31 @@ fn world_of(plan: &Path) -> Option<PathBuf> {
     Some(plan.parent()?.parent()?.join("worlds").join(file))
 }
 
-fn write_new(folder: &Folder, path: &Path, text: &str) -> Result<(), String> {
-    if path.exists() { Ok(()) } else { write(folder, path, text) }
+/// Whether the nearest folder above a path that is there lies inside.
+fn leads_into(folder: &Folder, path: &Path) -> bool {
+    let above = path.ancestors().skip(1).find_map(|above| above.canonicalize().ok());
+    above.is_some_and(|above| above.starts_with(folder.root()))
+}
+
+/// Whether a file may be written, in a folder of its own where that is not there yet; nothing is made outside, not even
+/// a folder.
+fn check_place(folder: &Folder, path: &Path) -> Result<(), String> {
+    let Some(parent) = path.parent().filter(|parent| !parent.exists()) else {
+        return folder.inside(&path.to_string_lossy()).map(|_| ());
+    };
+    let above = parent.parent().and_then(|above| above.canonicalize().ok());
+    match above.is_some_and(|above| above.starts_with(folder.root())) {
+        true => Ok(()),
+        false => Err(format!("there is no folder '{}'", parent.display())),
+    }
 }
 
 /// Writes a file, in a folder of its own where that is not there yet.
 fn write(folder: &Folder, path: &Path, text: &str) -> Result<(), String> {
     let wrong = |why: io::Error| format!("cannot write '{}': {why}", path.display());
+    check_place(folder, path)?;
     if let Some(parent) = path.parent().filter(|parent| !parent.exists()) {
-        // Nothing is made outside, not even a folder.
-        let above = parent.parent().and_then(|above| above.canonicalize().ok());
-        match above.is_some_and(|above| above.starts_with(folder.root())) {
-            true => fs::create_dir(parent).map_err(wrong)?,
-            false => return Err(format!("there is no folder '{}'", parent.display())),
-        }
+        fs::create_dir(parent).map_err(wrong)?;
     }
     let file = folder.inside(&path.to_string_lossy())?;
     afp_output::write_whole(&file, text.as_bytes()).map_err(wrong)
@@ -128,5 +148,9 @@ mod tests {
         let outside = at("../elsewhere/my.afp");
         assert!(copy(&examples, "one.afp", &folder, &outside).is_err());
         assert!(!outside.parent().unwrap().exists());
+        // The world would lie outside: no plan without it.
+        let refused = copy(&examples, "two.afp", &folder, &at("my.afp")).unwrap_err();
+        assert!(refused.contains("such as 'plans'"), "{refused}");
+        assert!(!at("my.afp").exists());
     }
 }

@@ -114,10 +114,7 @@ pub(crate) fn stamp(path: &Path) -> Option<Stamp> {
 /// It cannot be read, is no text or is too long: a sentence.
 pub(crate) fn read(path: &Path) -> Result<Kept, String> {
     let wrong = |why: String| format!("cannot read '{}': {why}", path.display());
-    if stamp(path).is_some_and(|(_, length)| length > LONGEST) {
-        return Err(wrong("it is longer than 4 MiB".to_owned()));
-    }
-    let bytes = match fs::read(path) {
+    let bytes = match afp_output::read_file(path, LONGEST) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Kept::default()),
         Err(error) => return Err(wrong(error.to_string())),

@@ -229,6 +229,56 @@ fn what_does_not_go_together_is_not_written_before_somebody_has_chosen() {
 }
 
 #[test]
+fn a_conflict_that_others_take_back_is_none() {
+    let mine = PLAN.replace("terminate", "go");
+    let merged = format!("// more\n{mine}");
+    // Taken back with another change, as it was, by writing the same, and with the file.
+    let ways = [
+        (Some(format!("// more\n{PLAN}")), &merged),
+        (Some(PLAN.to_owned()), &mine),
+        (Some(mine.clone()), &mine),
+        (None, &mine),
+    ];
+    for (written, expected) in ways {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.types(1, 2, &mine);
+        place.outside(&PLAN.replace("terminate", "other"));
+        let out = place.pass(1000);
+        assert!(out.iter().any(|(_, value)| value["params"]["clean"] == false), "{out:?}");
+        match &written {
+            Some(text) => place.outside(text),
+            None => fs::remove_file(place.path("p.afp")).unwrap(),
+        }
+        let out = place.pass(1500);
+        let settled = out.iter().find(|(_, value)| value["params"]["clean"] == true);
+        assert_eq!(settled.unwrap().1["params"]["text"], **expected, "{written:?}");
+        assert_eq!(place.on_disk(), *expected, "{written:?}");
+        // What is typed next is written again.
+        place.types(1, 3, PLAN);
+        place.pass(1000);
+        assert_eq!(place.on_disk(), PLAN, "{written:?}");
+    }
+}
+
+#[test]
+fn nothing_is_written_over_what_cannot_be_read() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let mine = PLAN.replace("terminate", "go");
+    place.types(1, 2, &mine);
+    fs::write(place.path("p.afp"), [0xff, 0xfe, b'a']).unwrap();
+    let out = place.pass(1500);
+    let failed: Vec<_> = out.iter().filter(|(_, it)| it["params"]["failed"].is_string()).collect();
+    assert_eq!(failed.len(), 1, "said once: {out:?}");
+    place.room.save_all(place.now);
+    assert_eq!(fs::read(place.path("p.afp")).unwrap(), [0xff, 0xfe, b'a']);
+    place.outside(PLAN);
+    place.pass(1500);
+    assert_eq!(place.on_disk(), mine);
+}
+
+#[test]
 fn one_client_has_the_pen() {
     let mut place = Place::new(PLAN);
     place.client(1);

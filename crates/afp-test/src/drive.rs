@@ -2,19 +2,21 @@
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use afp::load::value_of;
 use afp_core::devices::SignalId;
 use afp_core::{Duration, Instant, StartError};
+use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, OwnedNames, SessionLog};
+use afp_resolve::own_toolbox_texts;
 use afp_run::RunError;
 use afp_session::{
     AnySession, Applied, Build, Go, Loader, NamedRecord, Observer, Recipe, RequestError, RequestId,
     SampleRef, Sampling, Stimulus, TextFile, View,
 };
 
+use crate::Recording;
 use crate::setting::Setting;
 use crate::stimuli;
 use crate::verdict::{Broken, Verdict};
@@ -45,13 +47,13 @@ pub(crate) fn run(
     scenario: &Scenario,
     setting: &Setting,
     robot: &dyn Loader,
-    log: Option<&Path>,
+    log: Option<Recording<'_>>,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Verdict>, RunError> {
     let mut session = session(scenario, setting, robot)?;
     let lines = stimuli::request(&mut *session, scenario, None, Instant::ZERO)
         .map_err(|(line, why)| cannot_do(scenario, line, &why))?;
-    let mut log = log.map(|path| self::log(path, scenario, setting, &*session)).transpose()?;
+    let mut log = log.map(|to| self::log(to, scenario, setting, &*session)).transpose()?;
     let signals = Signals::new(scenario, session.devices())
         .map_err(|signal| refused(scenario, &format!("the robot has no signal '{signal}'")))?;
     let unreported = Cell::new(false);
@@ -122,14 +124,15 @@ fn cannot_do(scenario: &Scenario, line: usize, why: &RequestError) -> RunError {
 }
 
 fn log(
-    path: &Path,
+    to: Recording<'_>,
     scenario: &Scenario,
     setting: &Setting,
     session: &dyn AnySession,
 ) -> Result<SessionLog, RunError> {
-    let (about, names) = (about(scenario, setting), OwnedNames::new(session.names()));
+    let about = about(scenario, setting, to.compiled);
+    let names = OwnedNames::new(session.names());
     let (devices, scene) = (session.devices(), setting.world.world.scene());
-    Ok(SessionLog::create(path, &about, names, devices, scene, false)?)
+    Ok(SessionLog::create(to.path, &about, names, devices, scene, false)?)
 }
 
 impl Observer for Judge<'_> {
@@ -243,30 +246,16 @@ fn cannot_start(scenario: &Scenario, error: StartError) -> RunError {
     refused(scenario, &error.to_string())
 }
 
-/// The texts of the plan's files, as they are by now: a plan has run even if its file is gone.
-fn texts(scenario: &Scenario) -> Vec<TextFile> {
-    let file = Path::new(&scenario.plan_file);
-    let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
-    let mut names: Vec<_> = name.into_iter().collect();
-    for used in scenario.graph.plans.iter().filter_map(|plan| plan.file.as_ref()) {
-        if !names.contains(used) {
-            names.push(used.clone());
-        }
-    }
-    let read = |name: String| {
-        let text = std::fs::read_to_string(file.with_file_name(&name)).ok()?;
-        Some(TextFile { name, text })
-    };
-    names.into_iter().filter_map(read).collect()
-}
-
 /// What the log says of the run.
-fn about(scenario: &Scenario, setting: &Setting) -> About {
+fn about(scenario: &Scenario, setting: &Setting, compiled: &Compiled) -> About {
     let world = &setting.world;
+    let texts = compiled.scenario_texts(scenario).into_iter();
+    let toolboxes = own_toolbox_texts(compiled, &scenario.graph);
     let mut about = About::new(&Recipe {
         plan: scenario.graph.main().name.clone(),
         file: scenario.plan_file.clone(),
-        texts: texts(scenario),
+        texts: texts.map(|(name, text)| TextFile { name, text }).collect(),
+        toolboxes: toolboxes.map(text_file).collect(),
         robot: "sim".to_owned(),
         world: TextFile { name: world.world.name().to_owned(), text: world.text.clone() },
         start: world.start,
@@ -278,4 +267,8 @@ fn about(scenario: &Scenario, setting: &Setting) -> About {
     about.facts.push(("scenario".to_owned(), scenario.name.clone()));
     about.facts.push(("clock".to_owned(), "virtual".to_owned()));
     about
+}
+
+fn text_file((name, text): (&str, &str)) -> TextFile {
+    TextFile { name: name.to_owned(), text: text.to_owned() }
 }

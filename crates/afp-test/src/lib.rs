@@ -18,6 +18,7 @@ mod watch;
 
 use std::path::Path;
 
+use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
 use afp_run::RunError;
 use afp_session::Loader;
@@ -30,6 +31,15 @@ pub use verdict::{Broken, Verdict};
 pub use watch::Activation;
 pub use watch::hits::{Hits, Touched};
 
+/// Where a run is recorded, with what it takes to repeat it.
+#[derive(Clone, Copy)]
+pub struct Recording<'a> {
+    /// The file of the log.
+    pub path: &'a Path,
+    /// What the scenario was read from.
+    pub compiled: &'a Compiled,
+}
+
 /// Runs a scenario on a robot; with `log` the run is recorded there.
 ///
 /// # Errors
@@ -39,7 +49,7 @@ pub fn run(
     scenario: &Scenario,
     setting: &Setting,
     robot: &dyn Loader,
-    log: Option<&Path>,
+    log: Option<Recording<'_>>,
 ) -> Result<Verdict, RunError> {
     let came = run_while(scenario, setting, robot, log, &mut || true)?;
     came.ok_or_else(|| RunError::usage("the scenario was called off", "run it again"))
@@ -54,7 +64,7 @@ pub fn run_while(
     scenario: &Scenario,
     setting: &Setting,
     robot: &dyn Loader,
-    log: Option<&Path>,
+    log: Option<Recording<'_>>,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Verdict>, RunError> {
     drive::run(scenario, setting, robot, log, go_on)

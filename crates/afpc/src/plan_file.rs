@@ -129,7 +129,11 @@ impl PlanFile {
             }
         }
         let compiled = compile_plan(source, &toolboxes, files, plan);
-        foreign.retain(|name| compiled.toolbox_texts().any(|(used, _)| used == name));
+        let used = |name: &String| {
+            let mut graphs = compiled.graph.iter();
+            graphs.any(|graph| compiled.toolbox_texts(graph).any(|(used, _)| used == name))
+        };
+        foreign.retain(used);
         Ok(PlanFile { path, compiled, own, foreign })
     }
 

@@ -55,6 +55,37 @@ fn timeline_summary_and_log_have_what_came_from_outside() {
 }
 
 #[test]
+fn a_log_has_every_file_that_its_plan_uses() {
+    let place = Place::new();
+    std::fs::create_dir_all(place.path("toolbox")).unwrap();
+    std::fs::create_dir_all(place.path("tests")).unwrap();
+    // A file in a folder that is called as logs call toolboxes, one without a plan, and scenarios elsewhere.
+    place.write("toolbox/lib.afp", "enum Side { left right }\n");
+    place.write(
+        "p.afp",
+        "use std\nuse \"toolbox/lib.afp\"\nplan P {\n    start a\n    in side: Side = Side.left\n\
+         \x20   actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n",
+    );
+    place.write(
+        "tests/s.afp",
+        "use \"../toolbox/lib.afp\"\nuse \"../p.afp\"\nscenario \"fails\" for P {\n    set side = Side.right\n    never end\n}\n",
+    );
+    place.afpc("run p.afp --log r.mcap --svg none").succeeds();
+    let failed = place.afpc("test tests/s.afp");
+    assert!(failed.out.contains("s.fails.mcap"), "{failed:?}");
+    for file in ["toolbox/lib.afp", "p.afp", "tests/s.afp"] {
+        std::fs::remove_file(place.path(file)).unwrap();
+    }
+    for (log, side) in [("r.mcap", "left"), ("target/afp/tests/s.fails.mcap", "right")] {
+        let again = place.afpc(&format!("run --again {log} --log none --svg none"));
+        assert!(again.succeeds().out.contains("P ended"), "{}", again.out);
+        if side == "right" {
+            assert!(again.out.contains("set side = Side.right"), "{}", again.out);
+        }
+    }
+}
+
+#[test]
 fn another_plan_can_be_tried_in_the_run_of_a_log() {
     let place = Place::with_plan();
     place.afpc(&format!("{RUN} --log a.mcap")).succeeds();

@@ -5,6 +5,7 @@ use std::path::Path;
 use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_log::About;
+use afp_resolve::own_toolbox_texts;
 use afp_run::world::LoadedWorld;
 use afp_session::{Build, Recipe, TextFile};
 
@@ -28,7 +29,7 @@ impl Setting<'_> {
             plan: self.graph.main().name.clone(),
             file: self.file.display().to_string(),
             texts: text_files(self.compiled.plan_texts()),
-            toolboxes: text_files(own_toolboxes(self.compiled)),
+            toolboxes: text_files(own_toolbox_texts(self.compiled, self.graph)),
             robot: "sim".to_owned(),
             world: text_file(world.name(), text),
             start: *start,
@@ -39,12 +40,6 @@ impl Setting<'_> {
         about.facts.push(("clock".to_owned(), "virtual".to_owned()));
         about
     }
-}
-
-/// Names and texts of the toolboxes of a plan beyond the built-in ones: of Python, or of its project.
-fn own_toolboxes(compiled: &Compiled) -> impl Iterator<Item = (&str, &str)> {
-    let built_in = |text: &str| afp_toolboxes::ALL.iter().any(|it| it.text == text);
-    compiled.toolbox_texts().filter(move |(_, text)| !built_in(text))
 }
 
 fn text_files(

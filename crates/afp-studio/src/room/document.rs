@@ -24,6 +24,8 @@ pub(super) struct Document {
     /// What somebody else has written that does not go together with this text: nothing is written before a person
     /// has chosen.
     theirs: Option<Kept>,
+    /// What lies in the file cannot be read, so that nobody knows what would be written over.
+    unreadable: bool,
 }
 
 /// What a look at the file has shown.
@@ -39,6 +41,8 @@ pub(super) enum Look {
     Removed,
     /// Theirs, which does not go together with this text.
     Conflict(String),
+    /// What lies there is no text: why. Nothing is written over it.
+    Unreadable(String),
 }
 
 /// Which text of two that do not go together.
@@ -57,7 +61,16 @@ impl Document {
         let stamp = files::stamp(&file);
         let kept = files::read(&file)?;
         let text = kept.text.clone();
-        Ok(Document { text, file, kept, stamp, emptied: None, due: None, theirs: None })
+        Ok(Document {
+            text,
+            file,
+            kept,
+            stamp,
+            emptied: None,
+            due: None,
+            theirs: None,
+            unreadable: false,
+        })
     }
 
     pub fn etag(&self) -> Option<&str> {
@@ -74,23 +87,38 @@ impl Document {
         self.due.is_none()
     }
 
+    /// Whether somebody has to choose between this text and theirs.
+    pub fn is_disputed(&self) -> bool {
+        self.theirs.is_some()
+    }
+
     /// When it is to be written.
     pub fn due(&self) -> Option<Duration> {
-        self.due.filter(|_| self.theirs.is_none())
+        self.due.filter(|_| self.theirs.is_none() && !self.unreadable)
     }
 
     /// Looks at the file: what somebody else has written is taken over, or merged by lines.
     pub fn look(&mut self, now: Duration) -> Look {
         let stamp = files::stamp(&self.file);
-        if self.stamp == stamp {
+        if self.stamp == stamp && !self.unreadable {
             return Look::Same;
         }
-        let Ok(found) = files::read(&self.file) else { return Look::Same };
+        let found = match files::read(&self.file) {
+            Ok(found) => found,
+            Err(_) if self.unreadable => return Look::Same,
+            Err(why) => {
+                self.unreadable = true;
+                return Look::Unreadable(why);
+            }
+        };
+        self.unreadable = false;
         if found.etag.is_some() && self.is_being_written(&found.text, stamp) {
             self.due = self.due.map(|_| now + SAVES_AFTER);
             return Look::Same;
         }
         self.stamp = stamp;
+        // What was in conflict no longer lies there; what lies there may be so anew.
+        self.theirs = None;
         if found.etag == self.kept.etag {
             return Look::Same;
         }
@@ -100,7 +128,7 @@ impl Document {
             return if self.due.is_none() { Look::Removed } else { Look::Same };
         }
         if self.text == found.text {
-            (self.due, self.theirs, self.kept) = (None, None, found);
+            (self.due, self.kept) = (None, found);
             return Look::Saved;
         }
         if self.due.is_none() {

@@ -60,7 +60,7 @@ pub(super) fn answer(
         "afp/rename" => rename(room, params),
         "afp/remove" => remove(room, params),
         "afp/choose" => choose(room, params, now).map(|path| {
-            out = room.chosen(&path);
+            out = room.settled(&path);
             Value::Null
         }),
         _ => Err(format!("there is no '{method}'")),

@@ -80,10 +80,13 @@ impl Room {
     /// Looks at the file of an open text.
     fn look_at(&mut self, path: &str, now: Duration) -> Out {
         let Some(document) = self.documents.get_mut(path) else { return Vec::new() };
+        let was_disputed = document.is_disputed();
         let look = document.look(now);
+        let is_settled = was_disputed && !document.is_disputed();
         let text = document.text.clone();
         let uri = uri_of(path);
-        match look {
+        let mut out = match look {
+            Look::Changed if is_settled => Vec::new(),
             Look::Same => Vec::new(),
             Look::Saved => self.tell_saved(path, Ok(())),
             Look::Removed => {
@@ -94,8 +97,13 @@ impl Room {
                 self.tell_saved(path, Err(why))
             }
             Look::Changed => self.tell_all(&uri, &text, true, None),
+            Look::Unreadable(why) => self.tell_saved(path, Err(why)),
             Look::Conflict(theirs) => self.tell_all(&uri, &theirs, false, None),
+        };
+        if is_settled {
+            out.extend(self.settled(path));
         }
+        out
     }
 
     /// Looks at the tree: which files there are, and whether one has changed that plans may use.
@@ -119,8 +127,8 @@ impl Room {
         out
     }
 
-    /// Ends a conflict of a text with its file.
-    pub(super) fn chosen(&mut self, path: &str) -> Out {
+    /// Tells the clients that a text is no longer in conflict with its file.
+    pub(super) fn settled(&mut self, path: &str) -> Out {
         let Some(document) = self.documents.get(path) else { return Vec::new() };
         let (uri, text) = (uri_of(path), document.text.clone());
         let ids: Vec<_> = self.clients.keys().copied().collect();

@@ -1,11 +1,11 @@
 //! `afpc graph`: the drawing of a plan.
 
-use std::fs;
 use std::io::{ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use afp_draw::layout_file::Layout;
 use afp_draw::{Options, Scene, Usage};
+use afp_dsl::files::read_text_file;
 use afp_dsl::graph::Graph;
 use afp_dsl::outline::{Outline, PlanId};
 use afp_dsl::toolbox::Toolbox;
@@ -166,11 +166,8 @@ fn positions(file: &PlanFile) -> Vec<Layout> {
 /// The positions of a side file, none without one. What cannot be used there is told on standard
 /// error: a drawing does not fail for it.
 fn layout(path: &str) -> Layout {
-    let (text, why) = match fs::read(path) {
-        Ok(bytes) => match String::from_utf8(bytes) {
-            Ok(text) => (text, None),
-            Err(_) => (String::new(), Some("it is not UTF-8 text".to_owned())),
-        },
+    let (text, why) = match read_text_file(path.as_ref()) {
+        Ok(text) => (text, None),
         Err(error) if error.kind() == ErrorKind::NotFound => (String::new(), None),
         Err(error) => (String::new(), Some(error.to_string())),
     };

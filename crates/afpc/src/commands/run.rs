@@ -4,7 +4,7 @@ use std::path::Path;
 
 use afp_build::no_hardware;
 use afp_run::options::{OnRobot, RunOptions};
-use afp_run::{Program, RunError};
+use afp_run::{Program, RunError, toolbox_attachment};
 use afp_session::{AnyWorld, Settings};
 use clap::Args;
 
@@ -55,11 +55,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let (file, graph) = file.checked()?;
     let path = file.path.display().to_string();
     let mut texts = file.compiled.plan_texts();
-    texts.extend(
-        file.own
-            .texts()
-            .map(|(name, text)| (format!("{}{name}", Program::TOOLBOX), text.to_owned())),
-    );
+    texts.extend(file.own.texts().map(|(name, text)| (toolbox_attachment(name), text.to_owned())));
     let texts: Vec<_> = texts.iter().map(|(path, text)| (path.as_str(), text.as_str())).collect();
     let hardware = if itself { file.own.project.hardware().map_err(RunError::from)? } else { None };
     let settings = hardware.map(|hardware| hardware.settings).unwrap_or_default();

@@ -13,7 +13,7 @@ use afp_dsl::scenario::{InvalidScenario, Scenario};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError, say};
 use afp_session::Loader;
 use afp_syntax::source::Span;
-use afp_test::{Coverage, Hits, Setting, Verdict};
+use afp_test::{Coverage, Hits, Recording, Setting, Verdict};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
@@ -297,7 +297,9 @@ fn run_one(case: &Case<'_>, robot: &dyn Loader) -> Done {
     }
     // The same run once more, since passing ones need no log.
     let path = find::log_of(case.file, &scenario.name);
-    let log = path
-        .and_then(|path| afp_test::run(scenario, &setting, robot, Some(&path)).ok().map(|_| path));
+    let log = path.and_then(|path| {
+        let to = Recording { path: &path, compiled: &case.plan_file.compiled };
+        afp_test::run(scenario, &setting, robot, Some(to)).ok().map(|_| path)
+    });
     Done { verdict, log }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use afp_dsl::files::read_text;
+use afp_dsl::files::read_text_file;
 use afp_project::ProjectFile;
 use afp_run::RunError;
 
@@ -63,7 +63,7 @@ fn below(folder: &Path, deep: bool, files: &mut Vec<PathBuf>) -> Result<(), RunE
 /// Whether a file may have a scenario; the compiler will know, and why the file cannot be read.
 fn has_scenarios(path: &Path) -> bool {
     let has = |text: String| text.lines().any(|line| line.trim_start().starts_with("scenario "));
-    read_text(path).map_or(true, has)
+    read_text_file(path).map_or(true, has)
 }
 
 /// Why there is nothing to run.
