@@ -125,7 +125,7 @@ fn recipe(
         file,
         texts,
         toolboxes,
-        robot: "sim".to_owned(),
+        robot: Recipe::SIMULATED.to_owned(),
         world: TextFile { name: world.world.name().to_owned(), text: world.text.clone() },
         start: world.start,
         seed: options.seed,

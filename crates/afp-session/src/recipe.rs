@@ -71,6 +71,9 @@ pub struct RecipeError {
 }
 
 impl Recipe {
+    /// The kind of a robot in a simulator.
+    pub const SIMULATED: &'static str = "sim";
+
     /// Asks a session that has not started for all that came from outside.
     ///
     /// # Errors

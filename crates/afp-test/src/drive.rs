@@ -256,7 +256,7 @@ fn about(scenario: &Scenario, setting: &Setting, compiled: &Compiled) -> About {
         file: scenario.plan_file.clone(),
         texts: texts.map(|(name, text)| TextFile { name, text }).collect(),
         toolboxes: toolboxes.map(text_file).collect(),
-        robot: "sim".to_owned(),
+        robot: Recipe::SIMULATED.to_owned(),
         world: TextFile { name: world.world.name().to_owned(), text: world.text.clone() },
         start: world.start,
         seed: scenario.seed,

@@ -30,7 +30,7 @@ impl Setting<'_> {
             file: self.file.display().to_string(),
             texts: text_files(self.compiled.plan_texts()),
             toolboxes: text_files(own_toolbox_texts(self.compiled, self.graph)),
-            robot: "sim".to_owned(),
+            robot: Recipe::SIMULATED.to_owned(),
             world: text_file(world.name(), text),
             start: *start,
             seed: self.seed,
