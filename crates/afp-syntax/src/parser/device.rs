@@ -3,6 +3,8 @@
 use super::Parser;
 use crate::kind::Kind;
 
+/// The words that parts of a device begin with.
+const WORDS: &[&str] = &["press", "stop", "fault", "signal", "truth"];
 const PART_HELP: &str = "write 'press', 'stop', 'fault', 'signal' or 'truth'";
 
 impl Parser<'_, '_> {
@@ -45,7 +47,13 @@ impl Parser<'_, '_> {
     }
 
     fn at_device_part(&self) -> bool {
-        matches!(self.word(0), "press" | "stop" | "fault" | "signal" | "truth")
+        WORDS.contains(&self.word(0))
+    }
+
+    /// Whether a line begins with a slip of a part's word and what such a part has behind it.
+    fn at_misspelt_part(&self) -> bool {
+        let named = self.nth(1) == Kind::Name && !self.begins_line(1);
+        named && !self.on_same_line() && self.near(WORDS).is_some()
     }
 
     /// Whether a part begins where a control's name could stand, too: surely on a line of its own.
@@ -54,7 +62,7 @@ impl Parser<'_, '_> {
             "signal" | "truth" => self.nth(1) == Kind::Name && self.nth(2) == Kind::Colon,
             _ => self.nth(1) == Kind::Name,
         };
-        self.at_device_part() && (whole || !self.on_same_line())
+        self.at_device_part() && (whole || !self.on_same_line()) || self.at_misspelt_part()
     }
 
     fn device_part(&mut self) {

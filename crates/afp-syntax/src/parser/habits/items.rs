@@ -63,6 +63,13 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// The word of a list that the next one is a slip of.
+    pub(in crate::parser) fn near<'a>(&self, words: &[&'a str]) -> Option<&'a str> {
+        Some(self.word(0))
+            .filter(|word| !word.is_empty())
+            .and_then(|word| words::nearest(word, words.iter().copied()))
+    }
+
     /// The word of an item that was meant.
     pub(in crate::parser) fn meant<'a>(&self, items: &[&'a str]) -> Option<&'a str> {
         if self.nth(1) != Kind::Name {
