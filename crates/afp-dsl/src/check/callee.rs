@@ -1,7 +1,6 @@
 //! Finds the template or plan that an element or supervisor names.
 
 use std::rc::Rc;
-use std::sync::Arc;
 
 use crate::check::foreign;
 use crate::check::names::{ambiguous, unknown};

@@ -109,11 +109,20 @@ fn spell_out(workspace: &mut Workspace, project: &Project, tokens: &[(usize, Tok
 fn check_free_elsewhere(workspace: &Workspace, kind: Kind, to: &str) -> Result<(), Refused> {
     let project = workspace.project();
     let seeing = project.sees.iter().enumerate().filter(|(_, seen)| seen.contains(&workspace.home));
-    let found = seeing.into_iter().find_map(|(file, _)| project.find(file, kind, to));
-    match found {
+    let seeing: Vec<_> = seeing.map(|(file, _)| file).collect();
+    if let Some((file, _)) = seeing.iter().find_map(|file| project.find(*file, kind, to)) {
+        return Err(Refused::new(format!(
+            "'{to}' is already there in '{}'",
+            workspace.paths[file]
+        )));
+    }
+    let toolboxes = &workspace.buffers[workspace.home].toolboxes;
+    let used = seeing.iter().flat_map(|file| tree::children(&project.roots[*file], Kind::Use));
+    let mut used = used.filter_map(|line| toolboxes.get(&tree::name_of(&line)?));
+    match used.find(|toolbox| kind == Kind::Enum && toolbox.has_type(to)) {
         None => Ok(()),
-        Some((file, _)) => {
-            Err(Refused::new(format!("'{to}' is already there in '{}'", workspace.paths[file])))
+        Some(toolbox) => {
+            Err(Refused::new(format!("'{to}' is a type of the toolbox '{}'", toolbox.name)))
         }
     }
 }

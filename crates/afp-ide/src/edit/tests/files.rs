@@ -141,6 +141,8 @@ fn a_new_name_must_be_free_wherever_it_is_seen() {
         "'Rest' is already there in 'lib/deep/rest.afp'",
     );
     refused(1, &rename(Item::enumeration("Mood"), "length"), "'length' is a type of the language");
+    let object = "'DistanceMap' is a type of the toolbox 'carbot'";
+    refused(1, &rename(Item::enumeration("Mood"), "DistanceMap"), object);
 }
 
 #[test]
