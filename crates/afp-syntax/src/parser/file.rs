@@ -101,19 +101,38 @@ impl Parser<'_, '_> {
         self.keyword();
         self.name("give the enum a name");
         let opened = self.here();
-        if self.expect(Kind::OpenBrace, "list the values in braces") {
-            while self.at(Kind::Name) && !self.at_top_item() {
-                self.open_item(Kind::Variant);
-                self.take_name();
-                self.close_item();
+        // The brackets of other languages.
+        let closing = match self.nth(0) {
+            Kind::OpenParen => Kind::CloseParen,
+            Kind::OpenBracket => Kind::CloseBracket,
+            _ => Kind::CloseBrace,
+        };
+        if closing != Kind::CloseBrace {
+            let message = format!("expected '{{', found {}", self.found());
+            let error = Diagnostic::new(Code::E0102, self.next_span(), message);
+            self.error(error.help("write '{' and '}' around the values"));
+            self.pass(1);
+            self.variants(closing);
+            if self.at(closing) {
+                self.pass(1);
             }
-            if !self.at(Kind::CloseBrace) && !self.at_end() && !self.at_top_item() {
-                self.skip("a value or '}'", "write only names between the braces", |p| {
-                    p.at(Kind::CloseBrace) || p.at_top_item()
-                });
-            }
-            self.close_bracket(Kind::CloseBrace, opened);
+        } else if self.expect(Kind::OpenBrace, "list the values in braces") {
+            self.variants(closing);
+            self.close_bracket(closing, opened);
         }
         self.close_item();
+    }
+
+    /// The values of an enum, up to the bracket that ends them.
+    fn variants(&mut self, closing: Kind) {
+        while self.at(Kind::Name) && !self.at_top_item() {
+            self.open_item(Kind::Variant);
+            self.take_name();
+            self.close_item();
+        }
+        let ends = |p: &Self| p.at(closing) || p.at(Kind::CloseBrace) || p.at_top_item();
+        if !ends(self) && !self.at_end() {
+            self.skip("a value or '}'", "write only names between the braces", ends);
+        }
     }
 }
