@@ -1,4 +1,4 @@
-//! The brace that is missing or too much, found by how lines are indented.
+//! The brace that is missing or too much, found by how lines are indented; and brackets that are closed twice.
 //!
 //! Nothing of the grammar depends on white space. Where the braces of a file do not match, though, the one that is
 //! wrong stands, more often than not, where the indentation stops following them; what comes of it elsewhere is no
@@ -122,6 +122,11 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
     let starts = diags.iter().filter(is_reported).map(|each| each.span.start);
     let mut reported: Vec<_> = starts.map(|start| (start, start)).collect();
     let mut strays = Vec::new();
+    for at in doubled(tokens) {
+        strays.push((span(tokens[at], file), tokens[at].text));
+        reported.push((tokens[at].start, tokens[at].start));
+        tokens[at].kind = Kind::Unknown;
+    }
     for _ in 0..MOST {
         let Some(wrong) = find(tokens) else { break };
         let (behind, error, brace) = match wrong {
@@ -184,6 +189,22 @@ fn report_strays(mut strays: Vec<(Span, &str)>, diags: &mut Diagnostics) {
         };
         diags.push(Diagnostic::new(Code::E0102, place, message).help(help).replace(""));
     }
+}
+
+/// The brackets ')' that close nothing and stand behind another one.
+fn doubled(tokens: &[Token<'_>]) -> Vec<usize> {
+    let (mut open, mut before, mut found) = (0_usize, Kind::End, Vec::new());
+    for (at, token) in tokens.iter().enumerate().filter(|(_, it)| !it.kind.is_passed_over()) {
+        match token.kind {
+            Kind::OpenParen => open += 1,
+            Kind::CloseParen if open == 0 && before == Kind::CloseParen => found.push(at),
+            Kind::CloseParen => open = open.saturating_sub(1),
+            Kind::OpenBrace | Kind::CloseBrace => open = 0,
+            _ => {}
+        }
+        before = token.kind;
+    }
+    found
 }
 
 /// What stands behind a token.

@@ -135,6 +135,9 @@ impl Parser<'_, '_> {
         if let Some(body) = body {
             while !self.ends_body(&body) {
                 self.repeat(|parser| {
+                    if parser.reaction_without_braces() {
+                        return;
+                    }
                     if parser.at_word("supervise") {
                         parser.guard();
                     } else if parser.at_reactions() {
