@@ -6,6 +6,7 @@
 //! nothing, the grammar reports what it misses.
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
+use crate::keywords::{TOOLS, TOP};
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::source::Span;
@@ -58,13 +59,6 @@ const ITEMS: &[&str] = &[
     "until",
     "on",
 ];
-
-/// Words that items of a file begin with.
-const TOP: &[&str] = &["use", "plan", "scenario", "enum", "table", "toolbox"];
-
-/// Words that items of a toolbox begin with, besides.
-const TOOLS: &[&str] =
-    &["object", "device", "sensor", "robot", "actor", "supervisor", "computation"];
 
 /// So many braces of a file are mended.
 const MOST: usize = 16;

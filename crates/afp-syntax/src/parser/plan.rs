@@ -3,13 +3,16 @@
 use super::Parser;
 use super::recovery::Body;
 use crate::diagnostics::{Code, Diagnostic};
+use crate::keywords::PLAN;
 use crate::kind::Kind;
 
 /// Tokens that are looked at in search of the arrow behind the names of states.
 const MAX_NAMES: usize = 128;
-/// The words that items of a plan begin with.
-const WORDS: &[&str] =
-    &["in", "out", "var", "const", "start", "supervise", "actor", "computation", "subplan"];
+/// The words that entries begin with.
+const ENTRIES: &[&str] = &["in", "out", "var", "const"];
+/// The words before a name and ':'.
+const COMPONENTS_AND_ENTRIES: &[&str] =
+    &["in", "out", "var", "const", "supervise", "actor", "computation", "subplan"];
 /// What the body of an element holds.
 pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
 const ITEMS: &str = "an item of the plan";
@@ -21,7 +24,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Plan);
         self.keyword();
         self.name("give the plan a name");
-        self.eat_word("forever");
+        self.eat_meant("forever", |next| next == Kind::OpenBrace);
         let help = match self.nth(0) {
             Kind::OpenParen => "remove the brackets: a plan declares what it takes with 'in'",
             _ => "put the plan's items in braces",
@@ -47,18 +50,26 @@ impl Parser<'_, '_> {
 
     pub(super) fn at_plan_item(&self) -> bool {
         let named = self.names_something(0) && self.nth(1) != Kind::Colon;
-        WORDS.contains(&self.word(0)) && (!named || self.word(0) == "start")
+        PLAN.contains(&self.word(0)) && (!named || self.word(0) == "start")
     }
 
     /// Passes over what is no item of a plan.
     fn no_plan_item(&mut self) {
-        let help = match self.at_reactions() {
-            true => "put it into the braces of the element that reacts so".to_owned(),
-            false => self.item_help(WORDS).unwrap_or_else(|| ITEM_HELP.to_owned()),
+        if self.live_before_in() {
+            return self.plan_item();
+        }
+        let help = match self.item_help() {
+            _ if self.at_reactions() => {
+                "put it into the braces of the element that reacts so".to_owned()
+            }
+            Some(help) => help,
+            None if self.item_meant(ITEMS, self.possible_items_of_plan()) => {
+                return self.plan_item();
+            }
+            None => ITEM_HELP.to_owned(),
         };
         let is_body = self.begins_body();
-        let fix = self.meant(WORDS).filter(|_| self.nth(2) == Kind::Colon);
-        self.report_skipped(ITEMS, &help, fix);
+        self.report_skipped(ITEMS, &help, None);
         let first = self.at;
         self.pass_to(|p| {
             let next = p.at > first && !p.on_same_line() && p.at_strange_item();
@@ -69,6 +80,15 @@ impl Parser<'_, '_> {
             self.open(Kind::Error);
             self.bump();
             self.close();
+        }
+    }
+
+    /// The words of the items of a plan that have behind them what stands there.
+    fn possible_items_of_plan(&self) -> &'static [&'static str] {
+        match self.nth(2) {
+            Kind::Colon => COMPONENTS_AND_ENTRIES,
+            Kind::Equal => ENTRIES,
+            _ => PLAN,
         }
     }
 
@@ -108,7 +128,7 @@ impl Parser<'_, '_> {
         let input = self.at_word("in");
         self.keyword();
         if input {
-            self.eat_word("live");
+            self.eat_meant("live", |next| next == Kind::Name);
         } else if self.at_word("live") && self.nth(1) == Kind::Name {
             let here = self.here();
             self.error(
@@ -156,14 +176,9 @@ impl Parser<'_, '_> {
 
     pub(super) fn guard(&mut self) {
         self.open_item(Kind::Guard);
-        match self.word(0) {
-            "supervise" => self.keyword(),
-            // Another word, of which something has been said.
-            _ => self.pass(1),
-        }
+        self.keyword();
         self.head("a supervisor's template");
-        self.time_by_another_word();
-        while self.at_timing() {
+        while self.at_timing() || self.time_by_another_word() {
             self.timing();
         }
         self.events("put the edges of the events in braces");
@@ -201,11 +216,7 @@ impl Parser<'_, '_> {
 
     pub(super) fn timing(&mut self) {
         self.open(Kind::Timing);
-        match self.word(0) {
-            "every" | "deadline" => self.keyword(),
-            // Another word, of which something has been said.
-            _ => self.pass(1),
-        }
+        self.keyword();
         if matches!(self.nth(0), Kind::Colon | Kind::Equal) {
             let message = format!("no {} before a time", self.found());
             self.instead(1, message, "remove it".to_owned(), "");
