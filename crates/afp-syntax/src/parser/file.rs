@@ -80,7 +80,7 @@ impl Parser<'_, '_> {
             (_, Kind::OpenBrace) => with_braces.to_vec(),
             (_, Kind::Colon) => Vec::new(),
             (_, Kind::OpenParen) => vec!["table", "enum"],
-            _ => TOP.iter().chain(TOOLS).copied().collect(),
+            _ => TOP.iter().chain(&["object", "device", "sensor"]).copied().collect(),
         }
     }
 

@@ -11,7 +11,8 @@ impl Parser<'_, '_> {
     pub(super) fn meant<'a>(&self, list: &[&'a str]) -> Option<&'a str> {
         use Kind::{Float, Int, Name, OpenBrace, Text};
         let goes_on = matches!(self.nth(1), Name | Text | Int | Float | OpenBrace);
-        let is_word = self.at(Kind::Name) && goes_on && !self.begins_line(1);
+        let is_read = self.slip.is_some_and(|(at, _)| at == self.at);
+        let is_word = self.at(Kind::Name) && goes_on && !self.begins_line(1) && !is_read;
         keywords::meant(self.word(0), list).filter(|_| is_word)
     }
 
