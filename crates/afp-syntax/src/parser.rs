@@ -19,6 +19,7 @@ mod slips;
 mod table;
 mod toolbox;
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rowan::{Checkpoint, GreenNode, GreenNodeBuilder, Language};
@@ -63,6 +64,8 @@ struct Parser<'t, 'd> {
     marks: Marks,
     /// The token, among those that are read, that is read as another word than it is.
     slip: Option<(usize, &'static str)>,
+    /// The first and the last of the names, with commas between them, that were looked at last.
+    names: Cell<(usize, usize)>,
     /// Lines of which something is said that comes before the grammar, by where they end, each with the place of that.
     reported: BTreeMap<u32, u32>,
     /// Where the lines end on which something is wrong that is not said.
@@ -93,6 +96,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             is_toolbox: false,
             marks,
             slip: None,
+            names: Cell::new((1, 0)),
             reported: BTreeMap::new(),
             hidden: BTreeSet::new(),
             quiet: 0,

@@ -6,8 +6,6 @@ use crate::diagnostics::{Code, Diagnostic};
 use crate::keywords::PLAN;
 use crate::kind::Kind;
 
-/// Tokens that are looked at in search of the arrow behind the names of states.
-const MAX_NAMES: usize = 128;
 /// The words that entries begin with.
 const ENTRIES: &[&str] = &["in", "out", "var", "const"];
 /// The words before a name and ':'.
@@ -272,28 +270,40 @@ impl Parser<'_, '_> {
         });
     }
 
-    /// How many tokens ahead the last of the names stands between which there are commas.
-    fn last_name(&self) -> usize {
-        let mut last = 0;
-        while last < MAX_NAMES
-            && self.nth(last) == Kind::Name
+    /// How many tokens ahead the last of the names stands, from the token so many ahead on, between which there are
+    /// commas.
+    fn last_name(&self, ahead: usize) -> usize {
+        let from = self.at + ahead;
+        let (first, end) = self.names.get();
+        // What was found for one of the names holds for those behind it.
+        if (first..=end).contains(&from) && (from - first).is_multiple_of(2) {
+            return end - self.at;
+        }
+        let mut last = ahead;
+        while self.nth(last) == Kind::Name
             && self.nth(last + 1) == Kind::Comma
             && self.nth(last + 2) == Kind::Name
         {
             last += 2;
         }
+        self.names.set((from, self.at + last));
         last
     }
 
     /// Whether names with commas between them stand before an arrow.
     pub(super) fn at_edge(&self) -> bool {
-        let last = self.last_name();
+        self.edge_at(0)
+    }
+
+    /// The same from the token so many ahead on.
+    pub(super) fn edge_at(&self, ahead: usize) -> bool {
+        let last = self.last_name(ahead);
         self.nth(last) == Kind::Name && self.arrow_at(last + 1).is_some()
     }
 
     /// Whether names with commas between them end a body.
     fn at_bare_names(&self) -> bool {
-        self.nth(self.last_name() + 1) == Kind::CloseBrace
+        self.nth(self.last_name(0) + 1) == Kind::CloseBrace
     }
 
     /// `NAME {"," NAME} "->" target`
