@@ -61,6 +61,8 @@ struct Parser<'t, 'd> {
     balanced: bool,
     /// Whether the file is a toolbox, as far as it is read.
     is_toolbox: bool,
+    /// Whether lines of a scenario are read.
+    in_scenario: bool,
     marks: Marks,
     /// The token, among those that are read, that is read as another word than it is.
     slip: Option<(usize, &'static str)>,
@@ -94,6 +96,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             misplaced: false,
             balanced: false,
             is_toolbox: false,
+            in_scenario: false,
             marks,
             slip: None,
             names: Cell::new((1, 0)),

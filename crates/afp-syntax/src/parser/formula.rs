@@ -94,7 +94,9 @@ impl Parser<'_, '_> {
             return;
         }
         match self.nth(0) {
-            _ if !self.on_same_line() && self.begins_item() => self.no_formula(),
+            _ if !self.on_same_line() && (self.begins_item() || self.begins_scenario_line()) => {
+                self.no_formula()
+            }
             Kind::Minus => {
                 self.open(Kind::Negation);
                 self.bump();

@@ -19,8 +19,16 @@ impl Parser<'_, '_> {
         } else {
             self.expected("'for'", "write 'for' and the name of a plan");
         }
+        self.in_scenario = true;
         self.lines();
+        self.in_scenario = false;
         self.close_item();
+    }
+
+    /// Whether a line of the scenario at hand begins here, so that no value can be meant.
+    pub(super) fn begins_scenario_line(&self) -> bool {
+        let goes_on = matches!(self.nth(1), Kind::Name | Kind::Text | Kind::Int | Kind::Float);
+        self.in_scenario && self.at_line() && goes_on && !self.begins_line(1)
     }
 
     /// The lines of a scenario, or those that count from one of its moments.
