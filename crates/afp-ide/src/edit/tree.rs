@@ -18,12 +18,17 @@ pub(super) enum Scope {
     Plan(Node),
     /// The local supervisors of an element.
     Element(Node),
+    /// The parts of a kind in an item: columns of a table, values of an enum.
+    Inside(Node, Kind),
 }
 
 impl Scope {
     /// The names in it.
     pub fn names(&self) -> Vec<String> {
         let (node, kinds): (_, &[Kind]) = match self {
+            Scope::Inside(node, kind) => {
+                return below(node, *kind).filter_map(|part| name_of(&part)).collect();
+            }
             Scope::File(node) => (node, &[Kind::Plan, Kind::Table]),
             Scope::Enums(node) => (node, &[Kind::Enum, Kind::Table]),
             Scope::Tables(node) => (node, &[Kind::Table, Kind::Plan, Kind::Enum]),

@@ -170,6 +170,20 @@ fn an_element_is_renamed_in_scenarios_of_other_files() {
 }
 
 #[test]
+fn a_value_of_an_enum_is_renamed_wherever_it_is_used() {
+    let change = |to: &str| Change::RenameValue {
+        enumeration: "Mood".into(),
+        value: "wild".into(),
+        to: to.into(),
+    };
+    let wanted = [(0, "Mood.wild", "Mood.mad"), (1, "calm wild", "calm mad")];
+    replaces(1, &change("mad"), &wanted);
+    refused(1, &change("calm"), "'calm' is already there");
+    refused(1, &change("1"), "'1' cannot be a name");
+    refused(0, &change("mad"), "there is no enum 'Mood'");
+}
+
+#[test]
 fn an_enum_is_renamed_in_types_and_values() {
     let wanted = [
         (0, "mood: Mood = Mood.calm", "mood: Temper = Temper.calm"),
