@@ -173,8 +173,8 @@ impl<'a> Shown<'a> {
     fn beside(self, value: f64) -> impl fmt::Display + 'a {
         let unit = Measured::new(value, self.unit).unit();
         fmt::from_fn(move |f| match self.value == 0.0 {
-            true => Quantity { value: 0.0, unit }.fmt(f),
-            false => self.fmt(f),
+            true => write!(f, "{}", Quantity { value: 0.0, unit }),
+            false => write!(f, "{self}"),
         })
     }
 }
