@@ -77,13 +77,6 @@ impl Watchers<'_> {
             };
             let (connected, ..) = edges::connect(&origin, &edges, self.elements, diags);
             to_itself(element, &origin, &edges, diags);
-            if edges.is_empty() && !diags.error_within(node.span()) {
-                let message = format!("'on {}' says nothing", name.text);
-                diags.push(
-                    Diagnostic::new(Code::E0249, name.span, message)
-                        .help("write an edge such as 'Event -> target', or remove it"),
-                );
-            }
             reactions = u16::try_from(index).ok().map(|index| Reactions {
                 supervisor: SupervisorId(index),
                 events: connected.outcomes,
