@@ -50,7 +50,7 @@ macro_rules! faults {
 
 faults! {
     /// Overflow, `% 0`, or a result that is not finite.
-    ARITHMETIC = "arithmetic", "a formula overflowed or has no finite value";
+    ARITHMETIC = "arithmetic", "a formula overflowed, divided by zero, or has no finite value";
     /// A value outside the range of its port or entry.
     RANGE = "range", "a value is out of its range";
     /// A text that does not read as the type it is converted to.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
-use afp_core::trace::{ComponentId, EntryName, TraceEntryId, TraceHash};
+use afp_core::trace::{ComponentId, ComponentKind, EntryName, TraceEntryId, TraceHash};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
     AnySession, Applied, Datum, Figures, Holder, NamedRecord, Observer, Open, Pose2, Request,
@@ -327,8 +327,10 @@ impl Target for SessionTarget<'_> {
 
     fn fire(&mut self, component: ComponentId, outcome: &str) -> Result<(), String> {
         let session = &self.run.session;
-        let component = session.names().component(component).path.to_owned();
-        let what = Stimulus::Inject { component, outcome: outcome.to_owned(), outputs: Vec::new() };
+        let named = session.names().component(component);
+        let (component, ends) = (named.path.to_owned(), named.kind != ComponentKind::Supervisor);
+        let (outcome, outputs) = (outcome.to_owned(), Vec::new());
+        let what = Stimulus::Inject { component, outcome, ends, outputs };
         let request = what.request(session.devices(), session.names());
         self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?).map(|_| ())
     }

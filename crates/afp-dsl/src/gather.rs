@@ -162,7 +162,11 @@ impl Gathering<'_> {
     /// The file behind one `use`; reports when there is none.
     fn used(&mut self, user: usize, written: &Name) -> Option<usize> {
         let mut wrong = Diagnostics::default();
-        let text = unquote(written, &mut wrong);
+        // A path has no escapes: a backslash in it is that of a folder.
+        let text = match written.text.trim_matches('"') {
+            path if path.contains('\\') => path.replace("\\\\", "\\"),
+            _ => unquote(written, &mut wrong),
+        };
         if wrong.is_empty()
             && let Some(error) = path_error(&text, written.span)
         {

@@ -40,6 +40,13 @@ impl Toolbox {
     pub(crate) fn declares_robot(&self) -> bool {
         self.devices.iter().any(|device| device.kind == DeviceKind::Robot)
     }
+
+    /// Whether it declares an enum or an object type of that name.
+    pub fn has_type(&self, name: &str) -> bool {
+        let mut types =
+            self.enums.iter().map(|it| &it.name).chain(self.objects.iter().map(|it| &it.name));
+        types.any(|known| known == name)
+    }
 }
 
 /// One actor, supervisor or computation that plans can use.

@@ -91,10 +91,7 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
         Place::Value(wanted) if values::takes_table(view, wanted) => {
             plans::tables(&mut list, offset);
         }
-        Place::Value(wanted) => {
-            let wanted = values::wanted(view, wanted, offset);
-            values::formulas(&mut list, wanted.as_ref(), offset);
-        }
+        Place::Value(wanted) => values::formulas(&mut list, wanted, offset),
         Place::Unit(wanted) => {
             let wanted = values::wanted(view, wanted, offset);
             values::units(&mut list, wanted.as_ref());
@@ -103,6 +100,8 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
         Place::Scenario => scenarios::lines(&mut list, true),
         Place::Moment => scenarios::lines(&mut list, false),
         Place::Path(word) => scenarios::paths(&mut list, word, offset),
+        Place::Cause(claim) => scenarios::causes(&mut list, claim, offset),
+        Place::Set { later } => scenarios::entries(&mut list, *later, offset),
         Place::PlanName => plans::plan_names(&mut list),
         Place::Toolbox(kind) => toolboxes::parts(&mut list, *kind),
     }
@@ -130,6 +129,11 @@ impl List<'_, '_> {
     /// Adds words of the grammar as they are.
     fn keywords(&mut self, words: &[&str], rank: u8) {
         words.iter().for_each(|word| self.keyword(word, plain(&format!("{word} ")), rank));
+    }
+
+    /// Adds words that nothing follows.
+    fn keywords_alone(&mut self, words: &[&str], rank: u8) {
+        words.iter().for_each(|word| self.keyword(word, plain(word), rank));
     }
 
     fn add(&mut self, label: &str, kind: CompletionKind, insert: Vec<Piece>, rank: u8) {

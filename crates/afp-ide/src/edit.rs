@@ -110,6 +110,15 @@ pub enum Change {
         /// Its new name.
         to: String,
     },
+    /// Gives a value of an enum another name wherever the files refer to it.
+    RenameValue {
+        /// The enum.
+        enumeration: String,
+        /// The value.
+        value: String,
+        /// Its new name.
+        to: String,
+    },
     /// Connects a state or event, or leads its edge elsewhere.
     Connect {
         /// The element or supervisor.
@@ -357,6 +366,9 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
         Change::RenameColumn { table, column, to } => {
             return rename::column(workspace, table, column, to);
         }
+        Change::RenameValue { enumeration, value, to } => {
+            return rename::value(workspace, enumeration, value, to);
+        }
         Change::Inline { plan, element } => return inline::run(workspace, plan, element),
         Change::Remove { item } | Change::Move { item, .. } => workspace.check_inside(item)?,
         Change::Extract { plan, elements, .. } => {
@@ -399,7 +411,10 @@ fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
         Change::Extract { plan, elements, new_plan, element } => {
             extract::run(buffer, plan, elements, new_plan, element)
         }
-        Change::Rename { .. } | Change::RenameColumn { .. } | Change::Inline { .. } => Ok(()),
+        Change::Rename { .. }
+        | Change::RenameColumn { .. }
+        | Change::RenameValue { .. }
+        | Change::Inline { .. } => Ok(()),
     }
 }
 

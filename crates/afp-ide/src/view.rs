@@ -69,6 +69,12 @@ impl<'a> View<'a> {
         self.index().at(self.file, offset)
     }
 
+    /// What the last name of a path means.
+    pub(crate) fn named_by(&self, path: &Node) -> Option<DefinitionId> {
+        let name = tokens(path).filter(|token| token.kind() == Kind::Name).last()?;
+        self.index().name(self.token_span(&name))?.meaning.definition()
+    }
+
     /// The empty place at a byte.
     pub(crate) fn place(&self, offset: u32) -> Span {
         Span { file: self.file, start: offset, end: offset }

@@ -213,13 +213,14 @@ fn encode_request(request: Requested) -> Request {
             lasting_ns: (lasting != Duration::MAX).then_some(lasting.as_nanos()),
             ..about(request::Kind::Fail, fault)
         },
-        Stimulus::Inject { component, outcome, outputs } => {
+        Stimulus::Inject { component, outcome, ends, outputs } => {
             let output = |(port, value): (u16, Datum)| Output {
                 port: port.into(),
                 value: Some(encode_value(value)),
             };
             let outputs = outputs.into_iter().map(output).collect();
-            Request { outcome, outputs, ..about(request::Kind::Fire, component) }
+            let kind = if ends { request::Kind::Finish } else { request::Kind::Fire };
+            Request { outcome, outputs, ..about(kind, component) }
         }
         Stimulus::Idle { element } => about(request::Kind::Idle, element.unwrap_or_default()),
         Stimulus::Put { what, at } => {
@@ -262,11 +263,12 @@ fn decode_request(message: Request) -> Option<Requested> {
             amount: message.amount,
             lasting: message.lasting_ns.map_or(Duration::MAX, Duration::from_nanos),
         },
-        request::Kind::Fire => {
+        request::Kind::Fire | request::Kind::Finish => {
             let output =
                 |output: Output| Some((u16::try_from(output.port).ok()?, value(output.value)));
             let outputs = message.outputs.into_iter().filter_map(output).collect();
-            Stimulus::Inject { component: name, outcome: message.outcome, outputs }
+            let ends = kind == request::Kind::Finish;
+            Stimulus::Inject { component: name, outcome: message.outcome, ends, outputs }
         }
         request::Kind::Idle => {
             Stimulus::Idle { element: Some(name).filter(|name| !name.is_empty()) }

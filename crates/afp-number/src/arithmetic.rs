@@ -33,12 +33,14 @@ checked! {
 /// `a % b`, with the sign of `a`.
 ///
 /// # Errors
-/// [`Error::DivisionByZero`]; [`Error::Overflow`] for the least integer and -1.
+/// [`Error::DivisionByZero`].
 #[inline]
 pub fn int_rem(a: i64, b: i64) -> Result<i64, Error> {
     match b {
         0 => Err(Error::DivisionByZero),
-        _ => a.checked_rem(b).ok_or(Error::Overflow),
+        // Of the least integer, too, whose quotient is none.
+        -1 => Ok(0),
+        _ => Ok(a % b),
     }
 }
 

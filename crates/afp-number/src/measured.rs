@@ -35,6 +35,11 @@ impl<'a> Measured<'a> {
         }
     }
 
+    /// The unit that it is written with, `""` for a plain number.
+    pub fn unit(&self) -> &'a str {
+        self.unit
+    }
+
     fn whole(number: f64, unit: &'a str) -> Self {
         Self::rounded(number, 3, unit)
     }
@@ -57,9 +62,15 @@ impl<'a> Measured<'a> {
     }
 }
 
+/// From here on a number is written with an exponent.
+const LARGE: f64 = 1e12;
+
 impl fmt::Display for Measured<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", Rounded(self.value, self.decimals))?;
+        match self.value.is_finite() && self.value.abs() >= LARGE {
+            true => write!(f, "{:e}", self.value)?,
+            false => write!(f, "{}", Rounded(self.value, self.decimals))?,
+        }
         match self.unit {
             "" => Ok(()),
             unit => write!(f, " {unit}"),
@@ -97,6 +108,9 @@ mod tests {
             (-core::f64::consts::PI, "rad/s", "-180 deg/s"),
             (7.4, "V", "7.4 V"),
             (0.25, "", "0.25"),
+            (1e308, "", "1e308"),
+            (-2.5e20, "m", "-2.5e20 m"),
+            (123_456_789_012.5, "", "123456789012.5"),
         ] {
             assert_eq!(Measured::new(number, unit).to_string(), text);
         }

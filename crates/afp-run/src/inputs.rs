@@ -119,7 +119,7 @@ fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[St
     } else if why == Fault::TOO_LONG {
         why.to_string()
     } else {
-        format!("'{name}' is a {ty}")
+        format!("'{name}' is of type {ty}")
     };
-    RunError::usage(format!("'{name}={text}': not a {ty}"), help)
+    RunError::usage(format!("'{name}={text}': no {ty}"), help)
 }

@@ -84,6 +84,8 @@ pub enum RequestError {
     Write(WriteError),
     /// A component of that path is not being polled, so it cannot report anything.
     NotActive(String),
+    /// A component of that path has not yet reported what it was made to report before.
+    Reports(String),
     /// There is no such actor or sub-plan.
     NoElement,
     /// The plan has no such entry, or its entry has no such value.
@@ -171,6 +173,9 @@ impl fmt::Display for RequestError {
             RequestError::Nowhere => f.write_str("that place is not in the world"),
             RequestError::Write(why) => why.fmt(f),
             RequestError::NotActive(path) => write!(f, "'{path}' is not active"),
+            RequestError::Reports(path) => {
+                write!(f, "'{path}' already has something to report")
+            }
             RequestError::NoElement => f.write_str("there is no such actor"),
             RequestError::NoEntry(name) => write!(f, "the plan has no such entry '{name}'"),
             RequestError::NoOutcome(name) => write!(f, "there is no '{name}'"),

@@ -6,6 +6,8 @@ use std::fmt;
 use afp::load::Injection;
 use afp_core::Duration;
 use afp_core::devices::{DeviceRow, controls, faults, find_control, find_fault};
+#[cfg(feature = "load")]
+use afp_core::trace::ComponentKind;
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
 #[cfg(feature = "load")]
 use afp_core::trace::{DEADLINE_MISSED, ERROR};
@@ -49,6 +51,8 @@ pub enum Stimulus {
         component: String,
         /// The state or event.
         outcome: String,
+        /// Whether it is a state, by which an element ends.
+        ends: bool,
         /// The outputs that come with it, by position among the template's.
         outputs: Vec<(u16, Datum)>,
     },
@@ -100,6 +104,7 @@ impl Stimulus {
             Request::Inject(Injection { component, outcome, outputs }) => Stimulus::Inject {
                 component: names.component(*component).path.to_owned(),
                 outcome: names.outcome(*component, *outcome).to_owned(),
+                ends: names.component(*component).kind != ComponentKind::Supervisor,
                 outputs: outputs
                     .iter()
                     .map(|(port, value)| {
@@ -142,7 +147,7 @@ impl Stimulus {
                 let found = fault.split_once('.').and_then(|(at, of)| find_fault(devices, at, of));
                 Request::Break(found.ok_or(RequestError::NoFault)?, *amount, *lasting)
             }
-            Stimulus::Inject { component, outcome, outputs } => {
+            Stimulus::Inject { component, outcome, outputs, .. } => {
                 injection(names, component, outcome, outputs)?
             }
             Stimulus::Idle { element: None } => Request::Idle(None),
@@ -233,7 +238,10 @@ impl fmt::Display for Stimulus {
                     lasting => write!(f, " for {} s", lasting.as_secs_f64()),
                 }
             }
-            Stimulus::Inject { component, outcome, .. } => write!(f, "fire {component}.{outcome}"),
+            Stimulus::Inject { component, outcome, ends, .. } => {
+                let word = if *ends { "finish" } else { "fire" };
+                write!(f, "{word} {component}.{outcome}")
+            }
             Stimulus::Idle { element: Some(path) } => write!(f, "idle {path}"),
             Stimulus::Idle { element: None } => f.write_str("idle all"),
             Stimulus::Put { what, at: Pose2 { x, y, heading } } => {

@@ -10,7 +10,7 @@ use afp_core::trace::{Ending, Record, Verdict};
 use afp_core::{Duration, Fault, Instant, Platform, Text, Value, WriteError};
 use afp_session::{
     AnySession, Applied, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError,
-    RequestId, SampleRef, Sampling, Session, SetError, View,
+    RequestId, SampleRef, Sampling, Session, SetError, Stimulus, View,
 };
 use support::{POSITION, Toy, plan};
 
@@ -166,6 +166,23 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
     assert_eq!(notes.refused, [(at(50), id, RequestError::NotActive("rest".to_owned()))]);
     let late = session.at(at(50), Request::Stop);
     assert_eq!(late, Err(RequestError::Over { at: at(50), now: at(100) }));
+    // Of two outcomes at one instant the first comes; what is said names it as scenarios do.
+    let injection = || afp::load::Injection {
+        component: component(&session, "go"),
+        outcome: 0,
+        outputs: Vec::new(),
+    };
+    let twice = [injection(), injection()];
+    let shown = Stimulus::new(
+        &Request::Inject(injection()),
+        AnySession::devices(&session),
+        AnySession::names(&session),
+    );
+    assert!(shown.to_string().starts_with("finish go."), "{shown}");
+    let ids = twice.map(|each| session.at(at(150), Request::Inject(each)).unwrap());
+    session.run(at(200), &mut Open, &mut [&mut notes]).unwrap();
+    let reports = RequestError::Reports("go".to_owned());
+    assert_eq!(notes.refused[1..], [(at(150), ids[1], reports)]);
     session.stop(&mut []);
     assert_eq!(session.at(at(200), Request::Stop), Err(RequestError::Ended));
 }

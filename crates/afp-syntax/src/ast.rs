@@ -13,6 +13,7 @@ mod toolbox;
 
 use rowan::{GreenNodeData, GreenTokenData, Language, NodeOrToken};
 
+use crate::keywords;
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
 use crate::tree::green_span;
@@ -390,11 +391,19 @@ fn range(node: &Node, file: u16) -> Option<(Formula, Formula, Span)> {
 
 /// The first word of the grammar in a node.
 fn keyword(node: &Node) -> String {
-    token(node, Kind::Keyword, 0).map(|token| token.text).unwrap_or_default()
+    keyword_as(node, str::to_owned)
+}
+
+/// The first word of the grammar in a node, and its place.
+fn keyword_token(node: &Node, file: u16) -> Option<Name> {
+    let written = token(node, Kind::Keyword, file)?;
+    Some(Name { text: keyword(node), span: written.span })
 }
 
 /// What the first word of the grammar in a node stands for.
 fn keyword_as<R>(node: &Node, read: impl Fn(&str) -> R) -> R {
+    let own = node.kind();
+    let read = |text: &str| read(keywords::of_item(own, text));
     find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)))
         .unwrap_or_else(|| read(""))
 }

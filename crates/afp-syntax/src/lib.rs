@@ -7,6 +7,7 @@ pub mod ast;
 pub mod diagnostics;
 pub mod dimension;
 pub mod item;
+mod keywords;
 pub mod kind;
 mod lexer;
 pub mod literal;

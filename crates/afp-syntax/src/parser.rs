@@ -15,9 +15,11 @@ mod plan;
 mod reactions;
 mod recovery;
 mod scenario;
+mod slips;
 mod table;
 mod toolbox;
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rowan::{Checkpoint, GreenNode, GreenNodeBuilder, Language};
@@ -57,7 +59,15 @@ struct Parser<'t, 'd> {
     misplaced: bool,
     /// Whether every brace has its other one, so that none is missed.
     balanced: bool,
+    /// Whether the file is a toolbox, as far as it is read.
+    is_toolbox: bool,
+    /// Whether lines of a scenario are read.
+    in_scenario: bool,
     marks: Marks,
+    /// The token, among those that are read, that is read as another word than it is.
+    slip: Option<(usize, &'static str)>,
+    /// The first and the last of the names, with commas between them, that were looked at last.
+    names: Cell<(usize, usize)>,
     /// Lines of which something is said that comes before the grammar, by where they end, each with the place of that.
     reported: BTreeMap<u32, u32>,
     /// Where the lines end on which something is wrong that is not said.
@@ -85,7 +95,11 @@ impl<'t, 'd> Parser<'t, 'd> {
             depth: 0,
             misplaced: false,
             balanced: false,
+            is_toolbox: false,
+            in_scenario: false,
             marks,
+            slip: None,
+            names: Cell::new((1, 0)),
             reported: BTreeMap::new(),
             hidden: BTreeSet::new(),
             quiet: 0,
@@ -119,8 +133,9 @@ impl<'t, 'd> Parser<'t, 'd> {
     }
 
     fn word(&self, ahead: usize) -> &'t str {
-        match self.token(ahead) {
-            Some(token) if token.kind == Kind::Name => token.text,
+        match (self.token(ahead), self.slip) {
+            (_, Some((at, meant))) if at == self.at + ahead => meant,
+            (Some(token), _) if token.kind == Kind::Name => token.text,
             _ => "",
         }
     }

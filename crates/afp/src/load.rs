@@ -22,7 +22,7 @@ pub use afp_core::rt::{Args, BadValue, Outputs};
 pub use afp_dsl::graph::Graph;
 pub use constant::value_of;
 pub use error::{InputError, LoadError};
-pub use inject::{Injection, NotActive};
+pub use inject::{Injection, NotInjected};
 pub use library::load;
 pub use library::{Library, OpenError, Templates};
 pub use names::PlanNames;

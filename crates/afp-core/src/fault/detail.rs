@@ -143,10 +143,10 @@ impl<'a, N: Names + ?Sized> Explained<'a, N> {
             (Some(value), _) if value.is_nan() => f.write_str(" is not a number"),
             (Some(value), _) if value.is_infinite() => f.write_str(" is infinite"),
             (Some(value), Some((least, _))) if value < least => {
-                write!(f, " is {}, at least {}", shown(value), shown(least))
+                write!(f, " is {}, at least {}", shown(value), shown(least).beside(value))
             }
             (Some(value), Some((_, greatest))) if value > greatest => {
-                write!(f, " is {}, at most {}", shown(value), shown(greatest))
+                write!(f, " is {}, at most {}", shown(value), shown(greatest).beside(value))
             }
             (Some(value), _) if self.fault == Fault::RANGE => {
                 write!(f, " is {}, out of its range", shown(value))
@@ -166,6 +166,17 @@ struct Shown<'a> {
     value: f64,
     unit: &'a str,
     range: Option<(f64, f64)>,
+}
+
+impl<'a> Shown<'a> {
+    /// The bound that a value breaks: zero has the unit of the value.
+    fn beside(self, value: f64) -> impl fmt::Display + 'a {
+        let unit = Measured::new(value, self.unit).unit();
+        fmt::from_fn(move |f| match self.value == 0.0 {
+            true => write!(f, "{}", Quantity { value: 0.0, unit }),
+            false => write!(f, "{self}"),
+        })
+    }
 }
 
 impl fmt::Display for Shown<'_> {
@@ -197,5 +208,8 @@ mod tests {
         assert_eq!(shown(0.3, "m"), "30 cm");
         assert_eq!(shown(2.0, "rad"), "114.592 deg");
         assert_eq!(shown(-1e-9, "V"), "-0.000000001 V");
+        let zero = || Shown { value: 0.0, unit: "s", range: None };
+        assert_eq!(zero().beside(-1.0).to_string(), "0 s");
+        assert_eq!(zero().beside(-0.02).to_string(), "0 ms");
     }
 }

@@ -234,7 +234,7 @@ fn an_initial_value_that_cannot_be_computed_ends_the_plan() {
     assert_eq!(run.world.calls, [""; 0]);
     assert_lines(
         &run.trace(),
-        "0.000000 p fault arithmetic: a formula overflowed or has no finite value
+        "0.000000 p fault arithmetic: a formula overflowed, divided by zero, or has no finite value
          0.000000 p ended Error(arithmetic)",
     );
 }

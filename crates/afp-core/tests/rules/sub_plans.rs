@@ -304,7 +304,7 @@ fn a_sub_plan_that_cannot_be_initialised_shows_its_fault_once() {
         &run.trace(),
         "0.000000 s started
          0.000000 s ended Error(arithmetic)
-         0.000000 s fault arithmetic: a formula overflowed or has no finite value -> ok
+         0.000000 s fault arithmetic: a formula overflowed, divided by zero, or has no finite value -> ok
          0.000000 ok started",
     );
 }

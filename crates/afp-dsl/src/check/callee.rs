@@ -7,9 +7,9 @@ use crate::check::names::{ambiguous, unknown};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Context, PlanHead};
 use crate::files::relative;
-use crate::toolbox::TemplateKind;
+use crate::toolbox::{TemplateKind, Toolbox};
 use afp_syntax::ast::{Name, Ref};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 use afp_syntax::source::Span;
 
 /// Something of a name.
@@ -127,6 +127,12 @@ impl Context<'_> {
         {
             let known = self.file.imports.iter().map(|import| import.qualifier.as_str());
             let message = format!("no toolbox is used as '{}'", home.text);
+            let error = Diagnostic::new(Code::E0201, span, &*message);
+            if words::nearest(&home.text, known.clone()).is_none()
+                && let Some(error) = self.in_another_toolbox(name, Some(home), error)
+            {
+                return error;
+            }
             let none = format!("add 'use {}' at the top of the file", home.text);
             return unknown(Code::E0201, home.span, message, &home.text, known, &none);
         }
@@ -142,15 +148,10 @@ impl Context<'_> {
                 .help(format!("add '{line}' at the top of the file"))
                 .fix(self.file.top, format!("{line}\n"));
         }
-        let others =
-            self.program.toolboxes.iter().filter(|toolbox| {
-                toolbox.templates.iter().any(|template| template.name == name.text)
-            });
-        if let Some(other) = others.into_iter().next() {
-            let line = format!("use {}", other.name);
-            return Diagnostic::new(Code::E0201, span, message)
-                .help(format!("add '{line}' at the top of the file"))
-                .fix(self.file.top, format!("{line}\n"));
+        if let Some(error) =
+            self.in_another_toolbox(name, home, Diagnostic::new(Code::E0201, span, &*message))
+        {
+            return error;
         }
         let templates = self.file.imports.iter().flat_map(|import| &import.toolbox.templates);
         let fitting = templates
@@ -172,6 +173,39 @@ impl Context<'_> {
                 _ => "add 'use' and the name of its toolbox at the top of the file",
             },
         )
+    }
+
+    /// Says where a template is that a toolbox has which is not used, or not the one that is named.
+    fn in_another_toolbox(
+        &self,
+        name: &Name,
+        home: Option<&Name>,
+        error: Diagnostic,
+    ) -> Option<Diagnostic> {
+        let has = |toolbox: &Toolbox| toolbox.templates.iter().any(|it| it.name == name.text);
+        if let Some(used) = self.file.imports.iter().find(|import| has(&import.toolbox)) {
+            let better = format!("{}.{}", used.qualifier, name.text);
+            return Some(error.help(format!("write '{better}'")).replace(better));
+        }
+        let is_named = |toolbox: &Toolbox| home.is_some_and(|home| home.text == toolbox.name);
+        let others = self.program.toolboxes.iter().filter(|toolbox| has(toolbox));
+        // The first of those that suit equally well.
+        let other = others.min_by_key(|toolbox| !is_named(toolbox))?;
+        let taken = |word: &str| self.file.imports.iter().any(|import| import.qualifier == word);
+        let numbered = (2_u32..).map(|number| format!("{}{number}", other.name));
+        let mut words = std::iter::once(other.name.clone()).chain(numbered);
+        let word = words.find(|word| !taken(word))?;
+        let line = match word == other.name {
+            true => format!("use {word}"),
+            false => format!("use {} as {word}", other.name),
+        };
+        let add = format!("add '{line}' at the top of the file");
+        Some(match home {
+            Some(home) if home.text != word => {
+                error.help(format!("{add}, and write '{word}.{}'", name.text))
+            }
+            _ => error.help(add).fix(self.file.top, format!("{line}\n")),
+        })
     }
 
     /// The plans but that around a place: a plan cannot be part of itself.

@@ -25,13 +25,19 @@ const MISSING: &[Code] = &[
     Code::E0215,
     Code::E0216,
     Code::E0225,
+    Code::E0232,
     Code::E0233,
+    Code::E0239,
     Code::E0241,
     Code::E0248,
+    Code::E0253,
     Code::E0602,
     Code::E0603,
     Code::E0608,
 ];
+
+/// What may seem to be missing of an enum or a table without a name.
+const OF_FILES: &[Code] = &[Code::E0232, Code::E0239, Code::E0253];
 
 /// What the grammar says of a declaration without a name.
 const NAMELESS: &str = "expected a name";
@@ -84,7 +90,9 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
     let by_line = ByLine::new(&lines, &all.places);
     let words = by_line.lines().flat_map(|(file, line)| self::words(lines.text(file, line)));
     let words: FxHashSet<&str> = words.collect();
-    let nameless = Ranges::new(plans_around(files, &Within::new(&all.nameless)));
+    let nameless = Within::new(&all.nameless);
+    let of_files: FxHashSet<u16> = types_around(files, &nameless).map(|item| item.file).collect();
+    let nameless = Ranges::new(plans_around(files, &nameless));
     let broken = Ranges::new(items.iter().copied().filter(|item| unread.any(*item)).collect());
     // A plan that ends too early has the rest of it behind itself.
     let items = Ranges::new(items);
@@ -115,6 +123,9 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
             // Of an edge that is not there the element that it would lead from.
             let most = if each.code == Code::E0603 { 1 } else { usize::MAX };
             let mut parts = named.take(most).flat_map(|name| name.split('.'));
+            if OF_FILES.contains(&each.code) {
+                return whole.contains(&file) || of_files.contains(&file);
+            }
             let declared =
                 matches!(each.code, Code::E0209 | Code::E0216) && nameless.any(each.span);
             whole.contains(&file) || declared || parts.any(|name| words.contains(name))
@@ -143,6 +154,13 @@ fn plans_around(files: &[PlanFile], nameless: &Within) -> Vec<Span> {
         _ => None,
     });
     plans.filter(|plan| nameless.any(*plan)).collect()
+}
+
+/// The enums and tables without their names.
+fn types_around(files: &[PlanFile], nameless: &Within) -> impl Iterator<Item = Span> {
+    let items = files.iter().flat_map(|file| file.tree.items());
+    let types = items.filter(|item| matches!(item, Item::Enum(_) | Item::Table(_)));
+    types.filter_map(|item| span(&item)).filter(|item| nameless.any(*item))
 }
 
 /// Files with a 'use' that cannot be read: what it would have brought is not known.

@@ -16,11 +16,10 @@ pub(crate) fn read(
     diags: &mut Diagnostics,
 ) -> Option<Arc<Enum>> {
     let name = node.name()?;
-    let variants = node.variants();
+    let mut variants = node.variants();
     let mut names = DeclaredNames::default();
-    for variant in &variants {
-        names.declare(variant, diags);
-    }
+    // One that is there twice is said once, not wherever the enum is used.
+    variants.retain(|variant| names.declare(variant, diags));
     let spans = variants.iter().map(|variant| variant.span);
     size::at_most(MAX_ROWS, ("an enum", "values"), spans, "split it into two enums", diags);
     if variants.is_empty() && !diags.error_within(node.span()) {

@@ -20,7 +20,7 @@ use crate::table::Table;
 use crate::toolbox::Constant;
 use crate::types::Type;
 use afp_syntax::ast;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
 use afp_syntax::source::Span;
 
 /// Greatest number of literals, entries and operations in one formula.
@@ -134,6 +134,8 @@ impl Scope<'_> {
         let value = self.evaluate(&typed);
         // What is known now cannot fail later.
         remarks.retain(|remark| remark.code != Code::E0208 || matches!(value, Ok(None)));
+        // What has no value is not converted.
+        remarks.retain(|remark| value.is_ok() || remark.severity == Severity::Error);
         diags.extend(remarks);
         match value {
             Ok(value) => Some((typed, value)),

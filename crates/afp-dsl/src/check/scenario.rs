@@ -301,9 +301,13 @@ impl Checker<'_> {
         diags: &mut Diagnostics,
     ) {
         let plan = self.paths.graph.main();
+        let drafts = &self.paths.names.program.plans[self.paths.main].entries;
+        // A default that is wrong has been reported.
+        let has_default =
+            |index: &u16| drafts.get(usize::from(*index)).is_some_and(|it| it.has_init);
         let missing = (0..).zip(&plan.entries).filter(|(index, entry)| {
             entry.kind == EntryKind::In
-                && entry.init.is_none()
+                && !has_default(index)
                 && !scenario.set.iter().any(|(set, _)| set == index)
         });
         let missing: Vec<_> = missing.map(|(_, entry)| entry).collect();

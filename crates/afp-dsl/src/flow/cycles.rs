@@ -143,8 +143,17 @@ impl<'a, 'b> Quick<'a, 'b> {
             || edges.any(|edge| {
                 !matches!(edge.cause, Cause::Active(_))
                     && edge.possible
+                    && self.can_be_taken(edge.cause)
                     && self.component[edge.from] != self.component[edge.to]
             })
+    }
+
+    /// Whether an edge leads anywhere at all: a fault may be none that can come.
+    fn can_be_taken(&self, cause: Cause) -> bool {
+        match cause {
+            Cause::Error(id) => holding::can_fail(self.view, &self.view.plan.elements[id.index()]),
+            _ => true,
+        }
     }
 
     /// The cycle that an edge closes: itself, then a shortest way from its end to its beginning.

@@ -108,8 +108,8 @@ fn a_fix_mends_what_it_is_for() {
         let compiled = support::compile(&text, &toolboxes);
         let has = |compiled: &Compiled, wanted: &Diagnostic| {
             compiled.diags.iter().any(|each| {
-                (each.code, &each.message, each.span.start)
-                    == (wanted.code, &wanted.message, wanted.span.start)
+                (each.code, &each.message, each.span.file, each.span.start)
+                    == (wanted.code, &wanted.message, wanted.span.file, wanted.span.start)
             })
         };
         for diagnostic in compiled.diags.iter() {

@@ -5,6 +5,7 @@ use crate::support;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
+use afp_dsl::Compiled;
 use afp_dsl::timing::timing;
 
 /// Sub-plans in sub-plans.
@@ -70,47 +71,62 @@ fn plans_that_no_machine_could_unfold_are_refused() {
     assert!(deep.contains("1001 deep; at most 1000"), "{deep}");
 }
 
+/// The least time of two in which a text is compiled and `check` holds of it.
+fn least(text: &str, check: impl Fn(&Compiled)) -> Duration {
+    let toolboxes = support::toolboxes();
+    let run = || {
+        let begin = Instant::now();
+        let compiled = support::compile(text, &toolboxes);
+        check(&compiled);
+        begin.elapsed()
+    };
+    (0..2).map(|_| run()).min().unwrap_or(Duration::ZERO)
+}
+
+/// Checks that something long takes less than so many times as long as something short. The machine may be busy while
+/// one of the two runs, so they are tried together several times.
+fn takes_at_most(most: u32, what: &str, short: impl Fn() -> Duration, long: impl Fn() -> Duration) {
+    let fits = |(short, long): &(Duration, Duration)| {
+        *long < (*short).max(Duration::from_millis(1)) * most
+    };
+    let mut tries = Vec::new();
+    for _ in 0..4 {
+        tries.push((short(), long()));
+        if tries.last().is_some_and(fits) {
+            return;
+        }
+    }
+    panic!("{what}: never less than {most} times: {tries:?}");
+}
+
 #[test]
 fn ten_times_the_plan_takes_about_ten_times_as_long() {
-    let toolboxes = support::toolboxes();
-    let best = |length: usize| {
-        let text = long(length);
-        let run = || {
-            let begin = Instant::now();
-            let compiled = support::compile(&text, &toolboxes);
-            assert!(compiled.graph.is_some(), "{}", compiled.render(false));
-            begin.elapsed()
-        };
-        (0..3).map(|_| run()).min().unwrap_or(Duration::ZERO)
+    let check = |compiled: &Compiled| {
+        assert!(compiled.graph.is_some(), "{}", compiled.render(false));
     };
-    let (short, long) = (best(400), best(4000));
-    // A quadratic part would show as a hundred times; the machine may be busy.
-    assert!(long < short * 35, "{short:?} for 400 actors, {long:?} for 4000");
+    let time = |length: usize| move || least(&long(length), check);
+    // A quadratic part would show as a hundred times.
+    takes_at_most(35, "400 and 4000 actors", time(400), time(4000));
 }
 
 #[test]
 fn ten_times_the_unknown_names_take_about_ten_times_as_long() {
-    let toolboxes = support::toolboxes();
-    let best = |count: usize| {
-        let mut text = String::from("use carbot\nplan P {\n    start a0\n");
-        for at in 0..count {
-            let to = at * 7 % (count + 1);
-            let _ = writeln!(text, "    actor a{at}: Forward {{ ForwardSuccessful -> b{to} }}");
+    let time = |count: usize| {
+        move || {
+            let mut text = String::from("use carbot\nplan P {\n    start a0\n");
+            for at in 0..count {
+                let to = at * 7 % (count + 1);
+                let _ = writeln!(text, "    actor a{at}: Forward {{ ForwardSuccessful -> b{to} }}");
+            }
+            text += "}\n";
+            least(&text, |compiled| {
+                let unknown = compiled.diags.iter().filter(|each| each.code.as_str() == "E0216");
+                assert_eq!(unknown.count(), count);
+            })
         }
-        text += "}\n";
-        let run = || {
-            let begin = Instant::now();
-            let compiled = support::compile(&text, &toolboxes);
-            let took = begin.elapsed();
-            let unknown = compiled.diags.iter().filter(|each| each.code.as_str() == "E0216");
-            assert_eq!(unknown.count(), count);
-            took
-        };
-        (0..3).map(|_| run()).min().unwrap_or(Duration::ZERO)
     };
-    let (few, many) = (best(312), best(3120));
-    // Comparing all pairs would take a hundred times as long; the machine may be busy.
-    assert!(many < few * 50, "{few:?} for 312 names, {many:?} for 3120");
+    // Comparing all pairs would take a hundred times as long.
+    takes_at_most(50, "312 and 3120 names", time(312), time(3120));
 }
 
 #[test]
@@ -123,18 +139,6 @@ fn a_line_that_is_wrong_thousands_of_times_is_not_shown_as_often() {
     let shown = compiled.render(false);
     assert!(shown.ends_with(&format!("... and {} more about line 1", count - 20)), "{count}");
     assert!(shown.len() < 30 * text.len(), "{} bytes", shown.len());
-}
-
-/// The least time of three in which a text of so many pieces is checked and what is wrong with it shown.
-fn answered(piece: &str, count: usize) -> Duration {
-    let (toolboxes, text) = (support::toolboxes(), piece.repeat(count));
-    let run = || {
-        let begin = Instant::now();
-        let compiled = support::compile(&text, &toolboxes);
-        assert!(!compiled.render(false).is_empty());
-        begin.elapsed()
-    };
-    (0..3).map(|_| run()).min().unwrap_or(Duration::ZERO)
 }
 
 /// Files that are one line, wrong at every token, took time by the square of their length; so did many errors, and errors that point
@@ -152,11 +156,12 @@ fn sixteen_times_the_junk_takes_about_sixteen_times_as_long() {
         "# x = 3\n",
         "plan P {}\n",
         "actor a: Forward(\n",
+        "actor a: W { a, a, a, ",
     ];
+    let shown = |compiled: &Compiled| assert!(!compiled.render(false).is_empty());
     for piece in pieces {
-        let (short, long) = (answered(piece, 125), answered(piece, 2000));
-        // By the square it would be 256 times; the machine may be busy.
-        let most = short.max(Duration::from_millis(1)) * 90;
-        assert!(long < most, "{piece:?}: {short:?} for 125, {long:?} for 2000");
+        let time = |count: usize| move || least(&piece.repeat(count), shown);
+        // By the square it would be 256 times.
+        takes_at_most(90, piece, time(125), time(2000));
     }
 }

@@ -72,6 +72,13 @@ pub(super) enum Place {
     Moment,
     /// What a scenario names, behind a word of it.
     Path(String),
+    /// What can end the element that a claim begins with.
+    Cause(Node),
+    /// Entries that a scenario sets: before the run, or while it goes on.
+    Set {
+        /// Whether the run goes on.
+        later: bool,
+    },
     /// The plan that a scenario is for.
     PlanName,
     /// Parts of a template or device of a toolbox.
@@ -85,6 +92,8 @@ pub(super) enum Wanted {
     Port(Node, String),
     /// An entry.
     Entry(Node),
+    /// The entry that a path of a scenario names.
+    Named(Node),
     /// A time.
     Time,
     /// Something else.
@@ -225,7 +234,14 @@ fn keyword(word: &Token, parent: Option<&Node>) -> Option<Place> {
         }
         ("for", Kind::Scenario) => Place::PlanName,
         ("for", _) => Place::Value(Wanted::Time),
-        ("expect" | "never" | "of" | "by" | "set", _) => Place::Path(word.text().to_owned()),
+        ("set", kind) => Place::Set { later: kind == Kind::Action },
+        ("by", Kind::Claim) if parent.is_some_and(|claim| token(claim, Kind::Arrow).is_some()) => {
+            Place::Cause(parent?.clone())
+        }
+        ("by", Kind::Claim) if parent.is_some_and(|claim| has_word(claim, "end")) => {
+            Place::Path("end by".to_owned())
+        }
+        ("expect" | "never" | "of" | "by", _) => Place::Path(word.text().to_owned()),
         (_, Kind::Action) => Place::Path(word.text().to_owned()),
         ("from", Kind::Moment) => Place::Path("expect".to_owned()),
         ("from" | "to", Kind::Range) => Place::Value(wanted(word)),
@@ -291,7 +307,17 @@ fn in_brackets(token: &Token) -> bool {
 fn wanted(token: &Token) -> Wanted {
     let Some(node) = ancestor(
         token,
-        &[Kind::BindIn, Kind::Entry, Kind::Timing, Kind::Stimulus, Kind::Bound, Kind::Until],
+        &[
+            Kind::BindIn,
+            Kind::Entry,
+            Kind::Timing,
+            Kind::Set,
+            Kind::Action,
+            Kind::Claim,
+            Kind::Stimulus,
+            Kind::Bound,
+            Kind::Until,
+        ],
     ) else {
         return Wanted::Unknown;
     };
@@ -301,8 +327,18 @@ fn wanted(token: &Token) -> Wanted {
             None => Wanted::Unknown,
         },
         Kind::Entry => Wanted::Entry(node),
+        Kind::Action if !has_word(&node, "set") => Wanted::Time,
+        Kind::Set | Kind::Action | Kind::Claim => {
+            let path = node.children().find(|child| child.kind() == Kind::Path);
+            path.map_or(Wanted::Unknown, Wanted::Named)
+        }
         _ => Wanted::Time,
     }
+}
+
+/// Whether a word of the grammar stands directly in a node.
+fn has_word(node: &Node, word: &str) -> bool {
+    tokens(node).any(|token| token.kind() == Kind::Keyword && token.text() == word)
 }
 
 fn first_name(node: &Node) -> String {

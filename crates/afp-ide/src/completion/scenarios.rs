@@ -3,7 +3,11 @@
 use super::List;
 use super::bodies::{Piece, plain};
 use afp_dsl::VERBS;
+use afp_dsl::graph::EntryKind;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
+use afp_dsl::outline::ComponentKind;
+use afp_syntax::Node;
+use afp_syntax::kind::Kind;
 
 /// Lines of a scenario, or those of them that may count from one of its moments.
 pub(super) fn lines(list: &mut List, of_whole_run: bool) {
@@ -41,15 +45,64 @@ pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
             });
             devices(list, &[DefinitionKind::Signal, DefinitionKind::Device]);
         }
-        "set" => of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Entry(_))),
         "->" => {
             list.keyword("terminate", plain("terminate"), 1);
             list.keyword("fail", plain("fail"), 1);
             list.keyword("resume", plain("resume"), 1);
+            of_plan(list, offset, |kind| is_component(kind, false));
+        }
+        "end by" => {
+            list.keywords_alone(&["OK", "Interrupted", "Error"], 1);
             of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_)));
         }
         _ => of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_))),
     }
+}
+
+/// Entries that can be set: before the run those that whoever starts the plan gives their values.
+pub(super) fn entries(list: &mut List, later: bool, offset: u32) {
+    match later {
+        true => of_plan(list, offset, |kind| {
+            matches!(kind, DefinitionKind::Entry(EntryKind::In | EntryKind::Var))
+        }),
+        false => of_plan(list, offset, |kind| kind == DefinitionKind::Entry(EntryKind::In)),
+    }
+}
+
+/// What can end the element that a claim begins with: its states, its supervisors and those of its plan.
+pub(super) fn causes(list: &mut List, claim: &Node, offset: u32) {
+    let view = list.view;
+    let Some(element) = first_path(claim).and_then(|path| view.named_by(&path)) else {
+        return of_plan(list, offset, |kind| is_component(kind, true));
+    };
+    let index = view.index();
+    let definition = index.definition(element);
+    for owner in [Some(element), definition.owner].into_iter().flatten() {
+        let members = index.members(owner).filter(|(_, known)| is_component(known.kind, true));
+        let members: Vec<_> = members.map(|(id, _)| id).collect();
+        members.into_iter().for_each(|id| list.definition(id, 0));
+    }
+    let made = definition.made_from;
+    let of_plan = made.is_some_and(|made| index.definition(made).kind == DefinitionKind::Plan);
+    let states = made.into_iter().flat_map(|made| index.members(made));
+    let states = states.filter(|(_, known)| known.kind == DefinitionKind::State);
+    let states: Vec<_> = states.map(|(id, _)| id).collect();
+    states.into_iter().for_each(|id| list.definition(id, 1));
+    if of_plan {
+        list.keywords_alone(&["OK", "Interrupted"], 1);
+    }
+    list.keywords_alone(&["Error"], 2);
+}
+
+/// The first path of a claim.
+fn first_path(claim: &Node) -> Option<Node> {
+    claim.children().find(|child| child.kind() == Kind::Path)
+}
+
+/// Whether something is a supervisor, or else an element.
+fn is_component(kind: DefinitionKind, watches: bool) -> bool {
+    let supervisor = DefinitionKind::Component(ComponentKind::Supervisor);
+    matches!(kind, DefinitionKind::Component(_)) && (kind == supervisor) == watches
 }
 
 /// What the plan of the scenario at a place is made of.

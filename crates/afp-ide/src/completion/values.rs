@@ -11,6 +11,7 @@ use afp_dsl::index::DefinitionKind;
 use afp_dsl::outline::{Binding, Component, Entry, MadeFrom};
 use afp_dsl::toolbox::Constant;
 use afp_dsl::types::{Dimension, Type};
+use afp_syntax::Node;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
@@ -18,6 +19,14 @@ use afp_syntax::units::Unit;
 pub(super) struct Expected {
     ty: Type,
     default: Option<Constant>,
+    /// Whether only values of enums fit.
+    of_enum: bool,
+}
+
+impl From<Type> for Expected {
+    fn from(ty: Type) -> Expected {
+        Expected { ty, default: None, of_enum: false }
+    }
 }
 
 /// What a value at a place shall be; `None` where that is not known.
@@ -26,18 +35,52 @@ pub(super) fn wanted(view: &View, wanted: &Wanted, offset: u32) -> Option<Expect
         Wanted::Port(node, port) => {
             let component = view.component(node)?;
             let input = component.inputs.iter().find(|input| *input.name == **port)?;
-            Some(Expected { ty: input.ty.clone()?, default: input.default.clone() })
+            let of_enum = gives_states(component, port);
+            Some(Expected { ty: input.ty.clone()?, default: input.default.clone(), of_enum })
         }
         Wanted::Entry(node) => {
-            let span = view.node_span(node);
-            let plan = view.plan_at(offset)?;
-            let entry = plan.entries.iter().find(|entry| entry.span == span)?;
-            Some(Expected { ty: entry.ty.clone()?, default: None })
+            let (_, entry) = entry_at(view, node, offset)?;
+            entry.ty.clone().map(Expected::from)
         }
-        Wanted::Time => {
-            Some(Expected { ty: Type::Quantity(Dimension::named("duration")?), default: None })
+        Wanted::Named(path) => {
+            let name = view.index().definition(view.named_by(path)?).name;
+            let mut entries = view.outline().plans.iter().flat_map(|plan| &plan.entries);
+            let entry = entries.find(|it| it.name.as_ref().is_some_and(|it| it.span == name))?;
+            entry.ty.clone().map(Expected::from)
         }
+        Wanted::Time => Dimension::named("duration").map(Type::Quantity).map(Expected::from),
         Wanted::Unknown => None,
+    }
+}
+
+/// The entry whose node that is, and its place among those of its plan.
+fn entry_at<'a>(view: &View<'a>, node: &Node, offset: u32) -> Option<(usize, &'a Entry)> {
+    let span = view.node_span(node);
+    view.plan_at(offset)?.entries.iter().enumerate().find(|(_, entry)| entry.span == span)
+}
+
+/// Whether the states of a component are the values of what goes into a port.
+fn gives_states(component: &Component, port: &str) -> bool {
+    let made = component.template.as_ref().and_then(|template| template.made_from.as_ref());
+    let Some(MadeFrom::Template { toolbox, index }) = made else { return false };
+    let template = toolbox.templates.get(*index);
+    let states = template.and_then(|template| Some((template, template.states_of.as_ref()?)));
+    states.is_some_and(|(template, states)| {
+        template.inputs.get(usize::from(states.port)).is_some_and(|input| input.name == port)
+    })
+}
+
+/// Which entries of a plan can be read at a place: what an entry begins with is known before the run.
+fn readable(view: &View, wanted: &Wanted, offset: u32) -> impl Fn(usize, &Entry) -> bool {
+    let own = match wanted {
+        Wanted::Entry(node) => entry_at(view, node, offset).map(|(at, own)| (at, own.kind)),
+        _ => None,
+    };
+    move |at, entry| match own {
+        None => true,
+        Some((own, EntryKind::Const)) => entry.kind == EntryKind::Const && at < own,
+        Some((_, EntryKind::In)) => entry.kind == EntryKind::Const,
+        Some(_) => matches!(entry.kind, EntryKind::Const | EntryKind::In),
     }
 }
 
@@ -91,11 +134,14 @@ fn port(
 }
 
 /// What can be computed with: entries, those of the type that is wanted first, then values.
-pub(super) fn formulas(list: &mut List, expected: Option<&Expected>, offset: u32) {
+pub(super) fn formulas(list: &mut List, wanted: &Wanted, offset: u32) {
     let view = list.view;
+    let expected = self::wanted(view, wanted, offset);
+    let expected = expected.as_ref();
     let entries = view.plan_at(offset).map_or(&[][..], |plan| &plan.entries);
-    for entry in entries {
-        let fits = expected.is_none_or(|expected| is_near(entry.ty.as_ref(), &expected.ty));
+    let readable = readable(view, wanted, offset);
+    for (_, entry) in entries.iter().enumerate().filter(|(at, entry)| readable(*at, entry)) {
+        let fits = expected.is_none_or(|expected| expected.is_near(entry.ty.as_ref()));
         let same = expected.is_some_and(|expected| entry.ty.as_ref() == Some(&expected.ty));
         let rank = match (same, fits) {
             (true, _) => 0,
@@ -141,15 +187,20 @@ fn literals(list: &mut List, expected: &Expected) {
     }
 }
 
-/// Whether a value of a type becomes one of another without much ado, or can be computed with for it.
-fn is_near(ty: Option<&Type>, wanted: &Type) -> bool {
-    match (ty, wanted) {
-        (None, _) | (_, Type::Any | Type::Text) => true,
-        (Some(Type::Int), Type::Quantity(dimension)) => *dimension == Dimension::NONE,
-        (Some(ty), Type::Number) => ty.is_numeric(),
-        // Factors without a dimension.
-        (Some(Type::Quantity(own)), Type::Quantity(_)) => *own == Dimension::NONE,
-        (Some(ty), wanted) => ty == wanted,
+impl Expected {
+    /// Whether a value of a type becomes what is expected without much ado, or can be computed with for it.
+    fn is_near(&self, ty: Option<&Type>) -> bool {
+        match (ty, &self.ty) {
+            (None, _) => true,
+            (Some(ty), _) if self.of_enum => matches!(ty, Type::Enum(_)),
+            (_, Type::Any | Type::Text) => true,
+            (Some(Type::Int), Type::Quantity(dimension)) => *dimension == Dimension::NONE,
+            (Some(ty), Type::Number) => ty.is_numeric(),
+            (Some(ty), Type::Discrete) => ty.is_discrete(),
+            // Factors without a dimension.
+            (Some(Type::Quantity(own)), Type::Quantity(_)) => *own == Dimension::NONE,
+            (Some(ty), wanted) => ty == wanted,
+        }
     }
 }
 

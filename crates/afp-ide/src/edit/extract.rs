@@ -5,12 +5,13 @@
 
 mod data;
 mod flow;
+mod scenarios;
 
 use super::buffer::TextBuffer;
 use super::list::{Page, indented};
 use super::project::Project;
 use super::tree::{self, Scope, children, is_named, name_of, range};
-use super::{Item, Refused, add, fragment, name, refer, remove};
+use super::{Refused, add, fragment, name, remove};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
@@ -142,12 +143,7 @@ fn lead_through(
     let mut splices: Vec<_> =
         flow.ways_in.iter().map(|token| (range(token), element.to_owned())).collect();
     splices.extend(flow.ways_out.iter().map(|token| (range(token), "terminate".to_owned())));
-    let names = selection.elements.iter().filter_map(name_of);
-    let items: Vec<_> = names.map(|name| Item::inner(plan, name)).collect();
-    for token in refer::in_scenarios(&selection.project, 0, &items) {
-        let start = range(&token).start;
-        splices.push((start..start, format!("{element}.")));
-    }
+    splices.extend(scenarios::splices(selection, plan, element));
     buffer.splice(splices);
 }
 

@@ -10,8 +10,8 @@ mod visibility;
 use super::project::{Project, Workspace};
 use super::tree::{self, Scope, children, name_of, name_token, range, target};
 use super::{Item, Refused, add, connect, name, refer, remove};
-use afp_syntax::Node;
 use afp_syntax::kind::Kind;
+use afp_syntax::{Node, Token};
 
 use data::Data;
 
@@ -171,6 +171,11 @@ fn redirect(
             continue;
         }
         seen.push(token.clone());
+        if next.is_none() && is_left(&token) {
+            return Err(Refused::new(format!(
+                "a scenario says what comes after '{element}' as a whole"
+            )));
+        }
         splices.push(match next {
             None => (range(&token), call.first.clone()),
             Some(next) => {
@@ -185,4 +190,11 @@ fn redirect(
     }
     workspace.buffer().splice(splices);
     Ok(())
+}
+
+/// Whether a name stands before the arrow of a claim.
+fn is_left(token: &Token) -> bool {
+    let claim = token.parent().and_then(|path| path.parent());
+    let arrow = claim.and_then(|claim| tree::tokens(&claim, Kind::Arrow).next());
+    arrow.is_some_and(|arrow| range(token).end <= range(&arrow).start)
 }

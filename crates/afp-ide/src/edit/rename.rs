@@ -1,7 +1,7 @@
 //! Another name for an item, wherever the files refer to it.
 
 use super::project::{Project, Workspace};
-use super::tree::{self, name_token, range, scope_of};
+use super::tree::{self, Scope, name_token, range, scope_of};
 use super::{Item, Refused, name, refer};
 use afp_dsl::types::is_built_in;
 use afp_syntax::kind::Kind;
@@ -39,30 +39,50 @@ pub(super) fn column(
     column: &str,
     to: &str,
 ) -> Result<(), Refused> {
-    name::check(to)?;
-    let root = workspace.buffer().root();
-    let node = tree::find(&root, &Item::table(table))?;
-    let columns: Vec<_> = tree::below(&node, Kind::Column).collect();
-    if !columns.iter().any(|each| tree::is_named(each, column)) {
-        return Err(Refused::new(format!("the table '{table}' has no column '{column}'")));
-    }
-    if to == column {
-        return Ok(());
-    }
     if matches!(to, "table" | "index") {
         return Err(Refused::new(format!("'{to}' is a port of what reads tables")));
     }
-    if columns.iter().any(|each| tree::is_named(each, to)) {
-        return Err(Refused::new(format!("'{to}' is already there")));
+    let missing = format!("the table '{table}' has no column '{column}'");
+    inner(workspace, (&Item::table(table), Kind::Column), column, to, &missing)
+}
+
+/// Renames a value of an enum.
+pub(super) fn value(
+    workspace: &mut Workspace,
+    enumeration: &str,
+    value: &str,
+    to: &str,
+) -> Result<(), Refused> {
+    let missing = format!("the enum '{enumeration}' has no value '{value}'");
+    inner(workspace, (&Item::enumeration(enumeration), Kind::Variant), value, to, &missing)
+}
+
+/// Renames a part of an item that is an item of no plan.
+fn inner(
+    workspace: &mut Workspace,
+    (item, kind): (&Item, Kind),
+    name: &str,
+    to: &str,
+    missing: &str,
+) -> Result<(), Refused> {
+    name::check(to)?;
+    let root = workspace.buffer().root();
+    let scope = Scope::Inside(tree::find(&root, item)?, kind);
+    if !scope.names().iter().any(|known| known == name) {
+        return Err(Refused::new(missing));
     }
+    if to == name {
+        return Ok(());
+    }
+    name::check_free(&scope, to, Some(name))?;
     let home = workspace.home;
     let tokens = |project: &Project| {
-        let table = tree::find(&project.roots[home], &Item::table(table)).ok();
-        let columns = table.iter().flat_map(|table| tree::below(table, Kind::Column));
-        let name =
-            columns.filter(|each| tree::is_named(each, column)).find_map(|it| name_token(&it));
-        let uses = name.iter().flat_map(|name| project.references(home, name));
-        uses.chain(name.iter().map(|name| (home, name.clone()))).collect()
+        let item = tree::find(&project.roots[home], item).ok();
+        let parts = item.iter().flat_map(|item| tree::below(item, kind));
+        let declared =
+            parts.filter(|each| tree::is_named(each, name)).find_map(|it| name_token(&it));
+        let uses = declared.iter().flat_map(|name| project.references(home, name));
+        uses.chain(declared.iter().map(|name| (home, name.clone()))).collect()
     };
     everywhere(workspace, tokens, to)
 }
@@ -109,11 +129,20 @@ fn spell_out(workspace: &mut Workspace, project: &Project, tokens: &[(usize, Tok
 fn check_free_elsewhere(workspace: &Workspace, kind: Kind, to: &str) -> Result<(), Refused> {
     let project = workspace.project();
     let seeing = project.sees.iter().enumerate().filter(|(_, seen)| seen.contains(&workspace.home));
-    let found = seeing.into_iter().find_map(|(file, _)| project.find(file, kind, to));
-    match found {
+    let seeing: Vec<_> = seeing.map(|(file, _)| file).collect();
+    if let Some((file, _)) = seeing.iter().find_map(|file| project.find(*file, kind, to)) {
+        return Err(Refused::new(format!(
+            "'{to}' is already there in '{}'",
+            workspace.paths[file]
+        )));
+    }
+    let toolboxes = &workspace.buffers[workspace.home].toolboxes;
+    let used = seeing.iter().flat_map(|file| tree::children(&project.roots[*file], Kind::Use));
+    let mut used = used.filter_map(|line| toolboxes.get(&tree::name_of(&line)?));
+    match used.find(|toolbox| kind == Kind::Enum && toolbox.has_type(to)) {
         None => Ok(()),
-        Some((file, _)) => {
-            Err(Refused::new(format!("'{to}' is already there in '{}'", workspace.paths[file])))
+        Some(toolbox) => {
+            Err(Refused::new(format!("'{to}' is a type of the toolbox '{}'", toolbox.name)))
         }
     }
 }

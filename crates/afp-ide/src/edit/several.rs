@@ -179,7 +179,7 @@ impl Given {
             }
             C::Remove { item } => C::Remove { item: self.item(item) },
             C::Rename { item, to } => C::Rename { item: self.item(item), to },
-            C::RenameColumn { .. } => change,
+            C::RenameColumn { .. } | C::RenameValue { .. } => change,
             C::Connect { from, outcome, to } => {
                 let to = self.name(from.plan_name(), to);
                 C::Connect { from: self.item(from), outcome, to }

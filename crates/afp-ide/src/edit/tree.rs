@@ -8,24 +8,29 @@ use afp_syntax::{Node, Token};
 
 /// Where names of one kind must differ.
 pub(super) enum Scope {
-    /// The plans of a file.
+    /// The plans of a file, which differ from its tables, too.
     File(Node),
-    /// The enums of a file.
+    /// The enums of a file, which differ from its tables, too.
     Enums(Node),
-    /// The tables of a file.
+    /// The tables of a file, which differ from its plans and enums, too.
     Tables(Node),
     /// Entries, elements and global supervisors of a plan.
     Plan(Node),
     /// The local supervisors of an element.
     Element(Node),
+    /// The parts of a kind in an item: columns of a table, values of an enum.
+    Inside(Node, Kind),
 }
 
 impl Scope {
     /// The names in it.
     pub fn names(&self) -> Vec<String> {
         let (node, kinds): (_, &[Kind]) = match self {
-            Scope::File(node) => (node, &[Kind::Plan]),
-            Scope::Enums(node) => (node, &[Kind::Enum]),
+            Scope::Inside(node, kind) => {
+                return below(node, *kind).filter_map(|part| name_of(&part)).collect();
+            }
+            Scope::File(node) => (node, &[Kind::Plan, Kind::Table]),
+            Scope::Enums(node) => (node, &[Kind::Enum, Kind::Table]),
             Scope::Tables(node) => (node, &[Kind::Table, Kind::Plan, Kind::Enum]),
             Scope::Plan(node) => (node, &[Kind::Entry, Kind::Element, Kind::Guard]),
             Scope::Element(node) => (node, &[Kind::Guard]),

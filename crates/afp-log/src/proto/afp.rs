@@ -317,7 +317,7 @@ pub mod request {
         Release = 3,
         /// The fault `name` begins, by `amount`, for `lasting_ns`.
         Fail = 4,
-        /// The component `name` reports `outcome` with `outputs`.
+        /// The supervisor `name` reports `outcome` with `outputs`.
         Fire = 5,
         /// The actor or sub-plan `name`, or all of them, do nothing any more.
         Idle = 6,
@@ -327,6 +327,8 @@ pub mod request {
         Move = 8,
         /// Something new of the shape `name` is put at `pose`.
         Drop = 9,
+        /// The element `name` ends in `outcome` with `outputs`.
+        Finish = 10,
     }
     impl Kind {
         /// String value of the enum field names used in the ProtoBuf definition.
@@ -345,6 +347,7 @@ pub mod request {
                 Self::Stop => "STOP",
                 Self::Move => "MOVE",
                 Self::Drop => "DROP",
+                Self::Finish => "FINISH",
             }
         }
         /// Creates an enum from field names used in the ProtoBuf definition.
@@ -360,6 +363,7 @@ pub mod request {
                 "STOP" => Some(Self::Stop),
                 "MOVE" => Some(Self::Move),
                 "DROP" => Some(Self::Drop),
+                "FINISH" => Some(Self::Finish),
                 _ => None,
             }
         }

@@ -104,7 +104,9 @@ fn label(changes: &[Change]) -> String {
         Change::Add { .. } | Change::AddPlan { .. } | Change::AddUse { .. } => "add".to_owned(),
         Change::Remove { item } => format!("remove '{}'", item.name()),
         Change::Rename { item, .. } => format!("rename '{}'", item.name()),
-        Change::RenameColumn { column, .. } => format!("rename '{column}'"),
+        Change::RenameColumn { column: name, .. } | Change::RenameValue { value: name, .. } => {
+            format!("rename '{name}'")
+        }
         Change::Connect { outcome, .. } => format!("connect '{outcome}'"),
         Change::Disconnect { outcome, .. } => format!("disconnect '{outcome}'"),
         Change::SetStart { to, .. } => format!("start with '{to}'"),

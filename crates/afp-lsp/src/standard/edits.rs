@@ -26,6 +26,7 @@ struct Renamed {
 enum What {
     Item(Item),
     Column { table: String, column: String },
+    Value { enumeration: String, value: String },
 }
 
 impl What {
@@ -33,6 +34,7 @@ impl What {
         match self {
             What::Item(item) => Change::Rename { item, to },
             What::Column { table, column } => Change::RenameColumn { table, column, to },
+            What::Value { enumeration, value } => Change::RenameValue { enumeration, value, to },
         }
     }
 }
@@ -71,10 +73,14 @@ fn what(analysis: &Analysis, id: DefinitionId) -> Option<What> {
     let definition = index.definition(id);
     let Span { file, start, .. } = definition.name;
     match definition.kind {
-        DefinitionKind::Column => {
-            let name = |span| sources.text(span).to_owned();
-            let table = name(index.definition(definition.owner?).name);
-            return Some(What::Column { table, column: name(definition.name) });
+        DefinitionKind::Column | DefinitionKind::Value => {
+            let text = |span| sources.text(span).to_owned();
+            let owner = text(index.definition(definition.owner?).name);
+            let name = text(definition.name);
+            return Some(match definition.kind {
+                DefinitionKind::Column => What::Column { table: owner, column: name },
+                _ => What::Value { enumeration: owner, value: name },
+            });
         }
         DefinitionKind::Plan
         | DefinitionKind::Enum

@@ -1,7 +1,7 @@
 //! What is asked of a session from outside.
 
 #[cfg(feature = "load")]
-use afp::load::{Injection, LoadedPlan, NotActive};
+use afp::load::{Injection, LoadedPlan, NotInjected};
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, EntryKind, Names, TraceEntryId};
@@ -21,7 +21,7 @@ use crate::stimulus::Stimulus;
 /// What only loaded plans can do, as functions over them.
 pub(super) struct Testing<P> {
     #[cfg(feature = "load")]
-    inject: fn(&mut P, Option<u16>, &Injection) -> Result<(), NotActive>,
+    inject: fn(&mut P, Option<u16>, &Injection) -> Result<(), NotInjected>,
     idle: fn(&mut P, Option<ComponentId>) -> bool,
 }
 
@@ -202,9 +202,12 @@ where
         let testing = self.testing.as_ref().ok_or(RequestError::Compiled)?;
         let active = self.scheduler.active();
         let done = (testing.inject)(self.scheduler.plan_under_test(), active, injection);
-        done.map_err(|_| {
-            let path = self.names.component(injection.component).path;
-            RequestError::NotActive(path.to_owned())
+        done.map_err(|why| {
+            let path = self.names.component(injection.component).path.to_owned();
+            match why {
+                NotInjected::Waiting => RequestError::Reports(path),
+                _ => RequestError::NotActive(path),
+            }
         })
     }
 

@@ -1,6 +1,9 @@
 //! Devices of a toolbox in the typed view.
 
-use super::{Formula, Name, Type, child, children, doc, named, range, range_ends, token, views};
+use super::{
+    Formula, Name, Type, child, children, doc, keyword_token, named, range, range_ends, token,
+    views,
+};
 use crate::kind::Kind;
 use crate::source::Span;
 
@@ -55,7 +58,7 @@ impl Device {
 
     /// `device`, `sensor` or `robot`, and its place.
     pub fn keyword(&self) -> Option<Name> {
-        token(&self.node, Kind::Keyword, self.file)
+        keyword_token(&self.node, self.file)
     }
 
     /// Its parts as written.
@@ -76,7 +79,7 @@ impl Device {
 impl Press {
     /// `press` or `stop`, and its place.
     pub fn keyword(&self) -> Option<Name> {
-        token(&self.node, Kind::Keyword, self.file)
+        keyword_token(&self.node, self.file)
     }
 
     /// Its `///` lines, which describe all of its controls.
@@ -128,7 +131,7 @@ impl Amount {
 impl Signal {
     /// `signal` or `truth`, and its place.
     pub fn keyword(&self) -> Option<Name> {
-        token(&self.node, Kind::Keyword, self.file)
+        keyword_token(&self.node, self.file)
     }
 
     /// Its type.

@@ -108,6 +108,19 @@ impl ClaimTarget {
             ClaimTarget::Terminate | ClaimTarget::Fail | ClaimTarget::Resume => None,
         }
     }
+
+    /// What an edge there has behind its arrow.
+    pub fn word(&self) -> String {
+        let word = match self {
+            ClaimTarget::Element(path) => {
+                return path.names().pop().map(|it| it.text).unwrap_or_default();
+            }
+            ClaimTarget::Terminate => "terminate",
+            ClaimTarget::Fail => "fail",
+            ClaimTarget::Resume => "resume",
+        };
+        word.to_owned()
+    }
 }
 
 impl Scenario {

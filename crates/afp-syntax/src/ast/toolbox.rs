@@ -1,8 +1,8 @@
 //! Toolboxes in the typed view.
 
 use super::{
-    Formula, Name, Type, child, doc, keyword_as, live, named, range, range_ends, span_of, token,
-    tokens, views,
+    Formula, Name, Type, child, doc, keyword_as, keyword_token, live, named, range, range_ends,
+    span_of, token, tokens, views,
 };
 use crate::kind::Kind;
 use crate::source::Span;
@@ -135,7 +135,7 @@ impl OutPort {
 impl Outcome {
     /// `state` or `event`, and its place.
     pub fn keyword(&self) -> Option<Name> {
-        token(&self.node, Kind::Keyword, self.file)
+        keyword_token(&self.node, self.file)
     }
 
     /// Whether `once` says that the event happens, and does not last.
@@ -148,7 +148,7 @@ impl Outcome {
 impl Timing {
     /// `every`, `deadline`, `budget` or `stop`, and its place.
     pub fn keyword(&self) -> Option<Name> {
-        token(&self.node, Kind::Keyword, self.file)
+        keyword_token(&self.node, self.file)
     }
 
     /// The time.

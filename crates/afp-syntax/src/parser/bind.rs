@@ -1,6 +1,7 @@
 //! Bindings: what goes into and out of a component.
 
 use super::Parser;
+use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 
 impl Parser<'_, '_> {
@@ -11,9 +12,7 @@ impl Parser<'_, '_> {
         self.bump();
         while !self.ends_args() {
             self.repeat(|parser| {
-                if parser.at(Kind::Name)
-                    && (parser.names_something(0) || parser.nth(1) == Kind::EqualEqual)
-                {
+                if parser.at(Kind::Name) && parser.at_sign_of_bind() {
                     parser.bind();
                 } else if alone && parser.stands_alone() {
                     parser.bind_alone();
@@ -24,6 +23,19 @@ impl Parser<'_, '_> {
         }
         self.close_bracket(Kind::CloseParen, opened);
         self.close();
+    }
+
+    /// Whether `=` or `=>` stands behind the next token, or what is written for it.
+    fn at_sign_of_bind(&self) -> bool {
+        let is_output = self.nth(1) == Kind::GreaterEqual && self.nth(2) == Kind::Name;
+        let is_output = is_output && matches!(self.nth(3), Kind::Comma | Kind::CloseParen);
+        self.names_something(0) || self.nth(1) == Kind::EqualEqual || is_output || self.changes()
+    }
+
+    /// `value += 1`
+    fn changes(&self) -> bool {
+        let is_sign = matches!(self.nth(1), Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash);
+        is_sign && self.nth(2) == Kind::Equal
     }
 
     fn ends_args(&self) -> bool {
@@ -60,13 +72,21 @@ impl Parser<'_, '_> {
 
     pub(super) fn bind(&mut self) {
         let is_value = self.nth(1) == Kind::Arrow && self.nth(2) != Kind::Name;
-        let is_output = matches!(self.nth(1), Kind::FatArrow | Kind::Arrow) && !is_value;
+        let is_output =
+            matches!(self.nth(1), Kind::FatArrow | Kind::Arrow | Kind::GreaterEqual) && !is_value;
+        let changes = self.changes();
         self.open_item(if is_output { Kind::BindOut } else { Kind::BindIn });
         self.take_name();
         if !is_output {
             self.no_type_before_value();
             if self.at(Kind::Equal) {
                 self.bump();
+            } else if changes {
+                let sign = self.token(0).map_or("", |token| token.text);
+                let message = format!("no '{sign}=' between a port and its value");
+                let help = format!("write '=' and a formula, such as 'x {sign} 1'");
+                self.error(Diagnostic::new(Code::E0108, self.ahead(2), message).help(help));
+                self.pass(2);
             } else {
                 let assigns = self.at(Kind::Colon) && self.nth(1) == Kind::Equal;
                 self.wrong_arrow(1 + usize::from(assigns), "'=' carries data in to a port", "=");

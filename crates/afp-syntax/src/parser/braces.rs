@@ -1,4 +1,4 @@
-//! The brace that is missing or too much, found by how lines are indented.
+//! The brace that is missing or too much, found by how lines are indented; and brackets that are closed twice.
 //!
 //! Nothing of the grammar depends on white space. Where the braces of a file do not match, though, the one that is
 //! wrong stands, more often than not, where the indentation stops following them; what comes of it elsewhere is no
@@ -6,6 +6,7 @@
 //! nothing, the grammar reports what it misses.
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
+use crate::keywords::{TOOLS, TOP};
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::source::Span;
@@ -89,6 +90,17 @@ struct Line {
     last: usize,
 }
 
+/// A brace that is open.
+#[derive(Clone, Copy)]
+struct Opened {
+    /// Its token.
+    at: usize,
+    /// Its line.
+    line: Line,
+    /// Whether the lines in it are no farther to the right than its own; not known before the first of them.
+    is_flat: Option<bool>,
+}
+
 /// What is known of a file before it is parsed.
 pub(super) struct Mended {
     /// Places on lines of which something is reported already, each with the place of that.
@@ -104,6 +116,11 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
     let starts = diags.iter().filter(is_reported).map(|each| each.span.start);
     let mut reported: Vec<_> = starts.map(|start| (start, start)).collect();
     let mut strays = Vec::new();
+    for at in doubled(tokens) {
+        strays.push((span(tokens[at], file), tokens[at].text));
+        reported.push((tokens[at].start, tokens[at].start));
+        tokens[at].kind = Kind::Unknown;
+    }
     for _ in 0..MOST {
         let Some(wrong) = find(tokens) else { break };
         let (behind, error, brace) = match wrong {
@@ -166,6 +183,22 @@ fn report_strays(mut strays: Vec<(Span, &str)>, diags: &mut Diagnostics) {
         };
         diags.push(Diagnostic::new(Code::E0102, place, message).help(help).replace(""));
     }
+}
+
+/// The brackets ')' that close nothing and stand behind another one.
+fn doubled(tokens: &[Token<'_>]) -> Vec<usize> {
+    let (mut open, mut before, mut found) = (0_usize, Kind::End, Vec::new());
+    for (at, token) in tokens.iter().enumerate().filter(|(_, it)| !it.kind.is_passed_over()) {
+        match token.kind {
+            Kind::OpenParen => open += 1,
+            Kind::CloseParen if open == 0 && before == Kind::CloseParen => found.push(at),
+            Kind::CloseParen => open = open.saturating_sub(1),
+            Kind::OpenBrace | Kind::CloseBrace => open = 0,
+            _ => {}
+        }
+        before = token.kind;
+    }
+    found
 }
 
 /// What stands behind a token.
@@ -234,22 +267,44 @@ struct Reader<'t, 's> {
     tokens: &'s [Token<'t>],
     /// Whether braces are too much, rather than missing.
     too_many: bool,
-    /// The braces that are open, each with its line.
-    open: Vec<(usize, Line)>,
+    /// The braces that are open.
+    open: Vec<Opened>,
     /// The lines so far.
     lines: Vec<Line>,
 }
 
 impl Reader<'_, '_> {
     /// A line begins with a token that does not close anything: bodies that began farther to the right, or as far, are
-    /// over.
-    fn line(&self, at: usize, last: Option<usize>) -> Option<Wrong> {
-        let line = self.lines.last()?;
-        let (opener, from) = self.open.last()?;
+    /// over, unless their own lines are not indented.
+    fn line(&mut self, at: usize, last: Option<usize>) -> Option<Wrong> {
+        let line = *self.lines.last()?;
+        let Opened { at: opener, line: from, is_flat } = *self.open.last()?;
+        let is_right = line.indent > from.indent;
+        let is_flat = is_flat
+            .unwrap_or_else(|| line.number > from.number && !is_right && self.is_inside(from, at));
+        if line.number > from.number {
+            self.open.last_mut()?.is_flat = Some(is_flat);
+        }
         let is_over = self.tokens[at].kind != Kind::CloseBrace
             && line.number > from.number
-            && line.indent <= from.indent;
-        (is_over && !self.too_many).then(|| Wrong::Missing(last.unwrap_or(*opener), *opener))
+            && !is_right
+            && !is_flat;
+        (is_over && !self.too_many).then(|| Wrong::Missing(last.unwrap_or(opener), opener))
+    }
+
+    /// Whether a line begins with what stands in the body of a head, not behind it.
+    fn is_inside(&self, head: Line, at: usize) -> bool {
+        let mut head = self.tokens[head.first..].iter().filter(|token| !token.kind.is_trivia());
+        let (first, third) = (head.next().map_or("", |it| it.text), head.nth(1).map(|it| it.kind));
+        let word = self.tokens[at].text;
+        let is_tool = TOP.contains(&word) || TOOLS.contains(&word);
+        match first {
+            "plan" | "scenario" | "enum" | "table" => !TOP.contains(&word),
+            "device" | "sensor" | "robot" => !is_tool,
+            // A template, or an item of a plan.
+            "actor" | "supervisor" | "computation" if third == Some(Kind::OpenBrace) => !is_tool,
+            _ => !is_tool && !ITEMS.contains(&word),
+        }
     }
 
     fn opening(&mut self, at: usize) -> Option<Wrong> {
@@ -258,7 +313,10 @@ impl Reader<'_, '_> {
         }
         let line = self.lines.last_mut()?;
         line.opens = true;
-        self.open.push((at, *line));
+        let mut behind = self.tokens[at + 1..].iter().take_while(|token| !token.ends_line());
+        // What begins on the line of its brace is indented by that.
+        let is_flat = behind.any(|token| !token.kind.is_trivia()).then_some(false);
+        self.open.push(Opened { at, line: *line, is_flat });
         None
     }
 
@@ -306,7 +364,7 @@ impl Reader<'_, '_> {
     fn closing(&mut self, at: usize, last: Option<usize>) -> Option<Wrong> {
         let line = *self.lines.last()?;
         let leads = line.last == at;
-        let is_deeper = self.open.last().is_none_or(|(_, from)| line.indent > from.indent);
+        let is_deeper = self.open.last().is_none_or(|it| line.indent > it.line.indent);
         if self.too_many
             && leads
             && is_deeper
@@ -317,7 +375,7 @@ impl Reader<'_, '_> {
         if self.too_many && !leads && self.begins_body(line, at) {
             return Some(Wrong::Swapped(at));
         }
-        let Some((opener, from)) = self.open.pop() else {
+        let Some(Opened { at: opener, line: from, .. }) = self.open.pop() else {
             return self.too_many.then_some(Wrong::Stray(at));
         };
         if line.number == from.number {

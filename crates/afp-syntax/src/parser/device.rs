@@ -1,6 +1,7 @@
 //! Devices of a toolbox: what can be pressed, how they fail, what they signal.
 
 use super::Parser;
+use crate::keywords::DEVICE;
 use crate::kind::Kind;
 
 const PART_HELP: &str = "write 'press', 'stop', 'fault', 'signal' or 'truth'";
@@ -18,12 +19,12 @@ impl Parser<'_, '_> {
         if self.expect(Kind::OpenBrace, "put the device's parts in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_tool() {
                 self.repeat(|parser| {
-                    if parser.at_device_part() {
-                        parser.device_part();
-                    } else {
-                        parser.skip("a part of the device", PART_HELP, |p| {
+                    let what = "a part of the device";
+                    match parser.at_device_part() || parser.item_meant(what, DEVICE) {
+                        true => parser.device_part(),
+                        false => parser.skip(what, PART_HELP, |p| {
                             p.at_device_part() || p.at(Kind::CloseBrace) || p.at_tool()
-                        });
+                        }),
                     }
                 });
             }
@@ -45,7 +46,13 @@ impl Parser<'_, '_> {
     }
 
     fn at_device_part(&self) -> bool {
-        matches!(self.word(0), "press" | "stop" | "fault" | "signal" | "truth")
+        DEVICE.contains(&self.word(0))
+    }
+
+    /// Whether a line begins with a slip of a part's word and what such a part has behind it.
+    fn at_misspelt_part(&self) -> bool {
+        let named = self.nth(1) == Kind::Name;
+        named && !self.on_same_line() && self.meant(DEVICE).is_some()
     }
 
     /// Whether a part begins where a control's name could stand, too: surely on a line of its own.
@@ -54,7 +61,7 @@ impl Parser<'_, '_> {
             "signal" | "truth" => self.nth(1) == Kind::Name && self.nth(2) == Kind::Colon,
             _ => self.nth(1) == Kind::Name,
         };
-        self.at_device_part() && (whole || !self.on_same_line())
+        self.at_device_part() && (whole || !self.on_same_line()) || self.at_misspelt_part()
     }
 
     fn device_part(&mut self) {

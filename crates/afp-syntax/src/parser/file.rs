@@ -3,7 +3,8 @@
 use rowan::Language;
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, words};
+use crate::keywords::{PLAN, TOOLS, TOP};
 use crate::kind::{Afp, Kind};
 
 impl Parser<'_, '_> {
@@ -37,14 +38,49 @@ impl Parser<'_, '_> {
             "actor" | "supervisor" | "computation" if self.nth(2) == Kind::OpenBrace => {
                 self.template();
             }
-            "actor" | "computation" | "subplan" | "supervise" | "in" | "out" | "var" | "const"
-            | "start" => self.misplaced(),
+            "supervise" if self.nth(1) == Kind::Name && self.nth(2) == Kind::OpenBrace => {
+                self.read_as("supervisor", "an item of a toolbox");
+                self.template();
+            }
+            word if PLAN.contains(&word) => self.misplaced(),
             _ => {
-                let help = self.top_help();
-                self.skip("'use', 'plan', 'scenario', 'enum', 'table' or 'toolbox'", &help, |p| {
-                    p.leaves_body() || p.at_tool()
+                let what = match self.is_toolbox {
+                    true => "an item of a toolbox",
+                    false => "'use', 'plan', 'scenario', 'enum', 'table' or 'toolbox'",
+                };
+                let help = match self.top_help() {
+                    Some(help) => help,
+                    None if self.item_meant(what, &self.possible_items()) => {
+                        return self.top_item();
+                    }
+                    None if self.is_toolbox => format!(
+                        "write {}",
+                        words::list(TOOLS.iter().copied().chain(["enum"]), "or")
+                    ),
+                    None => "remove it, or put it into a plan".to_owned(),
+                };
+                let first = self.at;
+                self.skip(what, &help, |p| {
+                    let is_next = p.at > first && !p.on_same_line();
+                    p.leaves_body()
+                        || p.at_tool()
+                        || is_next && p.meant(&p.possible_items()).is_some()
                 });
             }
+        }
+    }
+
+    /// The words of the items of a file that have behind them what stands there.
+    fn possible_items(&self) -> Vec<&'static str> {
+        let with_braces =
+            ["plan", "enum", "device", "sensor", "robot", "actor", "supervisor", "computation"];
+        match (self.nth(1), self.nth(2)) {
+            (Kind::Text, _) => vec!["use", "scenario"],
+            (Kind::OpenBrace, _) => vec!["plan", "enum", "robot"],
+            (_, Kind::OpenBrace) => with_braces.to_vec(),
+            (_, Kind::Colon) => Vec::new(),
+            (_, Kind::OpenParen) => vec!["table", "enum"],
+            _ => TOP.iter().chain(&["object", "device", "sensor"]).copied().collect(),
         }
     }
 
@@ -101,19 +137,38 @@ impl Parser<'_, '_> {
         self.keyword();
         self.name("give the enum a name");
         let opened = self.here();
-        if self.expect(Kind::OpenBrace, "list the values in braces") {
-            while self.at(Kind::Name) && !self.at_top_item() {
-                self.open_item(Kind::Variant);
-                self.take_name();
-                self.close_item();
+        // The brackets of other languages.
+        let closing = match self.nth(0) {
+            Kind::OpenParen => Kind::CloseParen,
+            Kind::OpenBracket => Kind::CloseBracket,
+            _ => Kind::CloseBrace,
+        };
+        if closing != Kind::CloseBrace {
+            let message = format!("expected '{{', found {}", self.found());
+            let error = Diagnostic::new(Code::E0102, self.next_span(), message);
+            self.error(error.help("write '{' and '}' around the values"));
+            self.pass(1);
+            self.variants(closing);
+            if self.at(closing) {
+                self.pass(1);
             }
-            if !self.at(Kind::CloseBrace) && !self.at_end() && !self.at_top_item() {
-                self.skip("a value or '}'", "write only names between the braces", |p| {
-                    p.at(Kind::CloseBrace) || p.at_top_item()
-                });
-            }
-            self.close_bracket(Kind::CloseBrace, opened);
+        } else if self.expect(Kind::OpenBrace, "list the values in braces") {
+            self.variants(closing);
+            self.close_bracket(closing, opened);
         }
         self.close_item();
+    }
+
+    /// The values of an enum, up to the bracket that ends them.
+    fn variants(&mut self, closing: Kind) {
+        while self.at(Kind::Name) && !self.at_top_item() {
+            self.open_item(Kind::Variant);
+            self.take_name();
+            self.close_item();
+        }
+        let ends = |p: &Self| p.at(closing) || p.at(Kind::CloseBrace) || p.at_top_item();
+        if !ends(self) && !self.at_end() {
+            self.skip("a value or '}'", "write only names between the braces", ends);
+        }
     }
 }

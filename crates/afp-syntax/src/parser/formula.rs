@@ -3,8 +3,9 @@
 //! Sums and products are flat nodes, so that a long chain of terms makes no deep tree.
 
 use super::habits::is_operator;
+use super::slips::begins_formula;
 use super::{MAX_DEPTH, Parser};
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, words};
 use crate::dimension::Dimension;
 use crate::kind::Kind;
 use crate::source::Span;
@@ -93,7 +94,9 @@ impl Parser<'_, '_> {
             return;
         }
         match self.nth(0) {
-            _ if !self.on_same_line() && self.begins_item() => self.no_formula(),
+            _ if !self.on_same_line() && (self.begins_item() || self.begins_scenario_line()) => {
+                self.no_formula()
+            }
             Kind::Minus => {
                 self.open(Kind::Negation);
                 self.bump();
@@ -186,7 +189,7 @@ impl Parser<'_, '_> {
         let strange = !word.is_empty()
             && self.on_same_line()
             && !self.names_something(0)
-            && (self.is_adjacent() || !WORDS_BEHIND_NUMBERS.contains(&word) && !is_operator(word));
+            && (self.is_adjacent() || !self.at_word_behind_number());
         if !strange {
             return;
         }
@@ -200,6 +203,16 @@ impl Parser<'_, '_> {
         self.open(Kind::Error);
         self.bump();
         self.close();
+    }
+
+    /// Whether a word of the grammar stands behind a number, perhaps with a slip and what such a word has behind it.
+    fn at_word_behind_number(&self) -> bool {
+        let word = self.word(0);
+        let goes_on = begins_formula(self.nth(1)) && !self.begins_line(1);
+        let is_slip = goes_on && word.len() > 3 && Unit::meant(word).is_none();
+        WORDS_BEHIND_NUMBERS.contains(&word)
+            || is_operator(word)
+            || is_slip && words::nearest(word, WORDS_BEHIND_NUMBERS.iter().copied()).is_some()
     }
 
     /// `.5`

@@ -16,9 +16,6 @@ const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choos
 /// Words that are written where a `->` belongs.
 const ARROW_WORDS: &[&str] = &["goto", "to", "then", "next"];
 
-/// The words that items of a file begin with.
-const TOP_WORDS: &[&str] = &["use", "plan", "scenario", "enum", "table", "toolbox"];
-
 /// Words of formulas elsewhere, each with what to write instead.
 const OPERATORS: &[(&str, &str)] = &[
     ("and", CHOICE),

@@ -3,13 +3,14 @@
 use super::Parser;
 use super::recovery::Body;
 use crate::diagnostics::{Code, Diagnostic};
+use crate::keywords::PLAN;
 use crate::kind::Kind;
 
-/// Tokens that are looked at in search of the arrow behind the names of states.
-const MAX_NAMES: usize = 128;
-/// The words that items of a plan begin with.
-const WORDS: &[&str] =
-    &["in", "out", "var", "const", "start", "supervise", "actor", "computation", "subplan"];
+/// The words that entries begin with.
+const ENTRIES: &[&str] = &["in", "out", "var", "const"];
+/// The words before a name and ':'.
+const COMPONENTS_AND_ENTRIES: &[&str] =
+    &["in", "out", "var", "const", "supervise", "actor", "computation", "subplan"];
 /// What the body of an element holds.
 pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
 const ITEMS: &str = "an item of the plan";
@@ -21,7 +22,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Plan);
         self.keyword();
         self.name("give the plan a name");
-        self.eat_word("forever");
+        self.eat_meant("forever", |next| next == Kind::OpenBrace);
         let help = match self.nth(0) {
             Kind::OpenParen => "remove the brackets: a plan declares what it takes with 'in'",
             _ => "put the plan's items in braces",
@@ -47,18 +48,26 @@ impl Parser<'_, '_> {
 
     pub(super) fn at_plan_item(&self) -> bool {
         let named = self.names_something(0) && self.nth(1) != Kind::Colon;
-        WORDS.contains(&self.word(0)) && (!named || self.word(0) == "start")
+        PLAN.contains(&self.word(0)) && (!named || self.word(0) == "start")
     }
 
     /// Passes over what is no item of a plan.
     fn no_plan_item(&mut self) {
-        let help = match self.at_reactions() {
-            true => "put it into the braces of the element that reacts so".to_owned(),
-            false => self.item_help(WORDS).unwrap_or_else(|| ITEM_HELP.to_owned()),
+        if self.live_before_in() {
+            return self.plan_item();
+        }
+        let help = match self.item_help() {
+            _ if self.at_reactions() => {
+                "put it into the braces of the element that reacts so".to_owned()
+            }
+            Some(help) => help,
+            None if self.item_meant(ITEMS, self.possible_items_of_plan()) => {
+                return self.plan_item();
+            }
+            None => ITEM_HELP.to_owned(),
         };
         let is_body = self.begins_body();
-        let fix = self.meant(WORDS).filter(|_| self.nth(2) == Kind::Colon);
-        self.report_skipped(ITEMS, &help, fix);
+        self.report_skipped(ITEMS, &help, None);
         let first = self.at;
         self.pass_to(|p| {
             let next = p.at > first && !p.on_same_line() && p.at_strange_item();
@@ -69,6 +78,15 @@ impl Parser<'_, '_> {
             self.open(Kind::Error);
             self.bump();
             self.close();
+        }
+    }
+
+    /// The words of the items of a plan that have behind them what stands there.
+    fn possible_items_of_plan(&self) -> &'static [&'static str] {
+        match self.nth(2) {
+            Kind::Colon => COMPONENTS_AND_ENTRIES,
+            Kind::Equal => ENTRIES,
+            _ => PLAN,
         }
     }
 
@@ -108,7 +126,7 @@ impl Parser<'_, '_> {
         let input = self.at_word("in");
         self.keyword();
         if input {
-            self.eat_word("live");
+            self.eat_meant("live", |next| next == Kind::Name);
         } else if self.at_word("live") && self.nth(1) == Kind::Name {
             let here = self.here();
             self.error(
@@ -135,6 +153,9 @@ impl Parser<'_, '_> {
         if let Some(body) = body {
             while !self.ends_body(&body) {
                 self.repeat(|parser| {
+                    if parser.reaction_without_braces() {
+                        return;
+                    }
                     if parser.at_word("supervise") {
                         parser.guard();
                     } else if parser.at_reactions() {
@@ -153,14 +174,9 @@ impl Parser<'_, '_> {
 
     pub(super) fn guard(&mut self) {
         self.open_item(Kind::Guard);
-        match self.word(0) {
-            "supervise" => self.keyword(),
-            // Another word, of which something has been said.
-            _ => self.pass(1),
-        }
+        self.keyword();
         self.head("a supervisor's template");
-        self.time_by_another_word();
-        while self.at_timing() {
+        while self.at_timing() || self.time_by_another_word() {
             self.timing();
         }
         self.events("put the edges of the events in braces");
@@ -198,11 +214,7 @@ impl Parser<'_, '_> {
 
     pub(super) fn timing(&mut self) {
         self.open(Kind::Timing);
-        match self.word(0) {
-            "every" | "deadline" => self.keyword(),
-            // Another word, of which something has been said.
-            _ => self.pass(1),
-        }
+        self.keyword();
         if matches!(self.nth(0), Kind::Colon | Kind::Equal) {
             let message = format!("no {} before a time", self.found());
             self.instead(1, message, "remove it".to_owned(), "");
@@ -258,28 +270,40 @@ impl Parser<'_, '_> {
         });
     }
 
-    /// How many tokens ahead the last of the names stands between which there are commas.
-    fn last_name(&self) -> usize {
-        let mut last = 0;
-        while last < MAX_NAMES
-            && self.nth(last) == Kind::Name
+    /// How many tokens ahead the last of the names stands, from the token so many ahead on, between which there are
+    /// commas.
+    fn last_name(&self, ahead: usize) -> usize {
+        let from = self.at + ahead;
+        let (first, end) = self.names.get();
+        // What was found for one of the names holds for those behind it.
+        if (first..=end).contains(&from) && (from - first).is_multiple_of(2) {
+            return end - self.at;
+        }
+        let mut last = ahead;
+        while self.nth(last) == Kind::Name
             && self.nth(last + 1) == Kind::Comma
             && self.nth(last + 2) == Kind::Name
         {
             last += 2;
         }
+        self.names.set((from, self.at + last));
         last
     }
 
     /// Whether names with commas between them stand before an arrow.
     pub(super) fn at_edge(&self) -> bool {
-        let last = self.last_name();
+        self.edge_at(0)
+    }
+
+    /// The same from the token so many ahead on.
+    pub(super) fn edge_at(&self, ahead: usize) -> bool {
+        let last = self.last_name(ahead);
         self.nth(last) == Kind::Name && self.arrow_at(last + 1).is_some()
     }
 
     /// Whether names with commas between them end a body.
     fn at_bare_names(&self) -> bool {
-        self.nth(self.last_name() + 1) == Kind::CloseBrace
+        self.nth(self.last_name(0) + 1) == Kind::CloseBrace
     }
 
     /// `NAME {"," NAME} "->" target`

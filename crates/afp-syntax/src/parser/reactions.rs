@@ -1,6 +1,7 @@
 //! `on`: what an element does instead where a supervisor of its plan reports something.
 
 use super::Parser;
+use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 
 impl Parser<'_, '_> {
@@ -22,11 +23,45 @@ impl Parser<'_, '_> {
     pub(super) fn reactions(&mut self) {
         self.open_item(Kind::Reactions);
         self.keyword();
+        self.path_of_supervisor();
         let name = Some(self.word(0)).filter(|name| !name.is_empty()).unwrap_or("NAME");
         let help = format!("write 'on {name} {{ Event -> target }}'");
         self.name("name a supervisor of the plan");
         self.events(&help);
         self.close_item();
+    }
+
+    /// `on Main.escape { ... }`: reports what stands before the supervisor's name, and reads past it.
+    fn path_of_supervisor(&mut self) {
+        let is_path = self.nth(1) == Kind::Dot && self.nth(3) == Kind::OpenBrace;
+        let name = self.word(2);
+        if is_path && self.at(Kind::Name) && !name.is_empty() {
+            let message = "a supervisor of the plan has its name alone".to_owned();
+            self.instead(2, message, format!("write 'on {name}'"), "");
+        }
+    }
+
+    /// `on esc -> ignore`, `on esc.Pressed -> ignore`: reports that the edge belongs into braces, and reads past it.
+    pub(super) fn reaction_without_braces(&mut self) -> bool {
+        let event = if self.nth(2) == Kind::Dot { self.word(3) } else { "Event" };
+        let arrow = if self.nth(2) == Kind::Dot { 4 } else { 2 };
+        // States begin with a capital letter.
+        let is_supervisor = self.word(1).starts_with(|first: char| first.is_ascii_lowercase());
+        let target = self.word(arrow + 1);
+        let stands = self.word(0) == "on" && self.nth(arrow) == Kind::Arrow && !target.is_empty();
+        if !stands || !(is_supervisor || arrow == 4) || self.begins_line(1) {
+            return false;
+        }
+        let better = format!("on {} {{ {event} -> {target} }}", self.word(1));
+        let error = Diagnostic::new(
+            Code::E0102,
+            self.ahead(arrow + 2),
+            "the edges of 'on' stand in braces",
+        );
+        let error = error.help(format!("write '{better}'"));
+        self.error(if arrow == 4 { error.replace(better) } else { error });
+        self.pass(arrow + 2);
+        true
     }
 
     /// The edges of events, in braces; `help` tells who has left them out.

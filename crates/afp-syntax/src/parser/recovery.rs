@@ -223,6 +223,10 @@ impl Parser<'_, '_> {
         let here = self.next_span();
         match (self.nth(0), meant) {
             (Kind::Name, _) if self.word(0) == "repeat" => self.reserved(),
+            (Kind::CloseParen, _) => {
+                let error = Diagnostic::new(Code::E0102, here, "this ')' is too much");
+                self.error(error.help("remove it").replace(""));
+            }
             (_, Some(meant)) => {
                 let message = format!("expected {what}, found {}", self.found());
                 self.error(Diagnostic::new(Code::E0102, here, message).help(help).replace(meant));

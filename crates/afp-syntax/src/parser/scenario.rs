@@ -1,6 +1,9 @@
 //! Scenarios: world, stimuli and expectations.
 
+use super::slips::begins_formula;
 use super::{MAX_DEPTH, Parser};
+use crate::diagnostics::words;
+use crate::keywords::LINES;
 use crate::kind::Kind;
 
 const LINE_HELP: &str =
@@ -11,13 +14,21 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Scenario);
         self.keyword();
         self.expect(Kind::Text, "give the scenario a name in double quotes");
-        if self.eat_word("for") {
+        if self.eat_meant("for", |next| next == Kind::Name) {
             self.reference();
         } else {
             self.expected("'for'", "write 'for' and the name of a plan");
         }
+        self.in_scenario = true;
         self.lines();
+        self.in_scenario = false;
         self.close_item();
+    }
+
+    /// Whether a line of the scenario at hand begins here, so that no value can be meant.
+    pub(super) fn begins_scenario_line(&self) -> bool {
+        let goes_on = matches!(self.nth(1), Kind::Name | Kind::Text | Kind::Int | Kind::Float);
+        self.in_scenario && self.at_line() && goes_on && !self.begins_line(1)
     }
 
     /// The lines of a scenario, or those that count from one of its moments.
@@ -26,12 +37,13 @@ impl Parser<'_, '_> {
         if self.expect(Kind::OpenBrace, "put the scenario's lines in braces") {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_top_item() {
                 self.repeat(|parser| {
-                    if parser.at_line() {
-                        parser.line();
-                    } else if parser.at_word("always") && parser.claims_behind() {
+                    let what = "a line of the scenario";
+                    if parser.at_word("always") && parser.claims_behind() {
                         parser.always_first();
+                    } else if parser.at_line() || parser.item_meant(what, LINES) {
+                        parser.line();
                     } else {
-                        parser.skip("a line of the scenario", LINE_HELP, |p| {
+                        parser.skip(what, LINE_HELP, |p| {
                             p.at_line() || p.at(Kind::CloseBrace) || p.at_top_item()
                         });
                     }
@@ -85,14 +97,14 @@ impl Parser<'_, '_> {
     fn over(&mut self) {
         self.open_item(Kind::Over);
         self.keyword();
-        if self.eat_word("seeds") {
+        if self.eat_meant("seeds", |next| next == Kind::Int) {
             let whole = self.expect(Kind::Int, "write the first seed, such as '0..20'");
             if whole && self.eat(Kind::Dot) && self.expect(Kind::Dot, "write '0..20'") {
                 self.expect(Kind::Int, "write the seed behind the last one");
             } else if whole {
                 self.expected("'..'", "write the seeds as '0..20', of which the last is 19");
             }
-        } else if self.eat_word("worlds") {
+        } else if self.eat_meant("worlds", |next| next == Kind::Text) {
             self.expect(Kind::Text, "write the worlds' files in double quotes");
             // Any other comma ends the line.
             while self.nth(1) == Kind::Text && self.eat(Kind::Comma) {
@@ -139,7 +151,7 @@ impl Parser<'_, '_> {
             self.formula();
             self.close_bracket(Kind::CloseParen, opened);
         }
-        if self.eat_word("heading") {
+        if self.eat_meant("heading", begins_formula) {
             self.formula();
         }
     }
@@ -198,9 +210,23 @@ impl Parser<'_, '_> {
                     self.quantity("write a time such as '3 ms'");
                     self.close();
                 }
+                _ if self.bound_meant() => {}
                 _ => break,
             }
         }
+    }
+
+    /// `befor 3 s`: reports the word, and reads it as the one that is meant. Returns whether one stands there.
+    fn bound_meant(&mut self) -> bool {
+        let before_time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
+        let list: &[&'static str] = match before_time {
+            true => &["within", "before", "after"],
+            false => &["always", "once"],
+        };
+        let meant = list.iter().copied().find(|word| self.at_slip(word));
+        let Some(meant) = meant.filter(|_| !self.at_line()) else { return false };
+        self.read_as(meant, &words::list(list.iter().copied(), "or"));
+        true
     }
 
     /// Reports a word in front of a claim that belongs elsewhere: `expect never end`.
@@ -267,7 +293,7 @@ impl Parser<'_, '_> {
             self.bump();
             self.formula();
         } else {
-            self.eat_word("active");
+            self.eat_meant("active", |_| true);
         }
     }
 
@@ -280,8 +306,5 @@ impl Parser<'_, '_> {
 
 /// Whether a line of a scenario begins with this word.
 fn is_line(word: &str) -> bool {
-    matches!(
-        word,
-        "world" | "seed" | "over" | "set" | "robot" | "at" | "from" | "expect" | "never" | "until"
-    )
+    LINES.contains(&word)
 }

@@ -1,6 +1,8 @@
 //! Toolboxes: templates and their parts, object types.
 
 use super::Parser;
+use super::slips::begins_formula;
+use crate::keywords::PARTS;
 use crate::kind::Kind;
 
 const PART_HELP: &str = "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of' or 'event'";
@@ -9,8 +11,9 @@ impl Parser<'_, '_> {
     pub(super) fn toolbox(&mut self) {
         self.open_item(Kind::Toolbox);
         self.keyword();
+        self.is_toolbox = true;
         self.name("give the toolbox a name");
-        if self.eat_word("version") {
+        if self.eat_meant("version", |next| next == Kind::Text) {
             self.expect(Kind::Text, "write the version in double quotes, such as '\"1.0\"'");
         }
         self.close_item();
@@ -29,14 +32,17 @@ impl Parser<'_, '_> {
         self.name("give the template a name");
         let opened = self.here();
         if self.expect(Kind::OpenBrace, "put the template's parts in braces") {
-            while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_tool() {
+            let ends = |p: &Self| p.at(Kind::CloseBrace) || p.at_tool() && !p.at_use_for_uses();
+            while !self.at_end() && !ends(self) {
                 self.repeat(|parser| {
-                    if parser.at_part() {
-                        parser.part();
-                    } else {
-                        parser.skip("a part of the template", PART_HELP, |p| {
-                            p.at_part() || p.at(Kind::CloseBrace) || p.at_tool()
-                        });
+                    let possible = if parser.word(1) == "of" { &["states"] } else { PARTS };
+                    let is_read = parser.at_part()
+                        || parser.live_before_in()
+                        || parser.item_meant("a part of the template", possible);
+                    match is_read {
+                        true => parser.part(),
+                        false => parser
+                            .skip("a part of the template", PART_HELP, |p| p.at_part() || ends(p)),
                     }
                 });
             }
@@ -55,20 +61,12 @@ impl Parser<'_, '_> {
     }
 
     fn at_part(&self) -> bool {
-        matches!(
-            self.word(0),
-            "icon"
-                | "uses"
-                | "in"
-                | "out"
-                | "every"
-                | "deadline"
-                | "budget"
-                | "stop"
-                | "state"
-                | "states"
-                | "event"
-        )
+        PARTS.contains(&self.word(0))
+    }
+
+    /// `use eye` in a template, which no 'use' of a file can be.
+    fn at_use_for_uses(&self) -> bool {
+        self.word(0) == "use" && self.nth(1) == Kind::Name
     }
 
     fn part(&mut self) {
@@ -100,8 +98,8 @@ impl Parser<'_, '_> {
                 let is_event = self.at_word("event");
                 self.open_item(Kind::Outcome);
                 self.keyword();
-                if self.name("give it a name") && is_event && self.on_same_line() {
-                    self.eat_word("once");
+                if self.name("give it a name") && is_event {
+                    self.eat_meant("once", |_| true);
                 }
                 self.close_item();
             }
@@ -117,7 +115,7 @@ impl Parser<'_, '_> {
     fn in_port(&mut self) {
         self.open_item(Kind::InPort);
         self.keyword();
-        self.eat_word("live");
+        self.eat_meant("live", |next| next == Kind::Name);
         self.port("give the port a name");
         self.value_and_range();
         self.close_item();
@@ -132,9 +130,9 @@ impl Parser<'_, '_> {
             self.formula();
             self.no_operators();
         }
-        if self.at_word("from") {
+        if self.at_word("from") || self.at_slip("from") && begins_formula(self.nth(1)) {
             self.open(Kind::Range);
-            self.keyword();
+            self.eat_meant("from", begins_formula);
             self.formula();
             if self.eat_word("to") {
                 self.formula();
@@ -153,12 +151,25 @@ impl Parser<'_, '_> {
             self.open(Kind::On);
             self.keyword();
             self.name("name the state or event that carries the output");
-            while self.eat(Kind::Pipe) {
+            while self.eat(Kind::Pipe) || self.other_sign_between_outcomes() {
                 self.name("name another state or event");
             }
             self.close();
         }
         self.close_item();
+    }
+
+    /// `on A, B`, `on A or B`: says what stands between the names, and reads past it.
+    fn other_sign_between_outcomes(&mut self) -> bool {
+        let is_sign = self.at(Kind::Comma) || matches!(self.word(0), "or" | "and");
+        let is_name = self.nth(1) == Kind::Name && !self.begins_line(1);
+        let stands = is_sign && self.on_same_line() && is_name && !PARTS.contains(&self.word(1));
+        if stands {
+            let message = format!("expected '|', found {}", self.found());
+            let sign = if self.at(Kind::Comma) { " |" } else { "|" };
+            self.instead(1, message, "write '|'".to_owned(), sign);
+        }
+        stands
     }
 
     /// A name and its type.

@@ -49,6 +49,20 @@ fn plans_toolboxes_and_scenarios_parse_without_an_error() {
 }
 
 #[test]
+fn an_edge_has_any_number_of_names_and_white_space() {
+    let names: Vec<_> = (0..500).map(|at| format!("S{at}")).collect();
+    let text = format!("plan P {{ actor a: A {{ {} -> b }} }}", names.join(", "));
+    assert_eq!(errors(&text), []);
+    let text = "plan P { actor a: A { left -> terminate, right
+            -> terminate, up, down
+            , away -> terminate }
+        }
+        toolbox t supervisor S { event E
+            once }";
+    assert_eq!(errors(text), []);
+}
+
+#[test]
 fn words_of_the_grammar_are_names_where_something_is_bound_to_them() {
     let text = "plan P { in start: length = 4 m
         var in: bool

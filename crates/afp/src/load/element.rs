@@ -10,7 +10,7 @@ use afp_core::{Environment, Fault};
 use afp_dsl::graph;
 
 use super::config::Config;
-use super::inject::{Injected, Injection, NotActive};
+use super::inject::{Injected, Injection, NotInjected};
 use super::outputs::{Binding, Inputs, Stage};
 use super::plan::{LoadedPlan, numbered};
 use super::slots::{ActorSlot, ComputationSlot};
@@ -166,21 +166,20 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     }
 
     /// Puts a state there for the next poll of an active actor.
-    pub fn inject(&mut self, injection: &Injection) -> Result<(), NotActive> {
+    pub fn inject(&mut self, injection: &Injection) -> Result<(), NotInjected> {
         match self.running {
-            Running::Actor(_) => {
-                self.injected = injection.boxed();
-                Ok(())
-            }
-            Running::Computation(_) | Running::SubPlan { .. } => Err(NotActive),
+            Running::Actor(_) => injection.put(&mut self.injected),
+            Running::Computation(_) | Running::SubPlan { .. } => Err(NotInjected::NotActive),
         }
     }
 
     /// Passes an injection on to the sub-plan that runs in it; `part` counts from the outer plan's
     /// first element.
-    pub fn inject_inside(&mut self, part: u32, injection: &Injection) -> Result<(), NotActive> {
-        let Running::SubPlan { child, machine } = &mut self.running else { return Err(NotActive) };
-        let part = part.checked_sub(child.components).ok_or(NotActive)?;
+    pub fn inject_inside(&mut self, part: u32, injection: &Injection) -> Result<(), NotInjected> {
+        let Running::SubPlan { child, machine } = &mut self.running else {
+            return Err(NotInjected::NotActive);
+        };
+        let part = part.checked_sub(child.components).ok_or(NotInjected::NotActive)?;
         let active = machine.active();
         machine.plan_mut().inject_at(active, part, injection)
     }

@@ -25,13 +25,24 @@ pub struct Injection {
 /// What waits for the next poll of a component.
 pub(super) type Injected = Option<Box<Injection>>;
 
-/// The component is not being polled, so it cannot report anything.
+/// Why a component cannot be made to report something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotActive;
+#[non_exhaustive]
+pub enum NotInjected {
+    /// It is not being polled.
+    NotActive,
+    /// It has not yet reported what it was made to report before.
+    Waiting,
+}
 
 impl Injection {
-    pub(super) fn boxed(&self) -> Injected {
-        Some(Box::new(self.clone()))
+    /// Lets it wait in a place, unless another one waits there.
+    pub(super) fn put(&self, place: &mut Injected) -> Result<(), NotInjected> {
+        if place.is_some() {
+            return Err(NotInjected::Waiting);
+        }
+        *place = Some(Box::new(self.clone()));
+        Ok(())
     }
 
     /// Stages the outputs.
@@ -42,10 +53,13 @@ impl Injection {
     }
 }
 
-impl fmt::Display for NotActive {
+impl fmt::Display for NotInjected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the component is not active")
+        f.write_str(match self {
+            NotInjected::NotActive => "the component is not active",
+            NotInjected::Waiting => "the component already has something to report",
+        })
     }
 }
 
-impl std::error::Error for NotActive {}
+impl std::error::Error for NotInjected {}

@@ -125,7 +125,7 @@ impl Checker<'_> {
             return None;
         }
         let by = match by_path {
-            Some(path) => Some((self.cause(from, path, diags)?, path)),
+            Some(path) => Some((self.cause(from, to, path, diags)?, path)),
             None => None,
         };
         self.joined(from, found, by.as_ref(), (from_path, to), diags)?;
@@ -242,6 +242,7 @@ impl Checker<'_> {
     fn cause(
         &self,
         from: Found,
+        to: &ClaimTarget,
         path: &Path,
         diags: &mut Diagnostics,
     ) -> Option<(Found, Option<Outcome>)> {
@@ -250,7 +251,7 @@ impl Checker<'_> {
         let paths = &self.paths;
         let here = from.instance;
         let (found, rest) =
-            match paths.names.cause(paths.main, here.plan_index(), from.part, &names)? {
+            match paths.names.cause(paths.main, (here.plan_index(), from.part), to, &names)? {
                 resolve::Cause::Own(outcome) => return Some((from, Some(outcome))),
                 resolve::Cause::Near(part) => (Found { instance: here, part }, &names[1..]),
                 resolve::Cause::Inside(walk) => paths.arrived(here, walk, &names).ok()?,
@@ -439,10 +440,5 @@ fn ends_plan(target: Target) -> bool {
 
 /// A target as a claim names it.
 fn written(target: &ClaimTarget) -> String {
-    match target {
-        ClaimTarget::Element(path) => path.text(),
-        ClaimTarget::Terminate => "terminate".to_owned(),
-        ClaimTarget::Fail => "fail".to_owned(),
-        ClaimTarget::Resume => "resume".to_owned(),
-    }
+    target.path().map_or_else(|| target.word(), Path::text)
 }

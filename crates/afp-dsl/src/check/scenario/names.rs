@@ -9,7 +9,9 @@ use crate::check::names::Indices;
 use crate::index::{Recorder, Word};
 use crate::scenario::Field;
 use crate::toolbox::{Control, Fault, Signal};
-use afp_syntax::ast::{self, Bind, ClaimKind, Formula, FormulaKind, Line, LineKind, Name, Path};
+use afp_syntax::ast::{
+    self, Bind, ClaimKind, ClaimTarget, Formula, FormulaKind, Line, LineKind, Name, Path,
+};
 
 /// Records what the names in lines mean; `plan` is that of the scenario, where there is one.
 pub(super) fn record(
@@ -97,7 +99,7 @@ impl NameRecorder<'_> {
             ClaimKind::Transition { from, to, by } => {
                 self.component(&from);
                 to.path().iter().for_each(|path| self.component(path));
-                by.iter().for_each(|path| self.cause(&from, path));
+                by.iter().for_each(|path| self.cause(&from, &to, path));
             }
             ClaimKind::Active(path) | ClaimKind::Interrupt(path) => self.component(&path),
             ClaimKind::Compare(path, _, value) => {
@@ -138,12 +140,12 @@ impl NameRecorder<'_> {
         }
     }
 
-    fn cause(&self, from: &Path, path: &Path) {
+    fn cause(&self, from: &Path, to: &ClaimTarget, path: &Path) {
         let (names, from) = (path.names(), from.names());
         let Some(main) = self.plan else { return self.unknown(&names) };
         let left = self.resolver.component(main, &from);
         let Ok(part) = left.end else { return self.component(path) };
-        match self.resolver.cause(main, left.plan, part, &names) {
+        match self.resolver.cause(main, (left.plan, part), to, &names) {
             Some(Cause::Own(_)) => self.outcomes(left.plan, part, &names),
             Some(Cause::Near(local)) => {
                 let member = self.resolver.member(left.plan, local);

@@ -10,7 +10,7 @@ use crate::graph::{ElementId, SupervisorId};
 use crate::index::Recorder;
 use crate::outline::{Component, ComponentKind};
 use crate::scenario::Outcome;
-use afp_syntax::ast::Name;
+use afp_syntax::ast::{ClaimTarget, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, words};
 use afp_syntax::source::Span;
 
@@ -114,20 +114,58 @@ impl<'a> Resolver<'a> {
         walk
     }
 
-    /// What names behind `by` mean where an element is left: one of its states, a supervisor of it
-    /// or of its plan, or a path from the outermost plan.
-    pub fn cause(&self, main: usize, plan: usize, from: Part, names: &[Name]) -> Option<Cause> {
+    /// What names behind `by` mean where an element is left for a target: one of its states, a supervisor of it or of
+    /// its plan, or a path from the outermost plan. Of two supervisors of one name the one with such an edge is meant.
+    pub fn cause(
+        &self,
+        main: usize,
+        (plan, from): (usize, Part),
+        to: &ClaimTarget,
+        names: &[Name],
+    ) -> Option<Cause> {
         let first = names.first()?;
         if let ([_], Some(outcome)) = (names, self.outcome(plan, from, &first.text)) {
             return Some(Cause::Own(outcome));
         }
-        if let Some(local) = self.local(plan, from, &first.text) {
-            return Some(Cause::Near(local));
-        }
         let inside = self.component(plan, names);
+        let fit = |part, rest: Option<&Name>| {
+            let has = rest.is_none_or(|name| self.outcome(plan, part, &name.text).is_some());
+            (self.leads(plan, (part, rest), from, to), has)
+        };
+        if let Some(local) = self.local(plan, from, &first.text) {
+            let own = fit(local, names.get(1));
+            return Some(match inside.end {
+                Ok(part) if fit(part, names.get(inside.trail.len())) > own => Cause::Inside(inside),
+                _ => Cause::Near(local),
+            });
+        }
         Some(match inside.end {
             Ok(_) => Cause::Inside(inside),
             Err(_) => Cause::Outside(self.component(main, names)),
+        })
+    }
+
+    /// Whether a component, or one of its outcomes, leads to a target while an element is active.
+    fn leads(
+        &self,
+        plan: usize,
+        (part, outcome): (Part, Option<&Name>),
+        active: Part,
+        to: &ClaimTarget,
+    ) -> bool {
+        let (Some(member), Some(active)) = (self.member(plan, part), self.member(plan, active))
+        else {
+            return false;
+        };
+        let name = member.name.as_ref().map_or("", |name| &name.text);
+        let globals = self.members[plan].globals.len();
+        let is_global = matches!(part, Part::Supervisor(id) if id.index() < globals);
+        let here = active.reactions.iter().filter(|it| is_global && is_called(it, name));
+        let exits = here.chain([member]).flat_map(|it| &it.exits);
+        let mut exits = exits.filter(|exit| outcome.is_none_or(|name| *exit.name == *name.text));
+        exits.any(|exit| {
+            let target = exit.edge.as_ref().and_then(|edge| edge.target.as_ref());
+            target.is_some_and(|target| target.text.split(' ').next() == Some(to.word().as_str()))
         })
     }
 

@@ -69,7 +69,13 @@ pub(super) fn output(
         match outcomes.iter().position(|outcome| outcome.name == state.text) {
             Some(index) => {
                 record.definition(state.span, outcomes[index].span);
-                on.extend(u16::try_from(index));
+                let index = u16::try_from(index).unwrap_or(u16::MAX);
+                if on.contains(&index) {
+                    let message = format!("'{}' is given twice", state.text);
+                    let error = Diagnostic::new(Code::E0511, state.span, message);
+                    diags.push(error.help("remove one of them"));
+                }
+                on.push(index);
             }
             None => {
                 record.unknown(state.span);

@@ -167,15 +167,28 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
         let Some(name) = node.name() else { continue };
         names.declare(&name, diags);
         if matches!(name.text.as_str(), "Error" | "DeadlineMissed") {
-            let message = format!("'{}' needs no declaration", name.text);
-            diags.push(
-                Diagnostic::new(Code::E0214, name.span, message)
-                    .help("remove it, or choose another name; plans can connect it anyway"),
-            );
+            diags.push(reserved(&name, template.kind));
         }
         let (doc, once) = (node.doc(), node.once());
         template.outcomes.push(Outcome { name: name.text, doc, once, span: name.span });
     }
+}
+
+/// What is said of a name that edges have which need no declaration.
+fn reserved(name: &Name, kind: TemplateKind) -> Diagnostic {
+    let own = match kind {
+        TemplateKind::Supervisor => "DeadlineMissed",
+        TemplateKind::Actor | TemplateKind::Computation => "Error",
+    };
+    let (message, help) = match name.text == own {
+        true => (
+            "needs no declaration",
+            "remove it, or choose another name; plans can connect it anyway",
+        ),
+        false if own == "Error" => ("is what supervisors report", "choose another name"),
+        false => ("is how elements fail", "choose another name"),
+    };
+    Diagnostic::new(Code::E0214, name.span, format!("'{}' {message}", name.text)).help(help)
 }
 
 /// States that are the values of whatever enum is bound to a port.

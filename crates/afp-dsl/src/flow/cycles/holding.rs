@@ -3,11 +3,17 @@
 //! What templates do nobody declares, except those of the standard toolbox, which are known here.
 
 use crate::flow::view::{Cause, Edge, View};
-use crate::graph::{Component, Element, EntryId, Formula, FormulaKind, Supervisor};
+use crate::graph::{
+    Component, Element, EntryId, Formula, FormulaKind, Output, Supervisor, TemplateId,
+};
 use crate::toolbox::Constant;
+use crate::types::Conversion;
 
 /// The event of `CheckValue` that reports a value below its limit; the other one reports one above.
 const BELOW: u16 = 0;
+
+/// Computations of the standard toolbox that never fail: only what goes into them and comes out of them can.
+const SURE: &[&str] = &["Assign", "Compare", "Count", "Is", "Log", "Switch"];
 
 /// Whether an edge can be taken in the look, or by the start of an element.
 pub(super) fn can_hold(view: &View<'_>, cause: Cause) -> bool {
@@ -28,12 +34,34 @@ fn waits(view: &View<'_>, supervisor: &Supervisor) -> bool {
 }
 
 /// Whether the start of an element can fail: it commands something, or computes what it needs.
-fn can_fail(view: &View<'_>, element: &Element) -> bool {
+pub(super) fn can_fail(view: &View<'_>, element: &Element) -> bool {
     let (Component::Actor(id) | Component::Computation(id)) = element.component else {
         return true;
     };
+    if standard_template(view, id).is_some_and(|name| SURE.contains(&name)) {
+        let fits = |output: &Output| {
+            let entry = view.plan.entries.get(output.entry.index());
+            entry.is_some_and(|entry| entry.range.is_none() && entry.ranged_by.is_empty())
+                && output.conversion.as_ref().is_none_or(never_fails)
+        };
+        let inputs = element.inputs.iter().all(|input| is_plain(view, input));
+        return !(inputs && element.outputs.iter().all(fits));
+    }
     let computes = element.inputs.iter().any(|input| view.constant(input).is_none());
     computes || !view.model.template(id).uses.is_empty()
+}
+
+/// Whether a formula is a constant or an entry, so that nothing can go wrong with it.
+fn is_plain(view: &View<'_>, formula: &Formula) -> bool {
+    match &formula.kind {
+        FormulaKind::Entry(_) => true,
+        FormulaKind::Convert(conversion, inner) if never_fails(conversion) => is_plain(view, inner),
+        _ => view.constant(formula).is_some(),
+    }
+}
+
+fn never_fails(conversion: &Conversion) -> bool {
+    !matches!(conversion, Conversion::FloatToInt | Conversion::FromText(_))
 }
 
 /// What a `CheckValue` compares.
@@ -106,7 +134,11 @@ fn entry(formula: &Formula) -> Option<EntryId> {
 
 /// The name of a supervisor's template, if that is one of the standard toolbox.
 fn standard<'a>(view: &View<'a>, supervisor: &Supervisor) -> Option<&'a str> {
-    let id = supervisor.template;
+    standard_template(view, supervisor.template)
+}
+
+/// The name of a template, if it is one of the standard toolbox.
+fn standard_template<'a>(view: &View<'a>, id: TemplateId) -> Option<&'a str> {
     let toolbox = &view.model.toolboxes[id.toolbox.index()];
     (toolbox.name == "std").then(|| view.model.template(id).name.as_str())
 }

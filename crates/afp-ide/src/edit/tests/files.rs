@@ -141,6 +141,8 @@ fn a_new_name_must_be_free_wherever_it_is_seen() {
         "'Rest' is already there in 'lib/deep/rest.afp'",
     );
     refused(1, &rename(Item::enumeration("Mood"), "length"), "'length' is a type of the language");
+    let object = "'DistanceMap' is a type of the toolbox 'carbot'";
+    refused(1, &rename(Item::enumeration("Mood"), "DistanceMap"), object);
 }
 
 #[test]
@@ -165,6 +167,20 @@ fn an_element_is_renamed_in_scenarios_of_other_files() {
         (1, "actor forth", "actor away"),
     ];
     replaces(1, &rename(Item::inner("Lap", "forth"), "away"), &wanted);
+}
+
+#[test]
+fn a_value_of_an_enum_is_renamed_wherever_it_is_used() {
+    let change = |to: &str| Change::RenameValue {
+        enumeration: "Mood".into(),
+        value: "wild".into(),
+        to: to.into(),
+    };
+    let wanted = [(0, "Mood.wild", "Mood.mad"), (1, "calm wild", "calm mad")];
+    replaces(1, &change("mad"), &wanted);
+    refused(1, &change("calm"), "'calm' is already there");
+    refused(1, &change("1"), "'1' cannot be a name");
+    refused(0, &change("mad"), "there is no enum 'Mood'");
 }
 
 #[test]

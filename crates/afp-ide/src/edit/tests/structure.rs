@@ -110,6 +110,33 @@ scenario \"s\" for P {
 }
 
 #[test]
+fn scenarios_follow_what_is_extracted() {
+    let text = PLAN.replace(ONE_WAY, "        Lost  -> follow\n");
+    let text = text.replace("{ Pressed -> terminate }", "{ Pressed -> find }");
+    let scenario = |claim: &str| text.replace("    expect find -> turn\n", claim);
+    for (claim, expected) in [
+        ("find -> turn by Found", "align.find -> align.turn by Found"),
+        ("turn -> follow", "align -> follow"),
+        ("turn -> follow by Done", "align -> follow by OK"),
+        ("find -> back by touch", "align -> back by Interrupted"),
+        ("turn -> back by turn.touch.Touched", "align -> back by Interrupted"),
+        ("back -> find by Done", "back -> align by Done"),
+        ("follow -> find by escape", "follow -> align by escape"),
+        ("turn -> find by escape.Pressed", "align -> align by escape.Pressed"),
+        ("back -> terminate by Error", "back -> terminate by Error"),
+        ("turn active", "align.turn active"),
+        ("turn.touch.Touched", "align.turn.touch.Touched"),
+        ("interrupt of turn", "interrupt of align.turn"),
+        ("end by turn.Done", "end by align.OK"),
+    ] {
+        let extracted =
+            after(&scenario(&format!("    expect {claim}\n")), extract(&["turn", "find"]));
+        let line = extracted.lines().find(|line| line.contains("expect ")).unwrap_or_default();
+        assert_eq!(line.trim(), format!("expect {expected}"), "of {claim}");
+    }
+}
+
+#[test]
 fn a_value_from_before_comes_in_beside_the_output() {
     let text =
         PLAN.replace(ONE_WAY, "        Lost  -> follow\n").replace("start find", "start turn");
@@ -286,6 +313,8 @@ fn what_would_mean_something_else_is_refused() {
         "an event of the sub-plan would end the plan as Interrupted, which it now ends as OK",
     );
     change("subplan align: Align", "actor align: Align", "'align' is no sub-plan of a plan");
+    let watched = format!("{CALL}\nscenario \"s\" for P {{ expect align -> go until 5 s }}\n");
+    refused(&watched, inline(), "a scenario says what comes after 'align' as a whole");
 }
 
 #[test]

@@ -30,6 +30,11 @@ fn a_table_has_a_name_of_its_own() {
     let refused = |to: &str| edit(TEXT, &rename(to)).unwrap_err().reason;
     assert_eq!(refused("length"), "'length' is a type of the language");
     assert!(refused("P").contains("'P' is already there"), "{}", refused("P"));
+    let text = format!("{TEXT}\nenum Side {{ left right }}\n");
+    for item in [Item::plan("P"), Item::enumeration("Side")] {
+        let change = Change::Rename { item, to: "route".to_owned() };
+        assert_eq!(edit(&text, &change).unwrap_err().reason, "'route' is already there");
+    }
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! What stands in the braces of an element or a supervisor as other languages have it.
 
-use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::parser::Parser;
 use crate::parser::plan::BODY;
@@ -33,14 +32,7 @@ impl Parser<'_, '_> {
     /// `if (far) { ... }`. Returns whether one stands here.
     pub(in crate::parser) fn strange_item(&mut self, what: &str) -> bool {
         let is_item = self.nth(1) == Kind::Name && self.nth(2) == Kind::Colon;
-        if is_item && what == BODY && self.meant(&["supervise"]).is_some() {
-            let here = self.next_span();
-            let error = Diagnostic::new(
-                Code::E0102,
-                here,
-                "a supervisor of an element begins with 'supervise'",
-            );
-            self.error(error.help("write 'supervise'").replace("supervise"));
+        if is_item && what == BODY && self.item_meant(what, &["supervise"]) {
             self.guard();
             return true;
         }
@@ -49,7 +41,7 @@ impl Parser<'_, '_> {
         let chooses =
             chooses && matches!(self.nth(1), Kind::Name | Kind::OpenParen | Kind::OpenBrace);
         let help = match self.meant(&["actor", "computation", "subplan", "supervise"]) {
-            _ if chooses => self.item_help(&[]).unwrap_or_default(),
+            _ if chooses => self.item_help().unwrap_or_default(),
             Some("supervise") => "move it behind the '}' of this supervisor".to_owned(),
             Some(word) => format!("write '{word}' behind the '}}' of this element"),
             None => "write 'supervise' before the name of a supervisor".to_owned(),

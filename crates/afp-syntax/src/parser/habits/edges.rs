@@ -94,7 +94,8 @@ impl Parser<'_, '_> {
     /// begin with a capital letter.
     fn is_second_target(&self) -> bool {
         let ends = self.nth(2) == Kind::CloseBrace || self.begins_line(2);
-        ends && self.word(1).starts_with(|first: char| first.is_ascii_lowercase())
+        let is_name = self.word(1).starts_with(|first: char| first.is_ascii_lowercase());
+        ends && is_name && !self.edge_at(1)
     }
 
     /// `Done | Lost -> home`, `Done or Lost -> home`: reports the sign between the names. Returns whether one stands here.

@@ -4,10 +4,6 @@ use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::parser::Parser;
 
-/// Words that a time of a supervisor has elsewhere, and ours.
-const TIMES: &[(&str, &[&str])] =
-    &[("every", &["each", "period", "interval", "rate"]), ("deadline", &["within", "timeout"])];
-
 impl Parser<'_, '_> {
     /// `Turn[angle = 90 deg]`, `Turn angle = 90 deg`: reports the parentheses that are missing, and reads the ports.
     pub(in crate::parser) fn ports_without_parentheses(&mut self) {
@@ -37,16 +33,10 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// `within 50 ms`, `each 50 ms`: reports the word, and reads what follows as the time that is meant.
-    pub(in crate::parser) fn time_by_another_word(&mut self) {
-        let word = self.word(0);
-        let ours = TIMES.iter().find(|(_, others)| others.contains(&word));
-        let before_time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
-        let Some((ours, _)) = ours.filter(|_| before_time && self.on_same_line()) else { return };
-        let here = self.next_span();
-        let message = format!("a time of a supervisor has no word '{word}'");
-        let help = format!("write '{ours}'");
-        self.error(Diagnostic::new(Code::E0102, here, message).help(help).replace(*ours));
-        self.timing();
+    /// `within 50 ms`, `evry 50 ms`: reports the word, and reads it as the one that is meant. Returns whether it stands
+    /// there.
+    pub(in crate::parser) fn time_by_another_word(&mut self) -> bool {
+        let before_time = matches!(self.nth(1), Kind::Int | Kind::Float) && self.on_same_line();
+        before_time && self.item_meant("'every' or 'deadline'", &["every", "deadline"])
     }
 }

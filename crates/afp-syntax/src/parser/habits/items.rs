@@ -1,7 +1,7 @@
 //! Items that no plan and no file has, and items that stand in braces where they have no place.
 
-use super::{CHOICE, TOP_WORDS};
-use crate::diagnostics::{Code, Diagnostic, words};
+use super::CHOICE;
+use crate::diagnostics::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::kind::Kind;
 use crate::parser::recovery::Body;
@@ -16,8 +16,8 @@ fn is_type(word: &str) -> bool {
 }
 
 impl Parser<'_, '_> {
-    /// What to write for an item that no plan has.
-    pub(in crate::parser) fn item_help(&self, items: &[&str]) -> Option<String> {
+    /// What to write for an item that no plan has, and that is no slip.
+    pub(in crate::parser) fn item_help(&self) -> Option<String> {
         let (word, next) = (self.word(0), self.word(1));
         let begins_element = || self.on_line_from(1, Kind::OpenBrace).is_some();
         Some(match (word, self.nth(1)) {
@@ -30,13 +30,12 @@ impl Parser<'_, '_> {
             }
             (_, Kind::Arrow) => "put the edge into the braces of an element or a supervisor".to_owned(),
             (_, Kind::Name) if is_type(word) => format!("write 'var {next}: {word}'"),
-            ("live", Kind::Name) if self.word(1) == "in" => "write 'in live'".to_owned(),
             ("double" | "real", Kind::Name) => format!("write 'var {next}: float'"),
             ("def" | "task", Kind::Name) if self.nth(2) == Kind::OpenParen => SUB_PLAN.to_owned(),
             ("let" | "mut" | "auto" | "local" | "global" | "val" | "def", Kind::Name) => {
                 format!("write 'var {next}'")
             }
-            ("task", Kind::Name) if self.nth(2) == Kind::Colon => "write 'actor'".to_owned(),
+            ("task", Kind::Name) if self.nth(2) == Kind::Colon => return None,
             ("if" | "else" | "elif" | "switch" | "case" | "when" | "match", _) => CHOICE.to_owned(),
             ("while" | "for" | "loop" | "do", _) => "lead an edge back to an element".to_owned(),
             ("import" | "include" | "from", _) => "write 'use' at the top of the file".to_owned(),
@@ -46,41 +45,14 @@ impl Parser<'_, '_> {
             ("every" | "deadline", _) => {
                 "write it behind the supervisor's template, before its '{'".to_owned()
             }
-            _ => format!("write '{}'", self.meant(items)?),
+            _ => return None,
         })
     }
 
-    /// What to write for an item that no file has.
-    pub(in crate::parser) fn top_help(&self) -> String {
-        match self.word(0) {
-            "import" | "include" | "from" | "using" | "require" => {
-                "write 'use' and the name of a toolbox".to_owned()
-            }
-            word => match words::nearest(word, TOP_WORDS.iter().copied()) {
-                Some(meant) => format!("write '{meant}'"),
-                None => "remove it, or put it into a plan".to_owned(),
-            },
-        }
-    }
-
-    /// The word of an item that was meant.
-    pub(in crate::parser) fn meant<'a>(&self, items: &[&'a str]) -> Option<&'a str> {
-        if self.nth(1) != Kind::Name {
-            return None;
-        }
-        let usual = match self.word(0) {
-            "state" | "action" | "step" | "node" | "behavior" | "behaviour" => "actor",
-            "supervisor" | "guard" | "watch" | "monitor" => "supervise",
-            "task" if self.nth(2) == Kind::Colon => "actor",
-            "input" | "param" | "parameter" => "in",
-            "output" | "result" => "out",
-            "variable" => "var",
-            "constant" | "static" | "final" => "const",
-            "sub" | "subtree" | "submachine" => "subplan",
-            "begin" | "initial" | "first" | "entry" => "start",
-            other => return words::nearest(other, items.iter().copied()),
-        };
-        items.iter().copied().find(|item| *item == usual)
+    /// What to write for an item that files of other languages have.
+    pub(in crate::parser) fn top_help(&self) -> Option<String> {
+        let is_import = matches!(self.word(0), "import" | "include" | "from" | "using" | "require");
+        is_import.then(|| "write 'use' and the name of a toolbox".to_owned())
     }
 
     /// Whether an actor, entry or supervisor begins here inside the body of another one, though no brace is missing.

@@ -6,7 +6,7 @@ use afp_core::trace::ComponentId;
 
 use super::LoadedPlan;
 use crate::load::element::ElementSlot;
-use crate::load::inject::{Injection, NotActive};
+use crate::load::inject::{Injection, NotInjected};
 
 impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// Makes a component of the running plan report an outcome at its next poll, whatever it sees: for
@@ -15,9 +15,13 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// `active` is the active element of the plan, as its scheduler has it.
     ///
     /// # Errors
-    /// [`NotActive`] when the component is not being polled; nothing changes then.
-    pub fn inject(&mut self, active: Option<u16>, injection: &Injection) -> Result<(), NotActive> {
-        let part = injection.component.0.checked_sub(1).ok_or(NotActive)?;
+    /// The component is not being polled, or has not yet reported the outcome before this one; nothing changes then.
+    pub fn inject(
+        &mut self,
+        active: Option<u16>,
+        injection: &Injection,
+    ) -> Result<(), NotInjected> {
+        let part = injection.component.0.checked_sub(1).ok_or(NotInjected::NotActive)?;
         self.inject_at(active, part, injection)
     }
 
@@ -27,28 +31,31 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         active: Option<u16>,
         part: u32,
         injection: &Injection,
-    ) -> Result<(), NotActive> {
-        let active = active.ok_or(NotActive)?;
+    ) -> Result<(), NotInjected> {
+        let active = active.ok_or(NotInjected::NotActive)?;
         let (elements, supervisors) = (self.elements.len() as u32, self.supervisors.len() as u32);
         if part < elements {
-            let slot = self.elements.get_mut(part as usize).ok_or(NotActive)?;
+            let slot = self.elements.get_mut(part as usize).ok_or(NotInjected::NotActive)?;
             return match u32::from(active) == part {
                 true => slot.inject(injection),
-                false => Err(NotActive),
+                false => Err(NotInjected::NotActive),
             };
         }
         if let Some(number) = part.checked_sub(elements).filter(|number| *number < supervisors) {
             let table = self.tables.table();
-            let locals = table.element(active).map(|row| row.locals).ok_or(NotActive)?;
+            let locals =
+                table.element(active).map(|row| row.locals).ok_or(NotInjected::NotActive)?;
             let local = u32::from(locals.first)..u32::from(locals.first) + u32::from(locals.len);
             if number >= u32::from(table.globals) && !local.contains(&number) {
-                return Err(NotActive);
+                return Err(NotInjected::NotActive);
             }
-            let watch = self.supervisors.get_mut(number as usize).ok_or(NotActive)?;
-            watch.injected = injection.boxed();
-            return Ok(());
+            let watch = self.supervisors.get_mut(number as usize).ok_or(NotInjected::NotActive)?;
+            return injection.put(&mut watch.injected);
         }
-        self.elements.get_mut(usize::from(active)).ok_or(NotActive)?.inject_inside(part, injection)
+        self.elements
+            .get_mut(usize::from(active))
+            .ok_or(NotInjected::NotActive)?
+            .inject_inside(part, injection)
     }
 
     /// Makes an actor, or all actors of a sub-plan, do nothing from their next start on: for tests. They

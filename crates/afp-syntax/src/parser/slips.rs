@@ -1,0 +1,68 @@
+//! Words of the grammar with a slip in them, and words that other languages have in their place: said once, and read as
+//! what they were meant for.
+
+use super::Parser;
+use crate::diagnostics::{Code, Diagnostic, words};
+use crate::keywords;
+use crate::kind::Kind;
+
+impl Parser<'_, '_> {
+    /// The word of a list that was meant where an item begins: on the line of the next word stands what such items have.
+    pub(super) fn meant<'a>(&self, list: &[&'a str]) -> Option<&'a str> {
+        use Kind::{Float, Int, Name, OpenBrace, Text};
+        let goes_on = matches!(self.nth(1), Name | Text | Int | Float | OpenBrace);
+        let is_read = self.slip.is_some_and(|(at, _)| at == self.at);
+        let is_word = self.at(Kind::Name) && goes_on && !self.begins_line(1) && !is_read;
+        keywords::meant(self.word(0), list).filter(|_| is_word)
+    }
+
+    /// Reads the next word as that of a list which it was meant for, after having said so. Returns whether it was.
+    pub(super) fn item_meant(&mut self, what: &str, list: &[&'static str]) -> bool {
+        let meant = self.meant(list);
+        if let Some(meant) = meant {
+            self.read_as(meant, what);
+        }
+        meant.is_some()
+    }
+
+    /// Says that another word stands in the place of one, and reads it as that one.
+    pub(super) fn read_as(&mut self, meant: &'static str, what: &str) {
+        self.report_skipped(what, &format!("write '{meant}'"), Some(meant));
+        self.slip = Some((self.at, meant));
+    }
+
+    /// Whether the next word, on the line of the one before it, is a slip of a word of the grammar. Short ones are too
+    /// near to others.
+    pub(super) fn at_slip(&self, word: &str) -> bool {
+        let written = self.word(0);
+        self.on_same_line()
+            && written.len() > 2
+            && !self.names_something(0)
+            && words::nearest(written, [word]).is_some()
+    }
+
+    /// Takes a word of the grammar, or a slip of it before a token of which `follows` holds.
+    pub(super) fn eat_meant(&mut self, word: &'static str, follows: impl Fn(Kind) -> bool) -> bool {
+        let is_slip = !self.at_word(word) && self.at_slip(word) && follows(self.nth(1));
+        if is_slip {
+            self.read_as(word, &format!("'{word}'"));
+        }
+        self.eat_word(word)
+    }
+
+    /// `live in x`: says in which order the words stand, and reads past the first. Returns whether they stand so.
+    pub(super) fn live_before_in(&mut self) -> bool {
+        let stands = self.word(0) == "live" && self.word(1) == "in" && self.nth(2) == Kind::Name;
+        if stands {
+            let error = Diagnostic::new(Code::E0102, self.ahead(2), "'live' stands behind 'in'");
+            self.error(error.help("write 'in live'").replace("in live"));
+            self.pass(1);
+        }
+        stands
+    }
+}
+
+/// Whether a formula may begin with a token.
+pub(super) fn begins_formula(kind: Kind) -> bool {
+    matches!(kind, Kind::Int | Kind::Float | Kind::Minus | Kind::Name | Kind::OpenParen)
+}
