@@ -146,7 +146,7 @@ impl RunError {
                 report(message, "", vec![Mark { path: &path, text, lines: None, span, label }])
             }
             RunError::Project(error) => error.reports(make),
-            RunError::Log(error) => report(&error.to_string(), error.help(), Vec::new()),
+            RunError::Log(error) => report(&error.to_string(), &error.help(), Vec::new()),
         }
     }
 }

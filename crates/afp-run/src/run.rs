@@ -13,8 +13,8 @@ use afp_core::{Ending, Instant};
 use afp_log::{About, OwnedNames, SessionLog, Written};
 use afp_project::ProjectFile;
 use afp_session::{
-    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
-    Requested, SessionError, TextFile, Track,
+    AnyRobot, AnySession, AnyWorld, Build, Counts, Drawing, Figures, LastResort, Observer, Pose2,
+    Recipe, Requested, SessionError, TextFile, Track,
 };
 
 use crate::again::Again;
@@ -26,6 +26,7 @@ use crate::output::write_whole;
 use crate::pace::Pace;
 use crate::picture::Rasterizer;
 use crate::report::{Ran, Report, Requests, Shown, StoppedBy, Summary};
+use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::svg::{self, Picture};
 use crate::world::LoadedWorld;
@@ -96,10 +97,26 @@ fn find_world(
 ) -> Result<LoadedWorld, RunError> {
     let asked = options.world.as_deref();
     let mut world = crate::world::find(asked, Path::new(program.file), robot)?;
+    let usual = world.world.drawing().start;
     inputs::change_world(&mut world, &options.set, robot)?;
-    let Some(start) = options.start else { return Ok(world) };
-    let refused = |why| RunError::usage(format!("'--start': {why}"), "choose another start");
-    world.started_at(start).map_err(refused)
+    if let Some(start) = options.start {
+        let refused = |why| RunError::usage(format!("'--start': {why}"), "choose another start");
+        world = world.started_at(start).map_err(refused)?;
+    }
+    let drawing = world.world.drawing();
+    if is_outside(&drawing, drawing.start) && !is_outside(&drawing, usual) {
+        warn("the robot starts outside of all that stands in its world");
+    }
+    Ok(world)
+}
+
+/// Whether a place is left or right of everything that stands in a world, or above or below of it.
+fn is_outside(world: &Drawing, at: Pose2) -> bool {
+    let beyond = |of: fn(&[f64; 2]) -> f64, at: f64| {
+        let all = || world.things.iter().flat_map(|thing| thing.outline.iter().map(of));
+        all().all(|corner| corner < at) || all().all(|corner| corner > at)
+    };
+    beyond(|corner| corner[0], at.x) || beyond(|corner| corner[1], at.y)
 }
 
 /// All that it takes to repeat the run, but for what comes from outside.
@@ -176,7 +193,14 @@ fn drive(
         Some(path) => {
             let (about, names) = (about(setting), OwnedNames::new(session.names()));
             let (devices, scene) = (session.devices(), world.world.scene());
-            Some(SessionLog::create(path, &about, names, devices, scene, options.camera)?)
+            let log = SessionLog::create(path, &about, names, devices, scene, options.camera)?;
+            if let Some(kept) = log.kept() {
+                let kept = kept.display();
+                warn(&format!(
+                    "an earlier run of this log was killed: 'afpc log {kept} recover' saves what there is of it"
+                ));
+            }
+            Some(log)
         }
     };
     let keeper = options.time_keeper();

@@ -158,7 +158,7 @@ fn an_entry_without_a_value_is_asked_for() {
     place.write("a.afp", &WALL_FOLLOWING.replace("length = 30 cm", "length"));
     let said = place.afpc("run a.afp --log a.mcap --svg none");
     said.fails(2, &["'walldist' has neither a value nor a default", "--set walldist="]);
-    assert!(!place.exists("a.mcap"));
+    assert_eq!(place.files(), ["a.afp"]);
     place.afpc(&format!("run a.afp --set walldist=30cm --until 1s {QUIET}")).succeeds();
 }
 
@@ -263,6 +263,24 @@ fn a_wrong_world_is_shown_at_its_line() {
     place.write("afp.toml", "[run]\nworlds = \"w.toml\"\n");
     place.afpc("run wall_following.afp").fails(1, &["'[run]' has no 'worlds'", "afp.toml:2:1"]);
     assert_eq!(place.files(), ["afp.toml", "w.toml", "wall_following.afp"]);
+}
+
+#[test]
+fn a_start_far_away_is_refused_and_one_outside_of_everything_told() {
+    let place = Place::with_plan();
+    let start = |start: &str| {
+        place.afpc(&format!("run wall_following.afp --until 100ms --log none --svg a.svg {start}"))
+    };
+    let far = "the start is not within 1000 m and 1000 deg of zero";
+    for pose in ["1000000000m,1m,0deg", "1.7e308m,0m,0deg", "1m,-1001m,0deg", "1m,1m,1e9deg"] {
+        start(&format!("--start {pose}")).fails(2, &[far]);
+    }
+    let outside = "warning: the robot starts outside of all that stands in its world";
+    for outer in ["--start 900m,1m,0deg", "--set world.robot.pose_m_deg.1=-1m"] {
+        assert!(start(outer).succeeds().err.contains(outside), "{outer}");
+        assert!(place.read("a.svg").len() < 100_000, "{outer}");
+    }
+    assert_eq!(start("--start 2m,1m,0deg").succeeds().err, "");
 }
 
 #[test]
@@ -392,6 +410,19 @@ mod signals {
     fn signal(name: &str, process: u32) {
         let sent = Command::new("kill").args(["-s", name, &process.to_string()]).status();
         assert!(sent.unwrap().success());
+    }
+
+    #[test]
+    fn what_a_killed_run_has_left_is_kept() {
+        let place = Place::with_plan();
+        interrupted(&place, |process| signal("KILL", process));
+        place.afpc("log a.mcap").fails(1, &["name what there is of it, 'a.mcap.part'"]);
+        let said = place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none");
+        assert!(said.succeeds().err.contains("'afpc log a.2.mcap.part recover'"), "{}", said.err);
+        assert_eq!(place.files(), ["a.2.mcap.part", "a.mcap", "wall_following.afp"]);
+        let saved = place.afpc("log a.2.mcap.part recover");
+        assert!(saved.succeeds().out.ends_with("a.2.recovered.mcap\n"), "{}", saved.out);
+        assert_eq!(place.afpc("log a.2.recovered.mcap doctor").succeeds().out, "sound\n");
     }
 
     #[test]
