@@ -100,6 +100,7 @@ Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wro
 /// the words of the robot: that of the project, whose program need not be there for it.
 pub fn parse(linked: &Linked<'_>) -> Command {
     let arguments: Vec<_> = std::env::args_os().skip(1).collect();
+    let words: Vec<_> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
     let asks = |word: &str| arguments.iter().any(|argument| argument == word);
     let helps = ["--help", "-h", "help"].into_iter().any(asks) && asks("run");
     let declared = if helps && !linked.is_runner() { declared::devices(&arguments) } else { None };
@@ -113,7 +114,7 @@ pub fn parse(linked: &Linked<'_>) -> Command {
     };
     let matches = match command.try_get_matches() {
         Ok(matches) => matches,
-        Err(error) => match without_command(&error) {
+        Err(error) => match without_command(&error).or_else(|| swapped(&error, &words)) {
             Some(refusal) => refuse(&refusal),
             None if !error.use_stderr() => tell(&error),
             None => error.exit(),
@@ -168,6 +169,16 @@ fn without_command(error: &clap::Error) -> Option<RunError> {
             format!("'afpc run {name}' runs it; 'afpc --help' lists what else can be done with it"),
         )
     })
+}
+
+/// What to say to somebody who puts the words of `afpc log` into another order.
+fn swapped(error: &clap::Error, words: &[&str]) -> Option<RunError> {
+    match words {
+        ["log", first, second, ..] if error.kind() == ErrorKind::InvalidValue => {
+            log::swapped(first, second)
+        }
+        _ => None,
+    }
 }
 
 /// The grammar, with the commands that later releases or other builds bring: hidden, but told apart from typing

@@ -176,10 +176,32 @@ fn options_that_wait_for_something_say_for_what() {
         .fails(2, &["no control 'start'; it has 'touch', 'escape'"]);
     place.afpc("run wall_following.afp --fail sonar.lost@1s").fails(2, &["there are battery, "]);
     place.afpc("run wall_following.afp --until 5").fails(2, &["20s or 500ms"]);
-    place.afpc("run wall_following.afp --until -1s").fails(2, &["a time cannot be negative"]);
     place.afpc("run wall_following.afp --speed -2x").fails(2, &["a multiple of real time"]);
-    place.afpc("run wall_following.afp --seed -1").fails(2, &["invalid digit found in string"]);
     place.afpc("run wall_following.afp --live=here").fails(2, &["expected a port, 8765, or"]);
+    assert_eq!(place.files(), ["wall_following.afp"]);
+}
+
+#[test]
+fn numbers_out_of_place_and_empty_names_are_told_what_is_expected() {
+    let place = Place::with_plan();
+    for (words, why) in [
+        ("run wall_following.afp --until -1s", "a time cannot be negative"),
+        ("sweep wall_following.afp --until -1s", "a time cannot be negative"),
+        ("run wall_following.afp --seed -1", "expected a whole number from 0 to 184"),
+        ("run wall_following.afp --seed 1.5", "expected a whole number from 0 to 184"),
+        ("test --mutate --seed -1", "expected a whole number from 0 to 184"),
+        ("sweep wall_following.afp --seeds -1..3", "expected seeds such as 0..1000"),
+        ("sweep wall_following.afp --jobs -1", "expected a whole number from 1 on"),
+        ("sweep wall_following.afp --jobs 0", "expected a whole number from 1 on"),
+        ("graph wall_following.afp --scale -1", "expected a number from 0.1 to 10"),
+        ("dap --port -1", "-1 is not in 0..=65535"),
+        ("run wall_following.afp --log=", "expected the name of a file, or 'none'"),
+        ("run wall_following.afp --svg=", "expected the name of a file, or 'none'"),
+    ] {
+        if cfg!(feature = "dap") || !words.starts_with("dap") {
+            place.afpc(words).fails(2, &[why]);
+        }
+    }
     assert_eq!(place.files(), ["wall_following.afp"]);
 }
 
@@ -377,6 +399,14 @@ fn a_full_disk_is_no_success_and_a_closed_pipe_no_failure() {
     command.args(run.split(' ')).stdout(OpenOptions::new().write(true).open("/dev/full").unwrap());
     let full = common::said(command.output().unwrap());
     full.fails(1, &["error: cannot write to 'standard output'"]);
+    // Who looks at a run sees what it came to, though not all of it can be written.
+    for json in ["", "--json"] {
+        let run = format!("run wall_following.afp --until 1s {json} --log none --svg /dev/full");
+        let said = place.afpc(&run);
+        said.fails(1, &["cannot write the picture '/dev/full'"]);
+        let summary = &said.last_json()["summary"];
+        assert_eq!((&summary["stopped_by"], summary.get("svg")), (&"until".into(), None));
+    }
     let mut command = place.command();
     let mut child = command.args(run.split(' ')).stdout(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());

@@ -83,6 +83,14 @@ pub(super) fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
+/// Reads a whole number, such as a seed.
+///
+/// # Errors
+/// It is none, or negative.
+pub fn whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
 /// Reads `8765`, a port of this machine alone, or `0.0.0.0:8765`.
 pub(super) fn address(text: &str) -> Result<SocketAddr, String> {
     match text.parse::<u16>() {
@@ -156,6 +164,7 @@ pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
 pub(super) fn destination(text: &str) -> Result<Destination, String> {
     Ok(match text {
         "none" => Destination::None,
+        "" => return Err("expected the name of a file, or 'none'".to_owned()),
         path => Destination::File(path.into()),
     })
 }

@@ -30,7 +30,7 @@ pub struct Arguments {
     plan: PlanArgument,
 
     /// Seeds of the runs; the last of 0..1000 is 999, and there may be several, as in 1,5,20..30
-    #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds)]
+    #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds, allow_hyphen_values = true)]
     seeds: Seeds,
 
     /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5; with one value
@@ -51,7 +51,7 @@ pub struct Arguments {
     fail: Vec<Failure>,
 
     /// Stops each run at this time
-    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration)]
+    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration, allow_hyphen_values = true)]
     until: Duration,
 
     /// Where the table of outcomes goes: .csv, .parquet (where afpc has that feature), or a folder
@@ -68,7 +68,7 @@ pub struct Arguments {
     json: bool,
 
     /// How many runs go on at once [default: one for each core]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
     jobs: Option<NonZero<usize>>,
 }
 
@@ -89,6 +89,10 @@ const MOST_RUNS: u64 = 20_000_000;
 /// The worlds of one `--world`.
 #[derive(Clone, Debug)]
 struct Worlds(Vec<String>);
+
+fn jobs(text: &str) -> Result<NonZero<usize>, String> {
+    text.parse().map_err(|_| "expected a whole number from 1 on".to_owned())
+}
 
 fn worlds(text: &str) -> Result<Worlds, String> {
     afp_sweep::worlds(text).map(Worlds)
