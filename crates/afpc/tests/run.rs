@@ -146,10 +146,45 @@ fn entries_are_set_with_their_units() {
     assert_eq!((&first["new"], &first["unit"]), (&0.35.into(), &"m".into()), "{first}");
     assert_eq!(run("--set walldist=0.35m").out, said.out);
     run("--set walldist=35").fails(2, &["not a length", "help: write the unit", "35cm"]);
+    for number in ["nan", "1e999", "inf"] {
+        run(&format!("--set walldist={number}")).fails(2, &["a length", "a number and a unit: "]);
+    }
     run("--set walldist=35deg").fails(2, &["not a length", "a number and a unit: "]);
     run("--set wall=1m").fails(2, &["no entry 'wall'", "can be set: 'walldist' (length)"]);
     run("--set wallangle=1rad").fails(2, &["'wallangle' cannot be set", "'in' entry"]);
     run("--set walldist").fails(2, &["distance=35cm"]);
+}
+
+#[test]
+fn a_value_that_does_not_fit_is_told_how_it_is_written() {
+    let place = Place::new();
+    let plan = "use std
+enum Side { left right }
+plan Takes {
+    in count: int = 1
+    in often: bool = true
+    in share: float = 1
+    in bend: angle
+    in side: Side = Side.left
+    start go
+    actor go: Wait(duration = 1 s) { Elapsed -> terminate }
+}";
+    place.write("takes.afp", plan);
+    let bend = "write the unit: 'bend=1deg'";
+    for (set, help) in [
+        ("count=3.0", "'count=3.0': not an int\n  help: write 'count=3'\n"),
+        ("count=3.5", "a whole number, such as 'count=3'"),
+        ("count=many", "a whole number, such as 'count=3'"),
+        ("often=1", "'often=1': not a bool\n  help: write 'often=true' or 'often=false'\n"),
+        ("share=half", "'share=half': not a float\n  help: a number, such as 'share=0.5'\n"),
+        ("share=nan", "a number, such as 'share=0.5'"),
+        ("bend=1", bend),
+        ("side=up", "one of: left, right"),
+    ] {
+        place.afpc(&format!("run takes.afp --set {set} {QUIET}")).fails(2, &[help]);
+    }
+    let missing = place.afpc(&format!("run takes.afp {QUIET}"));
+    missing.fails(2, &["give it one with '--set bend=VALUE', an angle"]);
 }
 
 #[test]

@@ -48,6 +48,17 @@ fn every_row_can_be_done_again() {
 }
 
 #[test]
+fn a_plan_that_looks_like_an_option_can_be_run_again() {
+    let place = Place::new();
+    place.write("-n.afp", common::WALL_FOLLOWING);
+    let said = place.afpc("sweep --until 100ms --json -- -n.afp");
+    let command = objects(said.succeeds())[0]["command"].as_str().unwrap().to_owned();
+    let again =
+        place.afpc(&format!("{} --log none --svg none", command.strip_prefix("afpc ").unwrap()));
+    again.succeeds();
+}
+
+#[test]
 fn a_sweep_presses_and_breaks_as_a_run_does() {
     let place = Place::with_plan();
     let asked = "--press touch@2s --fail wheels.slip=0.3@3s..5s";
