@@ -52,7 +52,8 @@ impl Again {
     /// # Errors
     /// This robot knows no such world.
     pub(crate) fn world(&self, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
-        let world = world::parse(self.recipe.world.text.clone(), Some(self.path.clone()), robot)?;
+        let TextFile { name, text } = &self.recipe.world;
+        let world = world::parse(text.clone(), Some(self.path.clone()), name, robot)?;
         let Some(start) = self.recipe.start else { return Ok(world) };
         world.started_at(start).map_err(|why| RunError::Content {
             path: self.path.clone(),

@@ -345,11 +345,11 @@ fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
         Some(path) => path.display().to_string(),
         None => "built-in room".to_owned(),
     };
-    let mut head = vec![
-        plan,
-        ("world", format!("{} ({file})", world.world.name())),
-        ("seed", recipe.seed.to_string()),
-    ];
+    let called = match world.world.name() {
+        "" => file,
+        name => format!("{name} ({file})"),
+    };
+    let mut head = vec![plan, ("world", called), ("seed", recipe.seed.to_string())];
     head.extend(again.map(|again| ("again", again.path.display().to_string())));
     head
 }

@@ -307,6 +307,22 @@ fn worlds_are_found_in_their_order() {
 }
 
 #[test]
+fn a_world_without_a_name_is_called_by_its_file() {
+    let place = Place::with_plan();
+    place.write("hall.toml", "version = 1\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n");
+    let run = "run wall_following.afp --world hall.toml --start 2m,2m,0deg --until 100ms";
+    let said = place.afpc(&format!("{run} --set world.robot.charge=0.5 --log a.mcap --svg a.svg"));
+    assert!(said.succeeds().out.contains("world  hall (hall.toml)\n"), "{}", said.out);
+    assert_eq!(said.last_json()["summary"]["world"], "hall");
+    let again = place.afpc("run --again a.mcap --log none --svg b.svg");
+    assert_eq!(again.succeeds().last_json()["summary"]["world"], "hall");
+    place.afpc("log a.mcap --svg c.svg").succeeds();
+    for picture in ["a.svg", "b.svg", "c.svg"] {
+        assert!(place.read(picture).contains("hall, seed 0"), "{picture}");
+    }
+}
+
+#[test]
 fn a_wrong_world_is_shown_at_its_line() {
     let place = Place::with_plan();
     let run = "run wall_following.afp --world w.toml --log a.mcap --svg a.svg";

@@ -69,7 +69,7 @@ impl LoadedWorld {
         for (key, text) in changes {
             changed = self::changed(&changed, key, text)?.0;
         }
-        let world = super::parse(changed, self.path.clone(), robot);
+        let world = super::parse(changed, self.path.clone(), self.world.name(), robot);
         let world = world.map_err(|error| with_changes(error, changes))?;
         let world = LoadedWorld { path: self.path.clone(), ..world };
         let Some(start) = self.start else { return Ok(world) };
