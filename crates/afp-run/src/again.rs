@@ -60,6 +60,7 @@ impl Again {
             span: None,
             text: String::new(),
             message: why,
+            help: String::new(),
         })
     }
 

@@ -2,6 +2,7 @@
 
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_core::{Fault, StartError, Value};
+use afp_excerpt::words::a;
 use afp_session::{AnyRobot, AnySession, SetError, refusal};
 
 use crate::error::RunError;
@@ -133,9 +134,3 @@ fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[St
 
 /// The greatest whole number up to which floats have each.
 const EXACT: f64 = 9_007_199_254_740_992.0;
-
-/// A type with its article.
-fn a(ty: &str) -> String {
-    let article = if ty.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {ty}")
-}

@@ -75,6 +75,7 @@ pub fn run(
             span: None,
             text: world.text.clone(),
             message,
+            help: String::new(),
         },
         other => other.into(),
     })?;

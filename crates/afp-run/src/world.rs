@@ -1,6 +1,7 @@
 //! Finds the world of a run.
 
 pub mod change;
+mod measure;
 mod named;
 
 use std::borrow::Cow;
@@ -14,6 +15,7 @@ use afp_session::{AnyRobot, AnyWorld, Pose2, WorldError};
 
 use crate::error::RunError;
 
+pub(crate) use measure::Measure;
 pub(crate) use named::named;
 
 /// A world and its text.
@@ -166,6 +168,7 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
         span: error.span,
         text: yaml.clone(),
         message: error.message,
+        help: error.help,
     };
     let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong)?);
     let bytes =
@@ -190,6 +193,7 @@ pub(crate) fn parse(
             span: error.span,
             text,
             message: error.message,
+            help: error.help,
         }),
     }
 }

@@ -1,7 +1,10 @@
 //! The command line's grammar.
 
+use std::ffi::OsString;
+
 use afp_run::options::{for_devices, for_robot};
 use afp_run::{EXIT_OK, RunError, say};
+use afp_syntax::diagnostics::words::list;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -100,7 +103,6 @@ Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wro
 /// the words of the robot: that of the project, whose program need not be there for it.
 pub fn parse(linked: &Linked<'_>) -> Command {
     let arguments: Vec<_> = std::env::args_os().skip(1).collect();
-    let words: Vec<_> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
     let asks = |word: &str| arguments.iter().any(|argument| argument == word);
     let helps = ["--help", "-h", "help"].into_iter().any(asks) && asks("run");
     let declared = if helps && !linked.is_runner() { declared::devices(&arguments) } else { None };
@@ -114,7 +116,7 @@ pub fn parse(linked: &Linked<'_>) -> Command {
     };
     let matches = match command.try_get_matches() {
         Ok(matches) => matches,
-        Err(error) => match without_command(&error).or_else(|| swapped(&error, &words)) {
+        Err(error) => match better(&error, &arguments) {
             Some(refusal) => refuse(&refusal),
             None if !error.use_stderr() => tell(&error),
             None => error.exit(),
@@ -152,6 +154,25 @@ fn tell(help: &clap::Error) -> ! {
 fn refuse(error: &RunError) -> ! {
     say(error.styled());
     std::process::exit(error.code().into());
+}
+
+/// What is said in place of an error that does not say enough.
+fn better(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
+    let words: Vec<_> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
+    without_command(error).or_else(|| swapped(error, &words)).or_else(|| no_utf8(error, arguments))
+}
+
+/// What to say of the name of a file that is no text.
+fn no_utf8(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
+    if error.kind() != ErrorKind::InvalidUtf8 {
+        return None;
+    }
+    let wrong = arguments.iter().filter(|argument| argument.to_str().is_none());
+    let wrong: Vec<_> = wrong.map(|argument| argument.to_string_lossy()).collect();
+    let names = list(wrong.iter().map(|name| &**name), "and");
+    let verb = if wrong.len() == 1 { "is" } else { "are" };
+    let help = "give the file a name in UTF-8, or make a link with such a name: 'ln -s OLD NEW'";
+    Some(RunError::usage(format!("{names} {verb} not in UTF-8"), help))
 }
 
 /// What to say to somebody who names a plan and no command.

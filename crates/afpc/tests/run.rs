@@ -241,6 +241,20 @@ fn numbers_out_of_place_and_empty_names_are_told_what_is_expected() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_name_that_is_no_text_is_told() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let place = Place::with_plan();
+    let name = OsStr::from_bytes(b"n\xff.afp");
+    for before in ["check", "run", "graph", "fmt", "sweep", "run wall_following.afp --log"] {
+        let mut command = place.command();
+        let said = command.args(before.split(' ')).arg(name).output().unwrap();
+        common::said(said).fails(2, &["'n\u{fffd}.afp' is not in UTF-8", "help: give the file"]);
+    }
+}
+
+#[test]
 fn help_lists_what_this_program_can_do() {
     let help = Place::with_plan().afpc("run --help");
     assert_eq!(help.out.contains("--live"), cfg!(feature = "live"), "{}", help.out);
@@ -327,7 +341,10 @@ fn a_wrong_world_is_shown_at_its_line() {
     let place = Place::with_plan();
     let run = "run wall_following.afp --world w.toml --log a.mcap --svg a.svg";
     place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\ncolour = 1\n");
-    place.afpc(run).fails(1, &["colour", "--> w.toml:4:1", "4 | colour = 1"]);
+    let told = ["'[robot]' has no 'colour'", "--> w.toml:4:1", "4 | colour = 1", "help: it has"];
+    place.afpc(run).fails(1, &told);
+    place.write("w.toml", "");
+    place.afpc(run).fails(1, &["a world has no 'version'", "help: write 'version = 1'"]);
     place.write(
         "w.toml",
         "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\n[[wall]]\nname = \"w\"\npoints_m = [[-1.0, 0.0], [1.0, 0.0]]\n",

@@ -195,7 +195,7 @@ fn what_cannot_be_varied_is_said_before_anything_runs() {
         ("--vary nope=1", ["no entry 'nope'", "'walldist' (length)"]),
         ("--vary walldist=20deg..40deg", ["not a length", "a number and a unit"]),
         ("--vary walldist=1m --vary walldist=2m", ["varied twice", "say it once"]),
-        ("--vary world.robot.charg=1", ["charg", "expected"]),
+        ("--vary world.robot.charg=1", ["has no 'charg'", "write 'charge'"]),
         ("--vary walldist=20cm..1m", ["same unit", "--vary"]),
         ("--seeds 0..99999999999", ["these are 99999999999 runs", "vary less at once"]),
         ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),

@@ -41,6 +41,7 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
         span,
         text: text.to_owned(),
         message,
+        help: String::new(),
     };
     let Some(text) = log.attachments.get(WORLD) else {
         return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
