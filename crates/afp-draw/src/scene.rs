@@ -19,7 +19,7 @@ use super::legend::legend;
 use super::sketch::Arrow;
 use super::sketch::{Rect, Sketch};
 use super::svg::paint::{self, Content, Painter};
-use super::usage::Class;
+use super::usage::{Class, Use};
 use super::view::View;
 use afp_dsl::outline::{Component, Outline, Part};
 use afp_syntax::diagnostics::Severity;
@@ -297,11 +297,12 @@ impl<'a> DrawnPlan<'a> {
     }
 }
 
-/// The edges in the order in which they lie above one another: on top what would look dashed otherwise.
+/// The edges in the order in which they lie above one another: what was never used below, so that where an arrow that was
+/// used joins one that was not their tip is that of the first; on top what would look dashed otherwise.
 fn from_below(edges: Vec<DrawnEdge>) -> Vec<DrawnEdge> {
     let dashes = lines::dashes(&edges);
     let mut edges: Vec<_> = dashes.into_iter().zip(edges).collect();
-    edges.sort_by_key(|(dashes, _)| *dashes);
+    edges.sort_by_key(|(dashes, edge)| (edge.class.usage != Some(Use::Never), *dashes));
     edges.into_iter().map(|(_, edge)| edge).collect()
 }
 

@@ -5,6 +5,7 @@ use super::sample::{
 };
 use super::scene::{Drawn, Scene};
 use super::sketch::{Arrow, Frame, Rect, Shape, Sketch, Tip};
+use super::usage::Use;
 use super::{Count, Options, PlanUsage, Theme, Usage, svg};
 use crate::layout_file::Layout;
 use afp_dsl::Compiled;
@@ -144,6 +145,11 @@ fn what_was_used_is_told_by_classes_and_numbers() {
     for text in ["· never", "×1", "used, but some way out never was", "prefers-color-scheme:dark"]
     {
         assert!(picture.contains(text), "no {text}");
+    }
+    for plan in Drawn::new(&compiled.outline, &options, None).plans {
+        let unused: Vec<_> =
+            plan.edges.iter().map(|edge| edge.class.usage == Some(Use::Never)).collect();
+        assert!(unused.is_sorted_by(|below, above| below >= above), "what was used lies on top");
     }
     let plain = svg(&compiled.outline, &Options::default());
     assert!(!plain.contains("unused") && !plain.contains('×'), "a plain drawing counts nothing");

@@ -6,6 +6,7 @@
 mod json;
 
 mod table;
+pub mod words;
 
 use std::ops::Range;
 

@@ -54,6 +54,12 @@ pub trait Messages: Send {
     /// # Errors
     /// The disk is full or fails.
     fn finish(self: Box<Self>, in_order: bool) -> Result<(PathBuf, u64), LogError>;
+
+    /// Nothing comes any more, and nothing came of the run: of a file nothing stays.
+    fn discard(self: Box<Self>) {
+        // There is nobody to tell.
+        let _ = self.finish(false);
+    }
 }
 
 /// A channel that every log has.
@@ -270,5 +276,10 @@ impl Encoder {
             self.lost(last, unreported)?;
         }
         self.to.finish(in_order)
+    }
+
+    /// Ends without anything that stays.
+    pub(crate) fn discard(self) {
+        self.to.discard();
     }
 }

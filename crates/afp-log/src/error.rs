@@ -1,5 +1,6 @@
 //! Why a log cannot be written or read.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -45,9 +46,17 @@ impl LogError {
     }
 
     /// What to do about it; empty where nothing in general helps.
-    pub fn help(&self) -> &'static str {
-        match self {
-            LogError::Open { error, .. } if error.kind() == io::ErrorKind::NotFound => {
+    pub fn help(&self) -> Cow<'static, str> {
+        let help = match self {
+            LogError::Open { error, path } if error.kind() == io::ErrorKind::NotFound => {
+                let part = afp_output::part_of(path);
+                if part.is_file() {
+                    let part = part.display();
+                    return format!(
+                        "its run goes on or was killed: name what there is of it, '{part}'"
+                    )
+                    .into();
+                }
                 "check the path, which begins in the folder in which the command runs"
             }
             LogError::NotALog { .. } => {
@@ -56,7 +65,8 @@ impl LogError {
             LogError::Mcap(mcap::McapError::Io(_)) => "",
             LogError::Mcap(_) => "'afpc log FILE recover' saves what is intact into a new file",
             LogError::Create { .. } | LogError::Open { .. } | LogError::Writer => "",
-        }
+        };
+        help.into()
     }
 }
 

@@ -112,7 +112,7 @@ impl Item {
 /// Records a run into an MCAP file, or sends it to whoever watches.
 ///
 /// The file is `NAME.part` until [`Recorder::finish`]; dropped without it, the file is closed in
-/// order but keeps that name.
+/// order but keeps that name, and goes where the plan has not started.
 pub struct Recorder {
     queue: Producer<Item>,
     when_full: WhenFull,
@@ -121,6 +121,9 @@ pub struct Recorder {
     unreported: u64,
     end: Arc<End>,
     thread: Option<JoinHandle<Outcome>>,
+    /// Whether the plan has started.
+    started: bool,
+    kept: Option<PathBuf>,
 }
 
 type Outcome = Result<(PathBuf, u64), LogError>;
@@ -135,6 +138,7 @@ struct End {
 const RUN: u8 = 0;
 const CLOSE: u8 = 1;
 const ABANDON: u8 = 2;
+const DISCARD: u8 = 3;
 
 impl Recorder {
     /// Creates the log and starts its writer.
@@ -148,8 +152,11 @@ impl Recorder {
         when_full: WhenFull,
     ) -> Result<Self, LogError> {
         let failed = |error: LogError| error.writing(path);
-        let file = LogFile::create(path, about).map_err(failed)?;
-        Recorder::begin(Box::new(file), names, when_full, path).map_err(failed)
+        let (file, kept) = LogFile::create(path, about).map_err(failed)?;
+        let mut recorder =
+            Recorder::begin(Box::new(file), names, when_full, path).map_err(failed)?;
+        recorder.kept = kept;
+        Ok(recorder)
     }
 
     /// Sends a run to whoever takes its messages, by a thread of its own; what it cannot keep up with is dropped.
@@ -177,11 +184,14 @@ impl Recorder {
                 move || write_all(file, items, &seen).map_err(|error| error.writing(&path))
             })
             .map_err(|error| LogError::Create { path: path.to_owned(), error })?;
-        Ok(Recorder { queue, when_full, lost: 0, unreported: 0, end, thread: Some(thread) })
+        let thread = Some(thread);
+        let (lost, unreported, started, kept) = (0, 0, false, None);
+        Ok(Recorder { queue, when_full, lost, unreported, end, thread, started, kept })
     }
 
     /// Writes the configuration that the plan starts with.
     pub fn started(&mut self, at: Instant) {
+        self.started = true;
         self.push(Item::Started(at), at);
     }
 
@@ -238,6 +248,11 @@ impl Recorder {
         self.lost
     }
 
+    /// Where that is now which a run that was killed left of the same log.
+    pub fn kept(&self) -> Option<&Path> {
+        self.kept.as_deref()
+    }
+
     /// Waits for the writer and gives the log its name.
     ///
     /// # Errors
@@ -283,7 +298,7 @@ impl Sink for Recorder {
 impl Drop for Recorder {
     fn drop(&mut self) {
         // Nobody is left to tell of a failure; whoever wants to know calls `finish`.
-        let _ = self.close(ABANDON);
+        let _ = self.close(if self.started { ABANDON } else { DISCARD });
     }
 }
 
@@ -309,6 +324,10 @@ fn write_all(mut file: Encoder, mut items: Consumer<Item>, end: &End) -> Outcome
         if idle && state != RUN {
             return match failure {
                 Some(failure) => Err(failure),
+                None if state == DISCARD => {
+                    file.discard();
+                    Ok((PathBuf::new(), 0))
+                }
                 None => file.finish(state == CLOSE, last, end.unreported.load(Ordering::Relaxed)),
             };
         }

@@ -102,6 +102,11 @@ impl SessionLog {
         }
     }
 
+    /// Where that is now which a run that was killed left of the same log.
+    pub fn kept(&self) -> Option<&Path> {
+        self.recorder.kept()
+    }
+
     /// Writes what the session came to, waits for the writer and gives the log its name.
     ///
     /// # Errors

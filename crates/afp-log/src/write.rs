@@ -56,9 +56,12 @@ pub(crate) struct LogFile {
 
 impl LogFile {
     /// Begins the file with what ran and from what text, so that a log cut short still has it.
-    pub(crate) fn create(path: &Path, about: &About) -> Result<Self, LogError> {
+    /// Gives beside it where that is now which a run that was killed left of the same log.
+    pub(crate) fn create(path: &Path, about: &About) -> Result<(Self, Option<PathBuf>), LogError> {
         let failed = |error| LogError::Create { path: path.to_owned(), error };
-        let mut writer = begin(Output::create(path).map_err(failed)?, Some(CHUNK))?;
+        let output = Output::create(path).map_err(failed)?;
+        let kept = output.kept().map(Path::to_owned);
+        let mut writer = begin(output, Some(CHUNK))?;
         let metadata = about.facts.iter().cloned().collect();
         writer.write_metadata(&Metadata { name: "afp.run".into(), metadata })?;
         for (name, media_type, text) in &about.attachments {
@@ -70,7 +73,7 @@ impl LogFile {
                 data: text.as_bytes().into(),
             })?;
         }
-        Ok(LogFile { writer, path: path.to_owned() })
+        Ok((LogFile { writer, path: path.to_owned() }, kept))
     }
 }
 
@@ -113,5 +116,11 @@ impl Messages for LogFile {
         let failed = |error| LogError::Create { path: self.path.clone(), error };
         output.finish().map_err(failed)?;
         Ok((self.path, bytes))
+    }
+
+    fn discard(self: Box<Self>) {
+        if let Ok((output, _)) = end(self.writer) {
+            output.discard();
+        }
     }
 }

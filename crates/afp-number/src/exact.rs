@@ -46,6 +46,14 @@ impl Scale {
     pub const fn fraction(times: u64, by: u64, shift: i32, degrees: i32) -> Self {
         Scale::Fraction { times, by, shift, degrees }
     }
+
+    /// The simplest scale of a factor.
+    pub const fn factor(times: u64, by: u64, shift: i32, degrees: i32) -> Self {
+        match (times == by, degrees) {
+            (true, 0) => Scale::Decimal(shift),
+            _ => Scale::Fraction { times, by, shift, degrees },
+        }
+    }
 }
 
 /// A number as digits, with room in front for those that a factor adds.

@@ -17,6 +17,7 @@ mod kind;
 mod measured;
 mod read;
 mod row;
+mod single;
 mod text;
 
 pub use arithmetic::{
@@ -34,6 +35,7 @@ pub use kind::{ComponentKind, EntryKind};
 pub use measured::Measured;
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 pub use row::{Child, ElementKind, Range};
+pub use single::SingleUnit;
 pub use text::{Nanoseconds, Rounded};
 
 use core::fmt;

@@ -31,10 +31,11 @@ pub struct Output {
     path: PathBuf,
     /// What `path` becomes in the end; `None` where it is the end.
     becomes: Option<PathBuf>,
+    kept: Option<PathBuf>,
 }
 
 impl Output {
-    /// Begins to write the file `path`.
+    /// Begins to write the file `path`. What a process that died left of it is kept, see [`Output::kept`].
     ///
     /// Opening a named pipe waits for its reader.
     ///
@@ -59,14 +60,14 @@ impl Output {
             Target::File(target) => target,
             Target::Stream => {
                 let file = File::options().write(true).open(path)?;
-                return Ok(Output { file, path: path.to_owned(), becomes: None });
+                return Ok(Output { file, path: path.to_owned(), becomes: None, kept: None });
             }
         };
         match Part::create(&target, taken) {
-            Ok(Part { file, path }) => Ok(Output { file, path, becomes: Some(target) }),
+            Ok(Part { file, path, kept }) => Ok(Output { file, path, becomes: Some(target), kept }),
             Err(error) if takes_no_files(&error) && target.exists() => {
                 let file = File::options().write(true).truncate(true).open(&target)?;
-                Ok(Output { file, path: target, becomes: None })
+                Ok(Output { file, path: target, becomes: None, kept: None })
             }
             Err(error) => Err(error),
         }
@@ -75,6 +76,11 @@ impl Output {
     /// Where the bytes are until [`Output::finish`].
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Where that is now which a process that died left of the same file: `run.2.mcap.part`.
+    pub fn kept(&self) -> Option<&Path> {
+        self.kept.as_deref()
     }
 
     /// Puts the file in its place.
@@ -132,6 +138,11 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
             Err(error)
         }
     }
+}
+
+/// What a file is called while it is written.
+pub fn part_of(path: &Path) -> PathBuf {
+    part::name(path, 1)
 }
 
 /// Finds out early whether a file can be written later. Devices and pipes are taken at their word.

@@ -11,14 +11,16 @@ use std::time::{Duration, Instant};
 pub(crate) struct Part {
     pub(crate) file: File,
     pub(crate) path: PathBuf,
+    /// Where the rest of a dead process is that had this name.
+    pub(crate) kept: Option<PathBuf>,
 }
 
 /// What to do where the part of a file is open somewhere else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Taken {
-    /// Nobody writes over what another one is at.
+    /// Nobody writes over what another one is at, and what a dead process left of one is kept.
     Refuse,
-    /// Wait for a moment: the other one is done at once, too.
+    /// Wait for a moment: the other one is done at once, too. What a dead process left is overwritten.
     Wait,
     /// Take one of the next name.
     Next,
@@ -29,14 +31,14 @@ const PATIENCE: Duration = Duration::from_secs(2);
 const LOOK_AGAIN: Duration = Duration::from_millis(1);
 
 impl Part {
-    /// Creates an empty part for a file. What a dead process left of one is overwritten.
+    /// Creates an empty part for a file.
     ///
     /// # Errors
     /// The folder is not there or not writable; another one writes the file, or is at it as the part of another file.
     pub(crate) fn create(target: &Path, taken: Taken) -> io::Result<Part> {
         refuse_taken(target)?;
         let begin = Instant::now();
-        let mut number = 1;
+        let (mut number, mut kept) = (1, None);
         loop {
             let path = name(target, number);
             if fs::symlink_metadata(&path).is_ok_and(|there| !there.is_file()) {
@@ -55,13 +57,35 @@ impl Part {
             }
             // Where locks are not to be had, two at once are on their own. The one who had the
             // lock may have given the part its final name just now.
-            if is_at(&file, &path)? {
-                file.set_len(0)?;
-                permit_as(target, &file)?;
-                return Ok(Part { file, path });
+            if !is_at(&file, &path)? {
+                continue;
             }
+            if file.metadata()?.len() > 0 {
+                match taken {
+                    Taken::Next => {
+                        number += 1;
+                        continue;
+                    }
+                    Taken::Refuse => {
+                        kept = Some(keep(target, &path)?);
+                        continue;
+                    }
+                    Taken::Wait => file.set_len(0)?,
+                }
+            }
+            permit_as(target, &file)?;
+            return Ok(Part { file, path, kept });
         }
     }
+}
+
+/// Gives the part of a dead process the next name that is free.
+fn keep(target: &Path, part: &Path) -> io::Result<PathBuf> {
+    let mut others = (2..).map(|number| name(target, number));
+    let free = others.find(|other| fs::symlink_metadata(other).is_err());
+    let free = free.ok_or(io::ErrorKind::AlreadyExists)?;
+    fs::rename(part, &free)?;
+    Ok(free)
 }
 
 /// Refuses a file that somebody is at, who would be left with one that has no name: the part of another file, a journal.
@@ -101,7 +125,7 @@ fn permit_as(target: &Path, file: &File) -> io::Result<()> {
 
 /// The name of the part of a file: `run.mcap.part`, then `run.2.mcap.part`, whose other endings
 /// stay what they are.
-fn name(target: &Path, number: u32) -> PathBuf {
+pub(crate) fn name(target: &Path, number: u32) -> PathBuf {
     let mut name = OsString::new();
     match (number, target.extension()) {
         (1, _) => name.push(target.file_name().unwrap_or_default()),

@@ -77,6 +77,26 @@ fn what_is_given_up_leaves_nothing_and_what_is_dropped_its_part() {
 }
 
 #[test]
+fn what_a_dead_process_left_is_kept() {
+    let folder = folder();
+    let path = folder.path().join("run.mcap");
+    for (rest, kept) in [("first", "run.2.mcap.part"), ("second", "run.3.mcap.part")] {
+        let mut dead = Output::create(&path).unwrap();
+        dead.write_all(rest.as_bytes()).unwrap();
+        drop(dead);
+        let new = Output::create(&path).unwrap();
+        assert_eq!(new.path(), folder.path().join("run.mcap.part"));
+        assert_eq!(new.kept(), Some(&*folder.path().join(kept)));
+        assert_eq!(text(&folder.path().join(kept)), rest);
+        drop(new);
+    }
+    assert_eq!(Output::create(&path).unwrap().kept(), None, "nothing was written");
+    fs::write(folder.path().join("run.mcap.part"), "third").unwrap();
+    let beside = Output::create_beside_part(&path).unwrap();
+    assert_eq!(beside.path(), folder.path().join("run.4.mcap.part"));
+}
+
+#[test]
 fn links_are_followed() {
     let folder = folder();
     let path = |name: &str| folder.path().join(name);

@@ -1,5 +1,7 @@
 //! What can stand in a project file, table by table: what readers allow, editors offer and explain.
 
+use afp_excerpt::words::list;
+
 /// A key of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
@@ -124,11 +126,7 @@ pub fn keys(table: &[&str]) -> Vec<Key> {
 
 /// `it has 'world' and 'measures'`
 pub(crate) fn it_has(keys: &[Key]) -> String {
-    let names: Vec<_> = keys.iter().map(|key| format!("'{}'", key.name)).collect();
-    match names.as_slice() {
-        [all @ .., last] if !all.is_empty() => format!("it has {} and {last}", all.join(", ")),
-        all => format!("it has {}", all.join("")),
-    }
+    format!("it has {}", list(keys.iter().map(|key| key.name), "and"))
 }
 
 #[cfg(test)]

@@ -1,27 +1,14 @@
 //! Times as people write them outside of plans: in `afp.toml` and on the command line.
 
 use afp_core::Duration;
-use afp_core::rt::{Scale, Unit, parse_quantity};
-
-const MINUTES: Scale = Scale::fraction(60, 1, 0, 0);
-const HOURS: Scale = Scale::fraction(3600, 1, 0, 0);
-
-/// Units of time.
-const TIMES: [Unit<'static>; 6] = [
-    Unit { name: "s", scale: Scale::Decimal(0) },
-    Unit { name: "ms", scale: Scale::Decimal(-3) },
-    Unit { name: "us", scale: Scale::Decimal(-6) },
-    Unit { name: "ns", scale: Scale::Decimal(-9) },
-    Unit { name: "min", scale: MINUTES },
-    Unit { name: "h", scale: HOURS },
-];
+use afp_number::{SingleUnit, parse_quantity};
 
 /// A span of time, such as `20s` or `1.5 ms`, to the nearest nanosecond.
 ///
 /// # Errors
 /// Says what was expected.
 pub fn duration(text: &str) -> Result<Duration, String> {
-    match parse_quantity(text, TIMES) {
+    match parse_quantity(text, SingleUnit::of("duration").map(SingleUnit::unit)) {
         Ok(secs) if secs >= 0.0 => Ok(Duration::from_secs_f64(secs)),
         Ok(_) => Err("a time cannot be negative".to_owned()),
         Err(_) => Err("expected a number with its unit, such as 20s or 500ms".to_owned()),

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use afp_core::Instant;
 use afp_core::trace::TraceHash;
 use afp_session::{AnyRobot, Build, Recipe, TextFile};
 
@@ -51,13 +52,15 @@ impl Again {
     /// # Errors
     /// This robot knows no such world.
     pub(crate) fn world(&self, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
-        let world = world::parse(self.recipe.world.text.clone(), Some(self.path.clone()), robot)?;
+        let TextFile { name, text } = &self.recipe.world;
+        let world = world::parse(text.clone(), Some(self.path.clone()), name, robot)?;
         let Some(start) = self.recipe.start else { return Ok(world) };
         world.started_at(start).map_err(|why| RunError::Content {
             path: self.path.clone(),
             span: None,
             text: String::new(),
             message: why,
+            help: String::new(),
         })
     }
 
@@ -65,7 +68,12 @@ impl Again {
     ///
     /// # Errors
     /// Both have the same plan, but another trace.
-    pub(crate) fn compare(&self, program: &Program<'_>, trace: TraceHash) -> Result<(), RunError> {
+    pub(crate) fn compare(
+        &self,
+        program: &Program<'_>,
+        until: Option<Instant>,
+        trace: TraceHash,
+    ) -> Result<(), RunError> {
         let (texts, toolboxes) = program.text_files();
         // Logs of built programs hold none, those of Python the ones that their plan uses.
         let is_another = |old: &TextFile| {
@@ -75,6 +83,7 @@ impl Again {
             (self.recipe.build.differs(&Build::this()), "another build of afp"),
             (texts != self.recipe.texts, "another text of the plan"),
             (self.recipe.toolboxes.iter().any(is_another), "another text of a toolbox"),
+            (until != self.recipe.until, "another end"),
         ];
         let differs: Vec<_> = differs.iter().filter(|it| it.0).map(|it| it.1).collect();
         let path = self.path.display();

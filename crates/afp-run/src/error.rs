@@ -62,6 +62,8 @@ pub enum RunError {
         text: String,
         /// What is wrong.
         message: String,
+        /// What to write instead; empty where nobody knows.
+        help: String,
     },
     /// A run did not come out as it did before.
     Differs {
@@ -140,13 +142,13 @@ impl RunError {
                 };
                 report(&format!("{what} '{}': {error}", path.display()), help, Vec::new())
             }
-            RunError::Content { path, span, text, message } => {
+            RunError::Content { path, span, text, message, help } => {
                 let path = shown(path).display().to_string();
                 let (span, label) = (span.clone(), String::new());
-                report(message, "", vec![Mark { path: &path, text, lines: None, span, label }])
+                report(message, help, vec![Mark { path: &path, text, lines: None, span, label }])
             }
             RunError::Project(error) => error.reports(make),
-            RunError::Log(error) => report(&error.to_string(), error.help(), Vec::new()),
+            RunError::Log(error) => report(&error.to_string(), &error.help(), Vec::new()),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_core::{Fault, StartError, Value};
+use afp_excerpt::words::a;
 use afp_session::{AnyRobot, AnySession, SetError, refusal};
 
 use crate::error::RunError;
@@ -68,7 +69,7 @@ pub fn missing(error: StartError, names: &dyn Names) -> RunError {
             let path = about.path;
             RunError::usage(
                 format!("the 'in' entry '{path}' has neither a value nor a default"),
-                format!("give it one with '--set {path}=VALUE', a {}", what_it_takes(about)),
+                format!("give it one with '--set {path}=VALUE', {}", a(&what_it_takes(about))),
             )
         }
         _ => RunError::usage("the plan runs already", "start a new one"),
@@ -107,19 +108,29 @@ fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[St
     let EntryName { ty, unit, .. } = names.entry(id);
     let choices = (0..u16::MAX).map(|value| names.choice(id, value));
     let choices: Vec<_> = choices.take_while(|choice| !choice.is_empty()).collect();
-    let help = if text.parse::<f64>().is_ok() && !unit.is_empty() {
-        let handy = units.iter().find(|unit| *unit == "cm" || *unit == "deg");
-        let unit = handy.map_or(unit, String::as_str);
-        format!("write the unit: '{name}={text}{unit}'")
-    } else if !unit.is_empty() {
-        let units: Vec<_> = units.iter().take(8).map(String::as_str).collect();
-        format!("a number and a unit: {}", units.join(", "))
-    } else if !choices.is_empty() {
-        format!("one of: {}", choices.join(", "))
-    } else if why == Fault::TOO_LONG {
-        why.to_string()
-    } else {
-        format!("'{name}' is of type {ty}")
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+    let help = match (ty, number) {
+        (_, Some(_)) if !unit.is_empty() => {
+            let handy = units.iter().find(|unit| *unit == "cm" || *unit == "deg");
+            let unit = handy.map_or(unit, String::as_str);
+            format!("write the unit: '{name}={text}{unit}'")
+        }
+        _ if !unit.is_empty() => {
+            let units: Vec<_> = units.iter().take(8).map(String::as_str).collect();
+            format!("a number and a unit: {}", units.join(", "))
+        }
+        _ if !choices.is_empty() => format!("one of: {}", choices.join(", ")),
+        _ if why == Fault::TOO_LONG => why.to_string(),
+        ("bool", _) => format!("write '{name}=true' or '{name}=false'"),
+        ("int", Some(number)) if number.fract() == 0.0 && number.abs() <= EXACT => {
+            format!("write '{name}={number}'")
+        }
+        ("int", _) => format!("a whole number, such as '{name}=3'"),
+        ("float", _) => format!("a number, such as '{name}=0.5'"),
+        _ => format!("'{name}' is {}", a(ty)),
     };
-    RunError::usage(format!("'{name}={text}': no {ty}"), help)
+    RunError::usage(format!("'{name}={text}': not {}", a(ty)), help)
 }
+
+/// The greatest whole number up to which floats have each.
+const EXACT: f64 = 9_007_199_254_740_992.0;

@@ -18,7 +18,7 @@ use crate::error::RunError;
 
 pub(crate) use help::words;
 pub use help::{for_devices, for_robot};
-pub use parse::{Destination, Failure, Press, Speed, failure, press};
+pub use parse::{Destination, Failure, Press, Speed, failure, press, whole};
 
 /// How a run goes.
 #[derive(Args, Clone, Debug)]
@@ -53,7 +53,13 @@ pub struct RunOptions {
     pub set: Vec<(String, String)>,
 
     /// Seed of all noise in the simulator
-    #[arg(long, value_name = "N", default_value_t = 0, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        value_parser = whole,
+        allow_hyphen_values = true
+    )]
     pub seed: u64,
 
     /// Stops the plan at this time [default: 60s at speed max, else never]

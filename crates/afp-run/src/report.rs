@@ -19,7 +19,7 @@ use crate::stderr::warn;
 
 use background::{BackgroundWriter, Out};
 use progress::Progress;
-pub(crate) use summary::{Ran, Requests, StoppedBy, Summary};
+pub(crate) use summary::{Ran, Requests, RunFigures, StoppedBy, Summary};
 
 /// The timeline of a log, line by line.
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {

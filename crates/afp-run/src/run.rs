@@ -7,14 +7,15 @@ mod paths;
 
 use std::cell::RefCell;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use afp_core::trace::Names;
 use afp_core::{Ending, Instant};
-use afp_log::{About, OwnedNames, SessionLog, Written};
+use afp_log::{About, LogError, OwnedNames, SessionLog, Written};
 use afp_project::ProjectFile;
 use afp_session::{
-    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
-    Requested, SessionError, TextFile, Track,
+    AnyRobot, AnySession, AnyWorld, Build, Counts, Drawing, Figures, LastResort, Observer, Pose2,
+    Recipe, Requested, SessionError, TextFile, Track,
 };
 
 use crate::again::Again;
@@ -25,7 +26,8 @@ use crate::options::{OnRobot, RunOptions, TimeKeeper};
 use crate::output::write_whole;
 use crate::pace::Pace;
 use crate::picture::Rasterizer;
-use crate::report::{Ran, Report, Requests, Shown, StoppedBy, Summary};
+use crate::report::{Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
+use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::svg::{self, Picture};
 use crate::world::LoadedWorld;
@@ -73,6 +75,7 @@ pub fn run(
             span: None,
             text: world.text.clone(),
             message,
+            help: String::new(),
         },
         other => other.into(),
     })?;
@@ -96,10 +99,26 @@ fn find_world(
 ) -> Result<LoadedWorld, RunError> {
     let asked = options.world.as_deref();
     let mut world = crate::world::find(asked, Path::new(program.file), robot)?;
+    let usual = world.world.drawing().start;
     inputs::change_world(&mut world, &options.set, robot)?;
-    let Some(start) = options.start else { return Ok(world) };
-    let refused = |why| RunError::usage(format!("'--start': {why}"), "choose another start");
-    world.started_at(start).map_err(refused)
+    if let Some(start) = options.start {
+        let refused = |why| RunError::usage(format!("'--start': {why}"), "choose another start");
+        world = world.started_at(start).map_err(refused)?;
+    }
+    let drawing = world.world.drawing();
+    if is_outside(&drawing, drawing.start) && !is_outside(&drawing, usual) {
+        warn("the robot starts outside of all that stands in its world");
+    }
+    Ok(world)
+}
+
+/// Whether a place is left or right of everything that stands in a world, or above or below of it.
+fn is_outside(world: &Drawing, at: Pose2) -> bool {
+    let beyond = |of: fn(&[f64; 2]) -> f64, at: f64| {
+        let all = || world.things.iter().flat_map(|thing| thing.outline.iter().map(of));
+        all().all(|corner| corner < at) || all().all(|corner| corner > at)
+    };
+    beyond(|corner| corner[0], at.x) || beyond(|corner| corner[1], at.y)
 }
 
 /// All that it takes to repeat the run, but for what comes from outside.
@@ -176,7 +195,14 @@ fn drive(
         Some(path) => {
             let (about, names) = (about(setting), OwnedNames::new(session.names()));
             let (devices, scene) = (session.devices(), world.world.scene());
-            Some(SessionLog::create(path, &about, names, devices, scene, options.camera)?)
+            let log = SessionLog::create(path, &about, names, devices, scene, options.camera)?;
+            if let Some(kept) = log.kept() {
+                let kept = kept.display();
+                warn(&format!(
+                    "an earlier run of this log was killed: 'afpc log {kept} recover' saves what there is of it"
+                ));
+            }
+            Some(log)
         }
     };
     let keeper = options.time_keeper();
@@ -209,13 +235,14 @@ fn drive(
     let stopped_by = went.map_err(|error| inputs::missing(error, session.names()))?;
     let speed = session.now().as_secs_f64() / gate.spent();
     drop(gate);
-    let written = log.map(|log| log.finish(session)).transpose()?;
+    let written = log.map(|log| log.finish(session)).transpose();
     sent.map(|sent| sent.finish(session)).transpose()?;
     live.into_iter().for_each(Live::finish);
     let requests = requests.finish(session);
     let came = Came { stopped_by, speed, measured, written, counts, track, requests, raster };
     let code = came.finish(session, report.into_inner(), &paths, setting)?;
-    setting.again.map_or(Ok(()), |again| again.compare(program, session.trace()))?;
+    let until = setting.recipe.until;
+    setting.again.map_or(Ok(()), |again| again.compare(program, until, session.trace()))?;
     Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
 }
 
@@ -236,7 +263,7 @@ struct Came<'a> {
     stopped_by: Option<StoppedBy>,
     speed: f64,
     measured: Figures,
-    written: Option<Written>,
+    written: Result<Option<Written>, LogError>,
     counts: Counts,
     track: Track,
     requests: Vec<Requested>,
@@ -245,7 +272,7 @@ struct Came<'a> {
 }
 
 impl Came<'_> {
-    /// Draws the picture, prints the summary.
+    /// Draws the picture and prints the summary, which also those see whose log or picture cannot be written.
     fn finish(
         self,
         session: &mut dyn AnySession,
@@ -266,32 +293,47 @@ impl Came<'_> {
             requests,
         };
         let figures = ran.figures(&counts, measured, session.names());
-        if let Some(path) = &paths.svg {
-            let picture = Picture {
-                world: &setting.world.world.drawing(),
-                title: figures.plan.clone(),
-                subtitle: format!("{}, seed {}", figures.world, figures.seed),
-                path: &track.path,
-                marks: &track.marks,
-                figures: figures.for_picture(),
-            };
-            let svg = svg::draw(&picture, session.names());
-            let bytes = match raster {
-                Some(raster) => raster(&svg)?,
-                None => svg.into_bytes(),
-            };
-            write_whole("cannot write the picture", path, bytes)?;
-        }
-        let lost = written.as_ref().map_or(0, |written: &Written| written.lost);
-        let log: Option<PathBuf> = written.map(|written| written.path);
-        let summary = Summary { figures, speed, log, svg: paths.svg.clone(), lost };
-        let told = report.end(&summary);
+        let svg = paths.svg.as_deref();
+        let drawn = svg.map(|path| draw(path, &figures, &track, raster, session.names(), setting));
+        let drawn = drawn.unwrap_or(Ok(()));
+        let lost = written.as_ref().ok().and_then(Option::as_ref).map_or(0, |written| written.lost);
+        let log =
+            written.as_ref().ok().and_then(Option::as_ref).map(|written| written.path.clone());
+        let svg = paths.svg.clone().filter(|_| drawn.is_ok());
+        let told = report.end(&Summary { figures, speed, log, svg, lost });
         told.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?;
+        written?;
+        drawn?;
         match session.ending() {
             Some(Ending::Error(_)) => Ok(EXIT_PLAN_ERROR),
             _ => Ok(EXIT_OK),
         }
     }
+}
+
+/// Draws the picture of a run.
+fn draw(
+    path: &Path,
+    figures: &RunFigures,
+    track: &Track,
+    raster: Option<Rasterizer<'_>>,
+    names: &dyn Names,
+    setting: &Setting<'_>,
+) -> Result<(), RunError> {
+    let picture = Picture {
+        world: &setting.world.world.drawing(),
+        title: figures.plan.clone(),
+        subtitle: format!("{}, seed {}", figures.world, figures.seed),
+        path: &track.path,
+        marks: &track.marks,
+        figures: figures.for_picture(),
+    };
+    let svg = svg::draw(&picture, names);
+    let bytes = match raster {
+        Some(raster) => raster(&svg)?,
+        None => svg.into_bytes(),
+    };
+    write_whole("cannot write the picture", path, bytes)
 }
 
 fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
@@ -304,11 +346,11 @@ fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
         Some(path) => path.display().to_string(),
         None => "built-in room".to_owned(),
     };
-    let mut head = vec![
-        plan,
-        ("world", format!("{} ({file})", world.world.name())),
-        ("seed", recipe.seed.to_string()),
-    ];
+    let called = match world.world.name() {
+        "" => file,
+        name => format!("{name} ({file})"),
+    };
+    let mut head = vec![plan, ("world", called), ("seed", recipe.seed.to_string())];
     head.extend(again.map(|again| ("again", again.path.display().to_string())));
     head
 }

@@ -1,7 +1,10 @@
 //! Finds the world of a run.
 
 pub mod change;
+mod measure;
+mod named;
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,6 +14,9 @@ use afp_project::{ProjectFile, shown};
 use afp_session::{AnyRobot, AnyWorld, Pose2, WorldError};
 
 use crate::error::RunError;
+
+pub(crate) use measure::Measure;
+pub(crate) use named::named;
 
 /// The greatest length of the picture of a map, in bytes.
 const LONGEST_PICTURE: u64 = 64 << 20;
@@ -62,7 +68,7 @@ pub fn find(
     let beside = beside(plan);
     match beside.is_file() {
         true => load(&tidy(&beside), robot),
-        false => parse(robot.default_world().to_owned(), None, robot),
+        false => parse(robot.default_world().to_owned(), None, "", robot),
     }
 }
 
@@ -144,13 +150,18 @@ fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
         })?;
         let text = robot.made_up_world(number);
         let none = || wrong("there are no made-up worlds for this robot", "name a file");
-        return parse(text.ok_or_else(none)?, Some(path.to_owned()), robot);
+        return parse(text.ok_or_else(none)?, Some(path.to_owned()), &stem(path), robot);
     }
     let text = read_text(path).map_err(RunError::file("cannot read the world", path))?;
     if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
-        return parse(map(path, text, robot)?, Some(path.to_owned()), robot);
+        return parse(map(path, text, robot)?, Some(path.to_owned()), &stem(path), robot);
     }
-    parse(text, Some(path.to_owned()), robot)
+    parse(text, Some(path.to_owned()), &stem(path), robot)
+}
+
+/// What a world is called whose file gives it no name.
+fn stem(path: &Path) -> Cow<'_, str> {
+    path.file_stem().unwrap_or_default().to_string_lossy()
 }
 
 /// The text of the world of a map, with the picture that lies beside it.
@@ -160,30 +171,32 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
         span: error.span,
         text: yaml.clone(),
         message: error.message,
+        help: error.help,
     };
     let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong)?);
     let bytes = read_file(&picture, LONGEST_PICTURE)
         .map_err(RunError::file("cannot read the map's picture", &picture))?;
-    let name = path.file_stem().map(|name| name.to_string_lossy()).unwrap_or_default();
-    robot.text_of_map(&name, &yaml, &bytes).map_err(wrong)
+    robot.text_of_map(&stem(path), &yaml, &bytes).map_err(wrong)
 }
 
-/// The world of a text, which `path` is called in errors.
+/// The world of a text, which `path` is called in errors; it has a `name` where the text has none.
 ///
 /// # Errors
 /// The first thing that is wrong with it.
 pub(crate) fn parse(
     text: String,
     path: Option<PathBuf>,
+    name: &str,
     robot: &dyn AnyRobot,
 ) -> Result<LoadedWorld, RunError> {
     match robot.world(&text) {
-        Ok(world) => Ok(LoadedWorld { world, text, path, start: None }),
+        Ok(world) => Ok(LoadedWorld { world: named(world, name), text, path, start: None }),
         Err(error) => Err(RunError::Content {
             path: path.unwrap_or_else(|| "built-in room".into()),
             span: error.span,
             text,
             message: error.message,
+            help: error.help,
         }),
     }
 }

@@ -136,10 +136,7 @@ impl World for NoWorld {
     fn read(text: &str) -> Result<Self, WorldError> {
         match text.trim().is_empty() {
             true => Ok(NoWorld),
-            false => {
-                let message = "this robot has no worlds".to_owned();
-                Err(WorldError { span: None, message })
-            }
+            false => Err(WorldError::new(None, "this robot has no worlds")),
         }
     }
 

@@ -30,7 +30,7 @@ pub trait World: Clone + fmt::Debug + Send + Sync + 'static {
     /// What is wrong with the map; worlds of this kind are no maps.
     fn picture_of_map(map: &str) -> Result<String, WorldError> {
         let _ = map;
-        Err(WorldError { span: None, message: "this robot's worlds are no maps".to_owned() })
+        Err(WorldError::new(None, "this robot's worlds are no maps"))
     }
 
     /// The text of the world that a map and its picture show.
@@ -129,6 +129,20 @@ pub struct WorldError {
     pub span: Option<Range<usize>>,
     /// What is wrong, without the place.
     pub message: String,
+    /// What to write instead; empty where nobody knows.
+    pub help: String,
+}
+
+impl WorldError {
+    /// Something wrong at some bytes of the text, where the place is known.
+    pub fn new(span: Option<Range<usize>>, message: impl Into<String>) -> Self {
+        WorldError { span, message: message.into(), help: String::new() }
+    }
+
+    /// The same with what to write instead.
+    pub fn with_help(self, help: impl Into<String>) -> Self {
+        WorldError { help: help.into(), ..self }
+    }
 }
 
 impl<W: World> AnyWorld for W {

@@ -143,6 +143,9 @@ impl World {
                 text,
                 &["robot", "pose_m_deg"],
                 format!("the robot starts inside of '{}'", obstacle.name),
+            )
+            .with_help(
+                "choose another place for it, metres and degrees: 'pose_m_deg = [1.0, 2.0, 90]'",
             )),
             None => Ok((world, own)),
         }

@@ -1,5 +1,6 @@
 //! Sweeps of a checked plan: its worlds are read once, its values are checked before anything runs.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use afp_core::Value;
@@ -45,6 +46,7 @@ impl<'a> Setting<'a> {
                 "give a part of the seeds or of the values at a time",
             ));
         }
+        different_worlds(&sweep.worlds)?;
         let worlds = sweep.worlds.iter().map(|room| match room {
             WorldChoice::Made(_, world) => Ok(world.clone()),
             room => world::find(room.name().map(Path::new), file, robot.kind()),
@@ -79,6 +81,7 @@ impl<'a> Setting<'a> {
                     }
                 }
             }
+            different_values(axis)?;
         }
         self.check_together(&sweep.axes)
     }
@@ -162,4 +165,32 @@ impl<'a> Setting<'a> {
     pub fn hash(&self) -> String {
         hash(&self.worlds.iter().map(|world| format!("{}\0", world.text)).collect::<String>())
     }
+}
+
+/// Refuses a world that is there twice: its runs would be.
+fn different_worlds(worlds: &[WorldChoice]) -> Result<(), RunError> {
+    let mut known = HashSet::new();
+    let names = worlds.iter().filter(|world| matches!(world, WorldChoice::Named(_)));
+    let mut names = names.filter_map(WorldChoice::name).map(Path::new);
+    let twice = names
+        .find(|name| !known.insert(name.canonicalize().unwrap_or_else(|_| (*name).to_owned())));
+    twice.map_or(Ok(()), |name| {
+        let message = format!("the world '{}' is there twice", name.display());
+        Err(RunError::usage(message, "name each world once"))
+    })
+}
+
+/// Refuses a value that is there twice, in another unit, too.
+fn different_values(axis: &Axis) -> Result<(), RunError> {
+    let mut known = HashSet::new();
+    let value = |point: &Point| match point.si {
+        // Both zeros are one value.
+        Some(si) => (si + 0.0).to_bits().to_string(),
+        None => point.text.clone(),
+    };
+    let twice = axis.points.iter().find(|point| !known.insert(value(point)));
+    twice.map_or(Ok(()), |point| {
+        let message = format!("'{}={}' is there twice", axis.name, point.text);
+        Err(RunError::usage(message, "give each value once"))
+    })
 }

@@ -7,13 +7,12 @@ mod codes;
 mod json;
 mod render;
 mod tables;
-pub mod words;
 
 use std::collections::BTreeSet;
 
 use crate::source::Span;
 
-pub use afp_excerpt::Severity;
+pub use afp_excerpt::{Severity, words};
 pub use codes::Code;
 
 /// Another place that explains the diagnostic.

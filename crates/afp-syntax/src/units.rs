@@ -1,9 +1,9 @@
-//! The closed list of units, and units composed of them such as `cm/s^2`.
+//! Units composed of those of one word ([`SingleUnit`]), such as `cm/s^2`.
 //!
-//! This list is the only place that knows units; lexer, checks, `--set` and conversions from text
-//! all read it.
+//! Lexer, checks and conversions from text all read them here. Where no plan is at hand, as for times and worlds on a
+//! command line, the list of those of one word is read itself.
 
-use afp_number::Scale;
+use afp_number::{Scale, SingleUnit};
 
 use crate::dimension::Dimension;
 
@@ -26,51 +26,6 @@ pub struct Unit {
     /// Whether it is `degC`, which has an offset.
     pub celsius: bool,
 }
-
-struct Single {
-    symbol: &'static str,
-    quantity: &'static str,
-    numerator: u64,
-    exponent: i32,
-}
-
-const fn single(
-    symbol: &'static str,
-    quantity: &'static str,
-    numerator: u64,
-    exponent: i32,
-) -> Single {
-    Single { symbol, quantity, numerator, exponent }
-}
-
-const SINGLES: &[Single] = &[
-    single("m", "length", 1, 0),
-    single("km", "length", 1, 3),
-    single("cm", "length", 1, -2),
-    single("mm", "length", 1, -3),
-    single("um", "length", 1, -6),
-    single("rad", "angle", 1, 0),
-    single("mrad", "angle", 1, -3),
-    single("deg", "angle", 1, 0),
-    single("s", "duration", 1, 0),
-    single("ms", "duration", 1, -3),
-    single("us", "duration", 1, -6),
-    single("ns", "duration", 1, -9),
-    single("min", "duration", 60, 0),
-    single("h", "duration", 3600, 0),
-    single("kg", "mass", 1, 0),
-    single("g", "mass", 1, -3),
-    single("N", "force", 1, 0),
-    single("mN", "force", 1, -3),
-    single("kN", "force", 1, 3),
-    single("V", "voltage", 1, 0),
-    single("mV", "voltage", 1, -3),
-    single("K", "temperature", 1, 0),
-    single("degC", "temperature", 1, 0),
-    single("Hz", "frequency", 1, 0),
-    single("kHz", "frequency", 1, 3),
-    single("MHz", "frequency", 1, 6),
-];
 
 /// Spellings that people use and the language does not: each with what to write instead.
 pub(crate) const FOREIGN: &[(&str, &str)] = &[
@@ -129,7 +84,7 @@ impl Unit {
 
     /// The symbols of all single units.
     pub fn symbols() -> impl Iterator<Item = &'static str> {
-        SINGLES.iter().map(|single| single.symbol)
+        SingleUnit::ALL.iter().map(|single| single.symbol)
     }
 
     /// The unit that the whole text spells; `None` when it spells none.
@@ -165,12 +120,10 @@ impl Unit {
 
     /// How its numbers become SI.
     pub fn scale(self) -> Scale {
-        let Unit { numerator: times, denominator: by, exponent: shift, degrees, .. } = self;
-        match (times == by, degrees) {
-            _ if self.celsius => Scale::Celsius,
-            (true, 0) => Scale::Decimal(shift),
-            _ => Scale::Fraction { times, by, shift, degrees },
+        if self.celsius {
+            return Scale::Celsius;
         }
+        Scale::factor(self.numerator, self.denominator, self.exponent, self.degrees)
     }
 
     fn times(self, other: Unit) -> Option<Unit> {
@@ -210,14 +163,14 @@ impl Unit {
 fn part(text: &str) -> Option<(Unit, usize)> {
     let word =
         text.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count();
-    let single = SINGLES.iter().find(|single| single.symbol == &text[..word])?;
+    let single = SingleUnit::ALL.iter().find(|single| single.symbol == &text[..word])?;
     let unit = Unit {
         dimension: Dimension::named(single.quantity)?,
         numerator: single.numerator,
         denominator: 1,
         exponent: single.exponent,
-        degrees: i32::from(single.symbol == "deg"),
-        celsius: single.symbol == "degC",
+        degrees: single.degrees(),
+        celsius: single.is_celsius(),
     };
     match exponent(&text[word..]) {
         Some((exponent, more)) => unit.power(exponent).map(|unit| (unit, word + more)),

@@ -20,6 +20,14 @@ use crate::verdict::Verdict;
 use pair::Pair;
 use reach::Reach;
 
+/// By what a file of scenarios is known that was made here.
+const MADE_BY: &str = "// Made by 'afpc test --generate'.";
+
+/// Whether a file of scenarios was made here: one that may be made again.
+pub fn is_generated(text: &str) -> bool {
+    text.lines().any(|line| line == MADE_BY)
+}
+
 /// The text of a file of scenarios.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Generated {
@@ -77,7 +85,7 @@ pub fn generate(
             pair.add(&mut all);
         }
     }
-    let mut text = format!("use \"{from}\"\n\n// Made by 'afpc test --generate'.\n");
+    let mut text = format!("use \"{from}\"\n\n{MADE_BY}\n");
     for why in &all.left_out {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "// Left out: {why}.");

@@ -24,7 +24,7 @@ use afp_run::RunError;
 use afp_session::Loader;
 
 pub use coverage::{Coverage, Part, PartKind};
-pub use generate::{Generated, generate};
+pub use generate::{Generated, generate, is_generated};
 pub use macros::check;
 pub use setting::Setting;
 pub use verdict::{Broken, Verdict};

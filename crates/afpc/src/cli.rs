@@ -1,7 +1,10 @@
 //! The command line's grammar.
 
+use std::ffi::OsString;
+
 use afp_run::options::{for_devices, for_robot};
 use afp_run::{EXIT_OK, RunError, say};
+use afp_syntax::diagnostics::words::list;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -113,7 +116,7 @@ pub fn parse(linked: &Linked<'_>) -> Command {
     };
     let matches = match command.try_get_matches() {
         Ok(matches) => matches,
-        Err(error) => match without_command(&error) {
+        Err(error) => match better(&error, &arguments) {
             Some(refusal) => refuse(&refusal),
             None if !error.use_stderr() => tell(&error),
             None => error.exit(),
@@ -153,6 +156,25 @@ fn refuse(error: &RunError) -> ! {
     std::process::exit(error.code().into());
 }
 
+/// What is said in place of an error that does not say enough.
+fn better(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
+    let words: Vec<_> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
+    without_command(error).or_else(|| swapped(error, &words)).or_else(|| no_utf8(error, arguments))
+}
+
+/// What to say of the name of a file that is no text.
+fn no_utf8(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
+    if error.kind() != ErrorKind::InvalidUtf8 {
+        return None;
+    }
+    let wrong = arguments.iter().filter(|argument| argument.to_str().is_none());
+    let wrong: Vec<_> = wrong.map(|argument| argument.to_string_lossy()).collect();
+    let names = list(wrong.iter().map(|name| &**name), "and");
+    let verb = if wrong.len() == 1 { "is" } else { "are" };
+    let help = "give the file a name in UTF-8, or make a link with such a name: 'ln -s OLD NEW'";
+    Some(RunError::usage(format!("{names} {verb} not in UTF-8"), help))
+}
+
 /// What to say to somebody who names a plan and no command.
 fn without_command(error: &clap::Error) -> Option<RunError> {
     if error.kind() != ErrorKind::InvalidSubcommand {
@@ -168,6 +190,16 @@ fn without_command(error: &clap::Error) -> Option<RunError> {
             format!("'afpc run {name}' runs it; 'afpc --help' lists what else can be done with it"),
         )
     })
+}
+
+/// What to say to somebody who puts the words of `afpc log` into another order.
+fn swapped(error: &clap::Error, words: &[&str]) -> Option<RunError> {
+    match words {
+        ["log", first, second, ..] if error.kind() == ErrorKind::InvalidValue => {
+            log::swapped(first, second)
+        }
+        _ => None,
+    }
 }
 
 /// The grammar, with the commands that later releases or other builds bring: hidden, but told apart from typing

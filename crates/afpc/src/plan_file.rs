@@ -29,6 +29,37 @@ pub struct PlanFile {
     pub foreign: Vec<String>,
 }
 
+/// The text of a file, read once: it may be a pipe.
+pub struct PlanText<'a> {
+    /// The file as it was named.
+    pub path: PathBuf,
+    /// What it says.
+    pub text: String,
+    /// The plan that is meant; else its first.
+    pub plan: Option<&'a str>,
+}
+
+impl PlanText<'_> {
+    /// Reads `FILE` or `FILE:Plan`.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn read(argument: &str) -> Result<PlanText<'_>, RunError> {
+        let (path, plan) = split(argument);
+        let text = read_text(&path).map_err(unreadable(&path))?;
+        Ok(PlanText { path, text, plan })
+    }
+
+    /// Compiles it.
+    ///
+    /// # Errors
+    /// The project file or a toolbox of it cannot be read, or is wrong.
+    pub fn compile(self) -> Result<PlanFile, RunError> {
+        let source = Source::new(self.path.display().to_string(), self.text);
+        PlanFile::compile_with((self.path, &source), &Disk::default(), self.plan, &[])
+    }
+}
+
 /// Why there is no graph.
 pub enum NoPlan {
     /// A file cannot be read.
@@ -77,10 +108,7 @@ impl PlanFile {
     /// # Errors
     /// A file cannot be read.
     pub fn read(argument: &str) -> Result<PlanFile, RunError> {
-        let (path, plan) = split(argument);
-        let text = read_text(&path).map_err(unreadable(&path))?;
-        let source = Source::new(path.display().to_string(), text);
-        PlanFile::compile(path, &source, &Disk::default(), plan)
+        PlanText::read(argument)?.compile()
     }
 
     /// The plan of a log, from the texts that the log holds, or else from its file.
@@ -101,15 +129,6 @@ impl PlanFile {
         };
         let source = Source::new(&first.name, &first.text);
         PlanFile::compile_with((file.into(), &source), &read, Some(&plan), &toolboxes)
-    }
-
-    fn compile(
-        path: PathBuf,
-        source: &Source,
-        files: &dyn Files,
-        plan: Option<&str>,
-    ) -> Result<PlanFile, RunError> {
-        PlanFile::compile_with((path, source), files, plan, &[])
     }
 
     /// Compiles a plan with toolboxes that its project may not have, for their declarations.

@@ -94,6 +94,10 @@ fn another_plan_can_be_tried_in_the_run_of_a_log() {
     let said = place.afpc(&format!("run changed.afp --again a.mcap {QUIET}"));
     said.succeeds();
     assert!(said.err.contains("the log has another text of the plan"), "{}", said.err);
+    for until in ["2s", "20s"] {
+        let said = place.afpc(&format!("run --again a.mcap --until {until} {QUIET}"));
+        assert!(said.err.contains("the log has another end\n"), "{}", said.err);
+    }
 }
 
 #[test]

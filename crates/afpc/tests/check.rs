@@ -13,6 +13,25 @@ fn a_good_plan_has_no_errors() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_file_may_be_a_pipe() {
+    use std::io::Write;
+    use std::process::Stdio;
+    let place = Place::with_plan();
+    for (text, code) in [(WALL_FOLLOWING, 0), ("toolbox lamp\n", 0), ("plan P {", 1)] {
+        for options in ["", "--json", "--timing"] {
+            let mut command = place.command();
+            command.arg("check").args(options.split_whitespace()).arg("/dev/stdin");
+            command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+            let mut child = command.spawn().unwrap();
+            child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+            let said = common::said(child.wait_with_output().unwrap());
+            assert_eq!(said.code, code, "{options} {said:#?}");
+        }
+    }
+}
+
+#[test]
 fn all_errors_of_all_files_come_at_once() {
     let place = Place::new();
     let wrong = WALL_FOLLOWING
@@ -195,9 +214,14 @@ fn help_has_examples_and_shells_have_completions() {
         said.succeeds();
         assert!(said.out.contains("Examples:"), "{}", said.out);
     }
-    for shell in ["bash", "zsh", "fish"] {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let said = place.afpc(&format!("completions {shell}"));
         said.succeeds();
-        assert!(said.out.contains("afpc") && said.out.contains("explain"), "{shell}");
+        for there in ["afpc", "explain", "until", "at-least"] {
+            assert!(said.out.contains(there), "{shell}: no {there}");
+        }
+        for later in ["replay", "deploy", "attach", "rt-report", "listen"] {
+            assert!(!said.out.contains(later), "{shell}: {later}");
+        }
     }
 }

@@ -65,6 +65,9 @@ const WRITERS: &[Writer] = &[
     writer("sweep p.afp --seeds 0..1 --until 1s -o OUT", "table.csv", b"run,"),
 ];
 
+/// What is in a file before: what every writer may write over.
+const OLD: &str = "// Made by 'afpc test --generate'.\n";
+
 /// Every command that prints, with what there is to print.
 const PRINTERS: &[&str] = &[
     "check p.afp",
@@ -209,7 +212,7 @@ fn a_pipe_takes_all_of_it() {
 fn a_link_stays_one_and_its_file_gets_the_new_text() {
     for writer in WRITERS {
         let place = place();
-        place.write("far/old", "old");
+        place.write("far/old", OLD);
         fs::set_permissions(place.path("far/old"), Permissions::from_mode(0o640)).unwrap();
         symlink("far/old", place.path(writer.file)).unwrap();
         writer.call(&place).succeeds();
@@ -226,12 +229,12 @@ fn a_link_stays_one_and_its_file_gets_the_new_text() {
 fn what_is_read_only_stays_as_it_is() {
     for writer in WRITERS {
         let place = place();
-        place.write(writer.file, "old");
+        place.write(writer.file, OLD);
         fs::set_permissions(place.path(writer.file), Permissions::from_mode(0o444)).unwrap();
         let mut command = writer.command(&place, writer.file);
         without_rights(&place, &mut command);
         said(command.output().unwrap()).fails(1, &["Permission denied", writer.file]);
-        assert_eq!(place.read(writer.file), "old", "{}", writer.name());
+        assert_eq!(place.read(writer.file), OLD, "{}", writer.name());
         assert_eq!(new_files(&place), [writer.file], "{}", writer.name());
         assert!(!place.exists("table.csv.journal"), "a sweep that could not be kept began");
     }
@@ -241,7 +244,7 @@ fn what_is_read_only_stays_as_it_is() {
 fn a_file_in_a_folder_that_takes_no_new_ones_is_written() {
     for writer in WRITERS {
         let place = place();
-        place.write(writer.file, "old");
+        place.write(writer.file, OLD);
         // What a sweep has come to is kept beside its table.
         let journal = format!("{}.journal", writer.file);
         if writer.command.starts_with("sweep") {
@@ -261,7 +264,7 @@ fn a_file_in_a_folder_that_takes_no_new_ones_is_written() {
 fn a_disk_that_takes_no_more_leaves_the_old_file() {
     for writer in WRITERS {
         let place = place();
-        place.write(writer.file, "old");
+        place.write(writer.file, OLD);
         let afpc = writer.command(&place, writer.file);
         // No file may grow; without the signal, writing fails as on a full disk.
         let mut shell = Command::new("sh");
@@ -269,7 +272,7 @@ fn a_disk_that_takes_no_more_leaves_the_old_file() {
         shell.arg(afpc.get_program()).args(afpc.get_args()).current_dir(place.path(""));
         let said = said(shell.env("XDG_CACHE_HOME", place.path("cache")).output().unwrap());
         said.fails(1, &["File too large"]);
-        assert_eq!(place.read(writer.file), "old", "{}", writer.name());
+        assert_eq!(place.read(writer.file), OLD, "{}", writer.name());
     }
 }
 

@@ -18,6 +18,29 @@ fn a_plan_with_errors_is_drawn_and_the_errors_are_said() {
 }
 
 #[test]
+fn where_there_is_no_plan_nothing_is_drawn() {
+    let place = Place::with_plan();
+    place.write("tools.afp", "toolbox tools\n");
+    for ending in [
+        "svg",
+        "json",
+        "dot",
+        "scxml",
+        #[cfg(feature = "png")]
+        "png",
+    ] {
+        let graph = |plan: &str| place.afpc(&format!("graph {plan} -o g.{ending}"));
+        graph("wall_following.afp").succeeds();
+        let good = place.bytes(&format!("g.{ending}"));
+        graph("wall_following.afp:Wal").fails(1, &["E0504"]);
+        graph("tools.afp").fails(1, &["E0503"]);
+        assert_eq!(place.bytes(&format!("g.{ending}")), good);
+        let said = place.afpc(&format!("graph tools.afp --format {ending}"));
+        assert_eq!((said.code, said.out.as_str()), (1, ""), "{said:?}");
+    }
+}
+
+#[test]
 fn icons_stand_beside_the_toolbox_of_a_project() {
     let place = Place::new();
     place.write("afp.toml", "[toolboxes]\nmine = { path = \"tools/mine.afp\" }\n");

@@ -182,3 +182,17 @@ fn what_is_no_log_is_refused() {
         .fails(1, &["cannot read the log 'missing.mcap'", "help: check the path"]);
     place.afpc("log a.mcap burn").fails(2, &["burn"]);
 }
+
+#[test]
+fn words_that_do_nothing_or_stand_elsewhere_are_told() {
+    let place = Place::with_plan();
+    place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none").succeeds();
+    for action in ["", "info", "doctor"] {
+        let said = place.afpc(&format!("log a.mcap {action} -o other.mcap"));
+        said.fails(2, &["'-o' is for 'recover' alone", "'--svg'"]);
+        if !action.is_empty() {
+            let said = place.afpc(&format!("log {action} a.mcap"));
+            said.fails(2, &["stands behind the log", &format!("write 'afpc log a.mcap {action}'")]);
+        }
+    }
+}

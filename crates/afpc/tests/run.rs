@@ -146,10 +146,45 @@ fn entries_are_set_with_their_units() {
     assert_eq!((&first["new"], &first["unit"]), (&0.35.into(), &"m".into()), "{first}");
     assert_eq!(run("--set walldist=0.35m").out, said.out);
     run("--set walldist=35").fails(2, &["not a length", "help: write the unit", "35cm"]);
+    for number in ["nan", "1e999", "inf"] {
+        run(&format!("--set walldist={number}")).fails(2, &["a length", "a number and a unit: "]);
+    }
     run("--set walldist=35deg").fails(2, &["not a length", "a number and a unit: "]);
     run("--set wall=1m").fails(2, &["no entry 'wall'", "can be set: 'walldist' (length)"]);
     run("--set wallangle=1rad").fails(2, &["'wallangle' cannot be set", "'in' entry"]);
     run("--set walldist").fails(2, &["distance=35cm"]);
+}
+
+#[test]
+fn a_value_that_does_not_fit_is_told_how_it_is_written() {
+    let place = Place::new();
+    let plan = "use std
+enum Side { left right }
+plan Takes {
+    in count: int = 1
+    in often: bool = true
+    in share: float = 1
+    in bend: angle
+    in side: Side = Side.left
+    start go
+    actor go: Wait(duration = 1 s) { Elapsed -> terminate }
+}";
+    place.write("takes.afp", plan);
+    let bend = "write the unit: 'bend=1deg'";
+    for (set, help) in [
+        ("count=3.0", "'count=3.0': not an int\n  help: write 'count=3'\n"),
+        ("count=3.5", "a whole number, such as 'count=3'"),
+        ("count=many", "a whole number, such as 'count=3'"),
+        ("often=1", "'often=1': not a bool\n  help: write 'often=true' or 'often=false'\n"),
+        ("share=half", "'share=half': not a float\n  help: a number, such as 'share=0.5'\n"),
+        ("share=nan", "a number, such as 'share=0.5'"),
+        ("bend=1", bend),
+        ("side=up", "one of: left, right"),
+    ] {
+        place.afpc(&format!("run takes.afp --set {set} {QUIET}")).fails(2, &[help]);
+    }
+    let missing = place.afpc(&format!("run takes.afp {QUIET}"));
+    missing.fails(2, &["give it one with '--set bend=VALUE', an angle"]);
 }
 
 #[test]
@@ -158,7 +193,7 @@ fn an_entry_without_a_value_is_asked_for() {
     place.write("a.afp", &WALL_FOLLOWING.replace("length = 30 cm", "length"));
     let said = place.afpc("run a.afp --log a.mcap --svg none");
     said.fails(2, &["'walldist' has neither a value nor a default", "--set walldist="]);
-    assert!(!place.exists("a.mcap"));
+    assert_eq!(place.files(), ["a.afp"]);
     place.afpc(&format!("run a.afp --set walldist=30cm --until 1s {QUIET}")).succeeds();
 }
 
@@ -176,11 +211,47 @@ fn options_that_wait_for_something_say_for_what() {
         .fails(2, &["no control 'start'; it has 'touch', 'escape'"]);
     place.afpc("run wall_following.afp --fail sonar.lost@1s").fails(2, &["there are battery, "]);
     place.afpc("run wall_following.afp --until 5").fails(2, &["20s or 500ms"]);
-    place.afpc("run wall_following.afp --until -1s").fails(2, &["a time cannot be negative"]);
     place.afpc("run wall_following.afp --speed -2x").fails(2, &["a multiple of real time"]);
-    place.afpc("run wall_following.afp --seed -1").fails(2, &["invalid digit found in string"]);
     place.afpc("run wall_following.afp --live=here").fails(2, &["expected a port, 8765, or"]);
     assert_eq!(place.files(), ["wall_following.afp"]);
+}
+
+#[test]
+fn numbers_out_of_place_and_empty_names_are_told_what_is_expected() {
+    let place = Place::with_plan();
+    for (words, why) in [
+        ("run wall_following.afp --until -1s", "a time cannot be negative"),
+        ("sweep wall_following.afp --until -1s", "a time cannot be negative"),
+        ("run wall_following.afp --seed -1", "expected a whole number from 0 to 184"),
+        ("run wall_following.afp --seed 1.5", "expected a whole number from 0 to 184"),
+        ("test --mutate --seed -1", "expected a whole number from 0 to 184"),
+        ("sweep wall_following.afp --seeds -1..3", "expected seeds such as 0..1000"),
+        ("sweep wall_following.afp --jobs -1", "expected a whole number from 1 on"),
+        ("sweep wall_following.afp --jobs 0", "expected a whole number from 1 on"),
+        ("graph wall_following.afp --scale -1", "expected a number from 0.1 to 10"),
+        ("dap --port -1", "-1 is not in 0..=65535"),
+        ("run wall_following.afp --log=", "expected the name of a file, or 'none'"),
+        ("run wall_following.afp --svg=", "expected the name of a file, or 'none'"),
+    ] {
+        if cfg!(feature = "dap") || !words.starts_with("dap") {
+            place.afpc(words).fails(2, &[why]);
+        }
+    }
+    assert_eq!(place.files(), ["wall_following.afp"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_name_that_is_no_text_is_told() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let place = Place::with_plan();
+    let name = OsStr::from_bytes(b"n\xff.afp");
+    for before in ["check", "run", "graph", "fmt", "sweep", "run wall_following.afp --log"] {
+        let mut command = place.command();
+        let said = command.args(before.split(' ')).arg(name).output().unwrap();
+        common::said(said).fails(2, &["'n\u{fffd}.afp' is not in UTF-8", "help: give the file"]);
+    }
 }
 
 #[test]
@@ -250,11 +321,30 @@ fn worlds_are_found_in_their_order() {
 }
 
 #[test]
+fn a_world_without_a_name_is_called_by_its_file() {
+    let place = Place::with_plan();
+    place.write("hall.toml", "version = 1\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n");
+    let run = "run wall_following.afp --world hall.toml --start 2m,2m,0deg --until 100ms";
+    let said = place.afpc(&format!("{run} --set world.robot.charge=0.5 --log a.mcap --svg a.svg"));
+    assert!(said.succeeds().out.contains("world  hall (hall.toml)\n"), "{}", said.out);
+    assert_eq!(said.last_json()["summary"]["world"], "hall");
+    let again = place.afpc("run --again a.mcap --log none --svg b.svg");
+    assert_eq!(again.succeeds().last_json()["summary"]["world"], "hall");
+    place.afpc("log a.mcap --svg c.svg").succeeds();
+    for picture in ["a.svg", "b.svg", "c.svg"] {
+        assert!(place.read(picture).contains("hall, seed 0"), "{picture}");
+    }
+}
+
+#[test]
 fn a_wrong_world_is_shown_at_its_line() {
     let place = Place::with_plan();
     let run = "run wall_following.afp --world w.toml --log a.mcap --svg a.svg";
     place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\ncolour = 1\n");
-    place.afpc(run).fails(1, &["colour", "--> w.toml:4:1", "4 | colour = 1"]);
+    let told = ["'[robot]' has no 'colour'", "--> w.toml:4:1", "4 | colour = 1", "help: it has"];
+    place.afpc(run).fails(1, &told);
+    place.write("w.toml", "");
+    place.afpc(run).fails(1, &["a world has no 'version'", "help: write 'version = 1'"]);
     place.write(
         "w.toml",
         "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\n[[wall]]\nname = \"w\"\npoints_m = [[-1.0, 0.0], [1.0, 0.0]]\n",
@@ -263,6 +353,24 @@ fn a_wrong_world_is_shown_at_its_line() {
     place.write("afp.toml", "[run]\nworlds = \"w.toml\"\n");
     place.afpc("run wall_following.afp").fails(1, &["'[run]' has no 'worlds'", "afp.toml:2:1"]);
     assert_eq!(place.files(), ["afp.toml", "w.toml", "wall_following.afp"]);
+}
+
+#[test]
+fn a_start_far_away_is_refused_and_one_outside_of_everything_told() {
+    let place = Place::with_plan();
+    let start = |start: &str| {
+        place.afpc(&format!("run wall_following.afp --until 100ms --log none --svg a.svg {start}"))
+    };
+    let far = "the start is not within 1000 m and 1000 deg of zero";
+    for pose in ["1000000000m,1m,0deg", "1.7e308m,0m,0deg", "1m,-1001m,0deg", "1m,1m,1e9deg"] {
+        start(&format!("--start {pose}")).fails(2, &[far]);
+    }
+    let outside = "warning: the robot starts outside of all that stands in its world";
+    for outer in ["--start 900m,1m,0deg", "--set world.robot.pose_m_deg.1=-1m"] {
+        assert!(start(outer).succeeds().err.contains(outside), "{outer}");
+        assert!(place.read("a.svg").len() < 100_000, "{outer}");
+    }
+    assert_eq!(start("--start 2m,1m,0deg").succeeds().err, "");
 }
 
 #[test]
@@ -359,6 +467,14 @@ fn a_full_disk_is_no_success_and_a_closed_pipe_no_failure() {
     command.args(run.split(' ')).stdout(OpenOptions::new().write(true).open("/dev/full").unwrap());
     let full = common::said(command.output().unwrap());
     full.fails(1, &["error: cannot write to 'standard output'"]);
+    // Who looks at a run sees what it came to, though not all of it can be written.
+    for json in ["", "--json"] {
+        let run = format!("run wall_following.afp --until 1s {json} --log none --svg /dev/full");
+        let said = place.afpc(&run);
+        said.fails(1, &["cannot write the picture '/dev/full'"]);
+        let summary = &said.last_json()["summary"];
+        assert_eq!((&summary["stopped_by"], summary.get("svg")), (&"until".into(), None));
+    }
     let mut command = place.command();
     let mut child = command.args(run.split(' ')).stdout(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
@@ -392,6 +508,19 @@ mod signals {
     fn signal(name: &str, process: u32) {
         let sent = Command::new("kill").args(["-s", name, &process.to_string()]).status();
         assert!(sent.unwrap().success());
+    }
+
+    #[test]
+    fn what_a_killed_run_has_left_is_kept() {
+        let place = Place::with_plan();
+        interrupted(&place, |process| signal("KILL", process));
+        place.afpc("log a.mcap").fails(1, &["name what there is of it, 'a.mcap.part'"]);
+        let said = place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none");
+        assert!(said.succeeds().err.contains("'afpc log a.2.mcap.part recover'"), "{}", said.err);
+        assert_eq!(place.files(), ["a.2.mcap.part", "a.mcap", "wall_following.afp"]);
+        let saved = place.afpc("log a.2.mcap.part recover");
+        assert!(saved.succeeds().out.ends_with("a.2.recovered.mcap\n"), "{}", saved.out);
+        assert_eq!(place.afpc("log a.2.recovered.mcap doctor").succeeds().out, "sound\n");
     }
 
     #[test]

@@ -48,6 +48,17 @@ fn every_row_can_be_done_again() {
 }
 
 #[test]
+fn a_plan_that_looks_like_an_option_can_be_run_again() {
+    let place = Place::new();
+    place.write("-n.afp", common::WALL_FOLLOWING);
+    let said = place.afpc("sweep --until 100ms --json -- -n.afp");
+    let command = objects(said.succeeds())[0]["command"].as_str().unwrap().to_owned();
+    let again =
+        place.afpc(&format!("{} --log none --svg none", command.strip_prefix("afpc ").unwrap()));
+    again.succeeds();
+}
+
+#[test]
 fn a_sweep_presses_and_breaks_as_a_run_does() {
     let place = Place::with_plan();
     let asked = "--press touch@2s --fail wheels.slip=0.3@3s..5s";
@@ -62,6 +73,22 @@ fn a_sweep_presses_and_breaks_as_a_run_does() {
     place
         .afpc("sweep wall_following.afp --fail wheels.gone@1s")
         .fails(2, &["'wheels' cannot be 'gone'; it can be slip"]);
+}
+
+#[test]
+fn what_is_there_twice_is_refused() {
+    let place = Place::with_plan();
+    place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [1, 1, 0]\n");
+    for (twice, what) in [
+        ("--seeds 1,1", "the seed 1 is there twice"),
+        ("--vary walldist=20cm,30cm,20cm", "'walldist=20cm' is there twice"),
+        ("--vary walldist=20cm,0.2m", "'walldist=0.2m' is there twice"),
+        ("--vary world.robot.charge=0.5,0.50", "'world.robot.charge=0.50' is there twice"),
+        ("--world random:1 --world random:0..3", "the world 'random:1' is there twice"),
+        ("--world w.toml --world ./w.toml", "the world './w.toml' is there twice"),
+    ] {
+        place.afpc(&format!("sweep wall_following.afp --until 1s {twice}")).fails(2, &[what]);
+    }
 }
 
 #[test]
@@ -168,7 +195,7 @@ fn what_cannot_be_varied_is_said_before_anything_runs() {
         ("--vary nope=1", ["no entry 'nope'", "'walldist' (length)"]),
         ("--vary walldist=20deg..40deg", ["not a length", "a number and a unit"]),
         ("--vary walldist=1m --vary walldist=2m", ["varied twice", "say it once"]),
-        ("--vary world.robot.charg=1", ["charg", "expected"]),
+        ("--vary world.robot.charg=1", ["has no 'charg'", "write 'charge'"]),
         ("--vary walldist=20cm..1m", ["same unit", "--vary"]),
         ("--seeds 0..99999999999", ["these are 99999999999 runs", "vary less at once"]),
         ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),

@@ -96,6 +96,27 @@ fn generated_scenarios_find_their_plan_from_where_they_are_written() {
 }
 
 #[test]
+fn scenarios_that_somebody_wrote_are_not_written_over() {
+    let place = place();
+    let said = place.afpc("test --generate wall_following.afp -o tests/room.afp");
+    said.fails(2, &["'tests/room.afp' was not made by 'afpc test --generate'", "with '-o FILE'"]);
+    assert_eq!(place.read("tests/room.afp"), SCENARIOS);
+    let said = place.afpc("test --generate tests/room.afp");
+    said.fails(2, &["'tests/room.afp' has no plan of its own", "plan: 'wall_following.afp'"]);
+    assert_eq!(place.files(), ["tests/room.afp", "wall_following.afp"]);
+    place.write("tests/new.afp", "\n");
+    for _ in 0..2 {
+        place.afpc("test --generate wall_following.afp -o tests/new.afp").succeeds();
+    }
+}
+
+#[test]
+fn a_file_that_is_named_twice_is_run_once() {
+    let said = place().afpc("test tests tests/room.afp ./tests/room.afp bump");
+    assert!(said.succeeds().out.contains("1 passed"), "{}", said.out);
+}
+
+#[test]
 fn a_wrong_scenario_does_not_hide_the_others() {
     let place = place();
     place.write("tests/wrong.afp", "use \"../wall_following.afp\"\n\nscenario \"x\" for WallFollowing { expect nobody active }\n");
@@ -154,6 +175,10 @@ fn mutants_are_made_and_those_that_nobody_notices_are_told() {
         "the same seed, the same mutants"
     );
     assert_eq!(place.afpc("test --mutate --at-least 99").code, 3);
+    for percent in ["nan", "inf", "101", "-1"] {
+        let said = place.afpc(&format!("test --mutate --at-least {percent}"));
+        said.fails(2, &["expected a number from 0 to 100"]);
+    }
     let json = place.afpc("test --mutate --json").last_json();
     assert_eq!(json["mutated"], "short.afp");
     let share = json["share"].as_f64().unwrap();

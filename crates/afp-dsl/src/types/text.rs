@@ -5,6 +5,7 @@
 
 use crate::types::{Dimension, Type};
 use afp_number::{Nanoseconds, RADIANS_PER_DEGREE, Rounded};
+use afp_syntax::diagnostics::words;
 use afp_syntax::literal::Literal;
 use afp_syntax::units::Unit;
 
@@ -79,9 +80,7 @@ pub(crate) fn a_dimension(dimension: Dimension) -> String {
     if dimension == Dimension::NONE {
         return "a bare number".to_owned();
     }
-    let name = dimension.name();
-    let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {name}")
+    words::a(&dimension.name())
 }
 
 /// A value in SI units as people write it, such as `31 cm/s` or `2 km`: as drawings do where that is

@@ -5,11 +5,10 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
 use afp_core::Instant;
-use afp_core::rt::{Unit, parse_quantity};
 use afp_project::duration;
 use afp_session::Pose2;
 
-use crate::world::change::{ANGLE, LENGTH};
+use crate::world::Measure;
 
 /// How fast simulated time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +82,14 @@ pub(super) fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
+/// Reads a whole number, such as a seed.
+///
+/// # Errors
+/// It is none, or negative.
+pub fn whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
+}
+
 /// Reads `8765`, a port of this machine alone, or `0.0.0.0:8765`.
 pub(super) fn address(text: &str) -> Result<SocketAddr, String> {
     match text.parse::<u16>() {
@@ -133,14 +140,12 @@ fn instant(text: &str) -> Result<Instant, String> {
 /// Reads `2m,1m,90deg`.
 pub(super) fn start(text: &str) -> Result<Pose2, String> {
     let wrong = || "expected x, y and a heading, such as 2m,1m,90deg".to_owned();
-    let quantity = |text: &str, units: &[Unit<'static>]| {
-        parse_quantity(text.trim(), units.iter().copied()).map_err(|_| wrong())
-    };
+    let quantity = |text: &str, measure: Measure| measure.read(text.trim()).map_err(|_| wrong());
     let [x, y, heading] = text.split(',').collect::<Vec<_>>().try_into().map_err(|_| wrong())?;
     Ok(Pose2 {
-        x: quantity(x, LENGTH)?,
-        y: quantity(y, LENGTH)?,
-        heading: quantity(heading, ANGLE)?.to_radians(),
+        x: quantity(x, Measure::Length)?,
+        y: quantity(y, Measure::Length)?,
+        heading: quantity(heading, Measure::Angle)?.to_radians(),
     })
 }
 
@@ -156,6 +161,7 @@ pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
 pub(super) fn destination(text: &str) -> Result<Destination, String> {
     Ok(match text {
         "none" => Destination::None,
+        "" => return Err("expected the name of a file, or 'none'".to_owned()),
         path => Destination::File(path.into()),
     })
 }
@@ -202,6 +208,9 @@ mod tests {
     fn a_start_has_units() {
         let pose = start("1m, -50cm,180deg").unwrap();
         assert_eq!((pose.x, pose.y, pose.heading), (1.0, -0.5, std::f64::consts::PI));
+        let small = start("100um,1mm,100mrad").unwrap();
+        assert_eq!((small.x, small.y), (0.0001, 0.001));
+        assert!((small.heading - 0.1).abs() < 1e-15);
         for wrong in ["1,2,3", "1m,2m", "1m,2m,90deg,", "1m,2m,1m", "", "1m,2s,0deg"] {
             assert!(start(wrong).is_err_and(|why| why.contains("2m,1m,90deg")), "{wrong}");
         }

@@ -14,6 +14,9 @@ pub(super) const MARGIN: f64 = 28.0;
 const ROOM_WIDTH: f64 = 860.0;
 const ROOM_HEIGHT: f64 = 860.0;
 
+/// At most so many lines of the floor cross a picture in a direction.
+const MOST_LINES: f64 = 200.0;
+
 /// The radius of an echo's dot, pixels.
 pub(super) const ECHO: f64 = 2.2;
 
@@ -35,6 +38,12 @@ impl View {
         (MARGIN + (x - self.low[0]) * self.scale, MARGIN + (self.high[1] - y) * self.scale)
     }
 
+    /// From one line of the floor to the next: a metre, or a power of ten of them where the lines would be too many.
+    fn step(&self) -> f64 {
+        let side = (self.high[0] - self.low[0]).max(self.high[1] - self.low[1]);
+        libm::pow(10.0, libm::ceil(libm::log10(side / MOST_LINES)).max(0.0))
+    }
+
     /// Where the room ends to the right and below, pixels.
     pub(super) fn end(&self) -> (f64, f64) {
         self.point([self.high[0], self.low[1]])
@@ -52,21 +61,21 @@ impl Canvas {
         Canvas { view, body: String::new() }
     }
 
-    /// The floor, with a line every metre.
+    /// The floor, with a line every metre, or so.
     pub(super) fn floor(&mut self) {
-        let View { low, high, .. } = self.view;
+        let (View { low, high, .. }, step) = (self.view, self.view.step());
         let ((x, y), (right, below)) = (self.view.point([low[0], high[1]]), self.view.end());
         let (width, height) = (right - x, below - y);
         self.put(format_args!(
             r##"<rect x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}" fill="#ffffff"/>"##
         ));
-        for metre in whole(low[0], high[0]) {
+        for metre in multiples(step, low[0], high[0]) {
             let (at, _) = self.view.point([metre, 0.0]);
             self.put(format_args!(
                 r##"<line class="grid" x1="{at:.1}" y1="{y:.1}" x2="{at:.1}" y2="{below:.1}"/>"##
             ));
         }
-        for metre in whole(low[1], high[1]) {
+        for metre in multiples(step, low[1], high[1]) {
             let (_, at) = self.view.point([0.0, metre]);
             self.put(format_args!(
                 r##"<line class="grid" x1="{x:.1}" y1="{at:.1}" x2="{right:.1}" y2="{at:.1}"/>"##
@@ -198,17 +207,18 @@ impl Canvas {
         ));
     }
 
-    /// One metre, below the room.
+    /// One metre, or what is from line to line, below the room.
     pub(super) fn scale_bar(&mut self) {
         let (_, below) = self.view.end();
         let (x, y) = (MARGIN, below + 20.0);
-        let end = x + self.view.scale;
+        let step = self.view.step();
+        let end = x + self.view.scale * step;
         let (up, down) = (y - 5.0, y + 5.0);
         self.put(format_args!(
             r#"<path class="scale" d="M{x:.1} {up:.1}V{down:.1}M{x:.1} {y:.1}H{end:.1}M{end:.1} {up:.1}V{down:.1}"/>"#
         ));
         self.put(format_args!(
-            r#"<text class="quiet" x="{:.1}" y="{:.1}">1 m</text>"#,
+            r#"<text class="quiet" x="{:.1}" y="{:.1}">{step} m</text>"#,
             end + 8.0,
             y + 4.0
         ));
@@ -242,10 +252,11 @@ impl Canvas {
     }
 }
 
-/// The whole numbers between two others.
-fn whole(from: f64, to: f64) -> impl Iterator<Item = f64> {
-    let (from, to) = (libm::ceil(from) as i64, libm::floor(to) as i64);
-    (from..=to).map(|metre| metre as f64)
+/// The multiples of a number between two others, as many as fit into a picture.
+fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let first = libm::ceil(from / step);
+    let all = (0..=MOST_LINES as u32).map(move |count| (first + f64::from(count)) * step);
+    all.take_while(move |at| *at <= to)
 }
 
 /// A text that may stand between tags.
@@ -284,3 +295,28 @@ text { font: 13px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2b 
 <rect width="6" height="6" fill="#fbeee4"/><line x1="0" y1="0" x2="0" y2="6" stroke="#d98b52" stroke-width="2"/>
 </pattern></defs>
 "##;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_floor_has_lines_that_fit_however_far_it_goes() {
+        for (side, lines, step) in [
+            (8.5, 9, 1.0),
+            (99.0, 100, 1.0),
+            (150.0, 16, 10.0),
+            (1000.0, 101, 10.0),
+            (1e9, 101, 1e7),
+            (f64::MAX, 180, 1e306),
+            (f64::INFINITY, 0, f64::INFINITY),
+        ] {
+            let view = View::around([[-0.0, -side], [side, side.min(1e9)]]);
+            let mut canvas = Canvas::new(view);
+            canvas.floor();
+            let upright = multiples(view.step(), 0.0, side).count();
+            assert_eq!((upright, view.step()), (lines, step), "{side}");
+            assert!(canvas.body.lines().count() < 500, "{side}");
+        }
+    }
+}

@@ -9,6 +9,7 @@ use afp_session::{AnyRobot, AnyWorld, EventKind, Mark, Pose2, RunEvent, Waypoint
 
 use super::{SoFar, draw_run};
 use crate::error::RunError;
+use crate::world::named;
 
 /// Draws the path of a logged run over its world.
 ///
@@ -40,12 +41,15 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
         span,
         text: text.to_owned(),
         message,
+        help: String::new(),
     };
     let Some(text) = log.attachments.get(WORLD) else {
         return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
     };
     let world = robot.world(text).map_err(|error| content(error.message, error.span, text))?;
-    match log.recipe().start {
+    let recipe = log.recipe();
+    let world = named(world, &recipe.world.name);
+    match recipe.start {
         None => Ok(world),
         Some(start) => world.started_at(start).map_err(|why| content(why, None, text)),
     }

@@ -2,12 +2,11 @@
 //!
 //! Keys of a file carry their units (`height_m`); what is written here carries its own.
 
-use afp_core::rt::{Scale, Unit, parse_quantity};
 use toml_edit::{DocumentMut, Item, Table, Value, value};
 
 use afp_session::AnyRobot;
 
-use super::LoadedWorld;
+use super::{LoadedWorld, Measure};
 use crate::error::RunError;
 
 /// What the name of a setting begins with that is one of the world.
@@ -16,41 +15,6 @@ const PREFIX: &str = "world.";
 /// The key of a setting of the world; `None` for an entry of the plan.
 pub fn key(name: &str) -> Option<&str> {
     name.strip_prefix(PREFIX)
-}
-
-/// Metres first.
-pub(crate) const LENGTH: &[Unit<'static>] = &[
-    Unit { name: "m", scale: Scale::Decimal(0) },
-    Unit { name: "cm", scale: Scale::Decimal(-2) },
-    Unit { name: "mm", scale: Scale::Decimal(-3) },
-    Unit { name: "km", scale: Scale::Decimal(3) },
-];
-/// Degrees first.
-pub(crate) const ANGLE: &[Unit<'static>] = &[
-    Unit { name: "deg", scale: Scale::Decimal(0) },
-    Unit { name: "rad", scale: Scale::fraction(1, 1, 0, -1) },
-];
-const SPEED: &[Unit<'static>] = &[
-    Unit { name: "m/s", scale: Scale::Decimal(0) },
-    Unit { name: "cm/s", scale: Scale::Decimal(-2) },
-    Unit { name: "mm/s", scale: Scale::Decimal(-3) },
-];
-const MASS: &[Unit<'static>] =
-    &[Unit { name: "kg", scale: Scale::Decimal(0) }, Unit { name: "g", scale: Scale::Decimal(-3) }];
-const TIME: &[Unit<'static>] =
-    &[Unit { name: "s", scale: Scale::Decimal(0) }, Unit { name: "ms", scale: Scale::Decimal(-3) }];
-
-/// The units of a key, by the end of its name; the first is that of the file. None for plain numbers.
-fn units(key: &str, place: Option<usize>) -> &'static [Unit<'static>] {
-    let ends = |end: &str| key.ends_with(end);
-    match place {
-        Some(2) if ends("_m_deg") => ANGLE,
-        _ if ends("_m") || ends("_m_deg") => LENGTH,
-        _ if ends("_m_s") => SPEED,
-        _ if ends("_kg") => MASS,
-        _ if ends("_s") => TIME,
-        _ => &[],
-    }
 }
 
 impl LoadedWorld {
@@ -69,7 +33,7 @@ impl LoadedWorld {
         for (key, text) in changes {
             changed = self::changed(&changed, key, text)?.0;
         }
-        let world = super::parse(changed, self.path.clone(), robot);
+        let world = super::parse(changed, self.path.clone(), self.world.name(), robot);
         let world = world.map_err(|error| with_changes(error, changes))?;
         let world = LoadedWorld { path: self.path.clone(), ..world };
         let Some(start) = self.start else { return Ok(world) };
@@ -97,10 +61,11 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
         parts.pop();
     }
     let (name, tables) = parts.split_last().ok_or_else(|| refused("there is no such key"))?;
-    let units = units(name, index);
-    let to = read(text, units).map_err(|why| refused(&why))?;
-    let si = to.as_float().map(|number| match units.first() {
-        Some(unit) if unit.name == "deg" => number.to_radians(),
+    let measure = Measure::of(name, index);
+    let to = read(text, measure).map_err(|why| refused(&why))?;
+    let number = to.as_float().or_else(|| Some(to.as_integer()? as f64));
+    let si = number.map(|number| match measure {
+        Some(Measure::Angle) => number.to_radians(),
         _ => number,
     });
     let mut item = document.as_item_mut();
@@ -113,10 +78,10 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
 
 /// An error in a world that was changed: the excerpt is of a text that no file has.
 fn with_changes(error: RunError, changes: &[(&str, &str)]) -> RunError {
-    let RunError::Content { path, span, text, message } = error else { return error };
+    let RunError::Content { path, span, text, message, help } = error else { return error };
     let list = changes.iter().map(|(key, value)| format!("{PREFIX}{key}={value}"));
     let path = format!("{} with {}", path.display(), list.collect::<Vec<_>>().join(", "));
-    RunError::Content { path: path.into(), span, text, message }
+    RunError::Content { path: path.into(), span, text, message, help }
 }
 
 fn refused(key: &str, text: &str, why: &str) -> RunError {
@@ -153,7 +118,10 @@ fn set(item: &mut Item, name: &str, index: Option<usize>, to: Value) -> Result<(
         return Err(format!("there is no '{name}' in a list; name one of them first"));
     };
     let Some(index) = index else {
-        table.insert(name, value(to));
+        match table.get_mut(name).and_then(Item::as_value_mut) {
+            Some(was) => replace(was, to),
+            None => drop(table.insert(name, value(to))),
+        }
         return Ok(());
     };
     let known = table.iter().map(|(name, _)| format!("'{name}'")).collect::<Vec<_>>().join(", ");
@@ -164,23 +132,29 @@ fn set(item: &mut Item, name: &str, index: Option<usize>, to: Value) -> Result<(
         return Err(format!("'{name}' is no list, so that it has no number {index}"));
     };
     let count = list.len();
-    let place = list.get_mut(index);
-    *place.ok_or_else(|| {
-        format!("'{name}' has {count} values, from 0 on, and no number {index}")
-    })? = to;
+    let place = list
+        .get_mut(index)
+        .ok_or_else(|| format!("'{name}' has {count} values, from 0 on, and no number {index}"))?;
+    replace(place, to);
     Ok(())
 }
 
+/// Puts a value in the place of another one; lines and comments around it stay where they are.
+fn replace(was: &mut Value, mut to: Value) {
+    to.decor_mut().clone_from(was.decor());
+    *was = to;
+}
+
 /// A value as it stands in the file.
-fn read(text: &str, units: &[Unit<'static>]) -> Result<Value, String> {
-    if units.is_empty() {
-        let number = text.parse::<f64>().map(Value::from);
-        let truth = || text.parse::<bool>().map(Value::from);
-        return Ok(number.or_else(|_| truth()).unwrap_or_else(|_| Value::from(text)));
+fn read(text: &str, measure: Option<Measure>) -> Result<Value, String> {
+    if let Some(measure) = measure {
+        return measure.read(text).map(Value::from);
     }
-    let names = || units.iter().map(|unit| unit.name).collect::<Vec<_>>().join(", ");
-    let number = parse_quantity(text, units.iter().copied());
-    number.map(Value::from).map_err(|_| format!("expected a number with a unit: {}", names()))
+    let whole = text.parse::<i64>().map(Value::from);
+    let number = || text.parse::<f64>().map(Value::from);
+    let truth = || text.parse::<bool>().map(Value::from);
+    let value = whole.or_else(|_| number()).or_else(|_| truth());
+    Ok(value.unwrap_or_else(|_| Value::from(text)))
 }
 
 #[cfg(test)]
@@ -216,6 +190,21 @@ mod tests {
     }
 
     #[test]
+    fn lines_and_comments_of_a_file_stay_where_they_are() {
+        let text = "version = 1\n# Where it begins.\nrobot.pose_m_deg = [\n  1,  # along x\n  1, 0\n]\n\n# Half.\nrobot.charge = 0.5 # of it\n";
+        for (key, value, was, is) in [
+            ("version", "1", "version = 1", "version = 1"),
+            ("robot.charge", "1", "0.5 #", "1 #"),
+            ("robot.pose_m_deg.0", "2m", "1,  #", "2.0,  #"),
+            ("robot.pose_m_deg.1", "2m", "1, 0", "2.0, 0"),
+        ] {
+            assert_eq!(changed(text, key, value).unwrap().0, text.replace(was, is), "{key}");
+        }
+        let (world, _) = with(&room(), "version", "1");
+        assert_eq!(world.text, room().text);
+    }
+
+    #[test]
     fn values_count_together() {
         // The second alone puts the robot into the sofa.
         let (x, y) = (("robot.pose_m_deg.0", "5m"), ("robot.pose_m_deg.1", "4.5m"));
@@ -227,10 +216,13 @@ mod tests {
 
     #[test]
     fn what_is_not_there_or_does_not_fit_is_refused() {
+        let set = "'robot' is a table";
         for (key, text, why) in [
+            ("robot", "3", set),
+            ("version", "2", "version 2 is unknown"),
             ("box.clost.height_m", "1m", "no 'clost' among 'closet'"),
-            ("box.closet.height_m", "1", "a number with a unit: m, cm"),
-            ("box.closet.height_m", "1s", "a number with a unit: m, cm"),
+            ("box.closet.height_m", "1", "a number with a unit: m, km, cm"),
+            ("box.closet.height_m", "1s", "a number with a unit: m, km, cm"),
             ("robot.charg", "0.5", "charg"),
             ("robot.charge", "2", "charge"),
             ("box.height_m", "1m", "name one of them first"),

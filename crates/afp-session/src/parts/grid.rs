@@ -92,7 +92,7 @@ impl Grid {
             1 => Ok(grid),
             _ => {
                 let why = format!("the robot starts at one of '>^<v': the drawing has {starts}");
-                Err(WorldError { span: None, message: why })
+                Err(WorldError::new(None, why))
             }
         }
     }
@@ -262,7 +262,7 @@ fn disc(radius: f64) -> Vec<[f64; 2]> {
 }
 
 fn wrong(at: usize, length: usize, message: &str) -> WorldError {
-    WorldError { span: Some(at..at + length), message: message.to_owned() }
+    WorldError::new(Some(at..at + length), message)
 }
 
 #[cfg(test)]

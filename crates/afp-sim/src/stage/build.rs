@@ -35,10 +35,10 @@ pub(crate) fn build(world: &World, chassis: &Chassis) -> Result<Built, WorldErro
     let mut movers = Vec::new();
     let mut shapes = Vec::with_capacity(world.obstacles.len());
     for (i, obstacle) in world.obstacles.iter().enumerate() {
-        let (at, shape) = obstacle.outline.shape().ok_or_else(|| WorldError {
-            span: None,
-            message: format!("'{}' has no area", obstacle.name),
-        })?;
+        let (at, shape) = obstacle
+            .outline
+            .shape()
+            .ok_or_else(|| WorldError::new(None, format!("'{}' has no area", obstacle.name)))?;
         let collider = collider(obstacle, shape.clone(), i, chassis);
         match Mover::body(obstacle, at) {
             None => drop(physics.insert_collider(collider.position(at), None)),

@@ -4,7 +4,7 @@ use afp_session::WorldError;
 use toml_edit::Document;
 
 /// An error at the value of a key; a number in `path` counts the tables of an array.
-pub(super) fn at_key(text: &str, path: &[&str], message: String) -> WorldError {
+pub(super) fn at_key(text: &str, path: &[&str], message: impl Into<String>) -> WorldError {
     let span = Document::parse(text).ok().and_then(|document| {
         let mut item = document.as_item();
         for part in path {
@@ -15,5 +15,5 @@ pub(super) fn at_key(text: &str, path: &[&str], message: String) -> WorldError {
         }
         item.span()
     });
-    WorldError { span, message }
+    WorldError::new(span, message)
 }

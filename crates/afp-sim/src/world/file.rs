@@ -1,6 +1,7 @@
 //! A world file read: its tables, and what its values must satisfy.
 
 mod check;
+mod keys;
 mod tables;
 
 use super::error::at_key;
@@ -10,12 +11,13 @@ use super::{
     WorldError,
 };
 use crate::truth::Pose;
+use afp_excerpt::words::{list, nearest};
 use serde::de::DeserializeOwned;
 use toml_edit::Document;
 use toml_edit::de::{Deserializer, Error};
 
 use check::{Check, Key};
-use tables::{File, KEYS};
+use tables::File;
 
 /// A wall is this thick where the file does not say, metres.
 const THICKNESS: f64 = 0.1;
@@ -34,14 +36,16 @@ const POLYGON_COLOR: Rgb = [127, 143, 166];
 
 /// Reads a file and checks each value by itself; gives what it says for its robot alone, too.
 pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
-    let document = Document::parse(text).map_err(|error| wrong(&error.into()))?;
-    known_keys(&document, O::KEYS)?;
+    let document = Document::parse(text).map_err(|error| {
+        wrong(&error.into()).with_help("a world is TOML: 'key = value', texts in quotes")
+    })?;
+    keys::check(document.as_table(), O::KEYS)?;
     let (file, own): (File, O) = (tables(&document)?, tables(&document)?);
     let check = Check::new(text);
     let root = Key::root();
     if file.version != 1 {
-        let message = format!("version {} is unknown; this is version 1", file.version);
-        return Err(at_key(text, &["version"], message));
+        let message = format!("version {} is unknown", file.version);
+        return Err(at_key(text, &["version"], message).with_help("write 'version = 1'"));
     }
     let robot = root.at("robot");
     let start = check.pose(&robot.at("pose_m_deg"), file.robot.pose_m_deg)?;
@@ -80,23 +84,13 @@ pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
     Ok((world, own))
 }
 
-/// Looks for a key that neither all worlds have nor those of this robot.
-fn known_keys(document: &Document<&str>, own: &[&str]) -> Result<(), WorldError> {
-    let known = || KEYS.iter().chain(own);
-    let unknown = document.iter().find(|(key, _)| known().all(|name| name != key));
-    let Some((key, _)) = unknown else { return Ok(()) };
-    let names: Vec<_> = known().map(|name| format!("`{name}`")).collect();
-    let message = format!("unknown field `{key}`, expected one of {}", names.join(", "));
-    Err(WorldError { span: document.key(key).and_then(toml_edit::Key::span), message })
-}
-
 /// What a file says in the shape of `T`.
 fn tables<T: DeserializeOwned>(document: &Document<&str>) -> Result<T, WorldError> {
     T::deserialize(Deserializer::from(document.clone())).map_err(|error| wrong(&error))
 }
 
 fn wrong(error: &Error) -> WorldError {
-    WorldError { span: error.span(), message: error.message().to_owned() }
+    WorldError::new(error.span(), error.message().replace('\n', ", "))
 }
 
 impl Check<'_> {
@@ -118,7 +112,8 @@ impl Check<'_> {
         let mut points = wall.points_m;
         self.near(&at_points, points.as_flattened())?;
         if points.len() < 2 {
-            return Err(self.error(&at_points, "a wall needs at least two points"));
+            let help = "write both of its ends: 'points_m = [[0, 0], [4, 0]]'";
+            return Err(self.error(&at_points, "a wall needs at least two points", help));
         }
         if wall.closed {
             points.push(points[0]);
@@ -127,7 +122,7 @@ impl Check<'_> {
         for ends in points.windows(2) {
             let Some(outline) = side(ends[0], ends[1], thickness) else {
                 let message = "two points of the wall that follow each other are the same";
-                return Err(self.error(&at_points, message));
+                return Err(self.error(&at_points, message, "leave one of them out"));
             };
             let (name, mobility) = (name.clone(), Mobility::Fixed);
             into.push(Obstacle { name, outline, height, mobility, look, echo, mapped });
@@ -183,8 +178,8 @@ impl Check<'_> {
             }
             (None, Some(path)) => self.path(&key.at("path"), path).map(Mobility::Scripted),
             (Some(_), Some(_)) => {
-                let message = "what goes its own way cannot be pushed; leave one of them out";
-                Err(self.error(&key.at("mass_kg"), message))
+                let message = "what goes its own way cannot be pushed";
+                Err(self.error(&key.at("mass_kg"), message, "leave 'mass_kg' or 'path' out"))
             }
         }
     }
@@ -198,7 +193,8 @@ impl Check<'_> {
     ) -> Result<bool, WorldError> {
         let stands = *mobility == Mobility::Fixed;
         if mapped == Some(true) && !stands {
-            return Err(self.error(&key.at("mapped"), "what moves is on no map"));
+            let help = "leave 'mapped' out";
+            return Err(self.error(&key.at("mapped"), "what moves is on no map", help));
         }
         Ok(mapped.unwrap_or(stands))
     }
@@ -208,12 +204,14 @@ impl Check<'_> {
         self.positive(&key.at("speed_m_s"), &[path.speed_m_s])?;
         if path.speed_m_s > FASTEST {
             let message = format!("{} is more than {FASTEST}", path.speed_m_s);
-            return Err(self.error(&key.at("speed_m_s"), &message));
+            let help = format!("write at most {FASTEST}");
+            return Err(self.error(&key.at("speed_m_s"), &message, help));
         }
         self.not_negative(&key.at("wait_s"), path.wait_s)?;
         self.not_negative(&key.at("start_s"), path.start_s)?;
         let made = Path::new(&path.by_m, path.closed, path.speed_m_s, path.wait_s, path.start_s);
-        made.ok_or_else(|| self.error(&key.at("by_m"), "the way leads nowhere"))
+        let help = "write places away from where it stands: 'by_m = [[1, 0]]'";
+        made.ok_or_else(|| self.error(&key.at("by_m"), "the way leads nowhere", help))
     }
 
     fn patch(&self, key: &Key, i: usize, patch: tables::Patch) -> Result<Patch, WorldError> {
@@ -247,15 +245,19 @@ impl Check<'_> {
     }
 
     fn color(&self, key: &Key, text: &str) -> Result<Rgb, WorldError> {
-        let wrong = || self.error(key, &format!("'{text}' is no colour; write '#rrggbb'"));
+        let wrong = || self.error(key, &format!("'{text}' is no colour"), "write '#rrggbb'");
         parse_color(text).ok_or_else(wrong)
     }
 
     fn texture(&self, key: &Key, name: &str) -> Result<Texture, WorldError> {
         let known = Texture::NAMES.into_iter().find(|(known, _)| *known == name);
         known.map(|(_, texture)| texture).ok_or_else(|| {
-            let names = Texture::NAMES.map(|(name, _)| format!("'{name}'")).join(", ");
-            self.error(key, &format!("'{name}' is no texture; there are {names}"))
+            let names = || Texture::NAMES.into_iter().map(|(name, _)| name);
+            let help = match nearest(name, names()) {
+                Some(meant) => format!("write '{meant}'"),
+                None => format!("there are {}", list(names(), "and")),
+            };
+            self.error(key, &format!("'{name}' is no texture"), help)
         })
     }
 }

@@ -37,25 +37,24 @@ impl World {
     /// cells or no place for the robot.
     pub fn map_text(name: &str, yaml: &str, picture: &[u8]) -> Result<String, WorldError> {
         let settings = Settings::read(yaml)?;
-        let grey = picture::read(picture).map_err(|message| WorldError { span: None, message })?;
+        let grey = picture::read(picture).map_err(|message| WorldError::new(None, message))?;
         if !is_near(&settings, [grey.width, grey.height].map(|cells| cells as f64)) {
             let message = format!("the map reaches farther than {FARTHEST} m");
-            return Err(WorldError { span: None, message });
+            return Err(WorldError::new(None, message));
         }
         let cells = Cells::new(&grey, |value| settings.is_wall(value));
         if cells.is_empty() {
             let message =
                 "no cell of the map is occupied: look at 'mode', 'negate' and 'occupied_thresh'";
-            return Err(WorldError { span: None, message: message.to_owned() });
+            return Err(WorldError::new(None, message));
         }
-        let start = start(&settings, &cells, &grey).ok_or_else(|| WorldError {
-            span: None,
-            message: "the map has no free place that is large enough for the robot".to_owned(),
+        let start = start(&settings, &cells, &grey).ok_or_else(|| {
+            WorldError::new(None, "the map has no free place that is large enough for the robot")
         })?;
         let boxes = cells.boxes();
         if boxes.len() > MOST {
             let message = format!("the map has {} separate parts, more than {MOST}", boxes.len());
-            return Err(WorldError { span: None, message });
+            return Err(WorldError::new(None, message));
         }
         Ok(text(name, &settings, &cells, start, &boxes))
     }

@@ -1,6 +1,6 @@
 //! The Carbot's worlds as those of a simulated robot: what sessions, pictures and logs know of them.
 
-use super::{Mobility, Obstacle, Outline, World, WorldError};
+use super::{FARTHEST, Mobility, Obstacle, Outline, World, WorldError};
 use crate::chassis::Chassis;
 use crate::truth::Pose;
 use afp_session::{Drawing, Patch, Shape, Thing};
@@ -50,6 +50,10 @@ impl afp_session::World for World {
 impl World {
     /// The same world with a robot of some body at another start.
     pub(super) fn started_with(&self, robot: &Chassis, start: Pose) -> Result<World, String> {
+        let near = |value: f64| value.abs() <= FARTHEST;
+        if ![start.x, start.y, start.heading.to_degrees()].into_iter().all(near) {
+            return Err(format!("the start is not within {FARTHEST} m and {FARTHEST} deg of zero"));
+        }
         match self.obstacle_in_way_of(robot, start) {
             Some(obstacle) => Err(format!("the robot starts inside of '{}'", obstacle.name)),
             None if self.is_beyond([start.x, start.y]) => {

@@ -81,7 +81,7 @@ impl<B: Body> afp_session::World for WorldOf<B> {
     fn read(text: &str) -> Result<Self, WorldError> {
         let (world, own) = World::parse_with::<B::Own>(&B::CHASSIS, text)?;
         match own.wrong() {
-            Some(message) => Err(WorldError { span: None, message }),
+            Some(message) => Err(WorldError::new(None, message)),
             None => Ok(WorldOf { world, own }),
         }
     }

@@ -15,7 +15,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::print;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::plan_file::{NoPlan, PlanFile, PlanText};
 use crate::reader::Reader;
 use crate::targets;
 use toolbox::ToolboxFile;
@@ -70,14 +70,21 @@ type Told = HashSet<(PathBuf, Span, Code, String)>;
 
 fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPlan> {
     let reader = Reader::of(arguments.json);
-    if let Some(file) = ToolboxFile::read(name) {
+    // The other files are still worth checking.
+    let text = match PlanText::read(name) {
+        Ok(text) => text,
+        Err(error) => {
+            reader.error(&error)?;
+            return Ok(EXIT_FAILED);
+        }
+    };
+    if let Some(file) = ToolboxFile::of(&text) {
         let (diags, sources) = (file.toolboxes.diagnostics(), file.toolboxes.sources());
         reader.tell(diags, sources)?;
         return conclude(diags.has_errors(), &file.path, arguments.json);
     }
-    let mut file = match PlanFile::read(name) {
+    let mut file = match text.compile() {
         Ok(file) => file,
-        // The other files are still worth checking.
         Err(error) => {
             reader.error(&error)?;
             return Ok(EXIT_FAILED);

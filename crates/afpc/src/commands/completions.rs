@@ -1,9 +1,10 @@
 //! `afpc completions`: what a shell needs to complete command lines.
 
-use clap::Args;
+use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
 
 use super::print;
+use crate::cli::Cli;
 use crate::plan_file::NoPlan;
 
 /// Arguments of `afpc completions`.
@@ -25,6 +26,20 @@ Examples:
 /// Standard output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut crate::cli::command(), "afpc", &mut script);
+    let mut command = seen(&Cli::command()).version(env!("CARGO_PKG_VERSION"));
+    clap_complete::generate(arguments.shell, &mut command, "afpc", &mut script);
     print(&String::from_utf8_lossy(&script))
+}
+
+/// The command without what its help does not show: completions offer hidden options, too.
+fn seen(command: &Command) -> Command {
+    // Names are of the whole program, which is over when they are printed.
+    let name: &'static str = command.get_name().to_owned().leak();
+    let seen = Command::new(name)
+        .args(command.get_arguments().filter(|argument| !argument.is_hide_set()).cloned())
+        .subcommands(command.get_subcommands().map(self::seen));
+    match command.get_about() {
+        Some(about) => seen.about(about.clone()),
+        None => seen,
+    }
 }

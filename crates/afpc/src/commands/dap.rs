@@ -28,7 +28,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE[:PLAN]")]
     plan: Option<String>,
     /// Waits for an editor on this port of the machine itself, 0 for a free one, instead of standard input
-    #[arg(long, value_name = "PORT")]
+    #[arg(long, value_name = "PORT", allow_hyphen_values = true)]
     port: Option<u16>,
     /// Runs plans and shows logs of this folder, and no others
     #[arg(long, value_name = "FOLDER", conflicts_with = "port")]

@@ -38,7 +38,7 @@ pub struct Arguments {
     theme: Option<Theme>,
 
     /// Pixels of a PNG for each one of the SVG, 0.1 to 10 [default: 2]
-    #[arg(long, value_name = "FACTOR", value_parser = scale)]
+    #[arg(long, value_name = "FACTOR", value_parser = scale, allow_hyphen_values = true)]
     scale: Option<f32>,
 
     /// Leaves out the bodies of sub-plans
@@ -98,6 +98,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     check_apart(arguments.output.as_deref(), sources)?;
     file.report(Reader::People)?;
     let code = if file.compiled.diags.has_errors() { EXIT_FAILED } else { EXIT_OK };
+    if file.compiled.outline.main.is_none() {
+        // There is nothing to draw, and a good drawing may be there.
+        return Err(NoPlan::Wrong);
+    }
     let positions = positions(&file);
     let icons = |toolbox: &Toolbox, name: &str| file.own.icon(toolbox, name);
     let outline = &file.compiled.outline;

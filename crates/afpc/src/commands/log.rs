@@ -68,11 +68,22 @@ Examples:
 
 Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong usage";
 
+/// What to say to somebody who names what to do before the log.
+pub fn swapped(first: &str, second: &str) -> Option<RunError> {
+    let action = Action::from_str(first, false).ok()?.to_possible_value()?;
+    let (action, help) = (action.get_name(), format!("write 'afpc log {second} {first}'"));
+    Some(RunError::usage(format!("'{action}' stands behind the log, not before it"), help))
+}
+
 /// Does what is asked for.
 ///
 /// # Errors
 /// A file cannot be read or written.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
+    if arguments.output.is_some() && arguments.action != Action::Recover {
+        let help = "'--svg', '--sonar', '--film' and '--coverage' name the files of pictures";
+        return Err(RunError::usage("'-o' is for 'recover' alone", help).into());
+    }
     pictures::draw(arguments, linked)?;
     match arguments.action {
         Action::Timeline => {

@@ -25,7 +25,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE|FOLDER", default_value = ".")]
     path: PathBuf,
     /// Port on this machine; 0 is a free one
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, allow_hyphen_values = true)]
     port: u16,
     /// Prints the address and leaves it to you to open it
     #[arg(long)]

@@ -30,7 +30,7 @@ pub struct Arguments {
     plan: PlanArgument,
 
     /// Seeds of the runs; the last of 0..1000 is 999, and there may be several, as in 1,5,20..30
-    #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds)]
+    #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds, allow_hyphen_values = true)]
     seeds: Seeds,
 
     /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5; with one value
@@ -51,7 +51,7 @@ pub struct Arguments {
     fail: Vec<Failure>,
 
     /// Stops each run at this time
-    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration)]
+    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration, allow_hyphen_values = true)]
     until: Duration,
 
     /// Where the table of outcomes goes: .csv, .parquet (where afpc has that feature), or a folder
@@ -68,7 +68,7 @@ pub struct Arguments {
     json: bool,
 
     /// How many runs go on at once [default: one for each core]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
     jobs: Option<NonZero<usize>>,
 }
 
@@ -89,6 +89,10 @@ const MOST_RUNS: u64 = 20_000_000;
 /// The worlds of one `--world`.
 #[derive(Clone, Debug)]
 struct Worlds(Vec<String>);
+
+fn jobs(text: &str) -> Result<NonZero<usize>, String> {
+    text.parse().map_err(|_| "expected a whole number from 1 on".to_owned())
+}
 
 fn worlds(text: &str) -> Result<Worlds, String> {
     afp_sweep::worlds(text).map(Worlds)
@@ -141,7 +145,7 @@ impl Arguments {
             .flat_map(|worlds| worlds.0.iter().cloned().map(WorldChoice::Named))
             .collect();
         let sweep = Sweep {
-            plan: self.plan.plan.clone(),
+            plan: no_option(&self.plan.plan),
             worlds: if worlds.is_empty() { vec![WorldChoice::OfPlan] } else { worlds },
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
@@ -158,6 +162,11 @@ impl Arguments {
             _ => Ok(sweep),
         }
     }
+}
+
+/// The name of a file as commands take it that are printed: one that looks like an option by its path.
+fn no_option(plan: &str) -> String {
+    if plan.starts_with('-') { format!("./{plan}") } else { plan.to_owned() }
 }
 
 /// Does the runs that are not done, and keeps each before the next one is taken.

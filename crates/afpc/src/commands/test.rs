@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant as Wall;
 
 use afp_dsl::scenario::{InvalidScenario, Scenario};
+use afp_run::options::whole;
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError, say};
 use afp_session::Loader;
 use afp_syntax::source::Span;
@@ -56,11 +57,24 @@ pub struct Arguments {
     mutate: bool,
 
     /// With '--mutate' chooses among the ways to change something
-    #[arg(long, default_value_t = 0, requires = "mutate")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        value_parser = whole,
+        allow_hyphen_values = true,
+        requires = "mutate"
+    )]
     seed: u64,
 
     /// With '--mutate' fails when fewer of the mutants that change a run are noticed
-    #[arg(long, value_name = "PERCENT", requires = "mutate")]
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        value_parser = percent,
+        allow_hyphen_values = true,
+        requires = "mutate"
+    )]
     at_least: Option<f64>,
 }
 
@@ -111,6 +125,11 @@ struct Used<'a> {
     /// One of them.
     scenario: &'a Scenario,
     coverage: Coverage,
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    let percent = text.parse::<f64>().ok().filter(|percent| (0.0..=100.0).contains(percent));
+    percent.ok_or_else(|| "expected a number from 0 to 100".to_owned())
 }
 
 /// Runs scenarios; gives the exit code.

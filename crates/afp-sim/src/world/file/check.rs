@@ -48,7 +48,11 @@ impl<'a> Check<'a> {
         if share > 0.0 && share <= 1.0 {
             return Ok(share);
         }
-        Err(self.error(key, &format!("{share} is not above 0 and at most 1")))
+        Err(self.error(
+            key,
+            &format!("{share} is not above 0 and at most 1"),
+            "write a share, such as 0.5",
+        ))
     }
 
     /// The corners of a convex polygon, counter-clockwise.
@@ -62,8 +66,7 @@ impl<'a> Check<'a> {
             Some(true) => {}
             Some(false) => points.reverse(),
             None => {
-                let message = "the polygon is not convex; draw it as several";
-                return Err(self.error(key, message));
+                return Err(self.error(key, "the polygon is not convex", "draw it as several"));
             }
         }
         Ok(points)
@@ -72,7 +75,9 @@ impl<'a> Check<'a> {
     pub(super) fn positive(&self, key: &Key, values: &[f64]) -> Result<(), WorldError> {
         self.near(key, values)?;
         match values.iter().find(|value| **value <= 0.0) {
-            Some(value) => Err(self.error(key, &format!("{value} must be greater than 0"))),
+            Some(value) => {
+                Err(self.error(key, &format!("{value} is not above 0"), "write a number above 0"))
+            }
             None => Ok(()),
         }
     }
@@ -80,7 +85,7 @@ impl<'a> Check<'a> {
     pub(super) fn not_negative(&self, key: &Key, value: f64) -> Result<(), WorldError> {
         self.near(key, &[value])?;
         match value < 0.0 {
-            true => Err(self.error(key, &format!("{value} must not be negative"))),
+            true => Err(self.error(key, &format!("{value} is negative"), "write 0 or more")),
             false => Ok(()),
         }
     }
@@ -88,16 +93,18 @@ impl<'a> Check<'a> {
     pub(super) fn near(&self, key: &Key, values: &[f64]) -> Result<(), WorldError> {
         match values.iter().find(|value| !value.is_finite() || value.abs() > FARTHEST) {
             Some(value) => {
-                Err(self.error(key, &format!("{value} is not within {FARTHEST} of zero")))
+                let help = format!("write a number from -{FARTHEST} to {FARTHEST}");
+                Err(self.error(key, &format!("{value} is not within {FARTHEST} of zero"), help))
             }
             None => Ok(()),
         }
     }
 
-    pub(super) fn error(&self, key: &Key, message: &str) -> WorldError {
+    /// What is wrong at a key, and what to write instead.
+    pub(super) fn error(&self, key: &Key, message: &str, help: impl Into<String>) -> WorldError {
         let keys: Vec<&str> = key.0.iter().map(String::as_str).collect();
         let name = keys.last().copied().unwrap_or_default();
-        at_key(self.text, &keys, format!("{name}: {message}"))
+        at_key(self.text, &keys, format!("{name}: {message}")).with_help(help)
     }
 }
 

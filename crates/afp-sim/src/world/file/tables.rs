@@ -2,10 +2,6 @@
 
 use serde::Deserialize;
 
-/// The keys of a whole file; those of [`File`].
-pub(super) const KEYS: [&str; 10] =
-    ["version", "name", "robot", "floor", "wall", "box", "polygon", "patch", "infrared", "map"];
-
 /// A whole file. Which other keys it may have depends on the robot.
 #[derive(Deserialize)]
 pub(super) struct File {
@@ -124,13 +120,14 @@ pub(super) struct Infrared {
 
 #[cfg(test)]
 mod tests {
-    use super::{File, KEYS};
+    use super::File;
+    use crate::world::file::keys::WORLD;
 
     #[test]
     fn every_key_is_one_of_the_file() {
         let whole = "version = 1\nrobot = { pose_m_deg = [0, 0, 0] }\n";
         assert!(toml_edit::de::from_str::<File>(whole).is_ok());
-        for key in KEYS {
+        for key in WORLD.iter().map(|key| key.name) {
             // Nothing is a moment of time.
             let others: String =
                 whole.lines().filter(|line| !line.starts_with(key)).collect::<Vec<_>>().join("\n");

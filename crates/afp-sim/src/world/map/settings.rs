@@ -50,9 +50,8 @@ enum Mode {
 
 impl Settings {
     pub(super) fn read(yaml: &str) -> Result<Settings, WorldError> {
-        let documents = Yaml::load_from_str(yaml).map_err(|error| WorldError {
-            span: Some(empty(byte(yaml, error.marker().index()))),
-            message: error.info().to_owned(),
+        let documents = Yaml::load_from_str(yaml).map_err(|error| {
+            WorldError::new(Some(empty(byte(yaml, error.marker().index()))), error.info())
         })?;
         let keys = Keys { text: yaml, map: documents.first() };
         let image = keys.get("image").and_then(Yaml::as_str);
@@ -184,7 +183,7 @@ impl<'a, 'b> Keys<'a, 'b> {
             (start - line.len(), line)
         });
         let line = lines.find(|(_, line)| line.trim_start().starts_with(key));
-        WorldError { span: line.map(|(start, _)| empty(start)), message: format!("{key}: {what}") }
+        WorldError::new(line.map(|(start, _)| empty(start)), format!("{key}: {what}"))
     }
 }
 

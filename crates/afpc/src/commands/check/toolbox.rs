@@ -1,12 +1,13 @@
 //! A toolbox file, checked by itself.
 
-use std::fs;
 use std::path::PathBuf;
 
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::ast::Item;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Source;
+
+use crate::plan_file::PlanText;
 
 /// A toolbox file that has been read, with all that is wrong with it.
 pub(super) struct ToolboxFile {
@@ -15,18 +16,17 @@ pub(super) struct ToolboxFile {
 }
 
 impl ToolboxFile {
-    /// Reads a file that declares a toolbox and has no plan; none of another file, and of one that cannot be read.
-    pub fn read(name: &str) -> Option<ToolboxFile> {
-        let text = fs::read_to_string(name).ok()?;
-        let items = afp_syntax::parse(&text, 0, &mut Diagnostics::default()).file().items();
+    /// Checks a file that declares a toolbox and has no plan; none of another file.
+    pub fn of(PlanText { path, text, plan }: &PlanText<'_>) -> Option<ToolboxFile> {
+        let items = afp_syntax::parse(text, 0, &mut Diagnostics::default()).file().items();
         let declares = items.iter().any(|item| matches!(item, Item::Toolbox(_)));
         let plans = items.iter().any(|item| matches!(item, Item::Plan(_)));
-        if !declares || plans {
+        if !declares || plans || plan.is_some() {
             return None;
         }
         let mut toolboxes = Toolboxes::default();
         // The crate that implements it says nothing of the file.
-        toolboxes.add(Source::new(name, text), "crate");
-        Some(ToolboxFile { path: name.into(), toolboxes })
+        toolboxes.add(Source::new(path.display().to_string(), text), "crate");
+        Some(ToolboxFile { path: path.clone(), toolboxes })
     }
 }

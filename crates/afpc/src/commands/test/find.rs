@@ -1,5 +1,6 @@
 //! Which scenarios are meant.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -40,6 +41,8 @@ pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
             below(&folder, true, &mut wanted.files)?;
         }
     }
+    let mut known = HashSet::new();
+    wanted.files.retain(|file| known.insert(file.canonicalize().unwrap_or_else(|_| file.clone())));
     Ok(wanted)
 }
 

@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use afp_dsl::files::{normalised, read_text};
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_dsl::scenario::Scenario;
 use afp_run::{EXIT_OK, RunError, check_apart, write_whole};
 use afp_session::Loader;
-use afp_test::{Generated, Setting};
+use afp_test::{Generated, Setting, is_generated};
 
 use crate::commands::print;
 use crate::plan_file::{NoPlan, PlanFile};
@@ -36,7 +37,9 @@ pub(super) fn run(
     runner::become_one_for(plans, linked)?;
     for file in read {
         let (file, graph) = file.checked()?;
+        has_own_plan(&file.path, &graph)?;
         let path = place(&file.path, output, files.len() > 1)?;
+        may_be_made_anew(&path)?;
         let sources = file.compiled.plan_sources().map(|source| Path::new(&source.name));
         check_apart([&*path], sources)?;
         let made = generate(&file.path, &path, graph, linked.robot)?;
@@ -48,6 +51,32 @@ pub(super) fn run(
         }
     }
     Ok(EXIT_OK)
+}
+
+/// Refuses a file of scenarios that uses the plan of another file: what is made would look for it in the first.
+fn has_own_plan(file: &Path, graph: &Graph) -> Result<(), RunError> {
+    let Some(other) = &graph.main().file else { return Ok(()) };
+    let other = normalised(&file.with_file_name(other).display().to_string());
+    Err(RunError::usage(
+        format!("'{}' has no plan of its own", file.display()),
+        format!("name the file of the plan: '{other}'"),
+    ))
+}
+
+/// Refuses to write over scenarios that somebody has written.
+fn may_be_made_anew(path: &Path) -> Result<(), RunError> {
+    if !path.is_file() {
+        return Ok(());
+    }
+    let cannot = RunError::file("cannot read the scenarios", path);
+    let text = read_text(path).map_err(cannot)?;
+    if text.trim().is_empty() || is_generated(&text) {
+        return Ok(());
+    }
+    Err(RunError::usage(
+        format!("'{}' was not made by 'afpc test --generate' and stays", path.display()),
+        "give another name with '-o FILE'",
+    ))
 }
 
 /// Scenarios for a plan, which will stand in the file `to`.

@@ -1,4 +1,4 @@
-//! Wording shared by diagnostics: lists, and the name that was probably meant.
+//! Wording that all who speak of mistakes share: lists, articles, and the name that was probably meant.
 
 /// `'a', 'b' and 'c'`, in single quotes.
 pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String {
@@ -8,6 +8,12 @@ pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String
         [one] => one.clone(),
         [front @ .., last] => format!("{} {joint} {last}", front.join(", ")),
     }
+}
+
+/// A name with its article.
+pub fn a(name: &str) -> String {
+    let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {name}")
 }
 
 /// The candidate that differs least from `name`, when it is near enough to be a slip; of several the first.
