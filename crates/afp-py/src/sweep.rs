@@ -21,7 +21,7 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
 use afp_session::{Build, Loader};
-use afp_sweep::{Header, Journal, Outcome, OutputFiles, Row, Setting, Sweep};
+use afp_sweep::{Header, Journal, JournalError, Outcome, OutputFiles, Parts, Row, Setting, Sweep};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -61,7 +61,7 @@ struct Done {
 #[pymethods]
 impl Sweeper {
     #[new]
-    #[pyo3(signature = (plan, worlds, seeds, vary, until, mark))]
+    #[pyo3(signature = (plan, worlds, seeds, vary, until, parts))]
     fn new(
         py: Python<'_>,
         plan: &Plan,
@@ -69,7 +69,7 @@ impl Sweeper {
         seeds: GivenSeeds,
         vary: Vec<(String, GivenValues)>,
         until: f64,
-        mark: &str,
+        parts: Parts,
     ) -> PyResult<Self> {
         let compiled = plan.compiled(py);
         if compiled.graph.is_none() {
@@ -101,7 +101,8 @@ impl Sweeper {
             }
             let setting = Setting::new(&mut sweep, graph, &file, robot);
             let setting = setting.map_err(|why| run_error(&why))?;
-            Ok(Header::new(program(py, mark)?, (&compiled, graph), &setting, &sweep))
+            let header = Header::new(program(py)?, (&compiled, graph), &setting, &sweep);
+            Ok(header.with(parts))
         })?;
         Ok(Sweeper { compiled, file, toolboxes, sweep, header, done: Mutex::default() })
     }
@@ -118,11 +119,14 @@ impl Sweeper {
         self.toolboxes.is_empty()
     }
 
-    /// What makes it this sweep: program, plan, worlds and grid, as in its journal.
+    /// What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal. What that
+    /// reads is left out: where runs are done by other processes it goes along.
     #[getter]
     fn identity(&self) -> String {
-        let Header { program, plan, worlds, grid, .. } = &self.header;
-        format!("{program} {plan} {worlds} {grid}")
+        let Header { program, plan, worlds, grid, parts, .. } = &self.header;
+        let parts: String =
+            parts.iter().map(|(name, (does, _))| format!(", {name} {does}")).collect();
+        format!("{program} {plan} {worlds} {grid}{parts}")
     }
 
     /// Keeps outcomes in a journal beside the table `out`, and takes up those that are there.
@@ -130,7 +134,7 @@ impl Sweeper {
         let output = OutputFiles::new(Some(Path::new(out)), &self.file, &self.header);
         let output = output.map_err(|why| run_error(&why))?;
         let journal = Journal::open(&output.journal, &self.header, restart);
-        let (journal, outcomes) = journal.map_err(|why| run_error(&why))?;
+        let (journal, outcomes) = journal.map_err(|why| no_journal(&why))?;
         let done = &mut *self.lock()?;
         *done = Done { outcomes, journal: Some(journal), output: Some(output) };
         Ok(())
@@ -336,16 +340,25 @@ fn graph(compiled: &Compiled) -> PyResult<&Graph> {
 
 /// What runs the plans: with parts of a project, what the extension was built from counts too. `afpc sweep` goes on with a
 /// journal of plans without components in Python, on the Carbot with built-in toolboxes.
-fn program(py: Python<'_>, mark: &str) -> PyResult<String> {
+fn program(py: Python<'_>) -> PyResult<String> {
     let mut program = Build::this().to_string();
     if link().own_robot().is_some() || !link().toolboxes().is_empty() {
         let extension: PathBuf = py.import("afp._afp")?.getattr("__file__")?.extract()?;
         program += &format!(" {}", hash(&String::from_utf8_lossy(&fs::read(extension)?)));
     }
-    if !mark.is_empty() {
-        program += &format!(" python {}", hash(mark));
-    }
     Ok(program)
+}
+
+/// Why a journal cannot be used, and what to do about it from Python.
+fn no_journal(why: &JournalError) -> PyErr {
+    let help = match why {
+        JournalError::File(why) => return run_error(why),
+        JournalError::InUse(_) => "wait for it, or give another 'out'",
+        JournalError::Other(..) | JournalError::Broken(..) => {
+            "restart=True begins anew and drops what is there; another 'out' keeps both"
+        }
+    };
+    error(format!("{why}\n  help: {help}"))
 }
 
 /// Passes rows to a function of Python, one after the other.

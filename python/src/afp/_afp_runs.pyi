@@ -1,7 +1,7 @@
 # Stubs of the native half, `_afp`: what runs, and what it says. There is no such module.
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, final
 
@@ -344,7 +344,7 @@ class Sweeper:
         seeds: tuple[int, int] | list[int],
         vary: Sequence[tuple[str, str | list[tuple[str, bool]]]],
         until: float,
-        mark: str,
+        parts: Mapping[str, tuple[str, Mapping[str, str]]],
     ) -> Self: ...
     @property
     def total(self) -> int:
@@ -354,7 +354,8 @@ class Sweeper:
         """Whether its runs call nothing that is written in Python."""
     @property
     def identity(self) -> str:
-        """What makes it this sweep: program, plan, worlds and grid, as in its journal."""
+        """What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal. What that
+        reads is left out: where runs are done by other processes it goes along."""
     def open(self, out: str, restart: bool) -> None:
         """Keeps outcomes in a journal beside the table `out`, and takes up those that are there."""
     def left(self) -> list[int]:

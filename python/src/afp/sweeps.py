@@ -6,14 +6,15 @@ import itertools
 import math
 import operator
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from . import components
 from ._afp import Plan, Runner, Sweeper, Toolbox, World
-from .components import source_of
+from .fingerprint import Fingerprint, digest, fingerprint
 from .places import Place, place_of
 from .progress import teller
 from .result import Result
@@ -81,7 +82,7 @@ def sweep(
         until,
         _metrics(metrics),
     )
-    sweeper = spec.sweeper(plan)
+    sweeper = spec.sweeper(plan, out is not None or backend != "local")
     if out is not None:
         sweeper.open(os.fspath(out), restart)
     left = sweeper.left()
@@ -111,14 +112,20 @@ class Spec:
     until: float
     metrics: dict[str, Metric]
 
-    def sweeper(self, plan: Plan) -> Sweeper:
-        """The sweep of a plan."""
-        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, self._mark(plan.toolboxes))
+    def sweeper(self, plan: Plan, is_kept: bool = True) -> Sweeper:
+        """The sweep of a plan; one that is neither kept nor sent needs not tell what it is."""
+        parts = dict(self._parts(plan.toolboxes)) if is_kept else {}
+        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, parts)
 
-    def _mark(self, toolboxes: Iterable[Toolbox]) -> str:
-        """What tells two versions of what is written in Python apart."""
-        parts = [f"{toolbox.text}\0{getattr(toolbox, 'sources', '')}" for toolbox in toolboxes]
-        return "\0".join([*parts, *(f"{name}\0{source_of(metric)}" for name, metric in self.metrics.items())])
+    def _parts(self, toolboxes: Iterable[Toolbox]) -> Iterator[tuple[str, Fingerprint]]:
+        """What is written in Python, each with what tells two versions of it apart."""
+        for toolbox in toolboxes:
+            yield f"the toolbox '{toolbox.name}'", (digest(toolbox.text), {})
+            if isinstance(toolbox, components.Toolbox):
+                for template, found in toolbox.fingerprints().items():
+                    yield f"the component '{toolbox.name}.{template}'", found
+        for name, metric in self.metrics.items():
+            yield f"the metric '{name}'", fingerprint(metric)
 
     def judge(self, plan: str) -> Callable[[Runner, World, int], dict[str, float]] | None:
         """Gives the figures of a run that the metrics add; none without metrics."""
