@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import enum
 import functools
-import pickle
 import subprocess
 import sys
 import threading
@@ -135,13 +134,3 @@ def test_a_component_with_other_variables_is_another_sweep(tmp_path: Path) -> No
     assert sweep(5).columns == sweep(5).columns
     with pytest.raises(afp.AfpError, match="'wait', which the component 'tools.Wait' reads, has changed since"):
         sweep(50)
-
-
-def test_a_toolbox_that_was_pickled_is_the_same() -> None:
-    tools = afp.Toolbox("tools")
-    tools.computation(states=["Yes"])(Answer)
-    assert pickle.loads(pickle.dumps(tools)) == tools
-
-
-def Answer() -> str:
-    return "Yes"

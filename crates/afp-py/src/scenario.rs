@@ -75,7 +75,7 @@ impl Scenario {
     /// When it ends at the latest, seconds.
     #[getter]
     fn until(&self) -> PyResult<f64> {
-        Ok(self.checked()?.until as f64 * 1e-9)
+        Ok(self.checked()?.until as f64 / 1e9)
     }
 
     /// Runs it; with `log`, records it there. Ctrl-C interrupts it.

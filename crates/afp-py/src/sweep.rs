@@ -46,6 +46,8 @@ pub struct Sweeper {
     file: PathBuf,
     toolboxes: Vec<Py<Toolbox>>,
     sweep: Sweep,
+    /// The names of figures that are taken of each run.
+    metrics: Vec<String>,
     header: Header,
     done: Mutex<Done>,
 }
@@ -61,7 +63,8 @@ struct Done {
 #[pymethods]
 impl Sweeper {
     #[new]
-    #[pyo3(signature = (plan, worlds, seeds, vary, until, parts))]
+    #[expect(clippy::too_many_arguments, reason = "what a sweep has")]
+    #[pyo3(signature = (plan, worlds, seeds, vary, until, stimuli, metrics, parts))]
     fn new(
         py: Python<'_>,
         plan: &Plan,
@@ -69,6 +72,8 @@ impl Sweeper {
         seeds: GivenSeeds,
         vary: Vec<(String, GivenValues)>,
         until: f64,
+        stimuli: (Vec<String>, Vec<String>),
+        metrics: Vec<String>,
         parts: Parts,
     ) -> PyResult<Self> {
         let compiled = plan.compiled(py);
@@ -82,8 +87,8 @@ impl Sweeper {
         fits(&file)?;
         let mut sweep = Sweep {
             caveat: plan.caveat(),
-            presses: Vec::new(),
-            failures: Vec::new(),
+            presses: given::presses(&stimuli.0)?,
+            failures: given::failures(&stimuli.1)?,
             plan: file.display().to_string(),
             worlds: given::rooms(worlds),
             axes: Vec::new(),
@@ -101,10 +106,11 @@ impl Sweeper {
             }
             let setting = Setting::new(&mut sweep, graph, &file, robot);
             let setting = setting.map_err(|why| run_error(&why))?;
+            given::check_metrics(&metrics, &sweep)?;
             let header = Header::new(program(py)?, (&compiled, graph), &setting, &sweep);
             Ok(header.with(parts))
         })?;
-        Ok(Sweeper { compiled, file, toolboxes, sweep, header, done: Mutex::default() })
+        Ok(Sweeper { compiled, file, toolboxes, sweep, metrics, header, done: Mutex::default() })
     }
 
     /// How many runs there are.
@@ -241,7 +247,11 @@ impl Sweeper {
         let host = components.host(py)?;
         let (world, log) = (&loaded, log.as_deref());
         let (file, compiled) = (&*self.file, &self.compiled);
-        let setting = Begun { compiled, graph, world, seed: row.seed, file, log, camera };
+        let settings =
+            row.values.iter().map(|(name, point)| ((*name).to_owned(), point.text.clone()));
+        let settings = &*settings.collect::<Vec<_>>();
+        let seed = row.seed;
+        let setting = Begun { compiled, graph, world, seed, settings, file, log, camera };
         let runner = Runner::new(Run::logged(session, &setting)?, host, &self.compiled);
         Ok((runner, World { loaded }))
     }

@@ -154,6 +154,7 @@ class Runner:
         world: World,
         seed: int,
         set: dict[str, Any],
+        settings: list[tuple[str, str]],
         log: str | os.PathLike[str] | None,
         camera: bool = False,
     ) -> Self: ...
@@ -239,7 +240,7 @@ class Runner:
     def idle(self, element: str | None, at: float | None) -> None:
         """Lets an actor, those of a sub-plan, or all of them do nothing from their next start on."""
     def close(self) -> Path | None:
-        """Ends the log, where there is one; its path."""
+        """Ends the log, where there is one; its path. In a process that was forked there is none."""
     def failures(self, seen: int) -> list[tuple[float, str, str, BaseException]]:
         """The exceptions of components after the first `seen`: time, element or supervisor, template, exception."""
     def __reduce__(self) -> NoReturn: ...
@@ -342,8 +343,10 @@ class Sweeper:
         plan: Plan,
         worlds: Sequence[World | str | None],
         seeds: tuple[int, int] | list[int],
-        vary: Sequence[tuple[str, str | list[tuple[str, bool]]]],
+        vary: Sequence[tuple[str, str | list[tuple[str, str | None]]]],
         until: float,
+        stimuli: tuple[list[str], list[str]],
+        metrics: list[str],
         parts: Mapping[str, tuple[str, Mapping[str, str]]],
     ) -> Self: ...
     @property
@@ -366,7 +369,7 @@ class Sweeper:
         jobs: int | None = None,
         progress: Callable[[int], Any] | None = None,
         on_run: Callable[[dict[str, Any]], Any] | None = None,
-        judge: Callable[[Runner, World, int], dict[str, float]] | None = None,
+        judge: Callable[[Runner, World, int], dict[str, float | None]] | None = None,
     ) -> None:
         """Does runs and keeps their outcomes; tells `progress` how many of this call are done, and `on_run` the row of
         each. `judge` gives further figures of a run: its number, its end, its world and its seed go in, numbers by name
@@ -375,7 +378,7 @@ class Sweeper:
         self,
         runs: list[int],
         jobs: int | None = None,
-        judge: Callable[[Runner, World, int], dict[str, float]] | None = None,
+        judge: Callable[[Runner, World, int], dict[str, float | None]] | None = None,
     ) -> list[str]:
         """Does runs for another process; their outcomes as lines of JSON."""
     def accept(self, lines: list[str], on_run: Callable[[dict[str, Any]], Any] | None = None) -> int:

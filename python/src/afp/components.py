@@ -321,6 +321,8 @@ def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str]) -> Cal
 
         return _Running(poll, interrupt)
 
+    # What it returns is its end; the native half knows by this that None is none.
+    setattr(make, "ends", True)
     return make
 
 

@@ -176,6 +176,21 @@ def moment(what: str, value: float | None) -> float | None:
     return None if value is None else seconds(what, value)
 
 
+def number_in(what: str, value: Any, unit: str | None = None) -> Any:
+    """A finite number, if there is one; a quantity of another unit than this is refused."""
+    if value is None:
+        return None
+    if isinstance(value, Quantity) and value.unit != unit:
+        wanted = "is a plain number" if unit is None else f"is in {unit}"
+        raise TypeError(f"{what} {wanted}, not a quantity in {value.unit}")
+    if isinstance(value, (str, bool)):
+        raise TypeError(f"{what} is a number, not {value!r}")
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{what} is {number}; give a finite number")
+    return number
+
+
 def spelled(value: object) -> str:
     """A value as it stands in a plan: texts are taken as they are, plain numbers have no unit."""
     value = plain(value)
