@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+import statistics
 from functools import partial
 from typing import Any, Optional
 
@@ -48,6 +50,16 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("tools.computation(states=['Done'])(partial)", TypeError, "is no function of its own: write one that calls it"),
     ("tools.actor(states=['Done'])(hidden)", TypeError, "names 'Decimal', which is not there while the program runs"),
     ("tools.actor(states=['Done'])(maybe)", TypeError, "has the hint Optional[float], and no type of the language is like it"),
+    ("simulate(world=hall)", TypeError, "a world is made of <WorldBuilder 'Hall': 1 added> by its method build()"),
+    ("afp.sweep(plan, hall)", TypeError, "a world is made of <WorldBuilder 'Hall': 1 added> by its method build()"),
+    ("simulate(start=(1,))", TypeError, "start is x, y and perhaps a heading, such as (1.0, 2.0, afp.deg(90)), not (1,)"),
+    ("simulate(start=(1, 2, afp.cm(3)))", TypeError, "start is in rad, not a quantity in m"),
+    ("afp.sweep(plan, press='escape')", ValueError, "press: 'escape': expected a control and a time, CONTROL@20s"),
+    ("afp.sweep(plan, press='horn@1s')", ValueError, "no control 'horn'; it has 'touch', 'escape'"),
+    ("afp.sweep(plan, fail=3)", TypeError, "fail is a text as on the command line, such as 'ultrasonic.frozen@5s..7s', or several, not 3"),
+    ("afp.sweep(plan, fail='hat.lost@1s')", ValueError, "nothing called 'hat' can fail; there are"),
+    ("afp.sweep(plan, fail='wheels.slip=7@1s')", afp.AfpError, "such as 'wheels.slip=0.1@5s..7s'"),
+    ("hall.polygon('p', [(1, 1), (2, 2)], height=1)", afp.AfpError, "a polygon has three corners or more, not 2"),
     ("simulate(log='')", FileNotFoundError, "cannot write the log: No such file or directory: ''"),
     ("simulate(camera=True)", ValueError, "what the camera sees goes into the log, and there is none: give log="),
     ("sim.fail('ultrasonic', 'frozen', lasting=0)", ValueError, "lasting is 0 s, and it would end as it begins"),
@@ -80,6 +92,7 @@ def test_an_error_says_what_to_do(tried: str, kind: type[Exception], said: str, 
 
     components = {"looks": looks, "yields": yields, "hidden": hidden, "maybe": maybe, "partial": partial(looks, 1)}
     names = components | {"afp": afp, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
+    names["hall"] = afp.WorldBuilder("Hall", start=(1.0, 1.0)).room(4.0, 4.0)
     names["carbot"] = afp.Carbot(afp.World.random(1))
     with pytest.raises(kind) as error:
         eval(tried, names)
@@ -232,6 +245,36 @@ def test_a_plan_without_a_value_says_how_python_gives_it_one() -> None:
     with pytest.raises(afp.AfpError, match=re.escape('give it one, set={"n": ...}')):
         afp.Simulation(plan).run()
     assert afp.Simulation(plan, set={"n": 1}).run().ending == "ok"
+
+
+def test_a_default_keeps_its_line_breaks() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states=["Done"])
+    def Tells(x: str = 'a\n\t"\\b') -> str:
+        said.append(x)
+        return "Done"
+
+    said: list[str] = []
+    text = "use tools plan P { start c computation c: Tells { Done -> terminate } }"
+    assert afp.Simulation(afp.Plan(text, toolboxes=[tools])).run().ok and said == ['a\n\t"\\b']
+
+
+def test_numpy_and_statistics_take_quantities() -> None:
+    length, angle = afp.cm(30), afp.deg(30)
+    plain = [np.sin(angle), np.clip(length, 0.0, 0.1), np.hypot(length, 0.4), np.maximum(length, 0.1), np.sqrt(length)]
+    assert plain == pytest.approx([0.5, 0.1, 0.5, 0.3, math.sqrt(0.3)]) and bool(np.isfinite(length))
+    assert isinstance(np.abs(-length), afp.Quantity) and np.linspace(length, afp.m(1), 2).tolist() == [0.3, 1.0]
+    array = np.array([1.0, 2.0])
+    array += length
+    assert array.tolist() == [1.3, 2.3] and np.sum([length, length]) == 0.6
+    assert statistics.mean([afp.cm(3), afp.cm(4)]) == 0.035 and statistics.stdev([length, length]) == 0.0
+    assert statistics.median([afp.cm(3), afp.cm(5)]) == afp.cm(4)
+    for wrong in (lambda: np.maximum(length, angle), lambda: np.hypot(length, angle), lambda: np.arctan2(length, angle)):
+        with pytest.raises(TypeError, match="takes quantities of one unit, not one in m and one in rad"):
+            wrong()
+    with pytest.raises(TypeError, match="no sum"):
+        np.add(length, angle)
 
 
 def test_an_output_has_one_type() -> None:

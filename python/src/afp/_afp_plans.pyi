@@ -90,6 +90,7 @@ class Plan:
     @property
     def scenarios(self) -> list[Scenario]:
         """The scenarios of the file; none while it has errors."""
+    def _invalid(self) -> list[tuple[str, int, str]]: ...
     def check(self) -> None:
         """Raises `PlanError` if the plan has errors."""
     def report(self, *, color: bool = False) -> str:

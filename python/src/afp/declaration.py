@@ -158,4 +158,7 @@ def _ports(function: Callable[..., Any], live: bool) -> list[str]:
 
 def text_of(value: str) -> str:
     """A text as the language quotes it."""
-    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return '"' + value.translate(_ESCAPES) + '"'
+
+
+_ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"})

@@ -17,6 +17,8 @@ def place_of(world: object) -> World | str:
     """The world, or the text that names it."""
     if isinstance(world, World):
         return world
+    if hasattr(world, "build"):
+        raise TypeError(f"a world is made of {world!r} by its method build()")
     if not isinstance(world, (str, os.PathLike)):
         raise TypeError(f"a world is a file, a text such as 'random:7', or a World, not {world!r}")
     return os.fspath(world)

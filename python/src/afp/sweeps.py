@@ -185,8 +185,8 @@ def _figure(name: str, value: float | None) -> float | None:
 def _worlds(worlds: Place | Iterable[Place] | None) -> list[World | str | None]:
     if worlds is None:
         return [None]
-    if isinstance(worlds, (World, str, os.PathLike)):
-        worlds = [worlds]
+    if isinstance(worlds, (World, str, os.PathLike)) or hasattr(worlds, "build"):
+        worlds = [worlds]  # type: ignore[list-item]
     if not isinstance(worlds, Iterable):
         raise TypeError(f"worlds are files, texts such as 'random:7', or Worlds, one or several, not {worlds!r}")
     return [_world(world) for world in worlds]
