@@ -5,6 +5,7 @@ mod driven;
 mod event;
 mod glance;
 mod keeper;
+mod lookup;
 mod names;
 mod session;
 mod setting;

@@ -60,7 +60,7 @@ impl Header {
     /// What differs from another header, in words; `None` for the same sweep.
     pub(crate) fn differs(&self, other: &Header) -> Option<String> {
         let changes = [
-            (self.program != other.program, "afpc"),
+            (self.program != other.program, "the program"),
             (self.plan != other.plan, "the plan"),
             (self.worlds != other.worlds, "a world"),
         ];

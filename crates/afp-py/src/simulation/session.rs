@@ -7,16 +7,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
-use afp::load::{Injection, PlanNames};
+use afp::load::PlanNames;
 use afp_core::devices::find_signal;
-use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, Record, TraceEntryId};
+use afp_core::trace::{ComponentKind, Ending, Names, Record, TraceEntryId};
 use afp_core::{Fault, Instant, StartError, Value};
 use afp_dsl::graph::Graph;
 use afp_log::{OwnedNames, SessionLog};
 use afp_run::RunError;
 use afp_run::inputs::missing;
 use afp_session::{AnySession, Go, Observer, Pose2, Request, SampleRef, Track, refusal};
-use pyo3::exceptions::{PyIsADirectoryError, PyKeyError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyIsADirectoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use super::glance::{Glance, Seen};
@@ -37,7 +37,7 @@ pub struct Run {
     pub pause: Pause,
     /// What other threads see of it meanwhile.
     pub seen: Arc<Seen>,
-    own_entries: u32,
+    pub(super) own_entries: u32,
     process: u32,
     log: Option<SessionLog>,
     log_path: Option<PathBuf>,
@@ -330,51 +330,6 @@ impl Run {
         written.map_err(|why| refusal(why, about))
     }
 
-    /// What lets a component report an outcome.
-    pub fn injection(&self, path: &str, outcome: &str) -> PyResult<Injection> {
-        let names = &self.names;
-        let component =
-            self.find(path, &[ComponentKind::Actor, ComponentKind::Supervisor]).ok_or_else(
-                || PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'")),
-            )?;
-        let known = (0..u16::MAX).map(|number| names.outcome(component, number));
-        let known: Vec<_> = known.take_while(|name| !name.is_empty()).collect();
-        let found = (0..).zip(&known).find(|(_, name)| **name == outcome);
-        let (outcome, _) = found.ok_or_else(|| {
-            let known = known.join(", ");
-            PyValueError::new_err(format!("'{path}' has no '{outcome}'; there are: {known}"))
-        })?;
-        Ok(Injection { component, outcome, outputs: Vec::new() })
-    }
-
-    /// An actor or sub-plan by its path.
-    pub fn element(&self, path: &str) -> PyResult<ComponentId> {
-        self.find(path, &[ComponentKind::Actor, ComponentKind::SubPlan]).ok_or_else(|| {
-            PyValueError::new_err(format!("the plan has no actor or sub-plan '{path}'"))
-        })
-    }
-
-    fn find(&self, path: &str, kinds: &[ComponentKind]) -> Option<ComponentId> {
-        let names: &PlanNames = &self.names;
-        (0..names.components()).map(ComponentId).find(|id| {
-            let about = names.component(*id);
-            about.path == path && kinds.contains(&about.kind)
-        })
-    }
-
-    /// The number of an entry of the plan.
-    ///
-    /// # Errors
-    /// It has no such entry.
-    pub fn entry(&self, name: &str) -> PyResult<u16> {
-        let known = self.own_entries();
-        let found = (0..).zip(&known).find(|(_, known)| *known == name);
-        found.map(|(number, _)| number).ok_or_else(|| {
-            let known = known.join(", ");
-            PyKeyError::new_err(format!("the plan has no entry '{name}'; there are: {known}"))
-        })
-    }
-
     /// Where the robot truly is.
     ///
     /// # Errors
@@ -389,12 +344,6 @@ impl Run {
             });
         }
         pose.ok_or_else(no_pose)
-    }
-
-    /// The names of the plan's own entries.
-    pub fn own_entries(&self) -> Vec<String> {
-        let ids = (0..self.own_entries).map(TraceEntryId);
-        ids.map(|id| self.names.entry(id).path.to_owned()).collect()
     }
 
     /// The active element of the outermost plan.

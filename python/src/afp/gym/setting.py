@@ -75,7 +75,8 @@ class Setting:
         if isinstance(observe, str) or isinstance(ends, str):
             raise TypeError("observe and ends are lists of names, not one text")
         bearings = None if fan is None else tuple(number_in("fan", bearing, "rad") for bearing in fan)
-        changed = {"observe": observe and tuple(observe), "reward": reward, "ends": None if ends is None else tuple(ends)}
+        weights = None if reward is None else {name: number_in(f"the weight of '{name}'", reward[name]) for name in reward}
+        changed = {"observe": observe and tuple(observe), "reward": weights, "ends": None if ends is None else tuple(ends)}
         changed |= {"reach": reach, "fan": bearings}
         given = {name: value for name, value in changed.items() if value is not None}
         task = replace(task_of(task), **given)  # type: ignore[arg-type]
