@@ -339,7 +339,7 @@ def test_an_exception_names_its_element_and_its_time() -> None:
 
 def test_a_toolbox_is_pickled_with_its_components() -> None:
     again = pickle.loads(pickle.dumps(PICKLED))
-    assert again.text == PICKLED.text and again.implemented == ["Greater"] and again.sources == PICKLED.sources
+    assert again.text == PICKLED.text and again.implemented == ["Greater"] and again == PICKLED
     text = "use hand plan P { var by: float start go computation go: Greater(a = 3, by => by) { Yes -> terminate } }"
     assert afp.Simulation(afp.Plan(text, toolboxes=[again])).run().entries["by"] == 3.0
 

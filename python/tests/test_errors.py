@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+import statistics
 from functools import partial
 from typing import Any, Optional
 
@@ -48,6 +50,28 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("tools.computation(states=['Done'])(partial)", TypeError, "is no function of its own: write one that calls it"),
     ("tools.actor(states=['Done'])(hidden)", TypeError, "names 'Decimal', which is not there while the program runs"),
     ("tools.actor(states=['Done'])(maybe)", TypeError, "has the hint Optional[float], and no type of the language is like it"),
+    ("simulate(world=hall)", TypeError, "a world is made of <WorldBuilder 'Hall': 1 added> by its method build()"),
+    ("afp.sweep(plan, hall)", TypeError, "a world is made of <WorldBuilder 'Hall': 1 added> by its method build()"),
+    ("simulate(start=(1,))", TypeError, "start is x, y and perhaps a heading, such as (1.0, 2.0, afp.deg(90)), not (1,)"),
+    ("simulate(start=(1, 2, afp.cm(3)))", TypeError, "start is in rad, not a quantity in m"),
+    ("afp.sweep(plan, press='escape')", ValueError, "press: 'escape': expected a control and a time, CONTROL@20s"),
+    ("afp.sweep(plan, press='horn@1s')", ValueError, "no control 'horn'; it has 'touch', 'escape'"),
+    ("afp.sweep(plan, fail=3)", TypeError, "fail is a text as on the command line, such as 'ultrasonic.frozen@5s..7s', or several, not 3"),
+    ("afp.sweep(plan, fail='hat.lost@1s')", ValueError, "nothing called 'hat' can fail; there are"),
+    ("afp.sweep(plan, fail='wheels.slip=7@1s')", afp.AfpError, "such as 'wheels.slip=0.1@5s..7s'"),
+    ("hall.polygon('p', [(1, 1), (2, 2)], height=1)", afp.AfpError, "a polygon has three corners or more, not 2"),
+    ("simulate(log='')", FileNotFoundError, "cannot write the log: No such file or directory: ''"),
+    ("simulate(camera=True)", ValueError, "what the camera sees goes into the log, and there is none: give log="),
+    ("sim.fail('ultrasonic', 'frozen', lasting=0)", ValueError, "lasting is 0 s, and it would end as it begins"),
+    ("sim.press(hold=1e-12)", ValueError, "hold is 0.000000000001 s, and it would end as it begins"),
+    ("sim.fail('wheels', 'slip', share=afp.cm(3))", TypeError, "share is a plain number, not a quantity in m"),
+    ("carbot.drive(afp.deg(3), 0, 1)", TypeError, "speed is a number in m/s, not a quantity in rad"),
+    ("carbot.drive(0.1, afp.cm(3), 1)", TypeError, "turn is a number in rad/s, not a quantity in m"),
+    ("carbot.drive(0.1, 0, afp.cm(50))", TypeError, "time is a number in s, not a quantity in m"),
+    ("afp.sweep(plan, vary={'walldist': afp.deg(3)})", TypeError, "'walldist' is a length in m, not a quantity in rad"),
+    ("plan.save_svg('plan.png')", ValueError, "a picture is saved as .svg, not as '.png'"),
+    ("afp.Plan('', toolboxes=[tools, afp.Toolbox('tools')])", afp.AfpError, "two toolboxes are called 'tools'"),
+    ("afp.Plan('', toolboxes=[afp.Toolbox('carbot')])", afp.AfpError, "there is another toolbox 'carbot', built in or of the project"),
     ("tools.implement(3)", TypeError, "a component is a class or a function, not 3"),
 ]
 
@@ -68,6 +92,8 @@ def test_an_error_says_what_to_do(tried: str, kind: type[Exception], said: str, 
 
     components = {"looks": looks, "yields": yields, "hidden": hidden, "maybe": maybe, "partial": partial(looks, 1)}
     names = components | {"afp": afp, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
+    names["hall"] = afp.WorldBuilder("Hall", start=(1.0, 1.0)).room(4.0, 4.0)
+    names["carbot"] = afp.Carbot(afp.World.random(1))
     with pytest.raises(kind) as error:
         eval(tried, names)
     assert said in str(error.value)
@@ -144,6 +170,8 @@ def test_a_quantity_stays_one_in_whatever_it_is_computed_with() -> None:
     ("entry", "value", "said"),
     [
         ("n", 0.5, "'n' is an int, not 0.5"),
+        ("n", 1.0, "'n' is an int, not 1.0"),
+        ("n", "x" * 500, "'n' is an int, not \"" + "x" * 79 + "..."),
         ("n", True, "'n' is an int, not a bool"),
         ("b", 2, "'b' is a bool, not 2"),
         ("b", np.float32(0.5), "'b' is a bool, not 0.5"),
@@ -153,8 +181,110 @@ def test_a_quantity_stays_one_in_whatever_it_is_computed_with() -> None:
 def test_a_number_of_another_kind_is_told_as_it_is(entry: str, value: object, said: str) -> None:
     entries = 'in n: int = 1 in b: bool = true in t: string = "a"'
     plan = afp.Plan(f"use std\nplan P {{ {entries} start w actor w: Wait(duration = 1 s) {{ Elapsed -> terminate }} }}")
-    with pytest.raises(TypeError, match=f"^{said}$"):
+    with pytest.raises(TypeError, match=f"^{re.escape(said)}$"):
         afp.Simulation(plan, set={entry: value})
+
+
+@pytest.mark.parametrize(
+    ("hint", "value", "kind", "said"),
+    [
+        (int, 2**63, OverflowError, "an integer of more than 64 bits"),
+        (float, 10**400, OverflowError, "an integer that is too large for a float"),
+        (str, "\ud800", ValueError, "a text with half of a surrogate pair, which stands for no character"),
+        (str, "a" * 65, ValueError, "a text has at most 64 bytes of UTF-8, not 65"),
+        (int, 1.5, TypeError, "expected an int, not a float"),
+        (float, "1", TypeError, "expected a float, not a str"),
+    ],
+)
+def test_an_output_that_does_not_fit_is_told_why(hint: Any, value: Any, kind: type[Exception], said: str) -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states={"Done": {"y": hint}})
+    def Gives() -> Any:
+        return "Done", {"y": value}
+
+    type_ = {int: "int", float: "float", str: "string"}[hint]
+    text = f"use tools plan P {{ var y: {type_} start c computation c: Gives(y => y) {{ Done -> terminate }} }}"
+    [error] = afp.Simulation(afp.Plan(text, toolboxes=[tools])).run().errors
+    assert type(error.error) is kind and str(error.error) == f"the output 'y' of 'Gives': {said}"
+
+
+def test_a_text_that_an_entry_cannot_hold_is_told_why() -> None:
+    plan = afp.Plan('use std\nplan P { in t: string = "a" start w actor w: Wait(duration = 1 s) { Elapsed -> terminate } }')
+    for value, said in (("a" * 65, "'t': a text has at most 64 bytes"), ("\ud800", "half of a surrogate pair")):
+        with pytest.raises(ValueError, match=said):
+            afp.Simulation(plan, set={"t": value})
+
+
+def test_who_returns_no_state_is_told_what_to_return() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states=["S"])
+    def Computes() -> Any:
+        return [1] * 1_000_000
+
+    @tools.actor(states=["S"])
+    async def Awaits() -> str:
+        return "Nope"
+
+    @tools.actor(states=["S"])
+    class Polls:
+        def poll(self) -> str:
+            return "Nope"
+
+    said = {"Computes": "return one of S, or a pair", "Awaits": "return one of S, or a pair", "Polls": "return None, one of S, or a pair"}
+    for template, wanted in said.items():
+        kind = "computation" if template == "Computes" else "actor"
+        text = f"use tools plan P {{ start it {kind} it: {template} {{ S -> terminate }} }}"
+        [error] = afp.Simulation(afp.Plan(text, toolboxes=[tools])).run().errors
+        assert wanted in str(error.error) and len(str(error.error)) < 200
+
+
+def test_a_plan_without_a_value_says_how_python_gives_it_one() -> None:
+    plan = afp.Plan("use std\nplan P { in n: int start w actor w: Wait(duration = 1 s) { Elapsed -> terminate } }")
+    with pytest.raises(afp.AfpError, match=re.escape('give it one, set={"n": ...}')):
+        afp.Simulation(plan).run()
+    assert afp.Simulation(plan, set={"n": 1}).run().ending == "ok"
+
+
+def test_a_default_keeps_its_line_breaks() -> None:
+    tools = afp.Toolbox("tools")
+
+    @tools.computation(states=["Done"])
+    def Tells(x: str = 'a\n\t"\\b') -> str:
+        said.append(x)
+        return "Done"
+
+    said: list[str] = []
+    text = "use tools plan P { start c computation c: Tells { Done -> terminate } }"
+    assert afp.Simulation(afp.Plan(text, toolboxes=[tools])).run().ok and said == ['a\n\t"\\b']
+
+
+def test_numpy_and_statistics_take_quantities() -> None:
+    length, angle = afp.cm(30), afp.deg(30)
+    plain = [np.sin(angle), np.clip(length, 0.0, 0.1), np.hypot(length, 0.4), np.maximum(length, 0.1), np.sqrt(length)]
+    assert plain == pytest.approx([0.5, 0.1, 0.5, 0.3, math.sqrt(0.3)]) and bool(np.isfinite(length))
+    assert isinstance(np.abs(-length), afp.Quantity) and np.linspace(length, afp.m(1), 2).tolist() == [0.3, 1.0]
+    array = np.array([1.0, 2.0])
+    array += length
+    assert array.tolist() == [1.3, 2.3] and np.sum([length, length]) == 0.6
+    assert statistics.mean([afp.cm(3), afp.cm(4)]) == 0.035 and statistics.stdev([length, length]) == 0.0
+    assert statistics.median([afp.cm(3), afp.cm(5)]) == afp.cm(4)
+    for wrong in (lambda: np.maximum(length, angle), lambda: np.hypot(length, angle), lambda: np.arctan2(length, angle)):
+        with pytest.raises(TypeError, match="takes quantities of one unit, not one in m and one in rad"):
+            wrong()
+    with pytest.raises(TypeError, match="no sum"):
+        np.add(length, angle)
+
+
+def test_an_output_has_one_type() -> None:
+    tools = afp.Toolbox("tools")
+    declared = tools.computation(states={"A": {"y": afp.Length}, "B": {"y": afp.Angle}})
+    with pytest.raises(TypeError, match="the output 'y' of 'Both' is length with 'A' and angle with 'B'"):
+
+        @declared
+        def Both() -> str:
+            return "A"
 
 
 def test_a_number_in_an_array_of_one_is_a_number() -> None:

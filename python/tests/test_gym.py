@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import io
 import os
+import re
 import subprocess
 import sys
 import time
@@ -149,15 +150,30 @@ def test_what_makes_no_sense_is_refused() -> None:
         ({"view": "side"}, "no view"),
         ({"task": "Fly"}, "no task 'Fly'; there are: Roam, WallFollow"),
         ({"observe": ["sonar"]}, "no part 'sonar' of an observation; there are: distance"),
-        ({"observe": ["target"]}, "'target' is observed and there is none"),
+        ({"observe": ["target"]}, "'target' is observed and there is nothing to reach: say reach="),
+        ({"reward": {"nearer": 1.0}}, "'nearer' is rewarded and there is nothing to reach: say reach="),
+        ({"reward": {"ahead": 1.0, "reached": 1.0}}, "'reached' is rewarded and there is nothing to reach"),
+        ({"ends": ["reached"]}, "'reached' ends the episode and there is nothing to reach"),
+        ({"reach": "moon"}, "moon"),
+        ({"fan": [0.0]}, "the fan is not observed: say observe=['fan', 'distance', 'odometry', 'bumper']"),
+        ({"time_limit": 0}, "time_limit is 0; give seconds above 0"),
+        ({"time_limit": -1}, "time_limit is -1; give seconds above 0"),
+        ({"time_limit": math.nan}, "time_limit is nan"),
         ({"observe": ["fan"], "point": True}, "leave one of them out"),
         ({"reward": {"speed": 1.0}}, "no term 'speed'; there are: ahead"),
         ({"reward": {"ahead": math.nan}}, "finite"),
         ({"ends": ["wall"]}, "'wall' ends no episode"),
     ]
     for given, text in wrong:
-        with pytest.raises(ValueError, match=text):
+        with pytest.raises(ValueError, match=re.escape(text)):
             env(**given)
+        if not given.keys() & {"time_limit", "render_mode", "view"}:
+            with pytest.raises(ValueError, match=re.escape(text)):
+                afp.gym.CarbotVectorEnv(2, **given)
+    with pytest.raises(ValueError, match="at least one step"):
+        afp.gym.CarbotVectorEnv(2, max_episode_steps=0)
+    with pytest.raises(TypeError, match="fan is in rad, not a quantity in m"):
+        env(observe=["fan"], fan=[afp.cm(3)])
     with pytest.raises(TypeError, match="lists of names"):
         env(observe="bumper")
     with pytest.raises(gymnasium.error.ResetNeeded):
@@ -189,12 +205,31 @@ def test_a_reset_has_a_world_a_pose_a_goal_and_faults() -> None:
     for wrong, text in [
         ({"wrld": 1}, "no option 'wrld' of reset; there are: world, pose, goal, faults"),
         ({"pose": (1.0, 2.0)}, "'pose' has 3 numbers, not 2"),
+        ({"pose": (1.0, math.nan, 0.0)}, "pose is nan; give a finite number"),
         ({"faults": ["ultrasonic"]}, "a fault is a device"),
         ({"faults": [("ultrasonic", "fried")]}, "fried"),
         ({"faults": [("wheels", "slip", {"much": 1.0})]}, "a fault has no 'much'"),
     ]:
         with pytest.raises(ValueError, match=text):
             env.reset(options=wrong)
+
+
+@pytest.mark.parametrize("task", ["Roam", "FindInfrared"])
+def test_a_goal_is_refused_where_there_is_none_to_drive_to(task: str) -> None:
+    for env in (afp.gym.CarbotEnv(task=task), afp.gym.CarbotVectorEnv(2, task=task)):
+        with pytest.raises(ValueError, match=f"'{task}' has no goal to drive to: make the environment with reach="):
+            env.reset(seed=0, options={"goal": (1.0, 1.0)})
+    env = afp.gym.CarbotEnv(task="Roam", reach="goal")
+    assert env.reset(seed=0, options={"goal": (1.0, 1.0)})[1]["target"] == pytest.approx((1.0, 1.0))
+    with pytest.raises(TypeError, match="goal is in m, not a quantity in rad"):
+        env.reset(options={"goal": (afp.deg(3), 1.0)})
+
+
+def test_what_a_task_lacks_is_added_as_the_error_says() -> None:
+    given: dict[str, Any] = {"observe": ["target", "fan"], "reward": {"nearer": 1.0}, "ends": ["reached"], "reach": "goal", "fan": [0.0, afp.deg(45)]}
+    env = gymnasium.make("afp/Carbot-v0", **given)
+    assert env.reset(seed=3)[0].shape == (5,) and "target" in env.reset(seed=3)[1]
+    assert gymnasium.make_vec("afp/Carbot-v0", num_envs=2, **given).reset(seed=3)[0].shape == (2, 5)
 
 
 def test_a_fault_is_seen_as_what_was_said_last() -> None:

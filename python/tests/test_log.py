@@ -8,6 +8,15 @@ from pathlib import Path
 import pytest
 
 import afp
+from conftest import ROOT
+
+
+def test_a_log_has_no_moment_before_its_start(tmp_path: Path) -> None:
+    with afp.Simulation(afp.load(ROOT / "plans/wall_following.afp"), log=tmp_path / "run.mcap") as simulation:
+        simulation.run(until=0.5)
+    for at in (-1.0, float("nan")):
+        with pytest.raises(ValueError, match="is no time from 0 on"):
+            afp.Log(tmp_path / "run.mcap").simulation(at=at)
 
 
 def test_a_log_holds_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
@@ -16,7 +25,7 @@ def test_a_log_holds_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
         result = simulation.run(until=6.0)
     log = afp.Log(file)
     assert log.facts["plan"] == "WallFollowing" and log.facts["seed"] == "5"
-    told = [event for event in log.events if event.kind not in ("polled", "requested") or event.outcome]
+    told = [event for event in log.events if event.kind != "polled" or event.outcome]
     assert [(e.time, e.kind, e.component) for e in told] == [(e.time, e.kind, e.component) for e in result.events]
     times, values = log.entry("walldist")
     assert times[0] == 0.0 and values[0] == 0.35

@@ -71,6 +71,15 @@ def test_a_wrong_file_is_an_error_with_the_diagnostics(project: pytest.Pytester)
     result.stdout.fnmatch_lines(["*error?E0203?: expected a length, found a bare number", "*wrong.afp:5:*"])
 
 
+def test_a_scenario_that_cannot_be_run_fails_beside_the_others(project: pytest.Pytester) -> None:
+    project.path.joinpath("go.afp").write_text(PLAN.replace("before 100 ms", "before 100"))
+    result = project.runpytest()
+    result.assert_outcomes(passed=1, failed=1)
+    line = PLAN.splitlines().index("    expect end by OK before 100 ms") + 1
+    result.stdout.fnmatch_lines(["*is there at once*", "error?E*", f"*go.afp:{line}:*"])
+    project.runpytest("-k", "gets").assert_outcomes(passed=1, deselected=1)
+
+
 def test_plans_without_scenarios_are_left_alone(project: pytest.Pytester) -> None:
     project.path.joinpath("go.afp").write_text(PLAN.split("scenario")[0])
     assert project.runpytest().ret == pytest.ExitCode.NO_TESTS_COLLECTED

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -70,12 +71,25 @@ def test_metrics_are_columns_that_a_journal_keeps(tmp_path: Path) -> None:
     runs = swept(seeds=4, jobs=2, metrics=metrics, out=out)
     alone = afp.Simulation(afp.Plan(GO), seed=2).run(5.0)
     assert runs[2]["most_left_m"] == most_left(alone) and runs[2]["steps"] == len(alone.events)
-    assert "slow_s" not in runs.columns
+    assert runs.columns["slow_s"] == [None] * 4, "a column without values is one"
     called: list[str] = []
     again = swept(seeds=4, metrics=metrics, out=out, on_run=lambda row: called.append(row["trace"]))
     assert again.columns["most_left_m"] == runs.columns["most_left_m"] and not called
     with pytest.raises(afp.AfpError, match="of another sweep"):
         swept(seeds=4, metrics={"most_left_m": lambda result: 0}, out=out)
+
+
+def test_a_metric_without_values_is_a_column_of_every_table(tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    none: dict[str, Callable[[afp.Result], None]] = {"q": lambda result: None}
+    runs = swept(seeds=2, metrics=none, out=f"{tmp_path}/runs/")
+    assert runs.to_pandas()["q"].isna().all() and runs.to_polars()["q"].null_count() == 2
+    assert parquet.read_table(tmp_path / "runs/outcomes.parquet").column("q").null_count == 2
+    assert ",q," in (tmp_path / "runs/outcomes.csv").read_text()
+    assert swept(seeds=2, metrics=none, out=f"{tmp_path}/runs/") == runs
+    for name, said in (("time_s", "a column 'time_s' of every run"), ("contacts_s", "a figure 'contacts_s' of every run")):
+        with pytest.raises(ValueError, match=said):
+            swept(seeds=1, metrics={name: lambda result: None})
 
 
 def test_a_metric_that_breaks_ends_the_sweep() -> None:

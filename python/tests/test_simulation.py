@@ -8,6 +8,7 @@ import pickle
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -94,6 +95,47 @@ def test_stimuli(wall_following: afp.Plan) -> None:
     frozen = afp.Simulation(wall_following)
     frozen.fail("ultrasonic", "lost", at=0.2)
     assert frozen.run(until=5.0).fault is not None
+
+
+def test_what_comes_from_outside_is_among_the_events_and_in_the_timeline(wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following)
+    simulation.set("walldist", afp.cm(40), at=0.2)
+    simulation.fail("ultrasonic", "frozen", at=0.5, lasting=1.0)
+    simulation.bump(at=0.6, hold=0.1)
+    requests = ["set walldist = 0.4 m", "fail ultrasonic.frozen for 1 s", "press touch.touch", "release touch.touch"]
+    streamed = [event.request for event in simulation.stream(until=1.0) if event.kind == "requested"]
+    result = simulation.result()
+    assert streamed == [event.request for event in result.events if event.request] == requests
+    assert "     0.600  ● press touch.touch  from outside" in result.timeline
+    assert [str(event) for event in result.events if event.kind == "requested"][2] == result.timeline[-4]
+
+
+def test_the_timeline_is_that_of_the_command_line(wall_following: afp.Plan, afpc: str) -> None:
+    simulation = afp.Simulation(wall_following)
+    simulation.fail("ultrasonic", "frozen", at=0.5, lasting=1.0)
+    simulation.press(at=1.0)
+    options = ["--fail", "ultrasonic.frozen@0.5s..1.5s", "--press", "escape@1s", "--until", "3s", "--svg", "none"]
+    ran = subprocess.run([afpc, "run", str(wall_following.path), *options], capture_output=True, text=True)
+    assert all(line in ran.stdout + ran.stderr for line in simulation.run(until=3.0).timeline)
+
+
+def test_entries_are_in_a_simulation(wall_following: afp.Plan) -> None:
+    simulation = afp.Simulation(wall_following)
+    assert "walldist" in simulation and "nothing" not in simulation and simulation.time == 0.0
+
+
+def test_a_simulation_that_was_closed_with_its_log_takes_nothing_more(wall_following: afp.Plan, tmp_path: Path) -> None:
+    simulation = afp.Simulation(wall_following, log=tmp_path / "run.mcap")
+    simulation.run_to(1.0)
+    simulation.close()
+    asks: list[Callable[[], object]] = [
+        *(lambda: simulation.set("walldist", 0.4), lambda: simulation.__setitem__("walldist", 0.4), simulation.press),
+        *(simulation.bump, simulation.idle, lambda: simulation.fail("ultrasonic", "frozen")),
+        *(lambda: simulation.fire("escape", "EscapeButtonPressed"), simulation.step),
+    ]
+    for ask in asks:
+        with pytest.raises(RuntimeError, match="closed with its log"):
+            ask()
 
 
 def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
@@ -247,6 +289,25 @@ def test_a_forked_process_is_refused(wall_following: afp.Plan) -> None:
             os._exit(0 if "forked" in str(error) else 1)
         os._exit(2)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no fork")
+def test_a_forked_process_leaves_the_log_alone(tmp_path: Path) -> None:
+    code = f"""
+import os, sys, afp
+simulation = afp.Simulation(afp.load({str(ROOT / "plans/wall_following.afp")!r}), log="run.mcap")
+with simulation:
+    simulation.run_to(1.0)
+    if os.fork() == 0:
+        del simulation
+        sys.exit(0)
+    assert os.wait()[1] == 0
+if os.fork() == 0:
+    sys.exit(0)
+assert os.wait()[1] == 0 and afp.Log("run.mcap").cut_short is None
+"""
+    ran = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
+    assert (ran.returncode, ran.stderr) == (0, "")
 
 
 def test_a_class_of_ones_own_builds_on_it(wall_following: afp.Plan) -> None:

@@ -57,8 +57,8 @@ def test_what_makes_no_sense_is_refused() -> None:
     plan = afp.Plan(GO)
     with pytest.raises(afp.AfpError, match="no.*'nothing'"):
         afp.sweep(plan, vary={"nothing": [1]}, progress=False)
-    with pytest.raises(afp.AfpError, match="way"):
-        afp.sweep(plan, vary={"way": [afp.deg(1), 2]}, progress=False)
+    with pytest.raises(TypeError, match="'way' is a length in m, not a quantity in rad"):
+        afp.sweep(plan, vary={"way": [2, afp.deg(1)]}, progress=False)
     with pytest.raises(ValueError, match="no backend"):
         afp.sweep(plan, backend="slurm")
     with pytest.raises(ValueError, match="no values"):

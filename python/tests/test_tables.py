@@ -28,6 +28,24 @@ def test_tables_agree(result: afp.Result) -> None:
     assert polars.DataFrame(result).height == len(frame) and pyarrow.table(result).num_rows == len(frame)
 
 
+def test_tables_have_all_that_events_say(wall_following: afp.Plan, tmp_path: Path) -> None:
+    arrow = pytest.importorskip("pyarrow")
+    simulation = afp.Simulation(wall_following, set={"walldist": afp.cm(35)}, log=tmp_path / "run.mcap")
+    simulation.set("walldist", afp.cm(40), at=0.5)
+    simulation.fail("ultrasonic", "lost", at=1.0)
+    simulation.press(at=9.0)
+    result = simulation.run(until=5.0)
+    log = afp.Log(tmp_path / "run.mcap")
+    for table, events in ((result.to_arrow(), result.events), (log.to_arrow(), log.events)):
+        attributes = {name for name in dir(afp.Event) if not name.startswith("_")}
+        assert attributes <= set(table.column_names) and table.schema.field("on").type == arrow.bool_()
+        for name in attributes - {"old", "value"}:
+            assert table.column(name).to_pylist() == [getattr(event, name) for event in events]
+        assert {"fail ultrasonic.lost", "set walldist = 0.4 m"} <= set(table.column("request").to_pylist())
+        assert 0.35 in table.column("old").to_pylist() and result.fault_text in table.column("fault_text").to_pylist()
+    assert log.to_pandas()["refused"].dropna().unique().tolist() == ["not reached"]
+
+
 def test_pictures(result: afp.Result) -> None:
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

@@ -19,7 +19,7 @@ impl Target {
     /// Follows links.
     ///
     /// # Errors
-    /// It is a folder, or a file that may not be written.
+    /// It is empty, a folder, or a file that may not be written.
     pub(crate) fn of(path: &Path) -> io::Result<Target> {
         match fs::metadata(path) {
             Ok(about) if about.is_dir() => Err(ErrorKind::IsADirectory.into()),
@@ -33,6 +33,8 @@ impl Target {
                     Err(_) => Target::Stream,
                 })
             }
+            // With '.part' behind it, no name would be one.
+            Err(error) if path.as_os_str().is_empty() => Err(error),
             Err(error) if error.kind() == ErrorKind::NotFound => follow(path).map(Target::File),
             Err(error) => Err(error),
         }

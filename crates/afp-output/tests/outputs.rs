@@ -345,3 +345,11 @@ fn written_by_who_may_not(folder: &Path) {
         }
     }
 }
+
+#[test]
+fn no_name_is_no_file() {
+    for made in [check_writable(Path::new("")), write_whole(Path::new(""), b"new")] {
+        assert_eq!(made.unwrap_err().kind(), std::io::ErrorKind::NotFound);
+    }
+    assert!(!Path::new(".part").exists());
+}

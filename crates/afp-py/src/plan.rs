@@ -94,6 +94,11 @@ impl Plan {
         scenario::scenarios(py, self)
     }
 
+    /// The scenarios that cannot be run, while nothing else has errors: name, line and what is wrong.
+    fn _invalid(&self, py: Python<'_>) -> Vec<(String, usize, String)> {
+        scenario::invalid(&self.compiled(py))
+    }
+
     /// Raises `PlanError` if the plan has errors.
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         let compiled = self.compiled(py);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use afp_dsl::Compiled;
-use afp_dsl::scenario::Scenario as Checked;
+use afp_dsl::scenario::{InvalidScenario, Scenario as Checked};
 use afp_session::shell_word;
 use afp_syntax::source::Span;
 use afp_test::{Recording, Setting};
@@ -75,7 +75,7 @@ impl Scenario {
     /// When it ends at the latest, seconds.
     #[getter]
     fn until(&self) -> PyResult<f64> {
-        Ok(self.checked()?.until as f64 * 1e-9)
+        Ok(self.checked()?.until as f64 / 1e9)
     }
 
     /// Runs it; with `log`, records it there. Ctrl-C interrupts it.
@@ -163,6 +163,15 @@ pub fn scenarios(py: Python<'_>, plan: &Plan) -> PyResult<Vec<Scenario>> {
         source: source.clone_ref(py),
     };
     Ok((0..compiled.scenarios.len()).map(one).collect())
+}
+
+/// The scenarios that cannot be run: name, line and what is wrong.
+pub fn invalid(compiled: &Compiled) -> Vec<(String, usize, String)> {
+    let one = |each: &InvalidScenario| {
+        let said = each.errors.render(&compiled.sources, false);
+        (each.name.clone(), place(compiled, each.span).1, said.trim_end().to_owned())
+    };
+    compiled.invalid.iter().map(one).collect()
 }
 
 fn place(compiled: &Compiled, span: Span) -> (String, usize, usize) {

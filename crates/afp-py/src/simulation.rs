@@ -5,6 +5,7 @@ mod driven;
 mod event;
 mod glance;
 mod keeper;
+mod lookup;
 mod names;
 mod session;
 mod setting;
@@ -29,10 +30,11 @@ use pyo3::{PyTraverseError, PyVisit};
 
 use crate::component::{AnyRegistry, Components, Host};
 use crate::errors::{error, log_error, plan_error};
+use crate::forks;
 use crate::link::{devices, fits, link};
 use crate::pause::in_background;
 use crate::plan::Plan;
-use crate::value::{Given, no_pickle, to_python};
+use crate::value::{Given, measured, no_pickle, to_python};
 use crate::world::{World, table};
 
 pub use driven::Driven;
@@ -44,8 +46,8 @@ pub use names::Names;
 pub use session::Run;
 use session::no_pose;
 pub use setting::Setting;
-use stimuli::control;
-pub use stimuli::fault;
+pub use stimuli::{control, fault};
+use time::some;
 pub use time::{duration, instant};
 
 /// A plan in a simulated world. `afp.Simulation` is made of it.
@@ -62,13 +64,15 @@ pub struct Runner {
 #[pymethods]
 impl Runner {
     #[new]
-    #[pyo3(signature = (plan, world, seed, set, log, camera=false))]
+    #[expect(clippy::too_many_arguments, reason = "what a run begins with")]
+    #[pyo3(signature = (plan, world, seed, set, settings, log, camera=false))]
     fn of_plan(
         py: Python<'_>,
         plan: &Plan,
         world: &World,
         seed: u64,
         set: &Bound<'_, PyDict>,
+        settings: Vec<(String, String)>,
         log: Option<PathBuf>,
         camera: bool,
     ) -> PyResult<Self> {
@@ -88,7 +92,9 @@ impl Runner {
             inputs.push((Given::new(&value)?, name));
         }
         let (file, log) = (&*file, log.as_deref());
-        let setting = Setting { compiled: &compiled, graph, world, seed, file, log, camera };
+        let (compiled_as, settings) = (&compiled, &*settings);
+        let setting =
+            Setting { compiled: compiled_as, graph, world, seed, settings, file, log, camera };
         let mut run = Run::logged(session, &setting)?;
         for (given, name) in inputs {
             let entry = run.entry(&name)?;
@@ -193,22 +199,22 @@ impl Runner {
     /// How many events there are.
     #[getter]
     fn event_count(&self) -> PyResult<usize> {
-        Ok(self.lock()?.keeper.records.len())
+        Ok(self.lock()?.keeper.happened.len())
     }
 
     /// The events from the `first`-th on.
     fn events(&self, first: usize) -> PyResult<Vec<Event>> {
         let session = self.lock()?;
-        let news = session.keeper.records.get(first..).unwrap_or_default();
-        Ok(news.iter().map(|record| Event::new(record, &session.names)).collect())
+        let news = session.keeper.happened.get(first..).unwrap_or_default();
+        Ok(news.iter().map(|each| Event::new(each, &session.names)).collect())
     }
 
     /// The timeline as `afpc run` prints it.
     #[getter]
     fn timeline(&self) -> PyResult<Vec<String>> {
         let session = self.lock()?;
-        let records = session.keeper.records.iter();
-        Ok(records.filter_map(|record| line(record, &session.names)).collect())
+        let happened = session.keeper.happened.iter();
+        Ok(happened.filter_map(|each| line(each, &session.names)).collect())
     }
 
     /// Where the robot was every 20 ms: time, x, y, heading.
@@ -290,6 +296,7 @@ impl Runner {
         let mut session = self.lock()?;
         let number = session.entry(name)?;
         let value = given.for_entry(&*session.session, number)?;
+        session.is_open()?;
         if session.session.ending().is_some() {
             let text = "the plan has ended; its entries cannot be set any more";
             return Err(PyRuntimeError::new_err(text));
@@ -304,7 +311,7 @@ impl Runner {
     /// Holds a control down for a while.
     fn hold(&self, control: Option<&str>, at: Option<f64>, time: f64) -> PyResult<()> {
         let control = self::control(control)?;
-        let time = duration(time)?;
+        let time = some("hold", time)?;
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
         session.ask(from, Request::Press(control, true)).map_err(error)?;
@@ -320,11 +327,13 @@ impl Runner {
         at: Option<f64>,
         lasting: Option<f64>,
         delay: Option<f64>,
-        share: Option<f64>,
+        share: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
+        let share = share.map(|share| measured("share", share, "")).transpose()?;
         let delay = delay.map(duration).transpose()?.map(Duration::as_secs_f64);
         let (fault, amount) = fault(device, kind, delay, share)?;
-        let lasting = lasting.map(duration).transpose()?.unwrap_or(Duration::MAX);
+        let lasting = lasting.map(|time| some("lasting", time)).transpose()?;
+        let lasting = lasting.unwrap_or(Duration::MAX);
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
         session.ask(from, Request::Break(fault, amount, lasting)).map_err(error)
@@ -357,8 +366,11 @@ impl Runner {
         session.ask(from, Request::Idle(element)).map_err(error)
     }
 
-    /// Ends the log, where there is one; its path.
+    /// Ends the log, where there is one; its path. In a process that was forked there is none.
     fn close(&self) -> PyResult<Option<PathBuf>> {
+        if self.process != forks::process() {
+            return Ok(None);
+        }
         self.lock()?.close()
     }
 

@@ -21,7 +21,7 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_run::hash;
 use afp_session::{Build, Loader};
-use afp_sweep::{Header, Journal, Outcome, OutputFiles, Row, Setting, Sweep};
+use afp_sweep::{Header, Journal, JournalError, Outcome, OutputFiles, Parts, Row, Setting, Sweep};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -46,6 +46,8 @@ pub struct Sweeper {
     file: PathBuf,
     toolboxes: Vec<Py<Toolbox>>,
     sweep: Sweep,
+    /// The names of figures that are taken of each run.
+    metrics: Vec<String>,
     header: Header,
     done: Mutex<Done>,
 }
@@ -61,7 +63,8 @@ struct Done {
 #[pymethods]
 impl Sweeper {
     #[new]
-    #[pyo3(signature = (plan, worlds, seeds, vary, until, mark))]
+    #[expect(clippy::too_many_arguments, reason = "what a sweep has")]
+    #[pyo3(signature = (plan, worlds, seeds, vary, until, stimuli, metrics, parts))]
     fn new(
         py: Python<'_>,
         plan: &Plan,
@@ -69,7 +72,9 @@ impl Sweeper {
         seeds: GivenSeeds,
         vary: Vec<(String, GivenValues)>,
         until: f64,
-        mark: &str,
+        stimuli: (Vec<String>, Vec<String>),
+        metrics: Vec<String>,
+        parts: Parts,
     ) -> PyResult<Self> {
         let compiled = plan.compiled(py);
         if compiled.graph.is_none() {
@@ -82,8 +87,8 @@ impl Sweeper {
         fits(&file)?;
         let mut sweep = Sweep {
             caveat: plan.caveat(),
-            presses: Vec::new(),
-            failures: Vec::new(),
+            presses: given::presses(&stimuli.0)?,
+            failures: given::failures(&stimuli.1)?,
             plan: file.display().to_string(),
             worlds: given::rooms(worlds),
             axes: Vec::new(),
@@ -101,9 +106,11 @@ impl Sweeper {
             }
             let setting = Setting::new(&mut sweep, graph, &file, robot);
             let setting = setting.map_err(|why| run_error(&why))?;
-            Ok(Header::new(program(py, mark)?, (&compiled, graph), &setting, &sweep))
+            given::check_metrics(&metrics, &sweep)?;
+            let header = Header::new(program(py)?, (&compiled, graph), &setting, &sweep);
+            Ok(header.with(parts))
         })?;
-        Ok(Sweeper { compiled, file, toolboxes, sweep, header, done: Mutex::default() })
+        Ok(Sweeper { compiled, file, toolboxes, sweep, metrics, header, done: Mutex::default() })
     }
 
     /// How many runs there are.
@@ -118,11 +125,14 @@ impl Sweeper {
         self.toolboxes.is_empty()
     }
 
-    /// What makes it this sweep: program, plan, worlds and grid, as in its journal.
+    /// What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal. What that
+    /// reads is left out: where runs are done by other processes it goes along.
     #[getter]
     fn identity(&self) -> String {
-        let Header { program, plan, worlds, grid, .. } = &self.header;
-        format!("{program} {plan} {worlds} {grid}")
+        let Header { program, plan, worlds, grid, parts, .. } = &self.header;
+        let parts: String =
+            parts.iter().map(|(name, (does, _))| format!(", {name} {does}")).collect();
+        format!("{program} {plan} {worlds} {grid}{parts}")
     }
 
     /// Keeps outcomes in a journal beside the table `out`, and takes up those that are there.
@@ -130,7 +140,7 @@ impl Sweeper {
         let output = OutputFiles::new(Some(Path::new(out)), &self.file, &self.header);
         let output = output.map_err(|why| run_error(&why))?;
         let journal = Journal::open(&output.journal, &self.header, restart);
-        let (journal, outcomes) = journal.map_err(|why| run_error(&why))?;
+        let (journal, outcomes) = journal.map_err(|why| no_journal(&why))?;
         let done = &mut *self.lock()?;
         *done = Done { outcomes, journal: Some(journal), output: Some(output) };
         Ok(())
@@ -237,7 +247,11 @@ impl Sweeper {
         let host = components.host(py)?;
         let (world, log) = (&loaded, log.as_deref());
         let (file, compiled) = (&*self.file, &self.compiled);
-        let setting = Begun { compiled, graph, world, seed: row.seed, file, log, camera };
+        let settings =
+            row.values.iter().map(|(name, point)| ((*name).to_owned(), point.text.clone()));
+        let settings = &*settings.collect::<Vec<_>>();
+        let seed = row.seed;
+        let setting = Begun { compiled, graph, world, seed, settings, file, log, camera };
         let runner = Runner::new(Run::logged(session, &setting)?, host, &self.compiled);
         Ok((runner, World { loaded }))
     }
@@ -336,16 +350,25 @@ fn graph(compiled: &Compiled) -> PyResult<&Graph> {
 
 /// What runs the plans: with parts of a project, what the extension was built from counts too. `afpc sweep` goes on with a
 /// journal of plans without components in Python, on the Carbot with built-in toolboxes.
-fn program(py: Python<'_>, mark: &str) -> PyResult<String> {
+fn program(py: Python<'_>) -> PyResult<String> {
     let mut program = Build::this().to_string();
     if link().own_robot().is_some() || !link().toolboxes().is_empty() {
         let extension: PathBuf = py.import("afp._afp")?.getattr("__file__")?.extract()?;
         program += &format!(" {}", hash(&String::from_utf8_lossy(&fs::read(extension)?)));
     }
-    if !mark.is_empty() {
-        program += &format!(" python {}", hash(mark));
-    }
     Ok(program)
+}
+
+/// Why a journal cannot be used, and what to do about it from Python.
+fn no_journal(why: &JournalError) -> PyErr {
+    let help = match why {
+        JournalError::File(why) => return run_error(why),
+        JournalError::InUse(_) => "wait for it, or give another 'out'",
+        JournalError::Other(..) | JournalError::Broken(..) => {
+            "restart=True begins anew and drops what is there; another 'out' keeps both"
+        }
+    };
+    error(format!("{why}\n  help: {help}"))
 }
 
 /// Passes rows to a function of Python, one after the other.

@@ -1,13 +1,18 @@
 //! Values between plans and Python: quantities are floats in SI units.
 
-use afp_core::trace::TraceEntryId;
-use afp_core::{Text, Value, ValueRef};
+use std::borrow::Cow;
+
+use afp_core::trace::{EntryName, TraceEntryId};
+use afp_core::{Fault, TEXT_CAPACITY, Text, Value, ValueRef};
 use afp_dsl::types::Type;
 use afp_session::AnySession;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyString};
+
+/// So many characters of a value are shown.
+const SHOWN: usize = 80;
 
 /// What '__reduce__' gives: what makes the object again, and its arguments.
 pub type Pickled<'py, A> = PyResult<(Bound<'py, PyAny>, A)>;
@@ -61,8 +66,8 @@ impl Given {
         if let Some(truth) = truth(value) {
             return Ok(Given::Plain(Value::Bool(truth), None));
         }
-        if let Ok(text) = value.cast::<PyString>() {
-            return Ok(Given::Text(text.to_cow()?.into_owned()));
+        if let Ok(string) = value.cast::<PyString>() {
+            return Ok(Given::Text(text(string)?));
         }
         let unit = unit(value)?;
         if is_integer(value)? {
@@ -80,15 +85,15 @@ impl Given {
     /// It does not fit.
     pub fn for_entry(self, session: &dyn AnySession, entry: u16) -> PyResult<Value> {
         let about = session.names().entry(TraceEntryId(entry.into()));
-        let wrong = |what: String| {
-            let (path, ty, unit) = (about.path, about.ty, about.unit);
-            let link = if unit.is_empty() { "" } else { " in " };
-            PyTypeError::new_err(format!("'{path}' is {}{link}{unit}, not {what}", a(ty)))
-        };
+        let wrong = |what: String| unfit(about, &what);
         match self {
-            Given::Text(text) => {
-                session.read_text(entry, &text).map_err(|_| wrong(format!("{text:?}")))
-            }
+            Given::Text(text) => session.read_text(entry, &text).map_err(|why| {
+                if why == Fault::TOO_LONG {
+                    PyValueError::new_err(format!("'{}': {}", about.path, too_long(&text)))
+                } else {
+                    wrong(short(format!("{text:?}")))
+                }
+            }),
             Given::Plain(_, Some(unit)) if unit != about.unit => {
                 Err(wrong(format!("a quantity in {unit}")))
             }
@@ -97,7 +102,7 @@ impl Given {
                 let (fits, what) = match value {
                     Value::Bool(_) => (about.ty == "bool", "a bool".to_owned()),
                     Value::Int(number) => (about.ty == "int" || is_number, number.to_string()),
-                    Value::Float(number) => (is_number, number.to_string()),
+                    Value::Float(number) => (is_number, format!("{number:?}")),
                     _ => return Ok(value),
                 };
                 if fits { Ok(value) } else { Err(wrong(what)) }
@@ -105,6 +110,13 @@ impl Given {
             Given::Other(name) => Err(wrong(name)),
         }
     }
+}
+
+/// What to say of a value that is none of an entry.
+pub fn unfit(about: EntryName<'_>, what: &str) -> PyErr {
+    let (path, ty, unit) = (about.path, about.ty, about.unit);
+    let link = if unit.is_empty() { "" } else { " in " };
+    PyTypeError::new_err(format!("'{path}' is {}{link}{unit}, not {what}", a(ty)))
 }
 
 /// A truth value, of Python or numpy.
@@ -125,6 +137,27 @@ fn integer(value: &Bound<'_, PyAny>) -> PyResult<i64> {
     value.extract().map_err(|_| PyOverflowError::new_err("an integer of more than 64 bits"))
 }
 
+/// A text of Python as Rust has it.
+fn text(value: &Bound<'_, PyString>) -> PyResult<String> {
+    let text = value.to_cow().map(Cow::into_owned);
+    text.map_err(|_| {
+        PyValueError::new_err("a text with half of a surrogate pair, which stands for no character")
+    })
+}
+
+/// What to say of a text that no entry holds.
+fn too_long(text: &str) -> String {
+    format!("a text has at most {TEXT_CAPACITY} bytes of UTF-8, not {}", text.len())
+}
+
+/// The beginning of what may be long.
+pub fn short(text: String) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}...", text.get(..end).unwrap_or_default()),
+        None => text,
+    }
+}
+
 /// A word with its article.
 fn a(word: &str) -> String {
     let article = if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
@@ -135,8 +168,31 @@ fn a(word: &str) -> String {
 fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
     match value.extract() {
         Ok(number) => Ok(Some(number)),
+        Err(why) if why.is_instance_of::<PyOverflowError>(value.py()) => {
+            Err(PyOverflowError::new_err("an integer that is too large for a float"))
+        }
         Err(why) if why.is_instance_of::<PyException>(value.py()) => Ok(None),
         Err(why) => Err(why),
+    }
+}
+
+/// A number in that unit; an empty one is that of plain numbers.
+///
+/// # Errors
+/// It is none, or a quantity in another unit.
+pub fn measured(what: &str, value: &Bound<'_, PyAny>, wanted: &str) -> PyResult<f64> {
+    let wrong = |given: String| {
+        let kind = match wanted {
+            "" => "a plain number".to_owned(),
+            wanted => format!("a number in {wanted}"),
+        };
+        PyTypeError::new_err(format!("{what} is {kind}, not {given}"))
+    };
+    match unit(value)? {
+        Some(given) if given != wanted => Err(wrong(format!("a quantity in {given}"))),
+        _ => number(value)?.ok_or_else(|| {
+            wrong(value.get_type().name().map_or_else(|_| "?".to_owned(), |it| a(&it.to_string())))
+        }),
     }
 }
 
@@ -148,7 +204,8 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     };
     match ty {
         Type::Bool => value.extract().map(Value::Bool).map_err(|_| wrong()),
-        Type::Int => value.extract().map(Value::Int).map_err(|_| wrong()),
+        Type::Int if is_integer(value)? => integer(value).map(Value::Int),
+        Type::Int => Err(wrong()),
         Type::Quantity(dimension) => {
             if let Some(given) = unit(value)?
                 && given != dimension.si_unit()
@@ -161,16 +218,16 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
             number(value)?.map(Value::Float).ok_or_else(wrong)
         }
         Type::Text => {
-            let text: String = value.extract().map_err(|_| wrong())?;
-            let text = Text::try_from(text.as_str());
-            text.map(Value::Text).map_err(|why| PyValueError::new_err(why.to_string()))
+            let text = text(value.cast().map_err(|_| wrong())?)?;
+            held(&text)
         }
         Type::Enum(choices) => {
-            let name: String = value.extract().map_err(|_| wrong())?;
+            let name = text(value.cast().map_err(|_| wrong())?)?;
             let index = choices.variants.iter().position(|variant| *variant == name);
             let index = index.and_then(|index| u16::try_from(index).ok());
             index.map(Value::Choice).ok_or_else(|| {
                 let known = choices.variants.join(", ");
+                let name = short(name);
                 PyValueError::new_err(format!("no {ty} '{name}'; there are: {known}"))
             })
         }
@@ -179,16 +236,22 @@ pub fn to_port(ty: &Type, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     }
 }
 
+/// A text as entries hold it.
+fn held(text: &str) -> PyResult<Value> {
+    let held = Text::try_from(text).map(Value::Text);
+    held.map_err(|_| PyValueError::new_err(too_long(text)))
+}
+
 /// A value of whatever type Python gives.
 fn any(value: &Bound<'_, PyAny>) -> PyResult<Option<Value>> {
     if let Some(truth) = truth(value) {
         return Ok(Some(Value::Bool(truth)));
     }
     if is_integer(value)? {
-        return Ok(value.extract().ok().map(Value::Int));
+        return integer(value).map(|number| Some(Value::Int(number)));
     }
-    if let Ok(text) = value.extract::<String>() {
-        return Ok(Text::try_from(text.as_str()).ok().map(Value::Text));
+    if let Ok(string) = value.cast::<PyString>() {
+        return held(&text(string)?).map(Some);
     }
     Ok(number(value)?.map(Value::Float))
 }

@@ -4,12 +4,17 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use afp_run::world::{LoadedWorld, find};
+use afp_session::Pose2;
 use numpy::{PyArray2, ToPyArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};
 use crate::link::{fits, link};
 use crate::value::Pickled;
+
+/// What a world is pickled as: its text, its path, and where the robot starts instead of where the text says.
+type Facts<'a> = (&'a str, Option<&'a Path>, Option<(f64, f64, f64)>);
 
 /// A room: where the robot starts and what stands, lies, shines and moves around it.
 #[pyclass(module = "afp", frozen)]
@@ -55,6 +60,25 @@ impl World {
         Ok(World { loaded })
     }
 
+    /// The same with values of its file changed, `robot.charge`, and with another start of the robot.
+    fn _changed(
+        &self,
+        values: Vec<(String, String)>,
+        start: Option<(f64, f64, f64)>,
+    ) -> PyResult<World> {
+        let values: Vec<_> = values.iter().map(|(key, text)| (&**key, &**text)).collect();
+        let mut loaded = match values.is_empty() {
+            true => self.loaded.clone(),
+            false => self.loaded.with(&values, link().kind()).map_err(|why| run_error(&why))?,
+        };
+        if let Some((x, y, heading)) = start {
+            loaded = loaded
+                .started_at(Pose2 { x, y, heading })
+                .map_err(|why| PyValueError::new_err(format!("start: {why}")))?;
+        }
+        Ok(World { loaded })
+    }
+
     /// What it is called.
     #[getter]
     fn name(&self) -> &str {
@@ -92,9 +116,11 @@ impl World {
         things.iter().map(|thing| table(py, &thing.outline)).collect()
     }
 
-    /// Whether their files say the same.
+    /// Whether their files say the same, and the robot starts in the same place.
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other.cast::<World>().is_ok_and(|other| other.get().text() == self.text())
+        let is_same =
+            |other: &World| (other.text(), other.loaded.start) == (self.text(), self.loaded.start);
+        other.cast::<World>().is_ok_and(|other| is_same(other.get()))
     }
 
     fn __hash__(&self) -> u64 {
@@ -114,14 +140,19 @@ impl World {
 
     /// As it was pickled.
     #[staticmethod]
-    fn _again(text: String, path: Option<PathBuf>) -> PyResult<World> {
-        let mut world = World::parse(text)?;
+    fn _again(
+        text: String,
+        path: Option<PathBuf>,
+        start: Option<(f64, f64, f64)>,
+    ) -> PyResult<World> {
+        let mut world = World::parse(text)?._changed(Vec::new(), start)?;
         world.loaded.path = path;
         Ok(world)
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, (&str, Option<&Path>)> {
-        Ok((py.get_type::<World>().getattr("_again")?, (self.text(), self.path())))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, Facts<'_>> {
+        let start = self.loaded.start.map(|Pose2 { x, y, heading }| (x, y, heading));
+        Ok((py.get_type::<World>().getattr("_again")?, (self.text(), self.path(), start)))
     }
 }
 

@@ -39,7 +39,7 @@ pub use hash::hash;
 pub use output::{check_apart, check_writable, is_same_file, write_whole};
 pub use picture::{PictureFormat, Rasterizer};
 pub use report::{event_line, line, timeline};
-pub use run::{MakeSession, OpenHardware, run, run_on_hardware};
+pub use run::{MakeSession, OpenHardware, hashes, run, run_on_hardware};
 pub use stderr::{say, warn};
 pub use stop::StopFlag;
 pub use svg::{SoFar, draw_film, draw_log, draw_run, draw_sonar, draw_world, follow};

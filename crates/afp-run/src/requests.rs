@@ -28,7 +28,7 @@ pub fn make(
     }
     for press in presses {
         let id = find_control(table, &press.control).ok_or_else(|| {
-            RunError::usage(no_control(table, &press.control), "write '--press CONTROL@3s'")
+            RunError::usage(no_control(table, &press.control), "write 'CONTROL@3s'")
         })?;
         hold(session, id, press.at).map_err(|why| refused(&press.to_string(), &why))?;
     }
@@ -78,8 +78,8 @@ fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option
     let mut all = faults(table);
     let found = all.find(|(_, at, row)| at.name == device && row.name == kind);
     let such = || match faults(table).next() {
-        Some((_, at, row)) => format!("such as --fail {}.{}@5s..7s", at.name, row.name),
-        None => "leave '--fail' out; nothing of this robot can fail".to_owned(),
+        Some((_, at, row)) => format!("such as '{}.{}@5s..7s'", at.name, row.name),
+        None => "nothing of this robot can fail".to_owned(),
     };
     let wrong = |why: String| RunError::usage(why, such());
     let (id, _, row) = found.ok_or_else(|| wrong(no_fault(table, device, kind)))?;
@@ -87,7 +87,7 @@ fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option
     let amount = amount.map_err(|why| {
         let usual = row.amount.map(|of| format!("={}{}", of.default, of.unit));
         let usual = usual.unwrap_or_default();
-        RunError::usage(why, format!("such as --fail {device}.{kind}{usual}@5s..7s"))
+        RunError::usage(why, format!("such as '{device}.{kind}{usual}@5s..7s'"))
     })?;
     Ok((id, amount))
 }
@@ -150,7 +150,8 @@ mod tests {
         ] {
             let error = find_fault(TABLE, &failure(text).unwrap()).unwrap_err().to_string();
             // Whoever does as the help says is understood.
-            let such = error.rsplit("--fail ").next().unwrap_or_default().trim();
+            let such =
+                error.rsplit("such as ").next().unwrap_or_default().trim().trim_matches('\'');
             assert!(find_fault(TABLE, &failure(such).unwrap()).is_ok(), "{error}");
             assert!(error.contains(says), "{text}: {error}");
         }

@@ -357,21 +357,22 @@ fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
 
 /// What the log says of the run: enough to do it again.
 fn about(setting: &Setting<'_>) -> About {
-    let Setting { options, recipe, world, facts, .. } = setting;
+    let Setting { options, recipe, facts, .. } = setting;
     let mut about = About::new(recipe);
     let clock = match options.time_keeper() {
         TimeKeeper::Nobody => "virtual",
         TimeKeeper::Gate(_) => "virtual, paced",
         TimeKeeper::Robot => "the robot's",
     };
-    let more = [
-        ("plan_hash", plan_hash(&recipe.texts)),
-        ("world_hash", hash(&world.text)),
-        ("clock", clock.to_owned()),
-    ];
+    let more = hashes(recipe).into_iter().chain([("clock", clock.to_owned())]);
     about.facts.extend(more.map(|(key, value)| (key.to_owned(), value)));
     about.facts.extend(facts.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())));
     about
+}
+
+/// The hashes of the plan and the world of a run, as its log has them.
+pub fn hashes(recipe: &Recipe) -> [(&'static str, String); 2] {
+    [("plan_hash", plan_hash(&recipe.texts)), ("world_hash", hash(&recipe.world.text))]
 }
 
 /// The hash of the plan's text; of several files, that of their paths and texts.

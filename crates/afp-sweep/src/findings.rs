@@ -110,7 +110,7 @@ impl Measure {
             Measure::Collisions => outcome.collisions as f64,
             Measure::Interruptions => outcome.interruptions as f64,
             Measure::Misses => outcome.deadline_misses as f64,
-            Measure::Figure(name) => return outcome.figures.get(name).copied(),
+            Measure::Figure(name) => return outcome.figures.get(name).copied().flatten(),
         })
     }
 }

@@ -4,72 +4,63 @@
 //! written in one piece. A process that dies leaves at most the last line torn, which is cut off; its run is
 //! done again. A lock keeps a second process out.
 
+use std::fmt;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use afp_dsl::Compiled;
-use afp_dsl::graph::Graph;
 use afp_run::{RunError, hash};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 
-use crate::grid::Sweep;
+use crate::header::Header;
 use crate::outcome::Outcome;
-use crate::setting::Setting;
 
 /// What was written reaches the disk this often at least, should the machine fail and not the process.
 const SYNC: Duration = Duration::from_secs(1);
 
-/// What a journal is of. A sweep goes on only with the same.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Header {
-    /// The version of the format, 2.
-    pub sweep_journal: u32,
-    /// The program: its version and commit, and for one with toolboxes of one's own what it was built from.
-    pub program: String,
-    /// The hash of the plan's texts.
-    pub plan: String,
-    /// The hash of the worlds' texts.
-    pub worlds: String,
-    /// The grid, as [`crate::Sweep::signature`] has it.
-    pub grid: String,
+/// Why a journal cannot be used.
+#[derive(Debug)]
+pub enum JournalError {
+    /// It cannot be read or written.
+    File(RunError),
+    /// Another process is writing it.
+    InUse(PathBuf),
+    /// It is of another sweep; how that differs.
+    Other(PathBuf, String),
+    /// A line of it is no line of a journal.
+    Broken(PathBuf, usize),
 }
 
-impl Header {
-    /// For a sweep of a plan by a program.
-    pub fn new(
-        program: String,
-        (compiled, graph): (&Compiled, &Graph),
-        setting: &Setting<'_>,
-        sweep: &Sweep,
-    ) -> Header {
-        let texts = compiled.plan_texts();
-        let texts = texts.iter().map(|(path, text)| format!("{path}\0{text}\0"));
-        Header {
-            sweep_journal: 2,
-            program,
-            plan: hash(&format!("{}\0{}", graph.main().name, texts.collect::<String>())),
-            worlds: setting.hash(),
-            grid: sweep.signature(),
+impl fmt::Display for JournalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            JournalError::File(why) => write!(f, "{why}"),
+            JournalError::InUse(path) => write!(f, "another sweep is writing '{}'", path.display()),
+            JournalError::Other(path, how) => {
+                write!(f, "'{}' is of another sweep: {how}", path.display())
+            }
+            JournalError::Broken(path, line) => {
+                write!(f, "line {line} of '{}' is no line of a journal", path.display())
+            }
         }
     }
+}
 
-    /// What differs from another header, in words; `None` for the same sweep.
-    fn differs(&self, other: &Header) -> Option<String> {
-        let changes = [
-            (self.program != other.program, "afpc"),
-            (self.plan != other.plan, "the plan"),
-            (self.worlds != other.worlds, "a world"),
-        ];
-        let changed: Vec<_> =
-            changes.iter().filter(|(changed, _)| *changed).map(|(_, what)| *what).collect();
-        if !changed.is_empty() {
-            return Some(format!("{} has changed since", changed.join(" and ")));
+impl From<JournalError> for RunError {
+    /// With the remedy of the command line.
+    fn from(why: JournalError) -> RunError {
+        let message = why.to_string();
+        match why {
+            JournalError::File(why) => why,
+            JournalError::InUse(_) => {
+                RunError::usage(message, "wait for it, or write elsewhere with '-o'")
+            }
+            JournalError::Other(..) | JournalError::Broken(..) => {
+                RunError::usage(message, "'--restart' begins anew and drops what is there")
+            }
         }
-        let (ours, theirs) = (&self.grid, &other.grid);
-        (self != other).then(|| format!("it was started with {theirs}; this is {ours}"))
     }
 }
 
@@ -91,17 +82,17 @@ impl Journal {
         path: &Path,
         header: &Header,
         restart: bool,
-    ) -> Result<(Journal, Vec<Outcome>), RunError> {
-        let wrong = || RunError::file("cannot use the journal", path);
+    ) -> Result<(Journal, Vec<Outcome>), JournalError> {
+        let wrong = || {
+            let wrong = RunError::file("cannot use the journal", path);
+            move |error| JournalError::File(wrong(error))
+        };
         let open =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
         let mut file = open.map_err(wrong())?;
         match file.try_lock() {
             Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                let message = format!("another sweep is writing '{}'", path.display());
-                return Err(RunError::usage(message, "wait for it, or write elsewhere with '-o'"));
-            }
+            Err(TryLockError::WouldBlock) => return Err(JournalError::InUse(path.to_owned())),
             Err(TryLockError::Error(error)) => return Err(wrong()(error)),
         }
         let mut bytes = Vec::new();
@@ -147,19 +138,14 @@ impl Journal {
 }
 
 /// The outcomes of a journal and how many bytes of it are whole lines.
-fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usize), RunError> {
+fn read(path: &Path, bytes: &[u8], header: &Header) -> Result<(Vec<Outcome>, usize), JournalError> {
     let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
     let mut lines = bytes.get(..end).unwrap_or_default().split_inclusive(|byte| *byte == b'\n');
     let Some(first) = lines.next() else { return Ok((Vec::new(), 0)) };
-    let restart = "'--restart' begins anew and drops what is there";
-    let broken = |line: usize| {
-        let message = format!("line {line} of '{}' is no line of a journal", path.display());
-        RunError::usage(message, restart)
-    };
+    let broken = |line: usize| JournalError::Broken(path.to_owned(), line);
     let theirs: Header = parse(first).ok_or_else(|| broken(1))?;
     if let Some(difference) = header.differs(&theirs) {
-        let message = format!("'{}' is of another sweep: {difference}", path.display());
-        return Err(RunError::usage(message, restart));
+        return Err(JournalError::Other(path.to_owned(), difference));
     }
     let (mut outcomes, mut whole) = (Vec::new(), first.len());
     let mut lines = (2..).zip(lines).peekable();
@@ -187,11 +173,12 @@ mod tests {
     use std::fs;
 
     use super::*;
+    use crate::header::Parts;
     use crate::outcome::Ending;
 
     fn header() -> Header {
         let [program, plan, worlds, grid] = ["1", "2", "3", "seeds 0..9"].map(str::to_owned);
-        Header { sweep_journal: 2, program, plan, worlds, grid }
+        Header { sweep_journal: 2, program, plan, worlds, grid, parts: Parts::new() }
     }
 
     fn outcome(run: u64) -> Outcome {
@@ -241,6 +228,34 @@ mod tests {
     }
 
     #[test]
+    fn what_has_changed_beside_the_program_is_named() {
+        let part = |name: &str, does: &str, k: &str| {
+            (name.to_owned(), (does.to_owned(), [("k".to_owned(), k.to_owned())].into()))
+        };
+        let of = |parts: Vec<_>| header().with(parts.into_iter().collect());
+        let cases = [
+            (vec![part("a", "1", "5"), part("b", "1", "5")], None),
+            (vec![part("a", "2", "6"), part("b", "1", "5")], Some("a has changed since")),
+            (
+                vec![part("a", "1", "6"), part("b", "1", "5")],
+                Some("'k', which a reads, has changed since"),
+            ),
+            (vec![part("a", "2", "5"), part("b", "2", "5")], Some("a and b have changed since")),
+            (vec![part("a", "1", "5")], Some("it was started without b")),
+            (
+                vec![part("a", "1", "5"), part("b", "1", "5"), part("c", "", "")],
+                Some("it was started with c"),
+            ),
+        ];
+        let ours = of(vec![part("a", "1", "5"), part("b", "1", "5")]);
+        for (theirs, wanted) in cases {
+            assert_eq!(ours.differs(&of(theirs)).as_deref(), wanted);
+        }
+        let json = serde_json::to_string(&header()).unwrap();
+        assert!(!json.contains("parts"), "a journal without any is as it was: {json}");
+    }
+
+    #[test]
     fn other_sweeps_and_other_files_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.journal");
@@ -249,7 +264,8 @@ mod tests {
         assert!(error.contains("another sweep is writing"), "{error}");
         drop(open);
         let other = Header { plan: "x".to_owned(), ..header() };
-        let error = Journal::open(&path, &other, false).unwrap_err().to_string();
+        let error = Journal::open(&path, &other, false).unwrap_err();
+        let error = RunError::from(error).to_string();
         assert!(
             error.contains("the plan has changed since") && error.contains("--restart"),
             "{error}"

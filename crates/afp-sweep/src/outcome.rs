@@ -78,9 +78,9 @@ pub struct Outcome {
     /// Deadlines that were missed.
     pub deadline_misses: u64,
     /// What else the robot and its measures say the run came to, by the names of columns: `contacts_s`,
-    /// `wall_error_mean_m`.
+    /// `wall_error_mean_m`. One without a value is still a column.
     #[serde(flatten)]
-    pub figures: BTreeMap<String, f64>,
+    pub figures: BTreeMap<String, Option<f64>>,
     /// The hash of the trace, 16 hexadecimal digits; empty for a run without one.
     pub trace: String,
     /// How long it took by the wall clock, seconds.
@@ -92,20 +92,23 @@ pub(crate) const CONTACTS: &str = "contacts";
 
 /// Figures as numbers with names: a count by the figure's own, each of its numbers with that before it, stretches of time
 /// by their sum in seconds.
-pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, f64> {
+pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
     let mut all = BTreeMap::new();
     for figure in &figures.0 {
         match &figure.value {
             FigureValue::Count(count) => {
-                all.insert(figure.name.to_owned(), *count as f64);
+                all.insert(figure.name.to_owned(), Some(*count as f64));
             }
             FigureValue::Numbers(parts) => all.extend(
-                parts.iter().map(|(part, number)| (format!("{}_{part}", figure.name), *number)),
+                parts
+                    .iter()
+                    .map(|(part, number)| (format!("{}_{part}", figure.name), Some(*number))),
             ),
             FigureValue::Spans { spans, .. } => {
                 let lasted = spans.iter().map(|span| span.end.since(span.begin).as_secs_f64());
                 // A sum of nothing is a negative zero.
-                all.insert(format!("{}_s", figure.name), lasted.fold(0.0, |all, each| all + each));
+                let sum = lasted.fold(0.0, |all, each| all + each);
+                all.insert(format!("{}_s", figure.name), Some(sum));
             }
         }
     }
@@ -171,7 +174,9 @@ mod tests {
         assert_eq!(touched, [("crate".to_owned(), 3.0)].into());
         let figures = numbers(&figures);
         let pairs: Vec<_> = figures.iter().map(|(name, number)| (name.as_str(), *number)).collect();
-        assert_eq!(pairs, [("contacts_s", 3.0), ("dirt_left_m2", 0.5), ("drops", 2.0)]);
+        let wanted = [("contacts_s", Some(3.0)), ("dirt_left_m2", Some(0.5)), ("drops", Some(2.0))];
+        assert_eq!(pairs, wanted);
+        let figures = figures.into_iter().chain([("none".to_owned(), None)]).collect();
         let outcome = Outcome { figures, touched, ..Outcome::failed(3, Ending::Ok, String::new()) };
         let line = serde_json::to_string(&outcome).unwrap();
         assert!(line.contains("\"dirt_left_m2\":0.5"), "{line}");

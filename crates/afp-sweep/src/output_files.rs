@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::grid::Sweep;
-use crate::journal::Header;
+use crate::header::Header;
 use crate::outcome::Outcome;
 use crate::table::to_csv;
 use afp_run::{RunError, check_writable, hash, write_whole};

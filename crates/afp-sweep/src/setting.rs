@@ -161,9 +161,13 @@ impl<'a> Setting<'a> {
         Ok(session)
     }
 
-    /// The hash of the texts of all worlds.
+    /// The hash of the texts of all worlds, and of where the robot starts instead of where they say.
     pub fn hash(&self) -> String {
-        hash(&self.worlds.iter().map(|world| format!("{}\0", world.text)).collect::<String>())
+        let world = |world: &LoadedWorld| {
+            let start = world.start.map(|start| format!("{start:?}")).unwrap_or_default();
+            format!("{}\0{start}", world.text)
+        };
+        hash(&self.worlds.iter().map(world).collect::<String>())
     }
 }
 

@@ -53,7 +53,7 @@ mod tests {
         [
             failed(1),
             Outcome {
-                figures: [("wall_error_mean_m".to_owned(), 0.1)].into(),
+                figures: [("wall_error_mean_m".to_owned(), Some(0.1))].into(),
                 run: u64::MAX / 4 * 4,
                 ..failed(2)
             },

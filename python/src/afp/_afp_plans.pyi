@@ -90,6 +90,7 @@ class Plan:
     @property
     def scenarios(self) -> list[Scenario]:
         """The scenarios of the file; none while it has errors."""
+    def _invalid(self) -> list[tuple[str, int, str]]: ...
     def check(self) -> None:
         """Raises `PlanError` if the plan has errors."""
     def report(self, *, color: bool = False) -> str:
@@ -151,6 +152,7 @@ class World:
     @staticmethod
     def of_plan(path: str | os.PathLike[str]) -> World:
         """The world that `afpc run` would take for the plan of this file."""
+    def _changed(self, values: Sequence[tuple[str, str]], start: tuple[float, float, float] | None) -> World: ...
     @property
     def name(self) -> str:
         """What it is called."""
@@ -173,7 +175,9 @@ class World:
     def _repr_svg_(self) -> str: ...
     def __hash__(self) -> int: ...
     @staticmethod
-    def _again(text: str, path: str | os.PathLike[str] | None) -> World: ...
+    def _again(
+        text: str, path: str | os.PathLike[str] | None, start: tuple[float, float, float] | None
+    ) -> World: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final

@@ -1,7 +1,7 @@
 # Stubs of the native half, `_afp`: what runs, and what it says. There is no such module.
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, final
 
@@ -154,6 +154,7 @@ class Runner:
         world: World,
         seed: int,
         set: dict[str, Any],
+        settings: list[tuple[str, str]],
         log: str | os.PathLike[str] | None,
         camera: bool = False,
     ) -> Self: ...
@@ -239,7 +240,7 @@ class Runner:
     def idle(self, element: str | None, at: float | None) -> None:
         """Lets an actor, those of a sub-plan, or all of them do nothing from their next start on."""
     def close(self) -> Path | None:
-        """Ends the log, where there is one; its path."""
+        """Ends the log, where there is one; its path. In a process that was forked there is none."""
     def failures(self, seen: int) -> list[tuple[float, str, str, BaseException]]:
         """The exceptions of components after the first `seen`: time, element or supervisor, template, exception."""
     def __reduce__(self) -> NoReturn: ...
@@ -342,9 +343,11 @@ class Sweeper:
         plan: Plan,
         worlds: Sequence[World | str | None],
         seeds: tuple[int, int] | list[int],
-        vary: Sequence[tuple[str, str | list[tuple[str, bool]]]],
+        vary: Sequence[tuple[str, str | list[tuple[str, str | None]]]],
         until: float,
-        mark: str,
+        stimuli: tuple[list[str], list[str]],
+        metrics: list[str],
+        parts: Mapping[str, tuple[str, Mapping[str, str]]],
     ) -> Self: ...
     @property
     def total(self) -> int:
@@ -354,7 +357,8 @@ class Sweeper:
         """Whether its runs call nothing that is written in Python."""
     @property
     def identity(self) -> str:
-        """What makes it this sweep: program, plan, worlds and grid, as in its journal."""
+        """What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal. What that
+        reads is left out: where runs are done by other processes it goes along."""
     def open(self, out: str, restart: bool) -> None:
         """Keeps outcomes in a journal beside the table `out`, and takes up those that are there."""
     def left(self) -> list[int]:
@@ -365,7 +369,7 @@ class Sweeper:
         jobs: int | None = None,
         progress: Callable[[int], Any] | None = None,
         on_run: Callable[[dict[str, Any]], Any] | None = None,
-        judge: Callable[[Runner, World, int], dict[str, float]] | None = None,
+        judge: Callable[[Runner, World, int], dict[str, float | None]] | None = None,
     ) -> None:
         """Does runs and keeps their outcomes; tells `progress` how many of this call are done, and `on_run` the row of
         each. `judge` gives further figures of a run: its number, its end, its world and its seed go in, numbers by name
@@ -374,7 +378,7 @@ class Sweeper:
         self,
         runs: list[int],
         jobs: int | None = None,
-        judge: Callable[[Runner, World, int], dict[str, float]] | None = None,
+        judge: Callable[[Runner, World, int], dict[str, float | None]] | None = None,
     ) -> list[str]:
         """Does runs for another process; their outcomes as lines of JSON."""
     def accept(self, lines: list[str], on_run: Callable[[dict[str, Any]], Any] | None = None) -> int:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ._afp import AfpError, World
-from .units import Quantity
+from .units import number_in
 
 __all__ = ["WorldBuilder"]
 
@@ -40,7 +40,7 @@ class WorldBuilder:
     ) -> None:
         self._name = name
         head: dict[str, Any] = {"version": 1, "name": _text("name", name)}
-        robot = {"pose_m_deg": _pose("start", start), "charge": _number("charge", charge)}
+        robot = {"pose_m_deg": _pose("start", start), "charge": number_in("charge", charge)}
         look = {"color": floor, "texture": floor_texture}
         self._parts: tuple[str, ...] = (_lines(head), _table("[robot]", robot))
         if any(look.values()):
@@ -65,15 +65,15 @@ class WorldBuilder:
             "name": name,
             "points_m": _points("points", points),
             "closed": closed or None,
-            "thickness_m": _number("thickness", thickness, "m"),
-            "height_m": _number("height", height, "m"),
+            "thickness_m": number_in("thickness", thickness, "m"),
+            "height_m": number_in("height", height, "m"),
             **_surface(color, texture, echo, mapped),
         }
         return self._with("wall", table)
 
     def room(self, length: float, width: float, *, name: str = "room", **more: Any) -> WorldBuilder:
         """Four walls, from the origin to (length, width); `more` is as for `wall`."""
-        far = [_number("length", length, "m"), _number("width", width, "m")]
+        far = [number_in("length", length, "m"), number_in("width", width, "m")]
         corners = [(0.0, 0.0), (far[0], 0.0), (far[0], far[1]), (0.0, far[1])]
         return self.wall(corners, name=name, closed=True, **more)
 
@@ -96,8 +96,8 @@ class WorldBuilder:
             "name": name,
             "pose_m_deg": _pose("at", at),
             "size_m": _point("size", size),
-            "height_m": _number("height", height, "m"),
-            "mass_kg": _number("mass", mass),
+            "height_m": number_in("height", height, "m"),
+            "mass_kg": number_in("mass", mass),
             "path": path,
             **_surface(color, texture, echo, mapped),
         }
@@ -123,10 +123,10 @@ class WorldBuilder:
         """
         path = {
             "by_m": _points("by", by),
-            "speed_m_s": _number("speed", speed, "m/s"),
+            "speed_m_s": number_in("speed", speed, "m/s"),
             "closed": closed or None,
-            "wait_s": _number("wait", wait, "s"),
-            "start_s": _number("start", start, "s"),
+            "wait_s": number_in("wait", wait, "s"),
+            "start_s": number_in("start", start, "s"),
         }
         return self.box(name, at, size=size, height=height, path=path, **more)
 
@@ -146,8 +146,8 @@ class WorldBuilder:
         table = {
             "name": name,
             "points_m": _points("points", points),
-            "height_m": _number("height", height, "m"),
-            "mass_kg": _number("mass", mass),
+            "height_m": number_in("height", height, "m"),
+            "mass_kg": number_in("mass", mass),
             **_surface(color, texture, echo, mapped),
         }
         return self._with("polygon", table)
@@ -168,8 +168,8 @@ class WorldBuilder:
         table = {
             "name": name,
             "position_m": _point("at", at),
-            "height_m": _number("height", height, "m"),
-            "strength": _number("strength", strength),
+            "height_m": number_in("height", height, "m"),
+            "strength": number_in("strength", strength),
         }
         return self._with("infrared", table)
 
@@ -217,26 +217,11 @@ class WorldBuilder:
 
 
 def _surface(color: str | None, texture: str | None, echo: float | None, mapped: bool | None) -> dict[str, Any]:
-    return {"color": color, "texture": texture, "echo": _number("echo", echo), "mapped": mapped}
-
-
-def _number(what: str, value: Any, unit: str | None = None) -> Any:
-    """A number of TOML; a quantity of another unit is refused."""
-    if value is None:
-        return None
-    if isinstance(value, Quantity) and value.unit != unit:
-        wanted = "is a plain number" if unit is None else f"is in {unit}"
-        raise TypeError(f"{what} {wanted}, not a quantity in {value.unit}")
-    if isinstance(value, (str, bool)):
-        raise TypeError(f"{what} is a number, not {value!r}")
-    number = float(value)
-    if not math.isfinite(number):
-        raise ValueError(f"{what} is {number}; give a finite number")
-    return number
+    return {"color": color, "texture": texture, "echo": number_in("echo", echo), "mapped": mapped}
 
 
 def _point(what: str, point: Sequence[float]) -> list[Any]:
-    numbers = [_number(what, number, "m") for number in point]
+    numbers = [number_in(what, number, "m") for number in point]
     if len(numbers) != 2:
         raise ValueError(f"{what} has x and y, two numbers, not {len(numbers)}")
     return numbers
@@ -250,7 +235,7 @@ def _pose(what: str, pose: Sequence[float]) -> list[Any]:
     """Degrees in the file, without the last digits of the conversion."""
     if len(pose) not in (2, 3):
         raise ValueError(f"{what} has x, y and perhaps a heading, not {len(pose)} numbers")
-    heading = _number(what, pose[2], "rad") if len(pose) == 3 else 0.0
+    heading = number_in(what, pose[2], "rad") if len(pose) == 3 else 0.0
     return [*_point(what, pose[:2]), round(math.degrees(heading), 10)]
 
 

@@ -31,6 +31,7 @@ from typing import Any, TypeVar
 from . import _afp
 from ._afp import Robot
 from .declaration import GIVEN, Outcomes, declaration, method_of, named, start_of, text_of
+from .fingerprint import Fingerprint, fingerprint
 from .units import spelled_time
 
 __all__ = ["Toolbox", "tick"]
@@ -69,8 +70,8 @@ class Toolbox(_afp.Toolbox):
         return toolbox
 
     _path: str | os.PathLike[str] | None = None
-    _components: dict[str, tuple[Callable[..., Any], str]]
-    """What implements each template, and its source, which tells two versions apart."""
+    _components: dict[str, Callable[..., Any]]
+    """What implements each template."""
 
     def implement(self, component: Component, template: str | None = None) -> Component:
         """Names the class or function that implements a template, by its own name unless told otherwise.
@@ -81,28 +82,21 @@ class Toolbox(_afp.Toolbox):
         name = template or _name(component)
         about = self._template(name)
         self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
-        self._keep(name, component, source_of(component))
+        self._components = {**getattr(self, "_components", {}), name: component}
         return component
 
-    def _keep(self, template: str, component: Callable[..., Any], source: str) -> None:
+    def fingerprints(self) -> dict[str, Fingerprint]:
+        """What tells two versions of what implements the templates apart, by template."""
         known = getattr(self, "_components", {})
-        self._components = {**known, template: (component, source)}
-
-    @property
-    def sources(self) -> str:
-        """The sources of what implements the templates; they tell two versions of it apart."""
-        known = getattr(self, "_components", {})
-        return "".join(f"{template}\0{source}\0" for template, (_, source) in sorted(known.items()))
+        return {template: fingerprint(component) for template, component in sorted(known.items())}
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Components as they are, in the state: they may lead back to their toolbox.
         return _again, (type(self), self.text, self._path), getattr(self, "_components", {})
 
-    def __setstate__(self, components: dict[str, tuple[Component, str]]) -> None:
-        for template, (component, source) in components.items():
+    def __setstate__(self, components: dict[str, Component]) -> None:
+        for template, component in components.items():
             self.implement(component, template)
-            # The process that sends them has their files; this one may not.
-            self._keep(template, component, source)
 
     def actor(
         self,
@@ -172,7 +166,9 @@ class Toolbox(_afp.Toolbox):
         return str(why)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Toolbox) and (self.text, self.sources) == (other.text, other.sources)
+        if not isinstance(other, Toolbox) or self.text != other.text:
+            return False
+        return self is other or self.fingerprints() == other.fingerprints()
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -211,15 +207,6 @@ def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
 def _timing(**times: str | float | None) -> str:
     """The times of a template, those that are given."""
     return " ".join(f"{word} {spelled_time(time)}" for word, time in times.items() if time is not None)
-
-
-def source_of(component: Callable[..., Any]) -> str:
-    """The text of a component, or else what there is of one."""
-    try:
-        return inspect.getsource(component)
-    except (OSError, TypeError):
-        code = getattr(component, "__code__", None)
-        return repr(code.co_code if code else component)
 
 
 # Making components run
@@ -334,6 +321,8 @@ def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str]) -> Cal
 
         return _Running(poll, interrupt)
 
+    # What it returns is its end; the native half knows by this that None is none.
+    setattr(make, "ends", True)
     return make
 
 

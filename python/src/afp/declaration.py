@@ -43,7 +43,11 @@ def declaration(
     for state, outputs in by_state.items():
         for port, hint in outputs.items():
             type_ = _type(hint, f"the output '{port}' of '{name}'")
-            carried.setdefault(port, (type_, []))[1].append(state)
+            known, states = carried.setdefault(port, (type_, []))
+            if known != type_:
+                what = f"the output '{port}' of '{name}' is {known} with '{states[0]}' and {type_} with '{state}'"
+                raise TypeError(f"{what}; an output has one type: give one of them another name")
+            states.append(state)
     lines = [f"icon {text_of(icon)}"] if icon else []
     lines += [f"uses {device}" for device in uses]
     lines += ports
@@ -154,4 +158,7 @@ def _ports(function: Callable[..., Any], live: bool) -> list[str]:
 
 def text_of(value: str) -> str:
     """A text as the language quotes it."""
-    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return '"' + value.translate(_ESCAPES) + '"'
+
+
+_ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"})

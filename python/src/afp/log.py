@@ -89,7 +89,7 @@ class Log(tables.Events):
             hint = f"log.simulation(toolboxes=[{', '.join([*(toolbox.name for toolbox in toolboxes), *missing])}])"
             raise ValueError(f"the log has the declarations of {names} but not the components: write {hint}") from error
         simulation._runner.repeat(self.file)
-        if at > 0:
+        if at != 0:
             simulation.run_to(at)
         return simulation
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from typing import Any
 
 from ._afp import World
+from .units import number_in, plain, spelled
 
 Place = World | str | os.PathLike[str]
 """A world, or where it is read from."""
@@ -14,6 +17,40 @@ def place_of(world: object) -> World | str:
     """The world, or the text that names it."""
     if isinstance(world, World):
         return world
+    if hasattr(world, "build"):
+        raise TypeError(f"a world is made of {world!r} by its method build()")
     if not isinstance(world, (str, os.PathLike)):
         raise TypeError(f"a world is a file, a text such as 'random:7', or a World, not {world!r}")
     return os.fspath(world)
+
+
+OF_WORLD = "world."
+"""What the name of a value of the world's file begins with, where entries have theirs."""
+
+
+def changed(
+    world: World, values: dict[str, Any], start: Sequence[float] | None
+) -> tuple[World, dict[str, Any], list[tuple[str, str]]]:
+    """The world with the values that are its own and a start, those of entries, and all of them as a log has them."""
+    own = [(name.removeprefix(OF_WORLD), spelled(values[name])) for name in values if _is_of_world(name)]
+    if own or start is not None:
+        world = world._changed(own, None if start is None else _pose(start))
+    entries = {name: value for name, value in values.items() if not _is_of_world(name)}
+    return world, entries, [(name, _shown(value)) for name, value in values.items()]
+
+
+def _pose(start: Sequence[float]) -> tuple[float, float, float]:
+    if isinstance(start, str) or not isinstance(start, Sequence) or len(start) not in (2, 3):
+        raise TypeError(f"start is x, y and perhaps a heading, such as (1.0, 2.0, afp.deg(90)), not {start!r}")
+    x, y, heading = [*start, 0.0][:3]
+    return number_in("start", x, "m"), number_in("start", y, "m"), number_in("start", heading, "rad")
+
+
+def _shown(value: Any) -> str:
+    text = spelled(value) if isinstance(plain(value), (str, int, float)) else str(value)
+    # What is no text for a plan is told by it.
+    return text.encode("utf-8", "replace").decode()
+
+
+def _is_of_world(name: object) -> bool:
+    return isinstance(name, str) and name.startswith(OF_WORLD)

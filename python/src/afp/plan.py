@@ -51,8 +51,8 @@ class Plan(_afp.Plan):
         return "\n".join([self.svg(), *lines])
 
     def save_svg(self, path: str | os.PathLike[str], *, theme: str = "auto", fold: bool = False) -> None:
-        """Writes the drawing to a file."""
-        Path(path).write_text(self.svg(theme=theme, fold=fold), encoding="utf-8")
+        """Writes the drawing to an SVG file."""
+        Picture(self.svg(theme=theme, fold=fold)).save(path)
 
     def coverage(self, log: str | os.PathLike[str]) -> Picture:
         """The drawing with what the run of a log made use of, as `afpc log --coverage` draws it."""

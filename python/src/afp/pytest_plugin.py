@@ -21,7 +21,7 @@ from typing import Any, Protocol
 import pytest
 
 from . import Simulation, World, load
-from ._afp import Plan, Scenario, Toolbox, Verdict
+from ._afp import Plan, PlanError, Scenario, Toolbox, Verdict
 from .places import Place
 from .plan import Plan as TypedPlan
 
@@ -64,13 +64,17 @@ def _toolboxes(node: pytest.Collector | pytest.Item, path: Path) -> list[Toolbox
 class AfpFile(pytest.File):
     """A file with scenarios."""
 
-    def collect(self) -> Iterator[AfpScenario]:
+    def collect(self) -> Iterator[AfpScenario | InvalidScenario]:
         plan = load(self.path, toolboxes=_toolboxes(self, self.path))
-        if not plan.ok:
+        invalid = plan._invalid()
+        if not plan.ok and not invalid:
             raise self.CollectError(plan.report().rstrip())
         for scenario in plan.scenarios:
             item: AfpScenario = AfpScenario.from_parent(self, name=scenario.name, scenario=scenario)
             yield item
+        for name, line, said in invalid:
+            broken: InvalidScenario = InvalidScenario.from_parent(self, name=name, line=line, said=said)
+            yield broken
 
 
 class Failed(Exception):
@@ -117,6 +121,25 @@ class AfpScenario(pytest.Item):
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, self.scenario.line - 1, f"scenario: {self.name}"
+
+
+class InvalidScenario(pytest.Item):
+    """A scenario that cannot be run as it is written: a test that fails, beside those of the file that can."""
+
+    def __init__(self, *, line: int, said: str, **options: Any) -> None:
+        super().__init__(**options)
+        self.line = line
+        self.said = said
+        self.add_marker("afp")
+
+    def runtest(self) -> None:
+        raise PlanError(self.said)
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        return self.said
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        return self.path, self.line - 1, f"scenario: {self.name}"
 
 
 def pytest_configure(config: pytest.Config) -> None:

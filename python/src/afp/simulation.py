@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import traceback
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any, NoReturn
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ._afp import Driven, Event, Plan, Runner, World
 from .picture import Picture
-from .places import Place, place_of
+from .places import Place, changed, place_of
 from .result import ComponentError, Result
 from .seeds import seed_of
 from .snapshot import Snapshot
@@ -28,7 +28,8 @@ class Simulation(Driven):
 
     `world` is a `World`, the path of its file, or `None` for the one that `afpc run` would take. `set` gives `in`
     entries their values: `afp.cm(30)`, plain floats in SI units, texts as on the command line (`"30cm"`), names of
-    enum values. `log` is the MCAP file to be written: whole once the plan has ended or the simulation is closed, which
+    enum values; and values of the world's file theirs: `{"world.robot.charge": 0.5}`. `start` is where the robot starts
+    instead of where the world says: x, y in metres and a heading in radians. `log` is the MCAP file to be written: whole once the plan has ended or the simulation is closed, which
     `with` does; nothing can be driven on then. With `camera` it gets what the camera sees, twice a second.
 
     While it runs, other threads of Python run too; a simulation itself belongs to one caller at a time. Meanwhile others
@@ -42,6 +43,7 @@ class Simulation(Driven):
         *,
         seed: int = 0,
         set: Mapping[str, Any] | None = None,
+        start: Sequence[float] | None = None,
         log: str | os.PathLike[str] | None = None,
         camera: bool = False,
     ) -> None:
@@ -49,13 +51,14 @@ class Simulation(Driven):
             raise TypeError(f"a simulation needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
         place = World.of_plan(plan.path or "plan.afp") if world is None else place_of(world)
         world = place if isinstance(place, World) else World.load(place)
+        if not isinstance(set, (Mapping, type(None))):
+            raise TypeError(f"set gives entries their values, such as {{'walldist': afp.cm(35)}}, not {set!r}")
+        world, entries, settings = changed(world, dict(set or {}), start)
         self.plan = plan
         self.world = world
         self.seed = seed
         self._failures: list[ComponentError] = []
-        if not isinstance(set, (Mapping, type(None))):
-            raise TypeError(f"set gives entries their values, such as {{'walldist': afp.cm(35)}}, not {set!r}")
-        self._runner = Runner(plan, world, seed_of(seed), dict(set or {}), log, camera)
+        self._runner = Runner(plan, world, seed_of(seed), entries, settings, log, camera)
 
     @classmethod
     def _of(cls, runner: Runner, plan: Plan, world: World, seed: int) -> Simulation:
@@ -210,6 +213,9 @@ class Simulation(Driven):
 
     def __getitem__(self, entry: str) -> Any:
         return self._runner.get(entry)
+
+    def __contains__(self, entry: object) -> bool:
+        return entry in self._runner.entries()
 
     def __setitem__(self, entry: str, value: Any) -> None:
         self._runner.set(entry, value)

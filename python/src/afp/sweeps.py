@@ -6,14 +6,15 @@ import itertools
 import math
 import operator
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from . import components
 from ._afp import Plan, Runner, Sweeper, Toolbox, World
-from .components import source_of
+from .fingerprint import Fingerprint, digest, fingerprint
 from .places import Place, place_of
 from .progress import teller
 from .result import Result
@@ -36,6 +37,8 @@ def sweep(
     vary: Mapping[str, Any] | None = None,
     *,
     until: float = 60.0,
+    press: str | Iterable[str] = (),
+    fail: str | Iterable[str] = (),
     metrics: Mapping[str, Metric] | None = None,
     on_run: Callable[[dict[str, Any]], Any] | None = None,
     jobs: int | None = None,
@@ -50,6 +53,9 @@ def sweep(
     own. `seeds` is how many from 0 on, or any seeds: `range(0, 100, 10)`, `[1, 5]`. `vary` gives entries, or values of
     the world's file (`"world.robot.charge"`), the values to try: one (`afp.cm(30)`), several (`[afp.cm(30), "40cm", 0.5]`,
     an array) or a range as on the command line (`"20cm..60cm:5cm"`). Each run is stopped at `until` seconds.
+
+    `press` and `fail` are what happens in each run, as on the command line: `"escape@1s"`, `"ultrasonic.frozen@5s..7s"`,
+    `["wheels.slip=0.3@2s", "touch.lost@1s"]`.
 
     `metrics` adds columns: functions that get the `Result` of a run and give a number, or `None` where there is none.
     `on_run` is called with the row of each run as it comes. Both are called in the thread that called this.
@@ -80,8 +86,9 @@ def sweep(
         [(name, _values(name, given)) for name, given in (vary or {}).items()],
         until,
         _metrics(metrics),
+        (_stimuli("press", press), _stimuli("fail", fail)),
     )
-    sweeper = spec.sweeper(plan)
+    sweeper = spec.sweeper(plan, out is not None or backend != "local")
     if out is not None:
         sweeper.open(os.fspath(out), restart)
     left = sweeper.left()
@@ -107,28 +114,35 @@ class Spec:
 
     worlds: list[World | str | None]
     seeds: tuple[int, int] | list[int]
-    vary: list[tuple[str, str | list[tuple[str, bool]]]]
+    vary: list[tuple[str, str | list[tuple[str, str | None]]]]
     until: float
     metrics: dict[str, Metric]
+    stimuli: tuple[list[str], list[str]] = ([], [])
+    """What is pressed, and what fails."""
 
-    def sweeper(self, plan: Plan) -> Sweeper:
-        """The sweep of a plan."""
-        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, self._mark(plan.toolboxes))
+    def sweeper(self, plan: Plan, is_kept: bool = True) -> Sweeper:
+        """The sweep of a plan; one that is neither kept nor sent needs not tell what it is."""
+        parts = dict(self._parts(plan.toolboxes)) if is_kept else {}
+        return Sweeper(plan, self.worlds, self.seeds, self.vary, self.until, self.stimuli, list(self.metrics), parts)
 
-    def _mark(self, toolboxes: Iterable[Toolbox]) -> str:
-        """What tells two versions of what is written in Python apart."""
-        parts = [f"{toolbox.text}\0{getattr(toolbox, 'sources', '')}" for toolbox in toolboxes]
-        return "\0".join([*parts, *(f"{name}\0{source_of(metric)}" for name, metric in self.metrics.items())])
+    def _parts(self, toolboxes: Iterable[Toolbox]) -> Iterator[tuple[str, Fingerprint]]:
+        """What is written in Python, each with what tells two versions of it apart."""
+        for toolbox in toolboxes:
+            yield f"the toolbox '{toolbox.name}'", (digest(toolbox.text), {})
+            if isinstance(toolbox, components.Toolbox):
+                for template, found in toolbox.fingerprints().items():
+                    yield f"the component '{toolbox.name}.{template}'", found
+        for name, metric in self.metrics.items():
+            yield f"the metric '{name}'", fingerprint(metric)
 
-    def judge(self, plan: str) -> Callable[[Runner, World, int], dict[str, float]] | None:
+    def judge(self, plan: str) -> Callable[[Runner, World, int], dict[str, float | None]] | None:
         """Gives the figures of a run that the metrics add; none without metrics."""
         if not self.metrics:
             return None
 
-        def figures(runner: Runner, world: World, seed: int) -> dict[str, float]:
+        def figures(runner: Runner, world: World, seed: int) -> dict[str, float | None]:
             result = Result(runner, plan, world, seed)
-            told = {name: _figure(name, metric(result)) for name, metric in self.metrics.items()}
-            return {name: figure for name, figure in told.items() if figure is not None}
+            return {name: _figure(name, metric(result)) for name, metric in self.metrics.items()}
 
         return figures
 
@@ -142,6 +156,17 @@ def _metrics(metrics: Mapping[str, Metric] | None) -> dict[str, Metric]:
         if not callable(metric):
             raise TypeError(f"the metric '{name}' is a function that gets a Result, not {metric!r}")
     return dict(metrics or {})
+
+
+def _stimuli(what: str, texts: str | Iterable[str]) -> list[str]:
+    these = [texts] if isinstance(texts, str) else list(texts) if isinstance(texts, Iterable) else [texts]
+    for text in these:
+        if not isinstance(text, str):
+            raise TypeError(f"{what} is a text as on the command line, such as '{_SUCH[what]}', or several, not {text!r}")
+    return these
+
+
+_SUCH = {"press": "escape@1s", "fail": "ultrasonic.frozen@5s..7s"}
 
 
 def _figure(name: str, value: float | None) -> float | None:
@@ -160,8 +185,8 @@ def _figure(name: str, value: float | None) -> float | None:
 def _worlds(worlds: Place | Iterable[Place] | None) -> list[World | str | None]:
     if worlds is None:
         return [None]
-    if isinstance(worlds, (World, str, os.PathLike)):
-        worlds = [worlds]
+    if isinstance(worlds, (World, str, os.PathLike)) or hasattr(worlds, "build"):
+        worlds = [worlds]  # type: ignore[list-item]
     if not isinstance(worlds, Iterable):
         raise TypeError(f"worlds are files, texts such as 'random:7', or Worlds, one or several, not {worlds!r}")
     return [_world(world) for world in worlds]
@@ -194,8 +219,8 @@ def _count(seeds: int) -> int:
     return seed_of(seeds)
 
 
-def _values(name: str, values: Any) -> str | list[tuple[str, bool]]:
-    """The values of an entry as texts, and whether each is a bare number; a text stays what it is."""
+def _values(name: str, values: Any) -> str | list[tuple[str, str | None]]:
+    """The values of an entry as texts, each with its unit, which a bare number leaves open; a text has none."""
     if isinstance(values, str):
         return values
     each = values if isinstance(values, Iterable) else [values]
@@ -208,14 +233,14 @@ def _values(name: str, values: Any) -> str | list[tuple[str, bool]]:
     return texts
 
 
-def _text(value: Any) -> tuple[str, bool]:
+def _text(value: Any) -> tuple[str, str | None]:
     if isinstance(value, (bool, np.bool_)):
-        return ("true" if value else "false", False)
+        return ("true" if value else "false", None)
     if isinstance(value, Quantity):
-        return (f"{float(value)!r}{value.unit}", False)
+        return (repr(float(value)), value.unit)
     if isinstance(value, str):
-        return (value, False)
+        return (value, None)
     number = operator.index(value) if hasattr(value, "__index__") else float(value)
     if not math.isfinite(number):
         raise ValueError(f"{number} cannot be tried")
-    return (repr(number), True)
+    return (repr(number), "")

@@ -16,18 +16,26 @@ COLUMNS = (
     "target",
     "supervisor",
     "element",
+    "on",
     "entry",
     "port",
     "unit",
     "ending",
     "fault",
+    "fault_text",
     "lateness",
     "cause",
+    "request",
+    "refused",
 )
 
+VALUES = {"old": ("old", "old_text"), "value": ("value", "text")}
+"""The columns of values of entries and inputs: for numbers, and for texts."""
 
-NUMBERS = ("time", "lateness", "value")
-"""The columns of numbers; all others are of texts."""
+NUMBERS = ("time", "lateness", "old", "value")
+"""The columns of numbers,"""
+TRUTHS = ("on",)
+"""of truth values; all others are of texts."""
 
 
 EXTRAS = {"pyarrow": "arrow", "matplotlib": "plot", "gymnasium": "gym", "stable_baselines3": "sb3"}
@@ -47,31 +55,35 @@ def need(module: str) -> Any:
 def columns(events: Sequence[Event]) -> dict[str, list[Any]]:
     """The events as lists by column; values of entries and inputs as numbers and as texts, where they are such."""
     table: dict[str, list[Any]] = {name: [getattr(event, name) for event in events] for name in COLUMNS}
-    values = [event.value for event in events]
-    table["value"] = [float(value) if isinstance(value, (bool, int, float)) else None for value in values]
-    table["text"] = [value if isinstance(value, str) else None for value in values]
+    for name, (number, text) in VALUES.items():
+        values = [getattr(event, name) for event in events]
+        table[number] = [float(value) if isinstance(value, (bool, int, float)) else None for value in values]
+        table[text] = [value if isinstance(value, str) else None for value in values]
     return table
+
+
+def _types(table: dict[str, list[Any]], number: Any, truth: Any, text: Any) -> dict[str, Any]:
+    return {name: number if name in NUMBERS else truth if name in TRUTHS else text for name in table}
 
 
 def to_pandas(events: Sequence[Event]) -> Any:
     """The events as a pandas data frame."""
     table = columns(events)
-    types = {name: "float64" if name in NUMBERS else "string" for name in table}
-    return need("pandas").DataFrame(table).astype(types)
+    return need("pandas").DataFrame(table).astype(_types(table, "float64", "bool", "string"))
 
 
 def to_polars(events: Sequence[Event]) -> Any:
     """The events as a polars data frame."""
     polars = need("polars")
     table = columns(events)
-    return polars.DataFrame(table, schema={name: polars.Float64 if name in NUMBERS else polars.String for name in table})
+    return polars.DataFrame(table, schema=_types(table, polars.Float64, polars.Boolean, polars.String))
 
 
 def to_arrow(events: Sequence[Event]) -> Any:
     """The events as an Arrow table."""
     arrow = need("pyarrow")
     table = columns(events)
-    types = {name: arrow.float64() if name in NUMBERS else arrow.string() for name in table}
+    types = _types(table, arrow.float64(), arrow.bool_(), arrow.string())
     return arrow.table(table, schema=arrow.schema(list(types.items())))
 
 

@@ -46,12 +46,17 @@ class Quantity(float):
     Quantity(0.305, 'm')
     >>> cm(30) / cm(15)
     2.0
+
+    Without a unit it is a plain float.
     """
 
     __slots__ = ("unit",)
     unit: str
 
-    def __new__(cls, value: float, unit: str) -> Quantity:
+    def __new__(cls, value: float, unit: str | None = None) -> Quantity:
+        if unit is None:
+            # Whatever makes a result of the type of its numbers, as 'statistics' does, gets a plain one.
+            return float(value)  # type: ignore[return-value]
         self = super().__new__(cls, value)
         self.unit = unit
         return self
@@ -62,8 +67,20 @@ class Quantity(float):
     def __repr__(self) -> str:
         return f"Quantity({float(self)!r}, {self.unit!r})"
 
-    # Numbers of numpy leave it to these methods what comes of them and a quantity.
-    __array_ufunc__ = None
+    def __array_ufunc__(self, function: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
+        """What functions of numpy make of it: operators what they make of it here, others plain numbers."""
+        if method == "__call__" and not options and function in _OPERATORS and len(inputs) <= 2:
+            own, turned = _OPERATORS[function]
+            first, *rest = inputs
+            if isinstance(first, Quantity):
+                return getattr(first, own)(*rest)
+            return getattr(rest[0], turned)(first)
+        units = {value.unit for value in inputs if isinstance(value, Quantity)}
+        if len(units) > 1 and function not in _OF_ANY_UNITS:
+            one, other = sorted(units)
+            raise TypeError(f"numpy.{function.__name__} takes quantities of one unit, not one in {one} and one in {other}")
+        numbers = [float(value) if isinstance(value, Quantity) else value for value in inputs]
+        return getattr(function, method)(*numbers, **options)
 
     def _like(self, value: Any, other: object) -> Any:
         """`value` in the unit, if `other` is of it, too; quantities of two units have no sum."""
@@ -143,6 +160,27 @@ class Quantity(float):
         return plain_number(other) / float(self)
 
 
+_OPERATORS: dict[np.ufunc, tuple[str, str]] = {
+    np.add: ("__add__", "__radd__"),
+    np.subtract: ("__sub__", "__rsub__"),
+    np.multiply: ("__mul__", "__rmul__"),
+    np.true_divide: ("__truediv__", "__rtruediv__"),
+    np.negative: ("__neg__", ""),
+    np.positive: ("__pos__", ""),
+    np.absolute: ("__abs__", ""),
+    np.less: ("__lt__", "__gt__"),
+    np.less_equal: ("__le__", "__ge__"),
+    np.greater: ("__gt__", "__lt__"),
+    np.greater_equal: ("__ge__", "__le__"),
+}
+"""Functions of numpy that are operators, by the methods of a quantity on their left and on their right."""
+
+_OF_ANY_UNITS: frozenset[np.ufunc] = frozenset(
+    (np.multiply, np.true_divide, np.floor_divide, np.power, np.float_power, np.equal, np.not_equal)
+)
+"""Functions of numpy that take quantities of two units."""
+
+
 def _number(name: str, value: float) -> float:
     if isinstance(value, (str, bytes)):
         raise TypeError(f"{name}() takes a number, not {value!r}")
@@ -174,6 +212,21 @@ def seconds(what: str, value: float) -> float:
 def moment(what: str, value: float | None) -> float | None:
     """As `seconds`, where there may be none."""
     return None if value is None else seconds(what, value)
+
+
+def number_in(what: str, value: Any, unit: str | None = None) -> Any:
+    """A finite number, if there is one; a quantity of another unit than this is refused."""
+    if value is None:
+        return None
+    if isinstance(value, Quantity) and value.unit != unit:
+        wanted = "is a plain number" if unit is None else f"is in {unit}"
+        raise TypeError(f"{what} {wanted}, not a quantity in {value.unit}")
+    if isinstance(value, (str, bool)):
+        raise TypeError(f"{what} is a number, not {value!r}")
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{what} is {number}; give a finite number")
+    return number
 
 
 def spelled(value: object) -> str:

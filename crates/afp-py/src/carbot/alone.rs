@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use crate::errors::error;
 use crate::link::link;
 use crate::pause::{Halt, Pause};
-use crate::value::no_pickle;
+use crate::value::{measured, no_pickle};
 use crate::world::World;
 
 /// Commands are repeated this often, well within the robot's dead-man time.
@@ -50,7 +50,15 @@ impl Carbot {
     }
 
     /// Drives with a speed (m/s) and a turn rate (rad/s, to the left) for some seconds; Ctrl-C interrupts it.
-    fn drive(&self, py: Python<'_>, speed: f64, turn: f64, time: f64) -> PyResult<()> {
+    fn drive(
+        &self,
+        py: Python<'_>,
+        speed: &Bound<'_, PyAny>,
+        turn: &Bound<'_, PyAny>,
+        time: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let (speed, turn) = (measured("speed", speed, "m/s")?, measured("turn", turn, "rad/s")?);
+        let time = measured("time", time, "s")?;
         let good = speed.is_finite() && turn.is_finite() && time.is_finite() && time >= 0.0;
         if !good {
             return Err(PyValueError::new_err(

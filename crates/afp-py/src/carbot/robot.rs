@@ -7,6 +7,7 @@ use pyo3::PyClassInitializer;
 use pyo3::prelude::*;
 
 use crate::robot::Robot;
+use crate::value::measured;
 
 /// The robot as a component in Python has it: devices and time, not the truth.
 ///
@@ -38,9 +39,14 @@ fn sensed<'py>(robot: &Bound<'py, CarbotRobot>, name: &str) -> PyResult<Bound<'p
 #[pymethods]
 impl CarbotRobot {
     /// Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for half a second at most: ask again.
-    #[pyo3(signature = (speed, turn=0.0))]
-    fn drive(slf: &Bound<'_, Self>, speed: f64, turn: f64) -> PyResult<()> {
-        let (speed, turn) = (finite(speed)?, finite(turn)?);
+    #[pyo3(signature = (speed, turn=None), text_signature = "($self, speed, turn=0.0)")]
+    fn drive(
+        slf: &Bound<'_, Self>,
+        speed: &Bound<'_, PyAny>,
+        turn: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let speed = finite(measured("speed", speed, "m/s")?)?;
+        let turn = turn.map_or(Ok(0.0), |turn| finite(measured("turn", turn, "rad/s")?))?;
         command(slf, "navigator", |sim| {
             let now = sim.now();
             Navigator::drive(sim, Speed::from_si(speed), AngularSpeed::from_si(turn), now);
@@ -48,8 +54,8 @@ impl CarbotRobot {
     }
 
     /// Points the range sensor, radians to the left of the heading.
-    fn point(slf: &Bound<'_, Self>, bearing: f64) -> PyResult<()> {
-        let bearing = finite(bearing)?;
+    fn point(slf: &Bound<'_, Self>, bearing: &Bound<'_, PyAny>) -> PyResult<()> {
+        let bearing = finite(measured("bearing", bearing, "rad")?)?;
         command(slf, "rotator", |sim| {
             let now = sim.now();
             sim.point(Angle::from_si(bearing), now);

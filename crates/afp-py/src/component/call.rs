@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp::load::See;
 use afp_core::rt::{Args, BadValue, Outputs, input};
 use afp_core::{Fault, Value, ValueRef};
-use afp_dsl::toolbox::{InPort, Template, Toolbox};
+use afp_dsl::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use afp_dsl::types::Type;
 use afp_session::Simulated;
 use pyo3::call::PyCallArgs;
@@ -15,7 +15,7 @@ use pyo3::types::{PyDict, PyString, PyTuple};
 
 use super::{Host, Object, PyHandle};
 use crate::robot::Caller;
-use crate::value::{to_port, to_python};
+use crate::value::{short, to_port, to_python};
 
 /// A template and what implements it.
 #[derive(Clone)]
@@ -153,14 +153,35 @@ impl PyTemplate {
         let (name, outputs) = match said.cast::<PyTuple>() {
             Ok(pair) => pair
                 .extract::<(Bound<'_, PyString>, Bound<'_, PyDict>)>()
-                .map_err(|_| unknown(template, said))?,
-            Err(_) => (said.cast::<PyString>().map_err(|_| unknown(template, said))?.clone(), none),
+                .map_err(|_| self.unknown(template, said))?,
+            Err(_) => {
+                let name = said.cast::<PyString>().map_err(|_| self.unknown(template, said))?;
+                (name.clone(), none)
+            }
         };
         let name = name.to_cow()?;
         let outcome = (0..).zip(&template.outcomes).find(|(_, outcome)| outcome.name == *name);
-        let (outcome, _) = outcome.ok_or_else(|| unknown(template, said))?;
+        let (outcome, _) = outcome.ok_or_else(|| self.unknown(template, said))?;
         let outputs = outputs_of(&self.host, template, outcome, &outputs)?;
         Ok(Some(Outcome { outcome, outputs }))
+    }
+
+    /// What to say of something that is no outcome.
+    fn unknown(&self, template: &Template, said: &Bound<'_, PyAny>) -> PyErr {
+        let known: Vec<_> = template.outcomes.iter().map(|outcome| &*outcome.name).collect();
+        let said_so = said.repr().map_or_else(|_| "?".to_owned(), |text| short(text.to_string()));
+        let none = if self.may_go_on(said.py(), template.kind) { "None, " } else { "" };
+        PyTypeError::new_err(format!(
+            "'{}' returned {said_so}; return {none}one of {}, or a pair of it and its outputs",
+            template.name,
+            known.join(", ")
+        ))
+    }
+
+    /// Whether it may return nothing: a computation and an 'async def' are over then.
+    fn may_go_on(&self, py: Python<'_>, kind: TemplateKind) -> bool {
+        let ends = |maker: Bound<'_, PyAny>| maker.hasattr("ends").unwrap_or(false);
+        kind != TemplateKind::Computation && !self.maker.get(py).is_ok_and(ends)
     }
 }
 
@@ -303,14 +324,4 @@ fn finite(value: Value, template: &Template, output: &str) -> PyResult<Value> {
         ))),
         value => Ok(value),
     }
-}
-
-fn unknown(template: &Template, said: &Bound<'_, PyAny>) -> PyErr {
-    let known: Vec<_> = template.outcomes.iter().map(|outcome| &*outcome.name).collect();
-    let said = said.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string());
-    PyTypeError::new_err(format!(
-        "'{}' returned {said}; return None, one of {}, or a pair of it and its outputs",
-        template.name,
-        known.join(", ")
-    ))
 }

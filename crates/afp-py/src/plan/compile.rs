@@ -49,10 +49,7 @@ impl Workspace {
             Some(own) => own.with_built_in()?,
             None => afp_toolboxes::sources().collect(),
         };
-        for toolbox in toolboxes {
-            let source = toolbox.get().source();
-            known.add(source, "python");
-        }
+        add_all(&mut known, toolboxes)?;
         let others = BTreeMap::new();
         let own = own.map(Arc::new);
         Ok(Workspace { text, path, name, known, own, others, compiled: None })
@@ -140,6 +137,33 @@ impl Workspace {
         }
         Ok(())
     }
+}
+
+/// Adds toolboxes of Python. One of a name that is known must have the same text: its components are in Python then.
+fn add_all(known: &mut Toolboxes, toolboxes: &[Py<Toolbox>]) -> Result<(), RunError> {
+    let mut names: Vec<String> = Vec::new();
+    for (number, toolbox) in toolboxes.iter().enumerate() {
+        let before = toolboxes.get(..number).unwrap_or_default();
+        if before.iter().any(|other| other.is(toolbox)) {
+            continue;
+        }
+        let source = toolbox.get().source();
+        let mut alone = Toolboxes::default();
+        alone.add(source.clone(), "python");
+        let Some(name) = alone.iter().next().map(|toolbox| toolbox.name.clone()) else { continue };
+        let is_same = known.sources().iter().any(|other| other.text == source.text);
+        if names.contains(&name) {
+            let what = format!("two toolboxes are called '{name}'");
+            return Err(RunError::usage(what, "give one of them another name"));
+        }
+        if known.get(&name).is_some() && !is_same {
+            let what = format!("there is another toolbox '{name}', built in or of the project");
+            return Err(RunError::usage(what, "give this one another name"));
+        }
+        names.push(name);
+        known.add(source, "python");
+    }
+    Ok(())
 }
 
 fn write(path: &Path, text: &str) -> PyResult<()> {

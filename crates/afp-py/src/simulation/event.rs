@@ -2,10 +2,11 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use super::keeper::Happened;
 use crate::value::Pickled;
 use afp::load::PlanNames;
 use afp_log::{pack, unpack};
-use afp_session::{Datum, Done, EndingKind, Miss, OwnedRecord, RunEvent};
+use afp_session::{Datum, Done, EndingKind, Miss, RunEvent};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -20,10 +21,13 @@ pub struct Event {
 }
 
 impl Event {
-    /// From a record of a run.
-    pub fn new(record: &OwnedRecord, names: &PlanNames) -> Event {
-        let (at, what) = (record.at, record.get());
-        Event { event: RunEvent::new(at, &what, names), line: line(record, names) }
+    /// From what happened in a run.
+    pub fn new(happened: &Happened, names: &PlanNames) -> Event {
+        let event = match happened {
+            Happened::Record(record) => RunEvent::new(record.at, &record.get(), names),
+            Happened::Request(event) => (**event).clone(),
+        };
+        Event { event, line: line(happened, names) }
     }
 
     /// What a log would tell of it.
@@ -206,9 +210,12 @@ impl Event {
 }
 
 /// The line of a timeline, without colours; none for what is not worth one.
-pub fn line(record: &OwnedRecord, names: &PlanNames) -> Option<String> {
-    let styled = afp_run::line(record.at, &record.get(), names)?;
-    Some(plain(&styled))
+pub fn line(happened: &Happened, names: &PlanNames) -> Option<String> {
+    let styled = match happened {
+        Happened::Record(record) => afp_run::line(record.at, &record.get(), names),
+        Happened::Request(event) => afp_run::event_line(event),
+    };
+    styled.as_deref().map(plain)
 }
 
 /// A text without colours.

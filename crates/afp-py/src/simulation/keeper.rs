@@ -1,6 +1,8 @@
 //! What is kept of a run.
 
-use afp_session::{Applied, NamedRecord, Observer, OwnedRecord};
+use afp_core::Instant;
+use afp_core::trace::Record;
+use afp_session::{Applied, NamedRecord, Observer, OwnedRecord, RunEvent};
 use pyo3::PyErr;
 
 use crate::errors::error;
@@ -9,17 +11,38 @@ use crate::errors::error;
 #[derive(Default)]
 pub struct Keeper {
     /// What happened, without polls that saw nothing.
-    pub records: Vec<OwnedRecord>,
+    pub happened: Vec<Happened>,
     /// What was asked for and cannot be done.
     pub refused: Option<PyErr>,
 }
 
+/// One thing that happened.
+#[derive(Clone)]
+#[expect(clippy::large_enum_variant, reason = "records are many, requests few")]
+pub enum Happened {
+    /// In the plan.
+    Record(OwnedRecord),
+    /// From outside.
+    Request(Box<RunEvent>),
+}
+
+impl Keeper {
+    /// What happened in the plan.
+    pub fn records(&self) -> impl DoubleEndedIterator<Item = (Instant, Record<'_>)> {
+        self.happened.iter().filter_map(|each| match each {
+            Happened::Record(record) => Some((record.at, record.get())),
+            Happened::Request(_) => None,
+        })
+    }
+}
+
 impl Observer for Keeper {
     fn on_record(&mut self, named: &NamedRecord<'_>) {
-        self.records.push(OwnedRecord::new(named.at, named.record));
+        self.happened.push(Happened::Record(OwnedRecord::new(named.at, named.record)));
     }
 
     fn on_request(&mut self, applied: &Applied<'_>) {
+        self.happened.push(Happened::Request(Box::new(applied.event())));
         if let Some(why) = applied.refused {
             self.refused = Some(error(format!("at {} s: {why}", applied.now.as_secs_f64())));
         }

@@ -7,15 +7,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
-use afp::load::{Injection, PlanNames};
+use afp::load::PlanNames;
 use afp_core::devices::find_signal;
-use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, Record, TraceEntryId};
+use afp_core::trace::{ComponentKind, Ending, Names, Record, TraceEntryId};
 use afp_core::{Fault, Instant, StartError, Value};
 use afp_dsl::graph::Graph;
 use afp_log::{OwnedNames, SessionLog};
+use afp_run::RunError;
 use afp_run::inputs::missing;
 use afp_session::{AnySession, Go, Observer, Pose2, Request, SampleRef, Track, refusal};
-use pyo3::exceptions::{PyIsADirectoryError, PyKeyError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyIsADirectoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use super::glance::{Glance, Seen};
@@ -23,6 +24,7 @@ use super::keeper::Keeper;
 use super::setting::Setting;
 use crate::component::{ENDED_ALL, RAISED};
 use crate::errors::{error, log_error, run_error};
+use crate::forks;
 use crate::pause::{Halt, Pause};
 
 /// A run.
@@ -35,7 +37,8 @@ pub struct Run {
     pub pause: Pause,
     /// What other threads see of it meanwhile.
     pub seen: Arc<Seen>,
-    own_entries: u32,
+    pub(super) own_entries: u32,
+    process: u32,
     log: Option<SessionLog>,
     log_path: Option<PathBuf>,
 }
@@ -53,6 +56,7 @@ impl Run {
             pause: Pause::of_signals(),
             seen: Arc::default(),
             own_entries: u32::try_from(own_entries).unwrap_or(u32::MAX),
+            process: forks::process(),
             log: None,
             log_path: None,
         }
@@ -66,6 +70,10 @@ impl Run {
         if let Some(folder) = setting.log.filter(|path| path.is_dir()) {
             let text = format!("cannot write the log: it is a folder: '{}'", folder.display());
             return Err(PyIsADirectoryError::new_err(text));
+        }
+        if setting.camera && setting.log.is_none() {
+            let text = "what the camera sees goes into the log, and there is none: give log=\"run.mcap\", too";
+            return Err(PyValueError::new_err(text));
         }
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
@@ -87,16 +95,17 @@ impl Run {
 
     /// The same run at this moment, without its log, which goes on by itself; none where a component cannot be copied.
     pub fn keyframe(&self) -> Option<Run> {
-        let records = self.keeper.records.clone();
+        let happened = self.keeper.happened.clone();
         Some(Run {
             session: self.session.keyframe()?,
             names: self.names.clone(),
-            keeper: Keeper { records, refused: None },
+            keeper: Keeper { happened, refused: None },
             track: self.track.clone(),
             stopped_by: self.stopped_by,
             pause: Pause::of_signals(),
             seen: Arc::default(),
             own_entries: self.own_entries,
+            process: forks::process(),
             log: None,
             log_path: None,
         })
@@ -142,7 +151,7 @@ impl Run {
         self.ended_or_not()
     }
 
-    /// Drives the plan until there are more than `seen` records, or to `until`; whether it still runs.
+    /// Drives the plan until there are more than `seen` events, or to `until`; whether it still runs.
     ///
     /// # Errors
     /// As [`Run::run`].
@@ -153,7 +162,7 @@ impl Run {
 
     fn drive(&mut self, until: Instant, enough: usize) -> PyResult<()> {
         while self.is_running()
-            && self.keeper.records.len() < enough
+            && self.keeper.happened.len() < enough
             && !self.session.is_over(until)
         {
             let halt = self.look();
@@ -239,7 +248,7 @@ impl Run {
 
     /// Refuses to go on with a plan whose log is closed.
     #[inline]
-    fn is_open(&self) -> PyResult<()> {
+    pub fn is_open(&self) -> PyResult<()> {
         if self.log_path.is_some() && self.log.is_none() && self.is_running() {
             let text = "the simulation was closed with its log; make a new one";
             return Err(PyRuntimeError::new_err(text));
@@ -250,7 +259,13 @@ impl Run {
     /// Why the plan cannot start.
     #[cold]
     fn no_start(&self, why: StartError) -> PyErr {
-        run_error(&missing(why, &self.names))
+        match (missing(why, &self.names), why) {
+            (RunError::Usage { message, .. }, StartError::InputMissing(entry)) => {
+                let path = self.names.entry(TraceEntryId(entry.into())).path;
+                error(format!("{message}\n  help: give it one, set={{\"{path}\": ...}}"))
+            }
+            (other, _) => run_error(&other),
+        }
     }
 
     /// Lets the session do something, with all who observe it.
@@ -286,11 +301,11 @@ impl Run {
     /// The instants and components of what components in Python raised, sub-plans that passed it on left out.
     pub fn raised(&self) -> impl Iterator<Item = (Instant, &str)> {
         let names = &self.names;
-        self.keeper.records.iter().filter_map(|record| match record.get() {
+        self.keeper.records().filter_map(|(at, record)| match record {
             Record::Faulted { component, fault, .. } if fault == RAISED => {
                 let name = names.component(component);
                 let inner = !matches!(name.kind, ComponentKind::Plan | ComponentKind::SubPlan);
-                inner.then_some((record.at, name.path))
+                inner.then_some((at, name.path))
             }
             _ => None,
         })
@@ -298,6 +313,7 @@ impl Run {
 
     /// An instant to come, or now.
     pub fn moment(&self, at: Option<Instant>) -> PyResult<Instant> {
+        self.is_open()?;
         match self.is_running() {
             true => Ok(at.unwrap_or(self.session.now())),
             false => Err(PyRuntimeError::new_err("the plan has ended; nothing happens any more")),
@@ -314,51 +330,6 @@ impl Run {
         written.map_err(|why| refusal(why, about))
     }
 
-    /// What lets a component report an outcome.
-    pub fn injection(&self, path: &str, outcome: &str) -> PyResult<Injection> {
-        let names = &self.names;
-        let component =
-            self.find(path, &[ComponentKind::Actor, ComponentKind::Supervisor]).ok_or_else(
-                || PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'")),
-            )?;
-        let known = (0..u16::MAX).map(|number| names.outcome(component, number));
-        let known: Vec<_> = known.take_while(|name| !name.is_empty()).collect();
-        let found = (0..).zip(&known).find(|(_, name)| **name == outcome);
-        let (outcome, _) = found.ok_or_else(|| {
-            let known = known.join(", ");
-            PyValueError::new_err(format!("'{path}' has no '{outcome}'; there are: {known}"))
-        })?;
-        Ok(Injection { component, outcome, outputs: Vec::new() })
-    }
-
-    /// An actor or sub-plan by its path.
-    pub fn element(&self, path: &str) -> PyResult<ComponentId> {
-        self.find(path, &[ComponentKind::Actor, ComponentKind::SubPlan]).ok_or_else(|| {
-            PyValueError::new_err(format!("the plan has no actor or sub-plan '{path}'"))
-        })
-    }
-
-    fn find(&self, path: &str, kinds: &[ComponentKind]) -> Option<ComponentId> {
-        let names: &PlanNames = &self.names;
-        (0..names.components()).map(ComponentId).find(|id| {
-            let about = names.component(*id);
-            about.path == path && kinds.contains(&about.kind)
-        })
-    }
-
-    /// The number of an entry of the plan.
-    ///
-    /// # Errors
-    /// It has no such entry.
-    pub fn entry(&self, name: &str) -> PyResult<u16> {
-        let known = self.own_entries();
-        let found = (0..).zip(&known).find(|(_, known)| *known == name);
-        found.map(|(number, _)| number).ok_or_else(|| {
-            let known = known.join(", ");
-            PyKeyError::new_err(format!("the plan has no entry '{name}'; there are: {known}"))
-        })
-    }
-
     /// Where the robot truly is.
     ///
     /// # Errors
@@ -373,12 +344,6 @@ impl Run {
             });
         }
         pose.ok_or_else(no_pose)
-    }
-
-    /// The names of the plan's own entries.
-    pub fn own_entries(&self) -> Vec<String> {
-        let ids = (0..self.own_entries).map(TraceEntryId);
-        ids.map(|id| self.names.entry(id).path.to_owned()).collect()
     }
 
     /// The active element of the outermost plan.
@@ -403,7 +368,7 @@ impl Run {
         if fault == Fault::PANIC && self.pause.has_ended_all() {
             return Some((ENDED_ALL.code, ENDED_ALL.text.to_owned()));
         }
-        let mut failed = self.keeper.records.iter().rev().filter_map(|record| match record.get() {
+        let mut failed = self.keeper.records().rev().filter_map(|(_, record)| match record {
             Record::Faulted { fault: of, detail, .. } if of == fault => Some(detail),
             _ => None,
         });
@@ -434,6 +399,11 @@ pub fn no_pose() -> PyErr {
 
 impl Drop for Run {
     fn drop(&mut self) {
+        if self.process != forks::process() {
+            // Its writer is a thread of the process that was forked.
+            mem::forget(self.log.take());
+            return;
+        }
         // Nobody is left to tell of a failure; whoever wants to know closes the simulation.
         let _ = self.close();
     }

@@ -6,6 +6,7 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_log::About;
 use afp_resolve::own_toolbox_texts;
+use afp_run::hashes;
 use afp_run::world::LoadedWorld;
 use afp_session::{Build, Recipe, TextFile};
 
@@ -15,6 +16,8 @@ pub struct Setting<'a> {
     pub graph: &'a Graph,
     pub world: &'a LoadedWorld,
     pub seed: u64,
+    /// What was set before the start, as people write it.
+    pub settings: &'a [(String, String)],
     pub file: &'a Path,
     pub log: Option<&'a Path>,
     /// Whether the log gets what the camera sees.
@@ -25,7 +28,7 @@ impl Setting<'_> {
     /// What the log says of the run.
     pub fn about(&self) -> About {
         let LoadedWorld { world, text, start, .. } = self.world;
-        let mut about = About::new(&Recipe {
+        let recipe = Recipe {
             plan: self.graph.main().name.clone(),
             file: self.file.display().to_string(),
             texts: text_files(self.compiled.plan_texts()),
@@ -34,9 +37,12 @@ impl Setting<'_> {
             world: text_file(world.name(), text),
             start: *start,
             seed: self.seed,
+            settings: self.settings.to_vec(),
             build: Build::this(),
             ..Recipe::default()
-        });
+        };
+        let mut about = About::new(&recipe);
+        about.facts.extend(hashes(&recipe).map(|(key, hash)| (key.to_owned(), hash)));
         about.facts.push(("clock".to_owned(), "virtual".to_owned()));
         about
     }

@@ -9,6 +9,17 @@ pub fn instant(seconds: f64) -> PyResult<Instant> {
     Ok(Instant::ZERO + duration(seconds)?)
 }
 
+/// A time from seconds, in which something can happen.
+pub fn some(what: &str, seconds: f64) -> PyResult<Duration> {
+    match duration(seconds)? {
+        Duration::ZERO => {
+            let text = format!("{what} is {seconds} s, and it would end as it begins; give more");
+            Err(PyValueError::new_err(text))
+        }
+        time => Ok(time),
+    }
+}
+
 /// A time from seconds.
 pub fn duration(seconds: f64) -> PyResult<Duration> {
     match seconds.is_finite() && seconds >= 0.0 {

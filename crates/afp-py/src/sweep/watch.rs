@@ -55,27 +55,26 @@ pub struct Judging<'a> {
     pub compiled: &'a Arc<Compiled>,
     /// What is called with a run, and gives its figures.
     pub judge: &'a Py<PyAny>,
-    /// The columns that every sweep has.
-    pub columns: Vec<String>,
+    /// The names of its figures.
+    pub metrics: &'a [String],
     pub kept: &'a Kept,
 }
 
 impl Judging<'_> {
-    /// Adds a run's own figures to its outcome; a run that could not begin has none.
+    /// Adds a run's own figures to its outcome; those of a run that could not begin have no values.
     ///
     /// # Errors
     /// What the judge raises; a figure of a name that there is already.
     pub fn judge(&self, py: Python<'_>, outcome: &mut Outcome) -> PyResult<()> {
-        let Some(run) = self.kept.lock().remove(&outcome.run) else { return Ok(()) };
+        let Some(run) = self.kept.lock().remove(&outcome.run) else {
+            outcome.figures.extend(self.metrics.iter().map(|name| (name.clone(), None)));
+            return Ok(());
+        };
         let row = self.sweep.row(outcome.run);
         let loaded = self.setting.world(&row).map_err(|why| run_error(&why))?;
         let runner = Runner::new(run, None, self.compiled);
         let figures = self.judge.call1(py, (runner, World { loaded }, row.seed))?;
-        let figures: BTreeMap<String, f64> = figures.extract(py)?;
-        if let Some(name) = figures.keys().find(|name| self.columns.contains(name)) {
-            let text = format!("there is a column '{name}' of every run; choose another name");
-            return Err(PyValueError::new_err(text));
-        }
+        let figures: BTreeMap<String, Option<f64>> = figures.extract(py)?;
         if let Some(name) = figures.keys().find(|name| outcome.figures.contains_key(*name)) {
             let text = format!("there is a figure '{name}' of every run; choose another name");
             return Err(PyValueError::new_err(text));

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use afp_dsl::Compiled;
 use afp_run::RunError;
-use afp_sweep::{Engine, Outcome, Setting, Sweep, Watch, columns};
+use afp_sweep::{Engine, Outcome, Setting, Sweep, Watch};
 use pyo3::prelude::*;
 
 use super::watch::{Judging, Keeping, Kept};
@@ -66,9 +66,8 @@ impl Sweeper {
             let mut sweep = self.sweep.clone();
             let setting = Setting::new(&mut sweep, graph, &self.file, robot);
             let setting = &setting.map_err(|why| run_error(&why))?;
-            let columns = columns(&sweep, &[]).into_iter().map(|it| it.name).collect();
-            let (sweep, compiled) = (&sweep, &self.compiled);
-            let judging = Judging { sweep, setting, compiled, judge, columns, kept: &kept };
+            let (sweep, compiled, metrics) = (&sweep, &self.compiled, &*self.metrics);
+            let judging = Judging { sweep, setting, compiled, judge, metrics, kept: &kept };
             drive(py, job, |py: Python<'_>, mut new: Vec<Outcome>| {
                 new.iter_mut().try_for_each(|outcome| judging.judge(py, outcome))?;
                 each(py, new)

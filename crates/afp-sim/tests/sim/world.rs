@@ -152,11 +152,8 @@ fn every_mistake_is_named_with_its_line_and_what_mends_it() {
             "[0.0, 0.0], [4.0, 3.0]",
             "line 8, column 12: points_m: two points of the wall that follow each other are the same; leave one of them out",
         ),
-        (
-            ", [2.5, 0.5]",
-            "",
-            "line 18, column 12: points_m: the polygon is not convex; draw it as several",
-        ),
+        (", [2.5, 0.5]", "", "line 18, column 12: points_m: a polygon has three corners or more"),
+        ("[2.5, 0.5]]", "[2.0, 1.0]]", "line 18, column 12: points_m: the polygon is not convex"),
         (
             "[1.0, 1.0, 90.0]",
             "[3.2, 2.0, 0]",

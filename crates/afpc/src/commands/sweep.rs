@@ -110,7 +110,8 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let setting = Setting::new(&mut sweep, &graph, &file.path, linked.robot)?;
     let header = Header::new(program(linked)?, (&file.compiled, &graph), &setting, &sweep);
     let output = OutputFiles::new(arguments.output.as_deref(), &file.path, &header)?;
-    let (mut journal, mut outcomes) = Journal::open(&output.journal, &header, arguments.restart)?;
+    let journal = Journal::open(&output.journal, &header, arguments.restart);
+    let (mut journal, mut outcomes) = journal.map_err(RunError::from)?;
     let stop =
         StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     let engine = Engine {

@@ -25,8 +25,8 @@ negative. With `point=True` a third number points the range sensor, as a share o
 | `odometry` | x and y, m, sine and cosine of the heading, speed (m/s), turn rate (rad/s): what the wheels have counted |
 | `motion` | speed and turn rate alone |
 | `bumper` | 1 if it is pressed |
-| `fan` | the last distance along each bearing of `fan`, which the range sensor looks along in turns, m |
-| `target` | how far what there is to reach is by the odometry, m, and sine and cosine of the bearing to it |
+| `fan` | the last distance along each bearing of `fan` (`fan=[0, afp.deg(45)]`), which the range sensor looks along in turns, m |
+| `target` | how far what there is to reach (`reach="goal"` or `"light"`) is by the odometry, m, and sine and cosine of the bearing to it |
 | `glow` | 1 if infrared light is seen, its bearing (rad) and strength |
 | `color` | red, green and blue of the floor, and 1 if they are known |
 | `battery` | its voltage, and the share of its charge that is left |

@@ -21,7 +21,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
     """The simulated Carbot; see `afp.gym` for actions, observations, reward and options.
 
     `world` is a `World` or the path of its file; `None` makes up a room for each episode. `task` is a `Task` or its name;
-    `observe`, `reward` and `ends` take the place of the task's. `point` lets actions point the range sensor, `faults` break
+    `observe`, `reward`, `ends`, `reach` and `fan` take the place of the task's. `point` lets actions point the range sensor, `faults` break
     in every episode. After `time_limit` seconds it is truncated; `gymnasium.make` does so by `max_episode_steps`.
 
     `render_mode` is `rgb_array` or `human`, a window or a picture in a notebook, in real time. `view` is what it shows: the
@@ -38,6 +38,8 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
         observe: Sequence[str] | None = None,
         reward: Mapping[str, float] | None = None,
         ends: Sequence[str] | None = None,
+        reach: str | None = None,
+        fan: Sequence[float] | None = None,
         point: bool = False,
         faults: Faults = (),
         time_limit: float | None = None,
@@ -49,7 +51,7 @@ class CarbotEnv(gymnasium.Env):  # type: ignore[misc]
             raise ValueError(f"no render mode '{render_mode}'; there are: {', '.join(modes)}")
         if view not in ("top", "camera"):
             raise ValueError(f"no view '{view}'; there are: top, camera")
-        self._setting = Setting.of(world, task, observe, reward, ends, faults, point, steps_of(time_limit))
+        self._setting = Setting.of(world, task, observe, reward, ends, reach, fan, faults, point, steps_of(time_limit))
         self._courses: Courses | None = self._setting.courses(1)
         self.action_space, self.observation_space = self._setting.spaces(self._courses)
         self.render_mode = render_mode

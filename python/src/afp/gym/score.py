@@ -92,7 +92,7 @@ def run_plan(task: Task | str, seeds: Iterable[int] = range(100), *, world: Give
     task = task_of(task)
     if task.plan is None:
         raise ValueError(f"there is no plan for '{task.name}'")
-    setting = Setting.of(world, task, None, None, None, (), False, None)
+    setting = Setting.of(world, task, None, None, None, None, None, (), False, None)
     plan = load(PLANS / task.plan)
     rewards, steps, ended = zip(*(_run(plan, setting, seed) for seed in seeds), strict=True)
     return Score(np.array(rewards), np.array(steps, np.int64), np.array(ended, np.bool_))

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from .._afp import Courses, World
+from ..places import place_of
 from ..tables import need
-from ..units import moment
+from ..units import moment, number_in, seconds
 from .tasks import Task, task_of
 
 gymnasium = need("gymnasium")
@@ -64,19 +65,29 @@ class Setting:
         observe: Sequence[str] | None,
         reward: Mapping[str, float] | None,
         ends: Sequence[str] | None,
+        reach: str | None,
+        fan: Sequence[float] | None,
         faults: Faults,
         point: bool,
         steps: int | None,
     ) -> Setting:
         """Reads what an environment is given."""
-        changed = {"observe": observe and tuple(observe), "reward": reward, "ends": None if ends is None else tuple(ends)}
-        given = {name: value for name, value in changed.items() if value is not None}
         if isinstance(observe, str) or isinstance(ends, str):
             raise TypeError("observe and ends are lists of names, not one text")
+        bearings = None if fan is None else tuple(number_in("fan", bearing, "rad") for bearing in fan)
+        weights = None if reward is None else {name: number_in(f"the weight of '{name}'", reward[name]) for name in reward}
+        changed = {"observe": observe and tuple(observe), "reward": weights, "ends": None if ends is None else tuple(ends)}
+        changed |= {"reach": reach, "fan": bearings}
+        given = {name: value for name, value in changed.items() if value is not None}
         task = replace(task_of(task), **given)  # type: ignore[arg-type]
+        if fan is not None and "fan" not in task.observe:
+            raise ValueError(f"the fan is not observed: say observe={['fan', *task.observe]}")
+        if steps == 0:
+            raise ValueError("an episode has at least one step; give a number from 1 on")
         if not callable(faults):
             faults = tuple(faults)
-        return cls(task, world_of(world), faults, point, FOREVER if steps is None or steps < 0 else max(1, steps))
+        # Gymnasium's -1 is for none.
+        return cls(task, world_of(world), faults, point, FOREVER if steps is None or steps < 0 else steps)
 
     def courses(self, count: int) -> Courses:
         """So many episodes."""
@@ -99,8 +110,10 @@ class Setting:
         room, noise = (int(number) for number in rng.integers(0, 2**32, 2))
         faults = options.get("faults", self.faults)
         broken = [_fault(fault) for fault in (faults(rng) if callable(faults) else faults)]
+        if options.get("goal") is not None and self.task.reach != "goal":
+            raise ValueError(f"'{self.task.name}' has no goal to drive to: make the environment with reach=\"goal\"")
         world = world_of(options["world"]) if options.get("world") is not None else self.world
-        return world, room, noise, _numbers("pose", options, 3), _numbers("goal", options, 2), broken
+        return world, room, noise, _numbers("pose", options, ("m", "m", "rad")), _numbers("goal", options, ("m", "m")), broken
 
     def world_at(self, start: Start) -> World:
         """The room in which an episode takes place."""
@@ -109,22 +122,27 @@ class Setting:
 
 def world_of(world: Given) -> World | None:
     """A world, or that of a file."""
-    return world if world is None or isinstance(world, World) else World.load(world)
+    place = None if world is None else place_of(world)
+    return World.load(place) if isinstance(place, str) else place
 
 
 def steps_of(time_limit: float | None) -> int | None:
     """How many steps a time has."""
-    return None if time_limit is None else max(1, math.ceil(time_limit / STEP - 1e-9))
+    if time_limit is None:
+        return None
+    limit = seconds("time_limit", time_limit)
+    if not (math.isfinite(limit) and limit > 0):
+        raise ValueError(f"time_limit is {time_limit}; give seconds above 0, or None for episodes without end")
+    return max(1, math.ceil(limit / STEP - 1e-9))
 
 
-def _numbers(name: str, options: Mapping[str, Any], count: int) -> Any:
+def _numbers(name: str, options: Mapping[str, Any], units: Sequence[str]) -> Any:
     given = options.get(name)
     if given is None:
         return None
-    numbers = tuple(float(number) for number in given)
-    if len(numbers) != count:
-        raise ValueError(f"'{name}' has {count} numbers, not {len(numbers)}")
-    return numbers
+    if len(given) != len(units):
+        raise ValueError(f"'{name}' has {len(units)} numbers, not {len(given)}")
+    return tuple(number_in(name, number, unit) for number, unit in zip(given, units, strict=True))
 
 
 def _fault(fault: Fault) -> tuple[str, str, float | None, float | None, float | None, float | None]:
@@ -135,5 +153,5 @@ def _fault(fault: Fault) -> tuple[str, str, float | None, float | None, float | 
     known = {name: more.pop(name, None) for name in ("delay", "share", "at", "lasting")}
     if more:
         raise ValueError(f"a fault has no '{next(iter(more))}'; it has: {', '.join(known)}")
-    share = None if known["share"] is None else float(known["share"])
+    share = number_in("share", known["share"])
     return device, kind, moment("delay", known["delay"]), share, moment("at", known["at"]), moment("lasting", known["lasting"])

@@ -37,6 +37,8 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
         observe: Sequence[str] | None = None,
         reward: Mapping[str, float] | None = None,
         ends: Sequence[str] | None = None,
+        reach: str | None = None,
+        fan: Sequence[float] | None = None,
         point: bool = False,
         faults: Faults = (),
         max_episode_steps: int | None = None,
@@ -47,7 +49,7 @@ class CarbotVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
             raise ValueError(f"num_envs is {num_envs}; give at least 1")
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"no render mode '{render_mode}' of many; there is: rgb_array")
-        self._setting = Setting.of(world, task, observe, reward, ends, faults, point, max_episode_steps)
+        self._setting = Setting.of(world, task, observe, reward, ends, reach, fan, faults, point, max_episode_steps)
         self._courses = self._setting.courses(num_envs)
         self._mode = AutoresetMode(autoreset_mode)
         self.metadata = {**self.metadata, "autoreset_mode": self._mode}

@@ -15,7 +15,7 @@ use super::course::{Brief, Course, Start};
 use super::judge::kind;
 use super::part::Part;
 use super::pool;
-use super::score::Weights;
+use super::score::{NOTHING_TO_REACH, Weights};
 use super::start::{GivenStart, start};
 use crate::errors::error;
 use crate::link::link;
@@ -67,11 +67,11 @@ impl Courses {
         }
         let target = reach.map(kind).transpose()?;
         if target.is_none() && parts.contains(&Part::Target) {
-            return Err(PyValueError::new_err(
-                "'target' is observed and there is none: say reach=\"goal\" or reach=\"light\"",
-            ));
+            let text = format!("'target' is observed and {NOTHING_TO_REACH}");
+            return Err(PyValueError::new_err(text));
         }
-        let weights = Weights::new(&reward, &ends).map_err(PyValueError::new_err)?;
+        let weights = Weights::new(&reward, &ends, target.is_some());
+        let weights = weights.map_err(PyValueError::new_err)?;
         let brief = Brief { parts, fan, points, weights, target, steps };
         Ok(Courses { batch: Arc::new(Batch::new(brief, count)), use_of: Mutex::new(()) })
     }

@@ -30,7 +30,8 @@ impl Judge {
         reach: Option<(&str, (f64, f64))>,
         world: &World,
     ) -> PyResult<Judge> {
-        let weights = Weights::new(&reward, &ends).map_err(PyValueError::new_err)?;
+        let weights = Weights::new(&reward, &ends, reach.is_some());
+        let weights = weights.map_err(PyValueError::new_err)?;
         let goal = |(kind, (x, y))| {
             Target::of(room(world)?, self::kind(kind)?, Some([x, y]), 0).map_err(error)
         };

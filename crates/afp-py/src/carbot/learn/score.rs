@@ -7,7 +7,12 @@ use afp_sim::{Pose, Simulation, World};
 pub const TERMS: [&str; 6] = ["ahead", "crash", "wall", "nearer", "reached", "time"];
 const CRASH: usize = 1;
 const WALL: usize = 2;
+const NEARER: usize = 3;
 const REACHED: usize = 4;
+
+/// What to say where something is asked of a target.
+pub const NOTHING_TO_REACH: &str =
+    "there is nothing to reach: say reach=\"goal\" or reach=\"light\"";
 
 /// The distance to the wall at its right that the robot should keep, metres.
 const KEEP: f64 = 0.3;
@@ -88,8 +93,13 @@ impl Weights {
     /// Weights by the names of their terms; those that are not named weigh nothing.
     ///
     /// # Errors
-    /// No such term; a weight that is not finite; a term that ends nothing.
-    pub fn new(weights: &[(String, f64)], ends: &[String]) -> Result<Weights, String> {
+    /// No such term; a weight that is not finite; a term that ends nothing; one of what there is to reach where there is
+    /// nothing.
+    pub fn new(
+        weights: &[(String, f64)],
+        ends: &[String],
+        can_reach: bool,
+    ) -> Result<Weights, String> {
         let term = |name: &str| {
             let known = TERMS.iter().position(|term| *term == name);
             known.ok_or_else(|| format!("no term '{name}'; there are: {}", TERMS.join(", ")))
@@ -99,12 +109,19 @@ impl Weights {
             if !weight.is_finite() {
                 return Err(format!("'{name}' weighs {weight}; give a finite number"));
             }
-            made.weights[term(name)?] = *weight;
+            let term = term(name)?;
+            if (term == NEARER || term == REACHED) && *weight != 0.0 && !can_reach {
+                return Err(format!("'{name}' is rewarded and {NOTHING_TO_REACH}"));
+            }
+            made.weights[term] = *weight;
         }
         for name in ends {
             let term = term(name)?;
             if term != CRASH && term != REACHED {
                 return Err(format!("'{name}' ends no episode; 'crash' and 'reached' may"));
+            }
+            if term == REACHED && !can_reach {
+                return Err(format!("'{name}' ends the episode and {NOTHING_TO_REACH}"));
             }
             made.ends[term] = true;
         }

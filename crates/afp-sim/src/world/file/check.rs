@@ -62,6 +62,10 @@ impl<'a> Check<'a> {
         mut points: Vec<[f64; 2]>,
     ) -> Result<Vec<[f64; 2]>, WorldError> {
         self.near(key, points.as_flattened())?;
+        if points.len() < 3 {
+            let message = format!("a polygon has three corners or more, not {}", points.len());
+            return Err(self.error(key, &message, "add the others"));
+        }
         match turning(&points) {
             Some(true) => {}
             Some(false) => points.reverse(),
@@ -123,5 +127,5 @@ fn turning(points: &[[f64; 2]]) -> Option<bool> {
         }
         turned += libm::atan2(cross, ux * vx + uy * vy);
     }
-    left.filter(|_| n >= 3 && turned.abs() < 7.0)
+    left.filter(|_| turned.abs() < 7.0)
 }

@@ -1,0 +1,61 @@
+//! What the names of a plan stand for in a run of it.
+
+use afp::load::{Injection, PlanNames};
+use afp_core::trace::{ComponentId, ComponentKind, Names, TraceEntryId};
+use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::prelude::*;
+
+use super::session::Run;
+
+impl Run {
+    /// What lets a component report an outcome.
+    pub fn injection(&self, path: &str, outcome: &str) -> PyResult<Injection> {
+        let names = &self.names;
+        let component =
+            self.find(path, &[ComponentKind::Actor, ComponentKind::Supervisor]).ok_or_else(
+                || PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'")),
+            )?;
+        let known = (0..u16::MAX).map(|number| names.outcome(component, number));
+        let known: Vec<_> = known.take_while(|name| !name.is_empty()).collect();
+        let found = (0..).zip(&known).find(|(_, name)| **name == outcome);
+        let (outcome, _) = found.ok_or_else(|| {
+            let known = known.join(", ");
+            PyValueError::new_err(format!("'{path}' has no '{outcome}'; there are: {known}"))
+        })?;
+        Ok(Injection { component, outcome, outputs: Vec::new() })
+    }
+
+    /// An actor or sub-plan by its path.
+    pub fn element(&self, path: &str) -> PyResult<ComponentId> {
+        self.find(path, &[ComponentKind::Actor, ComponentKind::SubPlan]).ok_or_else(|| {
+            PyValueError::new_err(format!("the plan has no actor or sub-plan '{path}'"))
+        })
+    }
+
+    fn find(&self, path: &str, kinds: &[ComponentKind]) -> Option<ComponentId> {
+        let names: &PlanNames = &self.names;
+        (0..names.components()).map(ComponentId).find(|id| {
+            let about = names.component(*id);
+            about.path == path && kinds.contains(&about.kind)
+        })
+    }
+
+    /// The number of an entry of the plan.
+    ///
+    /// # Errors
+    /// It has no such entry.
+    pub fn entry(&self, name: &str) -> PyResult<u16> {
+        let known = self.own_entries();
+        let found = (0..).zip(&known).find(|(_, known)| *known == name);
+        found.map(|(number, _)| number).ok_or_else(|| {
+            let known = known.join(", ");
+            PyKeyError::new_err(format!("the plan has no entry '{name}'; there are: {known}"))
+        })
+    }
+
+    /// The names of the plan's own entries.
+    pub fn own_entries(&self) -> Vec<String> {
+        let ids = (0..self.own_entries).map(TraceEntryId);
+        ids.map(|id| self.names.entry(id).path.to_owned()).collect()
+    }
+}
