@@ -119,6 +119,21 @@ def test_the_timeline_is_that_of_the_command_line(wall_following: afp.Plan, afpc
     assert all(line in ran.stdout + ran.stderr for line in simulation.run(until=3.0).timeline)
 
 
+def test_the_world_is_changed_and_the_start_chosen_as_on_the_command_line(wall_following: afp.Plan, tmp_path: Path) -> None:
+    log, start = tmp_path / "run.mcap", (1.0, 1.2, afp.deg(90))
+    given = {"world.robot.charge": 0.5, "walldist": afp.cm(35)}
+    with afp.Simulation(wall_following, "random:1", start=start, set=given, log=log) as simulation:
+        result = simulation.run(until=1.0)
+    world, facts = simulation.world, afp.Log(log).facts
+    assert world.path is None and world.start == start and "charge = 0.5" in world.text and result.entries["walldist"] == 0.35
+    assert world != afp.World.random(1) and pickle.loads(pickle.dumps(world)) == world
+    assert facts["set"].splitlines() == ["world.robot.charge=0.5", "walldist=0.35 m"]
+    assert len(facts["plan_hash"]) == len(facts["world_hash"]) == 16
+    assert afp.Log(log).simulation().run(until=1.0).trace_hash == result.trace_hash
+    with pytest.raises(afp.AfpError, match="unknown field `nope`"):
+        afp.Simulation(wall_following, set={"world.robot.nope": 3})
+
+
 def test_entries_are_in_a_simulation(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     assert "walldist" in simulation and "nothing" not in simulation and simulation.time == 0.0

@@ -45,6 +45,24 @@ def test_a_row_is_the_run_of_a_simulation(wall_following: afp.Plan) -> None:
     assert runs[1]["trace"] == alone.trace_hash
 
 
+def test_each_run_is_pressed_and_disturbed(wall_following: afp.Plan) -> None:
+    grid: dict[str, Any] = {"press": "escape@0.5s", "fail": ["ultrasonic.frozen@0.1s..0.2s"], "until": 2.0}
+    runs = afp.sweep(wall_following, progress=False, **grid)
+    assert "--press escape@0.5s --fail ultrasonic.frozen@0.1s..0.2s --until 2s" in runs[0]["command"]
+    alone = afp.Simulation(wall_following)
+    alone.fail("ultrasonic", "frozen", at=0.1, lasting=0.1)
+    alone.press(at=0.5)
+    assert runs[0]["trace"] == alone.run(until=2.0).trace_hash and runs.result(0).trace_hash == runs[0]["trace"]
+
+
+def test_where_the_robot_starts_makes_another_sweep(wall_following: afp.Plan, tmp_path: Path) -> None:
+    world = afp.Simulation(wall_following, "random:1", start=(1.0, 1.2, 0.0)).world
+    grid: dict[str, Any] = {"until": 0.5, "progress": False, "out": tmp_path / "runs.csv"}
+    afp.sweep(wall_following, world, **grid)
+    with pytest.raises(afp.AfpError, match="a world has changed since"):
+        afp.sweep(wall_following, afp.Simulation(wall_following, "random:1", start=(1.1, 1.2, 0.0)).world, **grid)
+
+
 def test_jobs_do_not_matter_and_progress_is_told() -> None:
     told: list[tuple[int, int]] = []
     one = afp.sweep(afp.Plan(GO), seeds=6, until=5.0, jobs=1, progress=lambda *it: told.append(it))

@@ -76,6 +76,8 @@ impl World {
                 .started_at(Pose2 { x, y, heading })
                 .map_err(|why| PyValueError::new_err(format!("start: {why}")))?;
         }
+        // It is not that of the file any more.
+        loaded.path = None;
         Ok(World { loaded })
     }
 
