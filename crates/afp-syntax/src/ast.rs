@@ -3,6 +3,7 @@
 //! Every part may be missing, since the text may be half typed; whoever reads the view skips holes,
 //! for which the parser has reported an error already.
 
+mod comments;
 mod device;
 mod formula;
 mod one_line;
@@ -18,6 +19,8 @@ use crate::kind::{Afp, Kind};
 use crate::source::Span;
 use crate::tree::green_span;
 use crate::{Node, node_span};
+
+use comments::{doc, note};
 
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Operator, Sign};
@@ -406,52 +409,4 @@ fn keyword_as<R>(node: &Node, read: impl Fn(&str) -> R) -> R {
     let read = |text: &str| read(keywords::of_item(own, text));
     find_token(node, 0, |kind, text, _| (kind == Kind::Keyword).then(|| read(text)))
         .unwrap_or_else(|| read(""))
-}
-
-/// Whether nothing stands before a node on its line.
-fn begins_line(node: &Node) -> bool {
-    let before = node.first_token().and_then(|first| first.prev_token());
-    before.is_none_or(|before| before.text().contains('\n'))
-}
-
-/// The `//` lines directly above an item, without the slashes and one blank behind them. A comment
-/// on the line of what stands before the item is none of them.
-fn note(node: &Node) -> String {
-    let first = node.green().children().next().map(|first| kind_of(first.kind()));
-    let mut below = first == Some(Kind::Comment) && begins_line(node);
-    let mut lines: Vec<String> = Vec::new();
-    for element in node.green().children() {
-        let Some(token) = element.into_token() else { break };
-        match kind_of(token.kind()) {
-            Kind::Comment if below => {
-                let text = token.text().trim_start_matches('/');
-                lines.push(text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned());
-            }
-            Kind::Whitespace => below |= token.text().contains('\n'),
-            Kind::Doc => below = true,
-            kind if kind.is_trivia() => {}
-            _ => break,
-        }
-    }
-    lines.join("\n")
-}
-
-/// The `///` lines in front of an item, without the slashes and one blank behind them.
-fn doc(node: &Node) -> String {
-    let mut doc = String::new();
-    let mut lines = 0;
-    for element in node.green().children() {
-        let Some(token) = element.into_token() else { break };
-        match kind_of(token.kind()) {
-            Kind::Doc => {
-                let text = token.text().trim_start_matches('/');
-                doc += if lines > 0 { "\n" } else { "" };
-                doc += text.strip_prefix(' ').unwrap_or(text).trim_end();
-                lines += 1;
-            }
-            kind if kind.is_trivia() => {}
-            _ => break,
-        }
-    }
-    doc
 }

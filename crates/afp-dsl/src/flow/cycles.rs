@@ -16,6 +16,8 @@ use crate::flow::view::{Cause, Edge, Node, View, takes_time};
 use crate::flow::{INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
+pub(super) use holding::standard;
+
 /// Greatest number of elements of a cycle that a message names.
 const MAX_NAMES: usize = 8;
 /// Greatest number of conditions that a diagnostic shows.

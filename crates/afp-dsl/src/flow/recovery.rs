@@ -4,10 +4,11 @@
 //! lets one element finish. Elements behind it that only this event leads to are part of the same
 //! recovery, and there it is taken: the recovery begins anew, for ever. A computation is over at once,
 //! so behind one the first actor is such an element already. Where such an element reacts otherwise to
-//! the event (`on`), it goes on.
+//! the event (`on`), it goes on. Two conditions that last alike start their recoveries in turns.
 
 use std::collections::BTreeMap;
 
+use crate::flow::cycles::standard;
 use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, Edge, Node, View, takes_time};
 use crate::graph::SupervisorId;
@@ -20,6 +21,7 @@ type Recovery = (SupervisorId, u16, Node);
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let recoveries = recoveries(view);
     let recoveries: Vec<_> = recoveries.into_iter().collect();
+    alternate(view, &recoveries, diags);
     for group in recoveries.chunks(WIDTH) {
         let mut stops = vec![0u64; view.edges.len()];
         for (bit, (_, edges)) in group.iter().enumerate() {
@@ -52,6 +54,32 @@ fn recovery_of(view: &View<'_>, edge: &Edge) -> Option<Recovery> {
     };
     // What happens once holds no more while its recovery runs.
     (!view.is_once(id, event)).then_some((id, event, edge.to))
+}
+
+/// Warns of events that hold for ever once they do, and replace what another such event has started, as that one does.
+fn alternate(view: &View<'_>, all: &[(Recovery, Vec<usize>)], diags: &mut Diagnostics) {
+    let lasts = |(id, ..): &Recovery| standard(view, view.supervisor(*id)) == Some("CheckTimeout");
+    let acts = |(.., to): &Recovery| view.element(*to).is_some_and(takes_time);
+    let lasting: Vec<_> = all.iter().filter(|(it, _)| lasts(it) && acts(it)).collect();
+    let holds = |during: &Recovery, other: &Recovery| {
+        view.of_globals(during.2).any(|edge| recovery_of(view, edge) == Some(*other))
+    };
+    for (at, (one, edges)) in lasting.iter().enumerate() {
+        let other = lasting[..at]
+            .iter()
+            .find(|(other, _)| other.2 != one.2 && holds(one, other) && holds(other, one));
+        let Some((_, others)) = other else { continue };
+        let cause = |edges: &[usize]| edges.last().map(|edge| view.edges[*edge].cause);
+        let (Some(one), Some(other)) = (cause(edges), cause(others)) else { continue };
+        let (first, next) = (view.label(other), view.label(one));
+        let message =
+            format!("once '{first}' and '{next}' hold, each ends what the other has started");
+        diags.push(
+            Diagnostic::new(Code::E0309, view.span(one), message)
+                .note(view.span(other), "both hold for ever")
+                .help("let one of them be ignored in what the other leads to, with 'on', or lead it to 'terminate'"),
+        );
+    }
 }
 
 /// `only` tells which nodes can be reached by the event alone.

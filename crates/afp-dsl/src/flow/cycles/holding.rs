@@ -133,7 +133,7 @@ fn entry(formula: &Formula) -> Option<EntryId> {
 }
 
 /// The name of a supervisor's template, if that is one of the standard toolbox.
-fn standard<'a>(view: &View<'a>, supervisor: &Supervisor) -> Option<&'a str> {
+pub(crate) fn standard<'a>(view: &View<'a>, supervisor: &Supervisor) -> Option<&'a str> {
     standard_template(view, supervisor.template)
 }
 

@@ -64,7 +64,7 @@ impl Reader<'_> {
             |path: &Path, place: Option<usize>| place.is_some_and(|place| path.place.start > place);
         let by = paths.iter().find(|path| is_behind(path, by));
         if place(Kind::Keyword, "end").is_some() {
-            let whole = |path: &Path| Some(path.whole(format!("{}.OK", self.element))?);
+            let whole = |path: &Path| path.whole(format!("{}.OK", self.element));
             return by.and_then(whole).into_iter().collect();
         }
         let from = paths.first().filter(|_| arrow.is_some());
