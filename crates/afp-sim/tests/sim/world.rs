@@ -137,6 +137,11 @@ const MISTAKES: &[(&str, &str, &str)] = &[
         "height_m = 0.7\ntexture = \"brick\"",
         "line 16, column 11: texture: 'brick' is no texture; write 'bricks'",
     ),
+    (
+        "closed = true",
+        "closed = true\nclosed = true",
+        "line 10, column 1: duplicate key; leave one of them out",
+    ),
     ("1.0, 90.0]", "inf, 90.0]", "line 5, column 14: pose_m_deg: inf is not within"),
     (
         "[4.0, 0.0], [4.0, 3.0]",
