@@ -1,6 +1,11 @@
 //! `afpc run`: options, output, errors.
 
 mod common;
+#[path = "run/refused.rs"]
+mod refused;
+#[cfg(unix)]
+#[path = "run/signals.rs"]
+mod signals;
 
 use common::{Place, WALL_FOLLOWING};
 use serde_json::Value;
@@ -156,38 +161,6 @@ fn entries_are_set_with_their_units() {
 }
 
 #[test]
-fn a_value_that_does_not_fit_is_told_how_it_is_written() {
-    let place = Place::new();
-    let plan = "use std
-enum Side { left right }
-plan Takes {
-    in count: int = 1
-    in often: bool = true
-    in share: float = 1
-    in bend: angle
-    in side: Side = Side.left
-    start go
-    actor go: Wait(duration = 1 s) { Elapsed -> terminate }
-}";
-    place.write("takes.afp", plan);
-    let bend = "write the unit: 'bend=1deg'";
-    for (set, help) in [
-        ("count=3.0", "'count=3.0': not an int\n  help: write 'count=3'\n"),
-        ("count=3.5", "a whole number, such as 'count=3'"),
-        ("count=many", "a whole number, such as 'count=3'"),
-        ("often=1", "'often=1': not a bool\n  help: write 'often=true' or 'often=false'\n"),
-        ("share=half", "'share=half': not a float\n  help: a number, such as 'share=0.5'\n"),
-        ("share=nan", "a number, such as 'share=0.5'"),
-        ("bend=1", bend),
-        ("side=up", "one of: left, right"),
-    ] {
-        place.afpc(&format!("run takes.afp --set {set} {QUIET}")).fails(2, &[help]);
-    }
-    let missing = place.afpc(&format!("run takes.afp {QUIET}"));
-    missing.fails(2, &["give it one with '--set bend=VALUE', an angle"]);
-}
-
-#[test]
 fn an_entry_without_a_value_is_asked_for() {
     let place = Place::new();
     place.write("a.afp", &WALL_FOLLOWING.replace("length = 30 cm", "length"));
@@ -198,103 +171,12 @@ fn an_entry_without_a_value_is_asked_for() {
 }
 
 #[test]
-fn options_that_wait_for_something_say_for_what() {
-    let place = Place::with_plan();
-    let why = "'--rt-report' waits for the real-time driver";
-    place.afpc("run wall_following.afp --rt-report").fails(2, &[why, "help: "]);
-    for debug in ["--debug", "--debug=0.0.0.0:4711"] {
-        let why = ["'--debug' waits for the real-time driver", "'afpc dap PLAN.afp'"];
-        place.afpc(&format!("run wall_following.afp {debug}")).fails(2, &why);
-    }
-    place
-        .afpc("run wall_following.afp --press start@1s")
-        .fails(2, &["no control 'start'; it has 'touch', 'escape'"]);
-    place.afpc("run wall_following.afp --fail sonar.lost@1s").fails(2, &["there are battery, "]);
-    place.afpc("run wall_following.afp --until 5").fails(2, &["20s or 500ms"]);
-    place.afpc("run wall_following.afp --speed -2x").fails(2, &["a multiple of real time"]);
-    place.afpc("run wall_following.afp --live=here").fails(2, &["expected a port, 8765, or"]);
-    assert_eq!(place.files(), ["wall_following.afp"]);
-}
-
-#[test]
-fn numbers_out_of_place_and_empty_names_are_told_what_is_expected() {
-    let place = Place::with_plan();
-    for (words, why) in [
-        ("run wall_following.afp --until -1s", "a time cannot be negative"),
-        ("sweep wall_following.afp --until -1s", "a time cannot be negative"),
-        ("run wall_following.afp --seed -1", "expected a whole number from 0 to 184"),
-        ("run wall_following.afp --seed 1.5", "expected a whole number from 0 to 184"),
-        ("test --mutate --seed -1", "expected a whole number from 0 to 184"),
-        ("sweep wall_following.afp --seeds -1..3", "expected seeds such as 0..1000"),
-        ("sweep wall_following.afp --jobs -1", "expected a whole number from 1 on"),
-        ("sweep wall_following.afp --jobs 0", "expected a whole number from 1 on"),
-        ("graph wall_following.afp --scale -1", "expected a number from 0.1 to 10"),
-        ("dap --port -1", "-1 is not in 0..=65535"),
-        ("run wall_following.afp --log=", "expected the name of a file, or 'none'"),
-        ("run wall_following.afp --svg=", "expected the name of a file, or 'none'"),
-    ] {
-        if cfg!(feature = "dap") || !words.starts_with("dap") {
-            place.afpc(words).fails(2, &[why]);
-        }
-    }
-    assert_eq!(place.files(), ["wall_following.afp"]);
-}
-
-#[test]
-#[cfg(unix)]
-fn a_name_that_is_no_text_is_told() {
-    use std::ffi::OsStr;
-    use std::os::unix::ffi::OsStrExt;
-    let place = Place::with_plan();
-    let name = OsStr::from_bytes(b"n\xff.afp");
-    for before in ["check", "run", "graph", "fmt", "sweep", "run wall_following.afp --log"] {
-        let mut command = place.command();
-        let said = command.args(before.split(' ')).arg(name).output().unwrap();
-        common::said(said).fails(2, &["'n\u{fffd}.afp' is not in UTF-8", "help: give the file"]);
-    }
-}
-
-#[test]
 fn help_lists_what_this_program_can_do() {
     let help = Place::with_plan().afpc("run --help");
     assert_eq!(help.out.contains("--live"), cfg!(feature = "live"), "{}", help.out);
     for later in ["--rt-report", "--debug"] {
         assert!(!help.out.contains(later), "{}", help.out);
     }
-}
-
-#[test]
-fn files_that_do_not_work_are_named() {
-    let place = Place::with_plan();
-    let said = place.afpc("run missing.afp");
-    said.fails(
-        1,
-        &["error: cannot read the plan 'missing.afp'", "plans here: 'wall_following.afp'"],
-    );
-    place.afpc("run wall_following").fails(1, &["write 'wall_following.afp'"]);
-    let said = place.afpc("run wall_following.afp --world missing.toml");
-    said.fails(1, &["error: cannot read the world 'missing.toml'"]);
-    let said = place.afpc("run wall_following.afp --log no/such/a.mcap");
-    said.fails(1, &["error: cannot write the log 'no/such/a.mcap'"]);
-    let said = place.afpc("run wall_following.afp --until 1s --log none --svg no/such/a.svg");
-    said.fails(1, &["error: cannot write the picture 'no/such/a.svg'"]);
-    assert!(said.out.is_empty(), "it is said before the run: {}", said.out);
-}
-
-#[test]
-#[cfg(unix)]
-fn a_world_without_an_end_is_not_read_for_ever() {
-    let place = Place::with_plan();
-    let endless = "it is longer than 64 MiB";
-    let said = place.afpc("run wall_following.afp --world /dev/zero");
-    said.fails(1, &["error: cannot read the world '/dev/zero'", endless]);
-    place.write(
-        "hall.yaml",
-        "image: /dev/zero\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n\
-         occupied_thresh: 0.65\nfree_thresh: 0.2\n",
-    );
-    let said = place.afpc("run wall_following.afp --world hall.yaml");
-    said.fails(1, &["error: cannot read the map's picture '/dev/zero'", endless]);
 }
 
 #[test]
@@ -334,43 +216,6 @@ fn a_world_without_a_name_is_called_by_its_file() {
     for picture in ["a.svg", "b.svg", "c.svg"] {
         assert!(place.read(picture).contains("hall, seed 0"), "{picture}");
     }
-}
-
-#[test]
-fn a_wrong_world_is_shown_at_its_line() {
-    let place = Place::with_plan();
-    let run = "run wall_following.afp --world w.toml --log a.mcap --svg a.svg";
-    place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\ncolour = 1\n");
-    let told = ["'[robot]' has no 'colour'", "--> w.toml:4:1", "4 | colour = 1", "help: it has"];
-    place.afpc(run).fails(1, &told);
-    place.write("w.toml", "");
-    place.afpc(run).fails(1, &["a world has no 'version'", "help: write 'version = 1'"]);
-    place.write(
-        "w.toml",
-        "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\n[[wall]]\nname = \"w\"\npoints_m = [[-1.0, 0.0], [1.0, 0.0]]\n",
-    );
-    place.afpc(run).fails(1, &["the robot starts inside of 'w'", "--> w.toml:3:"]);
-    place.write("afp.toml", "[run]\nworlds = \"w.toml\"\n");
-    place.afpc("run wall_following.afp").fails(1, &["'[run]' has no 'worlds'", "afp.toml:2:1"]);
-    assert_eq!(place.files(), ["afp.toml", "w.toml", "wall_following.afp"]);
-}
-
-#[test]
-fn a_start_far_away_is_refused_and_one_outside_of_everything_told() {
-    let place = Place::with_plan();
-    let start = |start: &str| {
-        place.afpc(&format!("run wall_following.afp --until 100ms --log none --svg a.svg {start}"))
-    };
-    let far = "the start is not within 1000 m and 1000 deg of zero";
-    for pose in ["1000000000m,1m,0deg", "1.7e308m,0m,0deg", "1m,-1001m,0deg", "1m,1m,1e9deg"] {
-        start(&format!("--start {pose}")).fails(2, &[far]);
-    }
-    let outside = "warning: the robot starts outside of all that stands in its world";
-    for outer in ["--start 900m,1m,0deg", "--set world.robot.pose_m_deg.1=-1m"] {
-        assert!(start(outer).succeeds().err.contains(outside), "{outer}");
-        assert!(place.read("a.svg").len() < 100_000, "{outer}");
-    }
-    assert_eq!(start("--start 2m,1m,0deg").succeeds().err, "");
 }
 
 #[test]
@@ -479,66 +324,4 @@ fn a_full_disk_is_no_success_and_a_closed_pipe_no_failure() {
     let mut child = command.args(run.split(' ')).stdout(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
     assert!(child.wait().unwrap().success());
-}
-
-#[cfg(unix)]
-mod signals {
-    use std::io::{BufRead, BufReader, Read};
-    use std::process::{Command, Stdio};
-
-    use super::common::Place;
-
-    /// Starts a run in real time, does something to it once it lives, and gives its exit code and
-    /// the rest of its output.
-    fn interrupted(place: &Place, act: impl FnOnce(u32)) -> (Option<i32>, String) {
-        let run = ["run", "wall_following.afp", "--speed", "1x", "--json"];
-        let outputs = ["--log", "a.mcap", "--svg", "a.svg"];
-        let mut command = place.command();
-        command.args(run).args(outputs).stdin(Stdio::null()).stdout(Stdio::piped());
-        let mut child = command.spawn().unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(800));
-        act(child.id());
-        let mut out = BufReader::new(child.stdout.take().unwrap());
-        let mut text = String::new();
-        out.read_line(&mut text).unwrap();
-        out.read_to_string(&mut text).unwrap();
-        (child.wait().unwrap().code(), text)
-    }
-
-    fn signal(name: &str, process: u32) {
-        let sent = Command::new("kill").args(["-s", name, &process.to_string()]).status();
-        assert!(sent.unwrap().success());
-    }
-
-    #[test]
-    fn what_a_killed_run_has_left_is_kept() {
-        let place = Place::with_plan();
-        interrupted(&place, |process| signal("KILL", process));
-        place.afpc("log a.mcap").fails(1, &["name what there is of it, 'a.mcap.part'"]);
-        let said = place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none");
-        assert!(said.succeeds().err.contains("'afpc log a.2.mcap.part recover'"), "{}", said.err);
-        assert_eq!(place.files(), ["a.2.mcap.part", "a.mcap", "wall_following.afp"]);
-        let saved = place.afpc("log a.2.mcap.part recover");
-        assert!(saved.succeeds().out.ends_with("a.2.recovered.mcap\n"), "{}", saved.out);
-        assert_eq!(place.afpc("log a.2.recovered.mcap doctor").succeeds().out, "sound\n");
-    }
-
-    #[test]
-    fn signals_end_a_run_cleanly() {
-        for (name, exit) in [("INT", 0), ("TERM", 143)] {
-            let place = Place::with_plan();
-            let (code, out) = interrupted(&place, |process| signal(name, process));
-            assert_eq!(code, Some(exit), "{out}");
-            assert!(out.contains("\"kind\":\"stop_requested\""), "{out}");
-            assert!(out.contains("\"component\":\"searchFirstWall\""), "{out}");
-            let last: serde_json::Value =
-                serde_json::from_str(out.lines().last().unwrap()).unwrap();
-            assert_eq!(last["summary"]["stopped_by"], "signal");
-            assert_eq!(place.files(), ["a.mcap", "a.svg", "wall_following.afp"]);
-            assert_eq!(place.afpc("log a.mcap doctor").succeeds().out, "sound\n");
-            // Where it was stopped it stops again.
-            let again = place.afpc("run --again a.mcap --json --log none --svg none");
-            assert_eq!(again.succeeds().last_json()["summary"]["trace"], last["summary"]["trace"]);
-        }
-    }
 }

@@ -76,6 +76,21 @@ fn a_sweep_presses_and_breaks_as_a_run_does() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn a_table_that_cannot_be_written_costs_no_summary() {
+    let place = Place::with_plan();
+    std::os::unix::fs::symlink("/dev/full", place.path("t.csv")).unwrap();
+    let sweep = "sweep wall_following.afp --until 100ms -o t.csv";
+    let full = "cannot write the table 't.csv'";
+    let said = place.afpc(&format!("{sweep} --json"));
+    said.fails(1, &[full]);
+    assert_eq!(said.last_json()["summary"]["runs"], 1);
+    let said = place.afpc(sweep);
+    assert!(said.fails(1, &[full]).out.contains("1 of 1 runs"), "{}", said.out);
+    assert!(!said.out.contains("table:"), "{}", said.out);
+}
+
+#[test]
 fn what_is_there_twice_is_refused() {
     let place = Place::with_plan();
     place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [1, 1, 0]\n");

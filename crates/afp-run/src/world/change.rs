@@ -61,17 +61,20 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
         parts.pop();
     }
     let (name, tables) = parts.split_last().ok_or_else(|| refused("there is no such key"))?;
+    let mut item = document.as_item_mut();
+    for part in tables {
+        item = inside(item, part).map_err(|why| refused(&why))?;
+    }
     let measure = Measure::of(name, index);
-    let to = read(text, measure).map_err(|why| refused(&why))?;
+    // A name that is a number stays a text.
+    let is_text = index.is_none() && item.get(name).is_some_and(Item::is_str);
+    let to = if is_text { Ok(Value::from(text)) } else { read(text, measure) };
+    let to = to.map_err(|why| refused(&why))?;
     let number = to.as_float().or_else(|| Some(to.as_integer()? as f64));
     let si = number.map(|number| match measure {
         Some(Measure::Angle) => number.to_radians(),
         _ => number,
     });
-    let mut item = document.as_item_mut();
-    for part in tables {
-        item = inside(item, part).map_err(|why| refused(&why))?;
-    }
     set(item, name, index, to).map_err(|why| refused(&why))?;
     Ok((document.to_string(), si))
 }
@@ -202,6 +205,7 @@ mod tests {
         }
         let (world, _) = with(&room(), "version", "1");
         assert_eq!(world.text, room().text);
+        assert_eq!(with(&room(), "name", "3").1.name, "3");
     }
 
     #[test]

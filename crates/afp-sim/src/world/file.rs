@@ -37,7 +37,11 @@ const POLYGON_COLOR: Rgb = [127, 143, 166];
 /// Reads a file and checks each value by itself; gives what it says for its robot alone, too.
 pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
     let document = Document::parse(text).map_err(|error| {
-        wrong(&error.into()).with_help("a world is TOML: 'key = value', texts in quotes")
+        let help = match error.message().starts_with("duplicate key") {
+            true => "leave one of them out",
+            false => "a world is TOML: 'key = value', texts in quotes",
+        };
+        wrong(&error.into()).with_help(help)
     })?;
     keys::check(document.as_table(), O::KEYS)?;
     let (file, own): (File, O) = (tables(&document)?, tables(&document)?);
@@ -90,7 +94,7 @@ fn tables<T: DeserializeOwned>(document: &Document<&str>) -> Result<T, WorldErro
 }
 
 fn wrong(error: &Error) -> WorldError {
-    WorldError::new(error.span(), error.message().replace('\n', ", "))
+    WorldError::new(error.span(), error.message().replace('\n', ", ").replace('`', "'"))
 }
 
 impl Check<'_> {

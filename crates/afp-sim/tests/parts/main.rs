@@ -200,7 +200,7 @@ fn world_files_have_tables_of_a_robot_of_ones_own() {
     let misspelt = docks("[[dok]]\nat_m = [1, 2]\n").unwrap_err();
     assert_eq!(misspelt, "a world has no 'dok': dok");
     let inside = docks("[[dock]]\nat_m = [1, 2]\nname = 3\n").unwrap_err();
-    assert_eq!(inside, "unknown field `name`, expected `at_m`: name");
+    assert_eq!(inside, "unknown field 'name', expected 'at_m': name");
     // The Carbot has no docks.
     let carbot = afp_sim::World::parse(&format!("{ROOM}[[dock]]\nat_m = [1, 2]\n")).unwrap_err();
     assert!(carbot.help.ends_with("'infrared' and 'map'"), "{}", carbot.help);

@@ -51,116 +51,123 @@ fn mistake(from: &str, to: &str) -> String {
     format!("{}; {}", placed(&text, &error), error.help)
 }
 
+/// What stands in the good world, what in its place, and what is said then.
+const MISTAKES: &[(&str, &str, &str)] = &[
+    ("closed = true", "colour = 3", "line 9, column 1: '[[wall]]' has no 'colour'; write 'color'"),
+    (
+        "name = \"a room\"",
+        "nam = \"a room\"",
+        "line 2, column 1: a world has no 'nam'; write 'name'",
+    ),
+    (
+        "size_m = [1.0, 0.5]",
+        "rim_cm = [1, 2]",
+        "line 14, column 1: '[[box]]' has no 'rim_cm'; it has 'name', 'pose_m_deg',",
+    ),
+    (
+        "height_m = 0.7",
+        "hieght_m = 0.7",
+        "line 15, column 1: '[[box]]' has no 'hieght_m'; write 'height_m'",
+    ),
+    (
+        "height_m = 0.7",
+        "",
+        "line 11, column 1: '[[box]]' has no 'height_m'; write 'height_m = 0.5'",
+    ),
+    (
+        "pose_m_deg = [1.0, 1.0, 90.0]",
+        "",
+        "line 4, column 2: '[robot]' has no 'pose_m_deg'; write 'pose_m_deg = [",
+    ),
+    ("version = 1", "version = 2", "line 1, column 11: version 2 is unknown; write 'version = 1'"),
+    (
+        "version = 1",
+        "version = 1.0",
+        "line 1, column 11: 'version' cannot have this value; write a whole number, such as 'version = 1'",
+    ),
+    ("version = 1", "", "a world has no 'version'; write 'version = 1'"),
+    (
+        "version = 1",
+        "version = ",
+        "line 1, column 11: string values must be quoted, expected literal string; a world is TOML: 'key = value', texts in quotes",
+    ),
+    ("[robot]", "[[robot]]", "line 4, column 3: 'robot' is a table; write '[robot]'"),
+    (
+        "[[box]]",
+        "[box]",
+        "line 11, column 2: 'box' is a list of tables; write '[[box]]' above each of them",
+    ),
+    (
+        "closed = true",
+        "closed = \"yes\"",
+        "line 9, column 10: 'closed' cannot have this value; write true or false, such as 'closed = true'",
+    ),
+    (
+        "[1.0, 0.5]",
+        "[1.0, 0.0]",
+        "line 14, column 10: size_m: 0 is not above 0; write a number above 0",
+    ),
+    (
+        "[1.0, 0.5]",
+        "[1.0]",
+        "line 14, column 10: 'size_m' cannot have this value; write two numbers in brackets, such as 'size_m = [",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = \"0.7\"",
+        "line 15, column 12: 'height_m' cannot have this value; write a number, such as 'height_m = 0.5'",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = nan",
+        "line 15, column 12: height_m: NaN is not within 1000 of zero; write a number from -1000",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = 0.7\npath = 3",
+        "line 16, column 8: 'path' is a table; write 'path = { by_m",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = 0.7\npath = { by_m = [[1, 0]], sped_m_s = 1 }",
+        "line 16, column 27: 'path' has no 'sped_m_s'; write 'speed_m_s'",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = 0.7\ntexture = \"brick\"",
+        "line 16, column 11: texture: 'brick' is no texture; write 'bricks'",
+    ),
+    (
+        "closed = true",
+        "closed = true\nclosed = true",
+        "line 10, column 1: duplicate key; leave one of them out",
+    ),
+    ("1.0, 90.0]", "inf, 90.0]", "line 5, column 14: pose_m_deg: inf is not within"),
+    (
+        "[4.0, 0.0], [4.0, 3.0]",
+        "[0.0, 0.0], [4.0, 3.0]",
+        "line 8, column 12: points_m: two points of the wall that follow each other are the same; leave one of them out",
+    ),
+    (
+        ", [2.5, 0.5]",
+        "",
+        "line 18, column 12: points_m: a polygon has three corners or more, not 2; add the others",
+    ),
+    (
+        "[2.5, 0.5]]",
+        "[2.0, 1.0]]",
+        "line 18, column 12: points_m: the polygon is not convex; draw it as several",
+    ),
+    (
+        "[1.0, 1.0, 90.0]",
+        "[3.2, 2.0, 0]",
+        "line 5, column 14: the robot starts inside of 'table'; choose another place",
+    ),
+];
+
 #[test]
 fn every_mistake_is_named_with_its_line_and_what_mends_it() {
-    let cases = [
-        (
-            "closed = true",
-            "colour = 3",
-            "line 9, column 1: '[[wall]]' has no 'colour'; write 'color'",
-        ),
-        (
-            "name = \"a room\"",
-            "nam = \"a room\"",
-            "line 2, column 1: a world has no 'nam'; write 'name'",
-        ),
-        (
-            "size_m = [1.0, 0.5]",
-            "rim_cm = [1, 2]",
-            "line 14, column 1: '[[box]]' has no 'rim_cm'; it has 'name', 'pose_m_deg',",
-        ),
-        (
-            "height_m = 0.7",
-            "hieght_m = 0.7",
-            "line 15, column 1: '[[box]]' has no 'hieght_m'; write 'height_m'",
-        ),
-        (
-            "height_m = 0.7",
-            "",
-            "line 11, column 1: '[[box]]' has no 'height_m'; write 'height_m = 0.5'",
-        ),
-        (
-            "pose_m_deg = [1.0, 1.0, 90.0]",
-            "",
-            "line 4, column 2: '[robot]' has no 'pose_m_deg'; write 'pose_m_deg = [",
-        ),
-        (
-            "version = 1",
-            "version = 2",
-            "line 1, column 11: version 2 is unknown; write 'version = 1'",
-        ),
-        (
-            "version = 1",
-            "version = 1.0",
-            "line 1, column 11: 'version' cannot have this value; write a whole number, such as 'version = 1'",
-        ),
-        ("version = 1", "", "a world has no 'version'; write 'version = 1'"),
-        (
-            "version = 1",
-            "version = ",
-            "line 1, column 11: string values must be quoted, expected literal string; a world is TOML: 'key = value', texts in quotes",
-        ),
-        ("[robot]", "[[robot]]", "line 4, column 3: 'robot' is a table; write '[robot]'"),
-        (
-            "[[box]]",
-            "[box]",
-            "line 11, column 2: 'box' is a list of tables; write '[[box]]' above each of them",
-        ),
-        (
-            "closed = true",
-            "closed = \"yes\"",
-            "line 9, column 10: 'closed' cannot have this value; write true or false, such as 'closed = true'",
-        ),
-        (
-            "[1.0, 0.5]",
-            "[1.0, 0.0]",
-            "line 14, column 10: size_m: 0 is not above 0; write a number above 0",
-        ),
-        (
-            "[1.0, 0.5]",
-            "[1.0]",
-            "line 14, column 10: 'size_m' cannot have this value; write two numbers in brackets, such as 'size_m = [",
-        ),
-        (
-            "height_m = 0.7",
-            "height_m = \"0.7\"",
-            "line 15, column 12: 'height_m' cannot have this value; write a number, such as 'height_m = 0.5'",
-        ),
-        (
-            "height_m = 0.7",
-            "height_m = nan",
-            "line 15, column 12: height_m: NaN is not within 1000 of zero; write a number from -1000",
-        ),
-        (
-            "height_m = 0.7",
-            "height_m = 0.7\npath = 3",
-            "line 16, column 8: 'path' is a table; write 'path = { by_m",
-        ),
-        (
-            "height_m = 0.7",
-            "height_m = 0.7\npath = { by_m = [[1, 0]], sped_m_s = 1 }",
-            "line 16, column 27: 'path' has no 'sped_m_s'; write 'speed_m_s'",
-        ),
-        (
-            "height_m = 0.7",
-            "height_m = 0.7\ntexture = \"brick\"",
-            "line 16, column 11: texture: 'brick' is no texture; write 'bricks'",
-        ),
-        ("1.0, 90.0]", "inf, 90.0]", "line 5, column 14: pose_m_deg: inf is not within"),
-        (
-            "[4.0, 0.0], [4.0, 3.0]",
-            "[0.0, 0.0], [4.0, 3.0]",
-            "line 8, column 12: points_m: two points of the wall that follow each other are the same; leave one of them out",
-        ),
-        (", [2.5, 0.5]", "", "line 18, column 12: points_m: a polygon has three corners or more"),
-        ("[2.5, 0.5]]", "[2.0, 1.0]]", "line 18, column 12: points_m: the polygon is not convex"),
-        (
-            "[1.0, 1.0, 90.0]",
-            "[3.2, 2.0, 0]",
-            "line 5, column 14: the robot starts inside of 'table'; choose another place",
-        ),
-    ];
-    for (from, to, expected) in cases {
+    for (from, to, expected) in MISTAKES {
         let message = mistake(from, to);
         assert!(message.contains(expected), "{to}: {message}");
     }

@@ -128,9 +128,11 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     reporter.head(&output, outcomes.len());
     go_on(&engine, &reporter, &mut journal, &mut outcomes)?;
     outcomes.sort_by_key(|outcome| outcome.run);
-    output.write(&sweep, &outcomes)?;
+    // What the runs came to is seen, too, where no table of it can be written.
+    let written = output.write(&sweep, &outcomes);
     let findings = Findings::new(&outcomes);
-    reporter.end(&outcomes, &findings, &output)?;
+    reporter.end(&outcomes, &findings, written.is_ok().then_some(&output))?;
+    written?;
     Ok(match (outcomes.len() as u64 == sweep.len(), findings.has_failures()) {
         (false, _) => EXIT_STOPPED,
         (true, true) => EXIT_PLAN_ERROR,

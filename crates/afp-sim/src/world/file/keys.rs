@@ -241,8 +241,11 @@ impl Kind {
     }
 }
 
-/// The tables of a list, however it is written, each with its place.
-fn tables(item: &Item) -> Option<Vec<(&dyn TableLike, Option<Range<usize>>)>> {
+/// A table of a list, and its place.
+type Placed<'a> = (&'a dyn TableLike, Option<Range<usize>>);
+
+/// The tables of a list, however it is written.
+fn tables(item: &Item) -> Option<Vec<Placed<'_>>> {
     if let Some(tables) = item.as_array_of_tables() {
         return Some(tables.iter().map(|table| (table as &dyn TableLike, table.span())).collect());
     }

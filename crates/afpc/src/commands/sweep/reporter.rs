@@ -68,11 +68,11 @@ impl<'a> Reporter<'a> {
         &self,
         outcomes: &[Outcome],
         findings: &Findings,
-        output: &OutputFiles,
+        written: Option<&OutputFiles>,
     ) -> Result<(), NoPlan> {
         match self.json {
             true => print(&self.lines(outcomes, findings))?,
-            false => print(&self.summary(outcomes, findings, output))?,
+            false => print(&self.summary(outcomes, findings, written))?,
         };
         Ok(())
     }
@@ -128,7 +128,12 @@ impl<'a> Reporter<'a> {
         })
     }
 
-    fn summary(&self, outcomes: &[Outcome], findings: &Findings, output: &OutputFiles) -> String {
+    fn summary(
+        &self,
+        outcomes: &[Outcome],
+        findings: &Findings,
+        written: Option<&OutputFiles>,
+    ) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
         for group in findings.groups.iter().filter(|it| !it.ending.is_failure()).take(GROUPS) {
@@ -150,7 +155,7 @@ impl<'a> Reporter<'a> {
             let _ = writeln!(text, "{name:>20} {min:>10} {median:>10} {max:>10}");
         }
         let _ = writeln!(text, "\n{}", self.last_line(outcomes, findings));
-        for (path, _) in &output.tables {
+        for (path, _) in written.iter().flat_map(|output| &output.tables) {
             let _ = writeln!(text, "{QUIET}table:{QUIET:#} {}", path.display());
         }
         text

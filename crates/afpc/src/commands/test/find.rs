@@ -26,7 +26,7 @@ pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
         let path = Path::new(argument);
         if path.is_dir() {
             below(path, true, &mut wanted.files)?;
-        } else if path.is_file() || argument.ends_with(".afp") {
+        } else if path.exists() || argument.ends_with(".afp") {
             wanted.files.push(path.to_owned());
         } else {
             wanted.filters.push(argument.clone());

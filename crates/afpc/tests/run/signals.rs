@@ -1,0 +1,59 @@
+//! Runs that are stopped or killed.
+
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Command, Stdio};
+
+use super::common::Place;
+
+/// Starts a run in real time, does something to it once it lives, and gives its exit code and
+/// the rest of its output.
+fn interrupted(place: &Place, act: impl FnOnce(u32)) -> (Option<i32>, String) {
+    let run = ["run", "wall_following.afp", "--speed", "1x", "--json"];
+    let outputs = ["--log", "a.mcap", "--svg", "a.svg"];
+    let mut command = place.command();
+    command.args(run).args(outputs).stdin(Stdio::null()).stdout(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(800));
+    act(child.id());
+    let mut out = BufReader::new(child.stdout.take().unwrap());
+    let mut text = String::new();
+    out.read_line(&mut text).unwrap();
+    out.read_to_string(&mut text).unwrap();
+    (child.wait().unwrap().code(), text)
+}
+
+fn signal(name: &str, process: u32) {
+    let sent = Command::new("kill").args(["-s", name, &process.to_string()]).status();
+    assert!(sent.unwrap().success());
+}
+
+#[test]
+fn what_a_killed_run_has_left_is_kept() {
+    let place = Place::with_plan();
+    interrupted(&place, |process| signal("KILL", process));
+    place.afpc("log a.mcap").fails(1, &["name what there is of it, 'a.mcap.part'"]);
+    let said = place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none");
+    assert!(said.succeeds().err.contains("'afpc log a.2.mcap.part recover'"), "{}", said.err);
+    assert_eq!(place.files(), ["a.2.mcap.part", "a.mcap", "wall_following.afp"]);
+    let saved = place.afpc("log a.2.mcap.part recover");
+    assert!(saved.succeeds().out.ends_with("a.2.recovered.mcap\n"), "{}", saved.out);
+    assert_eq!(place.afpc("log a.2.recovered.mcap doctor").succeeds().out, "sound\n");
+}
+
+#[test]
+fn signals_end_a_run_cleanly() {
+    for (name, exit) in [("INT", 0), ("TERM", 143)] {
+        let place = Place::with_plan();
+        let (code, out) = interrupted(&place, |process| signal(name, process));
+        assert_eq!(code, Some(exit), "{out}");
+        assert!(out.contains("\"kind\":\"stop_requested\""), "{out}");
+        assert!(out.contains("\"component\":\"searchFirstWall\""), "{out}");
+        let last: serde_json::Value = serde_json::from_str(out.lines().last().unwrap()).unwrap();
+        assert_eq!(last["summary"]["stopped_by"], "signal");
+        assert_eq!(place.files(), ["a.mcap", "a.svg", "wall_following.afp"]);
+        assert_eq!(place.afpc("log a.mcap doctor").succeeds().out, "sound\n");
+        // Where it was stopped it stops again.
+        let again = place.afpc("run --again a.mcap --json --log none --svg none");
+        assert_eq!(again.succeeds().last_json()["summary"]["trace"], last["summary"]["trace"]);
+    }
+}
