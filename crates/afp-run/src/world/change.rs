@@ -118,7 +118,12 @@ fn inside<'a>(item: &'a mut Item, part: &str) -> Result<&'a mut Item, String> {
 
 fn set(item: &mut Item, name: &str, index: Option<usize>, to: Value) -> Result<(), String> {
     let Some(table) = item.as_table_like_mut() else {
-        return Err(format!("there is no '{name}' in a list; name one of them first"));
+        let mut listed = item.as_array_of_tables().into_iter().flatten();
+        let is_one = |table: &Table| table.get("name").and_then(Item::as_str) == Some(name);
+        return Err(match listed.any(is_one) {
+            true => format!("'{name}' is a table; name a key of it, too"),
+            false => format!("there is no '{name}' in a list; name one of them first"),
+        });
     };
     let Some(index) = index else {
         match table.get_mut(name).and_then(Item::as_value_mut) {
@@ -230,6 +235,7 @@ mod tests {
             ("robot.charg", "0.5", "charg"),
             ("robot.charge", "2", "charge"),
             ("box.height_m", "1m", "name one of them first"),
+            ("box.closet", "3", "'closet' is a table; name a key of it, too"),
             ("robot.pose.1", "4.5m", "there is no 'pose' among 'pose_m_deg'"),
             ("robot.pose_m_deg.3", "1m", "'pose_m_deg' has 3 values, from 0 on, and no number 3"),
             ("name.1", "4.5", "'name' is no list, so that it has no number 1"),
