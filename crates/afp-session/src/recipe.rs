@@ -65,7 +65,7 @@ pub struct RecipeError {
     /// When it was to come.
     pub at: Instant,
     /// What.
-    pub what: Stimulus,
+    pub what: Box<Stimulus>,
     /// Why not.
     pub why: RequestError,
 }
@@ -82,7 +82,7 @@ impl Recipe {
         for (at, what) in &self.requests {
             let request = what.request(session.devices(), session.names());
             let asked = request.and_then(|request| session.at(*at, request));
-            asked.map_err(|why| RecipeError { at: *at, what: what.clone(), why })?;
+            asked.map_err(|why| RecipeError { at: *at, what: Box::new(what.clone()), why })?;
         }
         Ok(())
     }

@@ -36,8 +36,8 @@ const MISSING: &[Code] = &[
     Code::E0608,
 ];
 
-/// What may seem to be missing of an enum or a table without a name.
-const OF_FILES: &[Code] = &[Code::E0232, Code::E0239, Code::E0253];
+/// What may seem to be missing of an enum without a name.
+const OF_ENUMS: &[Code] = &[Code::E0232, Code::E0239];
 
 /// What the grammar says of a declaration without a name.
 const NAMELESS: &str = "expected a name";
@@ -91,7 +91,7 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
     let words = by_line.lines().flat_map(|(file, line)| self::words(lines.text(file, line)));
     let words: FxHashSet<&str> = words.collect();
     let nameless = Within::new(&all.nameless);
-    let of_files: FxHashSet<u16> = types_around(files, &nameless).map(|item| item.file).collect();
+    let (enums, tables) = nameless_of_files(files, &nameless);
     let nameless = Ranges::new(plans_around(files, &nameless));
     let broken = Ranges::new(items.iter().copied().filter(|item| unread.any(*item)).collect());
     // A plan that ends too early has the rest of it behind itself.
@@ -123,8 +123,9 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
             // Of an edge that is not there the element that it would lead from.
             let most = if each.code == Code::E0603 { 1 } else { usize::MAX };
             let mut parts = named.take(most).flat_map(|name| name.split('.'));
-            if OF_FILES.contains(&each.code) {
-                return whole.contains(&file) || of_files.contains(&file);
+            if OF_ENUMS.contains(&each.code) || each.code == Code::E0253 {
+                let nameless = if each.code == Code::E0253 { &tables } else { &enums };
+                return whole.contains(&file) || nameless.contains(&file);
             }
             let declared =
                 matches!(each.code, Code::E0209 | Code::E0216) && nameless.any(each.span);
@@ -156,11 +157,18 @@ fn plans_around(files: &[PlanFile], nameless: &Within) -> Vec<Span> {
     plans.filter(|plan| nameless.any(*plan)).collect()
 }
 
-/// The enums and tables without their names.
-fn types_around(files: &[PlanFile], nameless: &Within) -> impl Iterator<Item = Span> {
-    let items = files.iter().flat_map(|file| file.tree.items());
-    let types = items.filter(|item| matches!(item, Item::Enum(_) | Item::Table(_)));
-    types.filter_map(|item| span(&item)).filter(|item| nameless.any(*item))
+/// The files with an enum without its name, and those with such a table.
+fn nameless_of_files(files: &[PlanFile], nameless: &Within) -> (FxHashSet<u16>, FxHashSet<u16>) {
+    let (mut enums, mut tables) = (FxHashSet::default(), FxHashSet::default());
+    for item in files.iter().flat_map(|file| file.tree.items()) {
+        let found = match item {
+            Item::Enum(_) => &mut enums,
+            Item::Table(_) => &mut tables,
+            _ => continue,
+        };
+        found.extend(span(&item).filter(|item| nameless.any(*item)).map(|item| item.file));
+    }
+    (enums, tables)
 }
 
 /// Files with a 'use' that cannot be read: what it would have brought is not known.
