@@ -6,6 +6,7 @@ use afp_core::trace::{EntryName, TraceEntryId};
 use afp_core::{Fault, TEXT_CAPACITY, Text, Value, ValueRef};
 use afp_dsl::types::Type;
 use afp_session::AnySession;
+use afp_syntax::diagnostics::words::a;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -156,12 +157,6 @@ pub fn short(text: String) -> String {
         Some((end, _)) => format!("{}...", text.get(..end).unwrap_or_default()),
         None => text,
     }
-}
-
-/// A word with its article.
-fn a(word: &str) -> String {
-    let article = if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {word}")
 }
 
 /// A number, if the value is one. What ends a program is not taken for a value that does not fit.
