@@ -186,14 +186,12 @@ fn what_is_written_is_read() {
     assert_eq!(doctor(&path).unwrap(), [""; 0]);
 }
 
-#[test]
-fn a_recipe_comes_back_as_it_was_written() {
-    let text = |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
+fn requests_of_each_kind() -> Vec<Stimulus> {
     let (control, fault) = ("touch.touch".to_owned(), "wheels.slip".to_owned());
     let outputs = vec![(1, Datum::Choice("#2".to_owned())), (2, Datum::Number(0.1))];
     let (component, outcome) = ("go.touch".to_owned(), "TouchSensorPressed".to_owned());
     let (entry, value) = ("side".to_owned(), Datum::Choice("Side.right".to_owned()));
-    let requests = [
+    vec![
         Stimulus::Write { entry, value, unit: String::new() },
         Stimulus::Press { control: control.clone(), held: true },
         Stimulus::Press { control, held: false },
@@ -212,11 +210,17 @@ fn a_recipe_comes_back_as_it_was_written() {
         Stimulus::Put { what: Put::Thing("box 1".to_owned()), at: Pose2::default() },
         Stimulus::Put { what: Put::New("crate".to_owned()), at: Pose2::default() },
         Stimulus::Stop,
-    ];
+    ]
+}
+
+#[test]
+fn a_recipe_comes_back_as_it_was_written() {
+    let text = |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
+    let requests = requests_of_each_kind();
     let recipe = Recipe {
         plan: "Walk".to_owned(),
         file: "plans/walk.afp".to_owned(),
-        texts: vec![text("plans/walk.afp", "plan Walk {}"), text("a.afp", "plan A {}")],
+        texts: vec![text("plans/walk.afp", "plan Walk {}"), text("toolbox/a.afp", "plan A {}")],
         toolboxes: vec![text("gripper", "actor Grip {}")],
         robot: "sim".to_owned(),
         world: text("room", "name = \"room\""),

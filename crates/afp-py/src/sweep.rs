@@ -364,9 +364,7 @@ fn no_journal(why: &JournalError) -> PyErr {
     let help = match why {
         JournalError::File(why) => return run_error(why),
         JournalError::InUse(_) => "wait for it, or give another 'out'",
-        JournalError::Other(..) | JournalError::Broken(..) => {
-            "restart=True begins anew and drops what is there; another 'out' keeps both"
-        }
+        _ => "restart=True begins anew and drops what is there; another 'out' keeps both",
     };
     error(format!("{why}\n  help: {help}"))
 }

@@ -22,6 +22,7 @@ const SYNC: Duration = Duration::from_secs(1);
 
 /// Why a journal cannot be used.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum JournalError {
     /// It cannot be read or written.
     File(RunError),
