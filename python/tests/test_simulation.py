@@ -130,7 +130,7 @@ def test_the_world_is_changed_and_the_start_chosen_as_on_the_command_line(wall_f
     assert facts["set"].splitlines() == ["world.robot.charge=0.5", "walldist=0.35 m"]
     assert len(facts["plan_hash"]) == len(facts["world_hash"]) == 16
     assert afp.Log(log).simulation().run(until=1.0).trace_hash == result.trace_hash
-    with pytest.raises(afp.AfpError, match="unknown field `nope`"):
+    with pytest.raises(afp.AfpError, match="has no 'nope'"):
         afp.Simulation(wall_following, set={"world.robot.nope": 3})
 
 
