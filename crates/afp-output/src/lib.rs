@@ -31,6 +31,7 @@ pub struct Output {
     path: PathBuf,
     /// What `path` becomes in the end; `None` where it is the end.
     becomes: Option<PathBuf>,
+    /// Where that is now which a process that died left of it.
     kept: Option<PathBuf>,
 }
 

@@ -11,6 +11,13 @@ pub(crate) const TOOLS: &[&str] =
 /// What items of a plan begin with.
 pub(crate) const PLAN: &[&str] =
     &["in", "out", "var", "const", "start", "supervise", "actor", "computation", "subplan"];
+/// What entries of a plan begin with.
+pub(crate) const ENTRIES: &[&str] = &["in", "out", "var", "const"];
+/// What elements of a plan begin with.
+const ELEMENTS: &[&str] = &["actor", "computation", "subplan"];
+/// What stands before a name and ':' in a plan.
+pub(crate) const NAMED: &[&str] =
+    &["in", "out", "var", "const", "supervise", "actor", "computation", "subplan"];
 /// What parts of a template begin with.
 pub(crate) const PARTS: &[&str] = &[
     "icon", "uses", "in", "out", "every", "deadline", "budget", "stop", "state", "states", "event",
@@ -58,8 +65,8 @@ fn begun<'a>(letters: &str, list: &[&'a str]) -> Option<&'a str> {
 /// The word that an item begins with: of a kind of which there are several, the one that was meant by what is written.
 pub(crate) fn of_item(kind: Kind, written: &str) -> &str {
     let list: &[&'static str] = match kind {
-        Kind::Entry => &["in", "out", "var", "const"],
-        Kind::Element => &["actor", "computation", "subplan"],
+        Kind::Entry => ENTRIES,
+        Kind::Element => ELEMENTS,
         Kind::Template => &["actor", "supervisor", "computation"],
         Kind::Device => &["device", "sensor", "robot"],
         Kind::Outcome => &["state", "event"],

@@ -36,9 +36,6 @@ const MISSING: &[Code] = &[
     Code::E0608,
 ];
 
-/// What may seem to be missing of an enum without a name.
-const OF_ENUMS: &[Code] = &[Code::E0232, Code::E0239];
-
 /// What the grammar says of a declaration without a name.
 const NAMELESS: &str = "expected a name";
 
@@ -123,8 +120,12 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
             // Of an edge that is not there the element that it would lead from.
             let most = if each.code == Code::E0603 { 1 } else { usize::MAX };
             let mut parts = named.take(most).flat_map(|name| name.split('.'));
-            if OF_ENUMS.contains(&each.code) || each.code == Code::E0253 {
-                let nameless = if each.code == Code::E0253 { &tables } else { &enums };
+            let nameless_types = match each.code {
+                Code::E0232 | Code::E0239 => Some(&enums),
+                Code::E0253 => Some(&tables),
+                _ => None,
+            };
+            if let Some(nameless) = nameless_types {
                 return whole.contains(&file) || nameless.contains(&file);
             }
             let declared =

@@ -3,7 +3,6 @@
 //! Sums and products are flat nodes, so that a long chain of terms makes no deep tree.
 
 use super::habits::is_operator;
-use super::slips::begins_formula;
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::{Code, Diagnostic, words};
 use crate::dimension::Dimension;
@@ -59,6 +58,11 @@ const WORDS_BEHIND_NUMBERS: &[&str] = &[
     "within",
     "world",
 ];
+
+/// Whether a formula may begin with a token.
+pub(super) fn begins_formula(kind: Kind) -> bool {
+    matches!(kind, Kind::Int | Kind::Float | Kind::Minus | Kind::Name | Kind::OpenParen)
+}
 
 impl Parser<'_, '_> {
     /// `term {("+" | "-") term}`

@@ -3,14 +3,9 @@
 use super::Parser;
 use super::recovery::Body;
 use crate::diagnostics::{Code, Diagnostic};
-use crate::keywords::PLAN;
+use crate::keywords::{ENTRIES, NAMED, PLAN};
 use crate::kind::Kind;
 
-/// The words that entries begin with.
-const ENTRIES: &[&str] = &["in", "out", "var", "const"];
-/// The words before a name and ':'.
-const COMPONENTS_AND_ENTRIES: &[&str] =
-    &["in", "out", "var", "const", "supervise", "actor", "computation", "subplan"];
 /// What the body of an element holds.
 pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
 const ITEMS: &str = "an item of the plan";
@@ -84,7 +79,7 @@ impl Parser<'_, '_> {
     /// The words of the items of a plan that have behind them what stands there.
     fn possible_items_of_plan(&self) -> &'static [&'static str] {
         match self.nth(2) {
-            Kind::Colon => COMPONENTS_AND_ENTRIES,
+            Kind::Colon => NAMED,
             Kind::Equal => ENTRIES,
             _ => PLAN,
         }

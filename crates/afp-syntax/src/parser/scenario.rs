@@ -1,6 +1,6 @@
 //! Scenarios: world, stimuli and expectations.
 
-use super::slips::begins_formula;
+use super::formula::begins_formula;
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::words;
 use crate::keywords::LINES;

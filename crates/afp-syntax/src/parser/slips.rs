@@ -61,8 +61,3 @@ impl Parser<'_, '_> {
         stands
     }
 }
-
-/// Whether a formula may begin with a token.
-pub(super) fn begins_formula(kind: Kind) -> bool {
-    matches!(kind, Kind::Int | Kind::Float | Kind::Minus | Kind::Name | Kind::OpenParen)
-}

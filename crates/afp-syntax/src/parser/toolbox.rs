@@ -1,7 +1,7 @@
 //! Toolboxes: templates and their parts, object types.
 
 use super::Parser;
-use super::slips::begins_formula;
+use super::formula::begins_formula;
 use crate::keywords::PARTS;
 use crate::kind::Kind;
 
