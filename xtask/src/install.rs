@@ -2,21 +2,32 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use crate::shell::{
-    Failure, built_plans, cargo, output, program, root, run as run_command, target,
+    Failure, built_plans, cargo, output, program, quickly, root, run as run_command, target,
 };
 
 /// Enough time for the robot to bump and back up.
 const UNTIL: [&str; 2] = ["--until", "10s"];
 
-/// Whether what is installed is optimised.
+/// Whether what is installed, and what it builds, is optimised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
-    /// As users install it: takes minutes.
+    /// As users have it: takes minutes.
     Release,
     /// With what other suites have built already.
     Debug,
+}
+
+impl Profile {
+    /// A command that builds plans.
+    fn builds(self, command: &mut Command) -> &mut Command {
+        match self {
+            Profile::Release => command,
+            Profile::Debug => quickly(command),
+        }
+    }
 }
 
 /// Installs the command line, runs and builds a copy of a plan far from the checkout, and compares
@@ -34,7 +45,7 @@ pub fn run(profile: Profile) -> Result<(), Failure> {
     run_command(&mut install)?;
     let folder = std::env::temp_dir().join(format!("afp-install-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
-    let done = use_it(&home.join("bin/afpc"), &folder);
+    let done = use_it(&home.join("bin/afpc"), &folder, profile);
     fs::remove_dir_all(&folder)?;
     done?;
     // The program against the interpreter over twenty seeds.
@@ -44,10 +55,10 @@ pub fn run(profile: Profile) -> Result<(), Failure> {
         // With the command line itself among what is built.
         long.args(["--test", "own_toolboxes", "--test", "new"]);
     }
-    run_command(long.args(["--", "--ignored"]))
+    run_command(profile.builds(long.args(["--", "--ignored"])))
 }
 
-fn use_it(afpc: &Path, folder: &Path) -> Result<(), Failure> {
+fn use_it(afpc: &Path, folder: &Path, profile: Profile) -> Result<(), Failure> {
     fs::copy(root().join("plans/wall_following.afp"), folder.join("mine.afp"))?;
     let here = |command: &Path| {
         let mut command = program(command);
@@ -56,8 +67,9 @@ fn use_it(afpc: &Path, folder: &Path) -> Result<(), Failure> {
     };
     let said = output(here(afpc).args(["run", "mine.afp", "--json"]).args(UNTIL))?;
     // The folder that the twenty seeds use too: the engine is built once.
-    let build = ["build", "mine.afp"];
-    let path = output(here(afpc).args(build).env("CARGO_TARGET_DIR", built_plans()))?;
+    let mut build = here(afpc);
+    build.args(["build", "mine.afp"]).env("CARGO_TARGET_DIR", built_plans());
+    let path = output(profile.builds(&mut build))?;
     let binary = Path::new(path.lines().last().unwrap_or_default()).to_owned();
     let again = output(here(&binary).arg("--json").args(UNTIL))?;
     if said != again {

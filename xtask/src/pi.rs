@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::emulated::{Emulated, PI, PI32};
 use crate::shell::{
-    Failure, built_plans, cargo, output, program, quickly_built, root, run as run_command, target,
+    Failure, built_plans, cargo, output, program, quickly, root, run as run_command, target,
 };
 
 /// A folder, a plan in it, and how the plan is run.
@@ -58,7 +58,7 @@ fn compare(machine: &Emulated, (folder, plan, until): Case, quick: bool) -> Resu
         let mut command = program(command);
         command.current_dir(&folder).env("CARGO_TARGET_DIR", built_plans());
         if quick {
-            quickly_built(&mut command);
+            quickly(&mut command);
         }
         command
     };

@@ -35,8 +35,12 @@ pub fn program(name: impl AsRef<OsStr>) -> Command {
 
 /// What a command builds goes where all slow tests build, without long optimisation.
 pub fn quickly_built(command: &mut Command) -> &mut Command {
+    quickly(command).env("CARGO_TARGET_DIR", built_plans())
+}
+
+/// What a command builds, or what it runs builds, it builds without long optimisation.
+pub fn quickly(command: &mut Command) -> &mut Command {
     command
-        .env("CARGO_TARGET_DIR", built_plans())
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
         .env("CARGO_PROFILE_RELEASE_LTO", "off")
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
