@@ -35,19 +35,24 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
         }
         write_whole("cannot write", &path, text)?;
     }
-    pin(folder, origin)
+    pin(folder, origin).map(drop)
 }
 
-/// Writes down the versions that the checkout was tested with: another physics engine drives other paths.
+/// Writes down the versions that the checkout was tested with: another physics engine drives other paths. Gives the
+/// file's name where it was written.
 ///
 /// # Errors
 /// The folder cannot be written.
-pub fn pin(folder: &Path, origin: &Origin) -> Result<(), RunError> {
-    let (Origin::Path(root), lock) = (origin, folder.join("Cargo.lock")) else { return Ok(()) };
-    match fs::read_to_string(Path::new(root).join("Cargo.lock")) {
-        Ok(text) if !lock.exists() => write_whole("cannot write", &lock, &text),
+pub fn pin(folder: &Path, origin: &Origin) -> Result<Option<&'static str>, RunError> {
+    const LOCK: &str = "Cargo.lock";
+    let (Origin::Path(root), lock) = (origin, folder.join(LOCK)) else { return Ok(None) };
+    match fs::read_to_string(Path::new(root).join(LOCK)) {
+        Ok(text) if !lock.exists() => {
+            write_whole("cannot write", &lock, &text)?;
+            Ok(Some(LOCK))
+        }
         // Without it cargo chooses versions by the manifests.
-        _ => Ok(()),
+        _ => Ok(None),
     }
 }
 

@@ -34,6 +34,9 @@ pub enum LogError {
     Writer,
 }
 
+/// What helps where a file or its folder is not there.
+const ELSEWHERE: &str = "check the path, which begins in the folder in which the command runs";
+
 impl LogError {
     /// The same of a log that is being written: a failure of the disk names the file.
     pub(crate) fn writing(self, path: &Path) -> LogError {
@@ -57,13 +60,14 @@ impl LogError {
                     )
                     .into();
                 }
-                "check the path, which begins in the folder in which the command runs"
+                ELSEWHERE
             }
             LogError::NotALog { .. } => {
                 "name a file that a run wrote: 'afpc run PLAN --log FILE.mcap'"
             }
             LogError::Mcap(mcap::McapError::Io(_)) => "",
             LogError::Mcap(_) => "'afpc log FILE recover' saves what is intact into a new file",
+            LogError::Create { error, .. } if error.kind() == io::ErrorKind::NotFound => ELSEWHERE,
             LogError::Create { .. } | LogError::Open { .. } | LogError::Writer => "",
         };
         help.into()

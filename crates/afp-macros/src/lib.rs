@@ -37,12 +37,12 @@ pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), toolbox_code).into()
 }
 
-/// Turns the first plan of a file, with the sub-plans it uses, into native code.
+/// Turns a plan of a file, with the sub-plans it uses, into native code.
 ///
-/// `plan!("plans/wall_following.afp")` takes a path relative to the crate's manifest. It makes a
-/// module for each plan and brings the plan's type into scope. Toolboxes that are not built in are
-/// those of the project file `afp.toml`, which stands beside the manifest or above; others follow:
-/// `plan!("x.afp", toolboxes = { "gripper.afp" => crate::gripper })`.
+/// `plan!("plans/wall_following.afp")` takes a path relative to the crate's manifest, with the name of a plan behind a
+/// colon another one than the first: `plan!("plans/patrol.afp:Search")`. It makes a module for each plan and brings the
+/// plan's type into scope. Toolboxes that are not built in are those of the project file `afp.toml`, which stands beside
+/// the manifest or above; others follow: `plan!("x.afp", toolboxes = { "gripper.afp" => crate::gripper })`.
 #[proc_macro]
 pub fn plan(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), plan_code).into()
@@ -104,9 +104,9 @@ fn plan_code(input: MacroInput) -> Result<TokenStream, TokenStream> {
 }
 
 fn plan_tokens(input: &MacroInput) -> Result<TokenStream, TokenStream> {
-    let file = sources::read(&input.path)?;
+    let (file, plan) = sources::read_plan(&input.path)?;
     let (compiled, Available { texts, without_crate, .. }) =
-        sources::compile(&file, &input.toolboxes)?;
+        sources::compile(&file, plan, &input.toolboxes)?;
     let wrong = || compile_errors(&compiled.diags, &compiled.sources);
     let graph = compiled.graph.as_ref().ok_or_else(wrong)?;
     for (name, why) in &without_crate {
@@ -136,7 +136,7 @@ fn scenarios_code(setting: ScenarioSetting) -> Result<TokenStream, TokenStream> 
         if !file.source.text.lines().any(|line| line.trim_start().starts_with("scenario ")) {
             continue;
         }
-        let (compiled, available) = sources::compile(&file, &[])?;
+        let (compiled, available) = sources::compile(&file, None, &[])?;
         if compiled.graph.is_none() && compiled.invalid.is_empty() {
             return Err(compile_errors(&compiled.diags, &compiled.sources));
         }

@@ -62,10 +62,22 @@ pub fn plan_files(path: &str) -> Vec<String> {
     plans.map(|file| file.strip_prefix(&root).unwrap_or(&file).display().to_string()).collect()
 }
 
-/// Compiles a plan file with the built-in toolboxes, then those of the project whose `afp.toml` stands beside the
+/// A plan file, and the name of a plan in it where one stands behind a colon: `patrol.afp:Search`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_plan(path: &str) -> Result<(File, Option<&str>), TokenStream> {
+    match path.rsplit_once(':') {
+        Some((file, plan)) if file.ends_with(".afp") => Ok((read(file)?, Some(plan))),
+        _ => Ok((read(path)?, None)),
+    }
+}
+
+/// Compiles a plan file, the plan of that name in it or the first, with the built-in toolboxes, then those of the project whose `afp.toml` stands beside the
 /// manifest or above, then those of `files`, each with the module that implements it.
 pub fn compile(
     file: &File,
+    plan: Option<&str>,
     files: &[(String, String)],
 ) -> Result<(Compiled, Available), TokenStream> {
     let root = root();
@@ -76,7 +88,8 @@ pub fn compile(
         all.toolboxes.add(source, module);
         all.texts.push(text);
     }
-    let compiled = afp_dsl::compile(&file.source, &all.toolboxes, &Disk(root.clone()));
+    let disk = Disk(root.clone());
+    let compiled = afp_dsl::compile_plan(&file.source, &all.toolboxes, &disk, plan);
     all.texts.extend(compiled.plan_sources().map(|source| include(&root.join(&source.name))));
     Ok((compiled, all))
 }

@@ -43,6 +43,14 @@ fn a_missing_file_is_named() {
 }
 
 #[test]
+fn a_plan_of_a_file_goes_by_its_name() {
+    let errors = errors(&expand(quote!("tests/files/main.afp:Nobody"), plan_code));
+    assert!(errors[0].contains("'Nobody'"), "{errors:?}");
+    let text = expand(quote!("tests/files/sub/pause.afp:Pause"), plan_code).to_string();
+    assert!(text.contains("pub struct Pause"), "{text}");
+}
+
+#[test]
 fn errors_of_used_files_have_their_own_place() {
     let errors = errors(&expand(quote!("tests/wrong/files.afp"), plan_code));
     assert_eq!(errors.len(), 2, "{errors:?}");

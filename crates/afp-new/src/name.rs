@@ -11,20 +11,17 @@ pub struct NameError {
     pub help: String,
 }
 
-/// Words of the language and of Rust, names of what comes with AFP, and of what new projects declare themselves.
+/// Words of the language and of Rust, names of what comes with AFP, and modules that new projects declare themselves.
 const TAKEN: &[&str] = &[
     "actor",
-    "afp",
     "as",
     "break",
     "carbot",
-    "check_bumper",
     "computation",
     "const",
     "core",
     "crate",
     "device",
-    "drive",
     "else",
     "enum",
     "event",
@@ -37,6 +34,7 @@ const TAKEN: &[&str] = &[
     "in",
     "input",
     "let",
+    "libm",
     "loop",
     "match",
     "mod",
@@ -48,7 +46,6 @@ const TAKEN: &[&str] = &[
     "pub",
     "ref",
     "return",
-    "robot",
     "scenario",
     "self",
     "sensor",
@@ -68,7 +65,6 @@ const TAKEN: &[&str] = &[
     "trait",
     "true",
     "truth",
-    "turn",
     "type",
     "unsafe",
     "use",
@@ -77,8 +73,27 @@ const TAKEN: &[&str] = &[
     "where",
     "while",
     "work",
-    "world",
 ];
+/// Types that Rust has everywhere and that new projects use.
+const OF_RUST: &[&str] = &[
+    "Box", "Clone", "Copy", "Default", "Drop", "Eq", "Err", "Fn", "From", "Into", "Iterator",
+    "None", "Ok", "Option", "Ord", "Result", "Self", "Send", "Some", "String", "Sync", "Vec",
+];
+
+/// Whether a project that is called so would be no other than something that it uses: a package, a word, or a type of
+/// its own files.
+fn is_taken(snake: &str, camel: &str) -> bool {
+    let is_afp = snake == "afp" || snake.starts_with("afp_");
+    is_afp || TAKEN.contains(&snake) || OF_RUST.contains(&camel) || is_used(camel)
+}
+
+/// Whether a type of that name is in the files of new projects.
+fn is_used(camel: &str) -> bool {
+    let is_code = |line: &&str| !line.trim_start().starts_with("//");
+    let lines = super::TOOLBOX.iter().chain(super::ROBOT).flat_map(|(_, text)| text.lines());
+    let is_word = |c: char| c.is_alphanumeric() || "_{}".contains(c);
+    lines.filter(is_code).any(|line| line.split(|c| !is_word(c)).any(|word| word == camel))
+}
 
 /// A project's name.
 #[derive(Debug)]
@@ -99,21 +114,24 @@ impl Names {
         if !begins || ends || !name.chars().all(is_part) {
             return Err(NameError {
                 message: format!("'{name}' cannot be the name of a project"),
-                help: "use lower-case letters, digits, '-' and '_', such as 'my-rover'".to_owned(),
+                help: "use lower-case letters, digits, '-' and '_', a letter first, such as \
+                       'my-rover'"
+                    .to_owned(),
             });
         }
         let snake = name.replace('-', "_");
-        if TAKEN.contains(&&*snake) {
+        let camel = snake.split('_').map(|word| {
+            let (first, rest) = word.split_at(1.min(word.len()));
+            first.to_ascii_uppercase() + rest
+        });
+        let camel: String = camel.collect();
+        if is_taken(&snake, &camel) {
             return Err(NameError {
                 message: format!("the name '{name}' is taken"),
                 help: format!("another one, such as 'my-{name}'"),
             });
         }
-        let camel = snake.split('_').map(|word| {
-            let (first, rest) = word.split_at(1.min(word.len()));
-            first.to_ascii_uppercase() + rest
-        });
-        Ok(Names { name: name.to_owned(), camel: camel.collect(), snake })
+        Ok(Names { name: name.to_owned(), camel, snake })
     }
 
     /// A text with the names in it.

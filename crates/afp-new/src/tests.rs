@@ -68,7 +68,26 @@ fn names_that_cannot_be_are_refused_with_another() {
         let error = files(name, Kind::Plan, &Origin::Version(String::new())).unwrap_err();
         assert!(error.help.contains("'my-rover'"), "{name:?}: {error}");
     }
-    for name in ["std", "turn", "self", "robot"] {
+    // Words of Rust; packages, traits and types of the project's own files; what Rust has everywhere.
+    let taken = [
+        "std",
+        "turn",
+        "self",
+        "robot",
+        "wheels",
+        "floor",
+        "environment",
+        "noise",
+        "grid",
+        "length",
+        "check_bumper",
+        "option",
+        "libm",
+        "afp",
+        "afp-session",
+        "afp-mine",
+    ];
+    for name in taken {
         let error = files(name, Kind::Plan, &Origin::Version(String::new())).unwrap_err();
         assert_eq!(error.help, format!("another one, such as 'my-{name}'"));
         assert!(files(&format!("my-{name}"), Kind::Plan, &Origin::Version(String::new())).is_ok());

@@ -5,7 +5,7 @@ use core::fmt;
 use crate::Rounded;
 
 /// A number of an SI unit as people write it: angles in degrees; less than a metre in centimetres, less than a
-/// second in milliseconds; shown to the thousandth of its part.
+/// second in milliseconds; shown to the thousandth of its part, or to three digits where that would be nothing.
 ///
 /// Two that are equal read the same.
 ///
@@ -14,6 +14,7 @@ use crate::Rounded;
 ///
 /// assert_eq!(Measured::new(0.3, "m").to_string(), "30 cm");
 /// assert_eq!(Measured::new(7.4, "V").to_string(), "7.4 V");
+/// assert_eq!(Measured::new(0.000_001, "m").to_string(), "0.0001 cm");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured<'a> {
@@ -25,42 +26,78 @@ pub struct Measured<'a> {
 impl<'a> Measured<'a> {
     /// A number in that SI unit, `""` for a plain one.
     pub fn new(number: f64, unit: &'a str) -> Self {
-        match unit {
-            "rad" => Self::whole(number.to_degrees(), "deg"),
-            "rad/s" => Self::whole(number.to_degrees(), "deg/s"),
-            "m" => Self::whole_or_parts(number, "m", "cm", 2),
-            "m/s" => Self::whole_or_parts(number, "m/s", "cm/s", 2),
-            "s" => Self::whole_or_parts(number, "s", "ms", 3),
-            unit => Self::whole(number, unit),
+        let (value, decimals, unit) = in_its_unit(number, unit);
+        let (value, decimals) = match rounded(value, decimals) {
+            0.0 if value.abs() >= NOTHING => three_digits(value),
+            shown => (shown, decimals),
+        };
+        Measured { value, decimals, unit }
+    }
+
+    /// The same where nothing is rounded away but what computing has left.
+    pub fn exact(number: f64, unit: &'a str) -> Option<Self> {
+        let shown = Self::new(number, unit);
+        let (value, ..) = in_its_unit(number, unit);
+        ((shown.value - value).abs() <= value.abs() * RESIDUE).then_some(shown)
+    }
+
+    /// Zero in the unit of another number that it is read with; any other number as it is.
+    pub fn beside(self, other: Self) -> Self {
+        match self.value == 0.0 {
+            true => Measured { unit: other.unit, ..self },
+            false => self,
         }
-    }
-
-    /// The unit that it is written with, `""` for a plain number.
-    pub fn unit(&self) -> &'a str {
-        self.unit
-    }
-
-    fn whole(number: f64, unit: &'a str) -> Self {
-        Self::rounded(number, 3, unit)
-    }
-
-    /// A number from one on in its unit, below in parts of it that are so many powers of ten smaller.
-    fn whole_or_parts(number: f64, unit: &'a str, part: &'a str, power: u8) -> Self {
-        let decimals = usize::from(power) + 3;
-        let shown = Self::rounded(number, decimals, unit);
-        if shown.value.abs() < 1.0 {
-            Self::rounded(shown.value * libm::pow(10.0, f64::from(power)), 3, part)
-        } else {
-            shown
-        }
-    }
-
-    fn rounded(number: f64, decimals: usize, unit: &'a str) -> Self {
-        let scale = libm::pow(10.0, decimals as f64);
-        let shown = libm::round(number * scale) / scale;
-        Measured { value: if shown.is_finite() { shown } else { number }, decimals, unit }
     }
 }
+
+/// What is smaller than this in its unit is what computing has left of zero.
+const NOTHING: f64 = 1e-9;
+/// What computing leaves of a number, as a part of it.
+const RESIDUE: f64 = 1e-14;
+
+/// A number in the unit that people write it in, and how many decimals are shown.
+fn in_its_unit(number: f64, unit: &str) -> (f64, usize, &str) {
+    match unit {
+        "rad" => (number.to_degrees(), 3, "deg"),
+        "rad/s" => (number.to_degrees(), 3, "deg/s"),
+        "m" => whole_or_parts(number, "m", "cm", 2),
+        "m/s" => whole_or_parts(number, "m/s", "cm/s", 2),
+        "s" => whole_or_parts(number, "s", "ms", 3),
+        unit => (number, 3, unit),
+    }
+}
+
+/// A number from one on in its unit, below in parts of it that are so many powers of ten smaller.
+fn whole_or_parts<'a>(
+    number: f64,
+    unit: &'a str,
+    part: &'a str,
+    power: u8,
+) -> (f64, usize, &'a str) {
+    let decimals = usize::from(power) + 3;
+    match rounded(number, decimals).abs() < 1.0 {
+        true => (number * libm::pow(10.0, f64::from(power)), 3, part),
+        false => (number, decimals, unit),
+    }
+}
+
+/// To so many decimals; as it is where it has none of them.
+fn rounded(number: f64, decimals: usize) -> f64 {
+    let scale = libm::pow(10.0, decimals as f64);
+    match (number * scale).abs() < WHOLE {
+        true => libm::round(number * scale) / scale,
+        false => number,
+    }
+}
+
+/// A number of less than a thousandth to three digits, and how many decimals those are.
+fn three_digits(number: f64) -> (f64, usize) {
+    let decimals = (2.0 - libm::floor(libm::log10(number.abs()))) as usize;
+    (rounded(number, decimals), decimals)
+}
+
+/// From here on every number is a whole one.
+const WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// From here on a number is written with an exponent.
 const LARGE: f64 = 1e12;
@@ -111,9 +148,38 @@ mod tests {
             (1e308, "", "1e308"),
             (-2.5e20, "m", "-2.5e20 m"),
             (123_456_789_012.5, "", "123456789012.5"),
+            (1e20, "m", "1e20 m"),
+            (0.000_001, "m", "0.0001 cm"),
+            (1e-7, "s", "0.0001 ms"),
+            (-0.000_001_234_5, "", "-0.00000123"),
+            (0.000_4, "", "0.0004"),
+            (1e-6, "m^2", "0.000001 m^2"),
+            (1e-17, "m", "0 cm"),
         ] {
             assert_eq!(Measured::new(number, unit).to_string(), text);
         }
+    }
+
+    #[test]
+    fn zero_has_the_unit_of_what_is_beside_it() {
+        let beside = |number, other| {
+            Measured::new(number, "s").beside(Measured::new(other, "s")).to_string()
+        };
+        assert_eq!(beside(0.0, -1.0), "0 s");
+        assert_eq!(beside(0.0, -0.02), "0 ms");
+        assert_eq!(beside(0.5, 2.0), "500 ms");
+    }
+
+    #[test]
+    fn a_number_is_exact_where_it_can_be_read_back() {
+        let exact = |number, unit| Measured::exact(number, unit).map(|shown| shown.to_string());
+        assert_eq!(exact(-core::f64::consts::FRAC_PI_2, "rad").as_deref(), Some("-90 deg"));
+        assert_eq!(exact(0.1 + 0.2, "m").as_deref(), Some("30 cm"));
+        assert_eq!(exact(0.0, "m").as_deref(), Some("0 cm"));
+        assert_eq!(exact(0.000_001, "m").as_deref(), Some("0.0001 cm"));
+        assert_eq!(exact(0.300_000_1, "m"), None);
+        assert_eq!(exact(1.0, "rad"), None);
+        assert_eq!(exact(f64::NAN, ""), None);
     }
 
     #[test]

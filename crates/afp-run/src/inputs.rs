@@ -3,9 +3,11 @@
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_core::{Fault, StartError, Value};
 use afp_excerpt::words::a;
+use afp_number::number_length;
 use afp_session::{AnyRobot, AnySession, SetError, refusal};
 
 use crate::error::RunError;
+use crate::units::some;
 use crate::world::{LoadedWorld, change};
 
 /// Changes values of a world as the command line says.
@@ -110,14 +112,14 @@ fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[St
     let choices: Vec<_> = choices.take_while(|choice| !choice.is_empty()).collect();
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
     let help = match (ty, number) {
+        _ if let Some(text) = with_a_point(text, units) => format!("write '{name}={text}'"),
         (_, Some(_)) if !unit.is_empty() => {
             let handy = units.iter().find(|unit| *unit == "cm" || *unit == "deg");
             let unit = handy.map_or(unit, String::as_str);
             format!("write the unit: '{name}={text}{unit}'")
         }
         _ if !unit.is_empty() => {
-            let units: Vec<_> = units.iter().take(8).map(String::as_str).collect();
-            format!("a number and a unit: {}", units.join(", "))
+            format!("a number and a unit: {}", some(units.iter().map(String::as_str)))
         }
         _ if !choices.is_empty() => format!("one of: {}", choices.join(", ")),
         _ if why == Fault::TOO_LONG => why.to_string(),
@@ -130,6 +132,18 @@ fn unreadable(names: &dyn Names, name: &str, text: &str, why: Fault, units: &[St
         _ => format!("'{name}' is {}", a(ty)),
     };
     RunError::usage(format!("'{name}={text}': not {}", a(ty)), help)
+}
+
+/// A number with a decimal comma, and one of the units where there are any, with a point.
+fn with_a_point(text: &str, units: &[String]) -> Option<String> {
+    let (whole, part) = text.split_once(',')?;
+    let text = format!("{whole}.{part}");
+    let unit = text.get(number_length(&text)..)?.trim();
+    let fits = match units {
+        [] => unit.is_empty(),
+        units => units.iter().any(|known| known == unit),
+    };
+    fits.then_some(text)
 }
 
 /// The greatest whole number up to which floats have each.

@@ -19,6 +19,7 @@ mod run;
 mod stderr;
 mod stop;
 mod svg;
+mod units;
 pub mod world;
 
 use std::process::ExitCode;

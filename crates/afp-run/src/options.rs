@@ -171,6 +171,12 @@ impl RunOptions {
                 "'afpc dap PLAN.afp', as editors start it, debugs the plan in the simulator, with the same trace, and logs of the robot",
             ));
         }
+        if self.camera && matches!(self.log, Some(Destination::None)) {
+            return Err(RunError::usage(
+                "'--camera' logs what the camera sees, and there is no log",
+                "leave '--log none' out, or '--camera'",
+            ));
+        }
         match self.robot {
             OnRobot::Sim => Ok(()),
             OnRobot::Hardware => self.check_hardware(),

@@ -60,7 +60,8 @@ pub fn run(
     options.check()?;
     if options.robot == OnRobot::Hardware {
         let message = "this program was built without the robot's hardware";
-        return Err(RunError::usage(message, "'afpc build --hardware' links it"));
+        let help = "'afpc build --hardware' links it, of a robot whose project brings it";
+        return Err(RunError::usage(message, help));
     }
     let again = options.again.as_deref().map(Again::read).transpose()?;
     let world = match &again {

@@ -3,6 +3,7 @@
 pub mod change;
 mod measure;
 mod named;
+mod place;
 
 use std::borrow::Cow;
 use std::fs;

@@ -218,9 +218,14 @@ impl Counts {
     /// The text for people of the fault that ended the plan; `None` where none did.
     pub fn why(&self, names: &dyn Names) -> Option<String> {
         let Some(Ending::Error(fault)) = self.ending else { return None };
-        let failure = self.failure.filter(|failure| failure.fault == fault);
-        let detail = failure.and_then(|failure| failure.detail);
+        let detail = self.fatal().and_then(|failure| failure.detail);
         Some(fault.explained(detail, names).to_string())
+    }
+
+    /// Whose fault ended the plan, and which; `None` where none did, or an edge to `fail` took its place.
+    pub fn fatal(&self) -> Option<Failure> {
+        let Some(Ending::Error(fault)) = self.ending else { return None };
+        self.failure.filter(|failure| failure.fault == fault)
     }
 
     /// What ended the run: a state or an event with its component, a fault by its code, or `stop`.

@@ -5,7 +5,9 @@ use std::fmt;
 use afp_core::Instant;
 use afp_core::ValueRef;
 use afp_core::rt::NamedPlan;
-use afp_core::trace::{ComponentId, Names, Record, Sink, TraceEntryId};
+use afp_core::trace::{
+    ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Names, Record, Sink, TraceEntryId,
+};
 
 /// A sink that calls functions when a component starts, reports a state or an event, or an entry
 /// changes. Several functions for one thing are called in the order in which they were given.
@@ -49,7 +51,8 @@ impl<'a, N: Names> Callbacks<'a, N> {
 
     /// Calls a function when a component reports a state or an event. A component goes by its path:
     /// `go` for an element, `go.touch` for its supervisor, `patrol.go` for one of a sub-plan; a
-    /// sub-plan's states are `OK` and `Interrupted`.
+    /// sub-plan's states are `OK` and `Interrupted`. Every component also has `Error`, its faults, and a supervisor
+    /// `DeadlineMissed`, whether the plan leads them anywhere or not.
     ///
     /// # Errors
     /// [`UnknownName`]; the component or its outcome.
@@ -60,14 +63,13 @@ impl<'a, N: Names> Callbacks<'a, N> {
         call: impl FnMut(Instant) + 'a,
     ) -> Result<Self, UnknownName> {
         let id = self.component(component)?;
-        let all = || (0..).map(|each| (each, self.names.outcome(id, each)));
-        let mut known = all().take_while(|(_, name)| !name.is_empty());
-        let number = known.find(|(_, name)| *name == outcome).map(|(number, _)| number);
+        let known = self.outcomes(id);
+        let number = known.iter().find(|(_, name)| *name == outcome).map(|(number, _)| *number);
         let number = number.ok_or_else(|| UnknownName {
             owner: format!("'{component}'"),
             what: "state or event",
             name: outcome.to_owned(),
-            known: all().map_while(|(_, n)| (!n.is_empty()).then(|| n.to_owned())).collect(),
+            known: known.iter().map(|(_, name)| (*name).to_owned()).collect(),
         })?;
         self.calls.push(Call::Outcome(id, number, Box::new(call)));
         Ok(self)
@@ -108,6 +110,15 @@ impl<'a, N: Names> Callbacks<'a, N> {
         Ok(self)
     }
 
+    /// All that a component can report, by number.
+    fn outcomes(&self, id: ComponentId) -> Vec<(u16, &str)> {
+        let own = (0..).map(|each| (each, self.names.outcome(id, each)));
+        let own = own.take_while(|(_, name)| !name.is_empty());
+        let is_supervisor = self.names.component(id).kind == ComponentKind::Supervisor;
+        let missed = is_supervisor.then_some((DEADLINE_MISSED, "DeadlineMissed"));
+        own.chain(missed).chain([(ERROR, "Error")]).collect()
+    }
+
     fn component(&self, path: &str) -> Result<ComponentId, UnknownName> {
         let ids = || (0..self.names.components()).map(ComponentId);
         let found = ids().find(|id| self.names.component(*id).path == path);
@@ -127,15 +138,14 @@ impl<N> Sink for Callbacks<'_, N> {
                 Call::Start(id, call) if *id == component => call(at),
                 _ => {}
             }),
+            // It has been told when it was missed.
+            Record::Event { event: DEADLINE_MISSED, .. } => {}
             Record::Event { supervisor: component, event: outcome, .. }
             | Record::Finished { element: component, state: outcome } => {
-                self.each(|call| match call {
-                    Call::Outcome(id, number, call) if (*id, *number) == (component, outcome) => {
-                        call(at);
-                    }
-                    _ => {}
-                });
+                self.outcome(at, component, outcome);
             }
+            Record::Missed { supervisor, .. } => self.outcome(at, supervisor, DEADLINE_MISSED),
+            Record::Faulted { component, .. } => self.outcome(at, component, ERROR),
             Record::Committed { entry, new, .. } => self.each(|call| match call {
                 Call::Write(id, call) if *id == entry => call(at, new),
                 _ => {}
@@ -146,6 +156,13 @@ impl<N> Sink for Callbacks<'_, N> {
 }
 
 impl<'a, N> Callbacks<'a, N> {
+    fn outcome(&mut self, at: Instant, component: ComponentId, outcome: u16) {
+        self.each(|call| match call {
+            Call::Outcome(id, number, call) if (*id, *number) == (component, outcome) => call(at),
+            _ => {}
+        });
+    }
+
     fn each(&mut self, call: impl FnMut(&mut Call<'a>)) {
         self.calls.iter_mut().for_each(call);
     }

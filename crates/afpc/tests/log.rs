@@ -127,6 +127,8 @@ fn a_log_without_camera_pictures_says_what_to_do() {
         &["the log holds no pictures of the camera", "afpc run plan.afp --camera --log run.mcap"],
     );
     assert!(!place.exists("film.svg"));
+    let nowhere = place.afpc("run wall_following.afp --camera --log none");
+    nowhere.fails(2, &["'--camera' logs what the camera sees, and there is no log"]);
     place.afpc("run wall_following.afp --until 5ms --log b.mcap --svg none").succeeds();
     place
         .afpc("log b.mcap --sonar map.svg")

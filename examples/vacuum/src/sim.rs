@@ -150,7 +150,9 @@ impl Environment for Vacuum {
 
 impl Wheels for Vacuum {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed) {
-        self.asked = [speed.si(), turn.si()];
+        let asked = [speed.si(), turn.si()];
+        // Of a number that is none the motors make nothing.
+        self.asked = if asked.iter().all(|number| number.is_finite()) { asked } else { [0.0; 2] };
     }
 
     fn way(&self) -> Way {

@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 use super::{Scheduler, State};
 use crate::fault::Fault;
 use crate::rt::{NamedPlan, PlanState, Writable, WriteError};
+use crate::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use crate::value::{Value, ValueRef};
 
 /// An entry of the plan `P` that takes values of type `T` from outside. `plan!` makes a constant of
@@ -22,7 +23,12 @@ pub enum SetError {
     /// The plan has no entry of that name.
     Unknown,
     /// The text is no value of the entry's type.
-    Unreadable(Fault),
+    Unreadable {
+        /// Why not.
+        why: Fault,
+        /// What to write.
+        help: &'static str,
+    },
     /// The entry does not take the value.
     Refused(WriteError),
 }
@@ -58,15 +64,25 @@ impl fmt::Display for SetError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SetError::Unknown => f.write_str("the plan has no such entry"),
-            SetError::Unreadable(why) => {
-                write!(f, "{why}; write it as in the plan, a quantity with its unit: '80 cm'")
-            }
+            SetError::Unreadable { why, help } => write!(f, "{why}; {help}"),
             SetError::Refused(why) => why.fmt(f),
         }
     }
 }
 
 impl core::error::Error for SetError {}
+
+/// How a value of an entry is written.
+fn help(entry: &EntryName<'_>) -> &'static str {
+    match entry.ty {
+        "bool" => "write 'true' or 'false'",
+        "int" => "write a whole number, such as '3'",
+        "float" => "write a number, such as '0.5'",
+        "string" => "write a shorter one",
+        _ if !entry.unit.is_empty() => "write a number and a unit that fits, such as '80 cm'",
+        _ => "write one of the values of its enum, with or without its name: 'Side.left', 'left'",
+    }
+}
 
 impl<P: PlanState> Scheduler<P> {
     /// Gives an entry a value: before the start an `in` entry, at once; later an `in` or `var` entry,
@@ -86,7 +102,7 @@ impl<P: PlanState> Scheduler<P> {
         self.write(entry.position, value.as_value().to_owned())
     }
 
-    /// As [`Scheduler::set`], by name, with the value as it would stand in the plan.
+    /// As [`Scheduler::set`], by name, with the value as it would stand in the plan; a text without its quotes.
     ///
     /// ```ignore
     /// plan.set_named("way", "80 cm")?;
@@ -100,7 +116,13 @@ impl<P: PlanState> Scheduler<P> {
     {
         let plan = self.plan();
         let position = plan.entry_named(entry).ok_or(SetError::Unknown)?;
-        let value = plan.read(position, text).map_err(SetError::Unreadable)?;
+        let names = plan.names();
+        let about = names.entry(TraceEntryId(position.into()));
+        if !matches!(about.kind, EntryKind::In | EntryKind::Var) {
+            return Err(SetError::Refused(WriteError::ReadOnly));
+        }
+        let unreadable = |why| SetError::Unreadable { why, help: help(&about) };
+        let value = plan.read(position, text).map_err(unreadable)?;
         self.write(position, value).map_err(SetError::Refused)
     }
 

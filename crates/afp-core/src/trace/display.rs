@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use afp_number::Quantity;
+use afp_number::{Measured, Quantity};
 
 use super::{
     Author, Cause, ComponentId, ComponentKind, ERROR, Ending, Names, Record, TraceEntryId, Verdict,
@@ -34,9 +34,26 @@ pub(super) struct Range<'a> {
 
 impl fmt::Display for Range<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [least, greatest] =
-            [self.least, self.greatest].map(|value| Quantity { value, unit: self.unit });
-        write!(f, "from {least} to {greatest}")
+        let bound = |value, other| Bound { value, other, unit: self.unit };
+        let [least, greatest] = [self.least, self.greatest];
+        write!(f, "from {} to {}", bound(least, greatest), bound(greatest, least))
+    }
+}
+
+/// A bound beside another one, as people write it; to the last digit where that is not all of it.
+struct Bound<'a> {
+    value: f64,
+    other: f64,
+    unit: &'a str,
+}
+
+impl fmt::Display for Bound<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Bound { value, other, unit } = *self;
+        match Measured::exact(value, unit) {
+            Some(shown) => shown.beside(Measured::new(other, unit)).fmt(f),
+            None => Quantity { value, unit }.fmt(f),
+        }
     }
 }
 

@@ -40,6 +40,9 @@ pub(crate) struct RunFigures {
     /// The fault in words: port, value and place.
     #[serde(skip_serializing_if = "Option::is_none")]
     fault_text: Option<String>,
+    /// Whose it was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault_component: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stopped_by: Option<StoppedBy>,
     time_s: f64,
@@ -131,6 +134,9 @@ impl Ran<'_> {
             ending,
             fault,
             fault_text: counts.why(names),
+            fault_component: counts
+                .fatal()
+                .map(|failure| names.component(failure.component).path.to_owned()),
             stopped_by: self.stopped_by,
             time_s: self.end.as_secs_f64(),
             activations: counted(counts, names, |kind, usage| {
@@ -323,7 +329,10 @@ impl Summary {
     }
 
     fn ending(&self) -> String {
-        let RunFigures { ending, fault, fault_text, stopped_by, time_s, .. } = &self.figures;
+        let RunFigures { ending, fault, fault_text, fault_component, stopped_by, time_s, .. } =
+            &self.figures;
+        let whose = fault_component.as_ref().filter(|_| stopped_by.is_none());
+        let whose = whose.map(|path| format!(" of {path}")).unwrap_or_default();
         let why = match (stopped_by, fault) {
             (Some(StoppedBy::Until), _) => ", its time was up".to_owned(),
             (Some(StoppedBy::Signal), _) => ", asked to stop".to_owned(),
@@ -334,6 +343,6 @@ impl Summary {
             (None, None) => String::new(),
         };
         let style = if fault.is_some() { BAD } else { STRONG };
-        format!("{style}{ending}{style:#} after {time_s:.3} s{why}")
+        format!("{style}{ending}{style:#}{whose} after {time_s:.3} s{why}")
     }
 }

@@ -2,10 +2,11 @@
 //!
 //! Keys of a file carry their units (`height_m`); what is written here carries its own.
 
-use toml_edit::{DocumentMut, Item, Table, Value, value};
+use toml_edit::{DocumentMut, Item, Value};
 
 use afp_session::AnyRobot;
 
+use super::place::Place;
 use super::{LoadedWorld, Measure};
 use crate::error::RunError;
 
@@ -18,9 +19,9 @@ pub fn key(name: &str) -> Option<&str> {
 }
 
 impl LoadedWorld {
-    /// This world with values of its file changed, all at once: `key` is the way to one: names of tables, in a
-    /// list the name or the number from 0 of what is meant, a key, in a list of numbers a number from
-    /// 0: `robot.charge`, `box.sofa.height_m`, `robot.pose_m_deg.0`.
+    /// This world with values of its file changed, all at once: `key` is the way to one: names of tables and keys, in
+    /// a list the name or the number from 0 of what is meant: `robot.charge`, `box.sofa.height_m`,
+    /// `robot.pose_m_deg.0`, `wall.0.points_m.1.0`.
     ///
     /// # Errors
     /// There is no such thing, a unit does not fit, or the world makes no sense with those values.
@@ -55,19 +56,12 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
     let mut document: DocumentMut = world
         .parse()
         .map_err(|_| refused("worlds of this robot are no TOML: no value can be set"))?;
-    let mut parts: Vec<&str> = key.split('.').collect();
-    let index = parts.last().and_then(|last| last.parse::<usize>().ok());
-    if index.is_some() {
-        parts.pop();
-    }
-    let (name, tables) = parts.split_last().ok_or_else(|| refused("there is no such key"))?;
-    let mut item = document.as_item_mut();
-    for part in tables {
-        item = inside(item, part).map_err(|why| refused(&why))?;
-    }
-    let measure = Measure::of(name, index);
+    let parts: Vec<&str> = key.split('.').collect();
+    let Place { item, listed } =
+        Place::find(document.as_item_mut(), &parts).map_err(|why| refused(&why))?;
+    let measure = measure(&parts, listed);
     // A name that is a number stays a text.
-    let is_text = index.is_none() && item.get(name).is_some_and(Item::is_str);
+    let is_text = !listed && item.is_str();
     let to = if is_text { Ok(Value::from(text)) } else { read(text, measure) };
     let to = to.map_err(|why| refused(&why))?;
     let number = to.as_float().or_else(|| Some(to.as_integer()? as f64));
@@ -75,7 +69,7 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
         Some(Measure::Angle) => number.to_radians(),
         _ => number,
     });
-    set(item, name, index, to).map_err(|why| refused(&why))?;
+    replace(item, to);
     Ok((document.to_string(), si))
 }
 
@@ -95,62 +89,20 @@ fn refused(key: &str, text: &str, why: &str) -> RunError {
     )
 }
 
-/// What is called `part` in a table, or is the one of that name or number in a list of tables.
-fn inside<'a>(item: &'a mut Item, part: &str) -> Result<&'a mut Item, String> {
-    let absent = || format!("there is no '{part}'");
-    if let Some(table) = item.as_table_like_mut() {
-        if !table.contains_key(part) {
-            table.insert(part, Item::Table(Table::new()));
-        }
-        return item.get_mut(part).ok_or_else(absent);
-    }
-    let list = item.as_array_of_tables().ok_or_else(absent)?;
-    let name =
-        |table: &'_ Table| table.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
-    let names: Vec<String> = list.iter().map(name).collect();
-    let by_number = || part.parse::<usize>().ok().filter(|number| *number < names.len());
-    let Some(index) = names.iter().position(|name| name == part).or_else(by_number) else {
-        let names: Vec<_> = names.iter().map(|name| format!("'{name}'")).collect();
-        return Err(format!("there is no '{part}' among {}", names.join(", ")));
-    };
-    item.get_mut(index).ok_or_else(absent)
-}
-
-fn set(item: &mut Item, name: &str, index: Option<usize>, to: Value) -> Result<(), String> {
-    let Some(table) = item.as_table_like_mut() else {
-        let mut listed = item.as_array_of_tables().into_iter().flatten();
-        let is_one = |table: &Table| table.get("name").and_then(Item::as_str) == Some(name);
-        return Err(match listed.any(is_one) {
-            true => format!("'{name}' is a table; name a key of it, too"),
-            false => format!("there is no '{name}' in a list; name one of them first"),
-        });
-    };
-    let Some(index) = index else {
-        match table.get_mut(name).and_then(Item::as_value_mut) {
-            Some(was) => replace(was, to),
-            None => drop(table.insert(name, value(to))),
-        }
-        return Ok(());
-    };
-    let known = table.iter().map(|(name, _)| format!("'{name}'")).collect::<Vec<_>>().join(", ");
-    let Some(list) = table.get_mut(name) else {
-        return Err(format!("there is no '{name}' among {known}"));
-    };
-    let Some(list) = list.as_array_mut() else {
-        return Err(format!("'{name}' is no list, so that it has no number {index}"));
-    };
-    let count = list.len();
-    let place = list
-        .get_mut(index)
-        .ok_or_else(|| format!("'{name}' has {count} values, from 0 on, and no number {index}"))?;
-    replace(place, to);
-    Ok(())
+/// What the value at the end of the way measures, by its key and, in a list, its number.
+fn measure(parts: &[&str], listed: bool) -> Option<Measure> {
+    let is_key = |part: &&&str| !listed || part.parse::<usize>().is_err();
+    let key = parts.iter().rev().find(is_key).copied().unwrap_or_default();
+    let number = parts.last().filter(|_| listed).and_then(|part| part.parse().ok());
+    Measure::of(key, number)
 }
 
 /// Puts a value in the place of another one; lines and comments around it stay where they are.
-fn replace(was: &mut Value, mut to: Value) {
-    to.decor_mut().clone_from(was.decor());
-    *was = to;
+fn replace(was: &mut Item, mut to: Value) {
+    if let Some(was) = was.as_value() {
+        to.decor_mut().clone_from(was.decor());
+    }
+    *was = Item::Value(to);
 }
 
 /// A value as it stands in the file.
@@ -198,6 +150,27 @@ mod tests {
     }
 
     #[test]
+    fn what_is_in_lists_is_found_by_number() {
+        let text = "wall = [{ points_m = [[0, 0], [4, 0]] }]\n[[box]]\nlane.0 = 1\nby_m = [[1, 2], [3, 4]]\n";
+        for (key, value, was, is) in [
+            ("wall.0.points_m.1.0", "8m", "[4, 0]", "[8.0, 0]"),
+            ("box.0.by_m.0.1", "50cm", "[1, 2]", "[1, 0.5]"),
+            ("box.0.lane.0", "2", "lane.0 = 1", "lane.0 = 2"),
+        ] {
+            assert_eq!(changed(text, key, value).unwrap().0, text.replace(was, is), "{key}");
+        }
+        for (key, why) in [
+            ("wall.0.points_m.1", "'1' is a list; name what is meant in it, too"),
+            ("wall.0.points_m.2.0", "'points_m' has 2 values, from 0 on, and no number 2"),
+            ("wall.0.points_m.x.0", "'points_m' has 2 values, from 0 on, and no 'x'"),
+            ("box.1.by_m.0.1", "'box' has 1 value, from 0 on, and no number 1"),
+        ] {
+            let error = changed(text, key, "1m").unwrap_err().to_string();
+            assert!(error.contains(why), "{key}: {error}");
+        }
+    }
+
+    #[test]
     fn lines_and_comments_of_a_file_stay_where_they_are() {
         let text = "version = 1\n# Where it begins.\nrobot.pose_m_deg = [\n  1,  # along x\n  1, 0\n]\n\n# Half.\nrobot.charge = 0.5 # of it\n";
         for (key, value, was, is) in [
@@ -230,11 +203,12 @@ mod tests {
             ("robot", "3", set),
             ("version", "2", "version 2 is unknown"),
             ("box.clost.height_m", "1m", "no 'clost' among 'closet'"),
-            ("box.closet.height_m", "1", "a number with a unit: m, km, cm"),
-            ("box.closet.height_m", "1s", "a number with a unit: m, km, cm"),
+            ("box.closet.height_m", "1", "a number with a unit: m, cm, mm"),
+            ("box.closet.height_m", "1s", "a number with a unit: m, cm, mm"),
             ("robot.charg", "0.5", "charg"),
             ("robot.charge", "2", "charge"),
-            ("box.height_m", "1m", "name one of them first"),
+            ("box.height_m", "1m", "no 'height_m' among 'closet'"),
+            ("box.0.height_m.1", "1m", "'height_m' is no list, so that it has no number 1"),
             ("box.closet", "3", "'closet' is a table; name a key of it, too"),
             ("robot.pose.1", "4.5m", "there is no 'pose' among 'pose_m_deg'"),
             ("robot.pose_m_deg.3", "1m", "'pose_m_deg' has 3 values, from 0 on, and no number 3"),

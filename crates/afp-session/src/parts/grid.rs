@@ -159,12 +159,13 @@ impl Grid {
         self.index(x, y).and_then(|index| self.cells.get(index)).copied().unwrap_or(WALL)
     }
 
-    /// The walls that a disc reaches into, cell by cell.
+    /// The walls that a disc reaches into, cell by cell; none at a place that is none.
     pub fn contacts(&self, x: f64, y: f64, radius: f64) -> impl Iterator<Item = Contact> {
         let cell = self.cell;
         let reach = libm::ceil(radius / cell) as i32;
         let [column, row] = [x, y].map(|along| libm::floor(along / cell));
         let around = (-reach..=reach).flat_map(move |dy| (-reach..=reach).map(move |dx| (dx, dy)));
+        let around = around.filter(move |_| x.is_finite() && y.is_finite());
         around.filter_map(move |(dx, dy)| {
             let (left, low) = ((column + f64::from(dx)) * cell, (row + f64::from(dy)) * cell);
             if self.letter(left + cell / 2.0, low + cell / 2.0) != WALL {

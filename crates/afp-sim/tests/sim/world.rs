@@ -156,6 +156,11 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[2.5, 0.5]]",
         "[2.0, 1.0]]",
+        "line 18, column 12: points_m: the corner [2, 0.9] lies in a line with those beside it; leave it out",
+    ),
+    (
+        "[2.5, 0.5]]",
+        "[2.1, 0.6], [2.5, 0.5]]",
         "line 18, column 12: points_m: the polygon is not convex; draw it as several",
     ),
     (

@@ -67,10 +67,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         }
         return Err(why.into());
     }
-    if kind != Kind::Plan {
-        crate_folder::pin(folder, &afp)?;
-    }
-    print(&next(folder, &files, kind))?;
+    let pinned = if kind == Kind::Plan { None } else { crate_folder::pin(folder, &afp)? };
+    print(&next(folder, &files, pinned, kind))?;
     Ok(EXIT_OK)
 }
 
@@ -92,11 +90,11 @@ fn around(folder: &Path) -> Result<ProjectFile, RunError> {
 }
 
 /// What there is now, and what to do with it.
-fn next(folder: &Path, files: &[afp_new::File], kind: Kind) -> String {
+fn next(folder: &Path, files: &[afp_new::File], pinned: Option<&str>, kind: Kind) -> String {
     let is_plan = |path: &str| path.starts_with("plans/") && !path.starts_with("plans/tests/");
     let plan = files.iter().find(|file| is_plan(&file.path)).map_or("", |file| &file.path);
-    let mut text: String =
-        files.iter().map(|file| format!("{}\n", folder.join(&file.path).display())).collect();
+    let paths = files.iter().map(|file| &*file.path).chain(pinned);
+    let mut text: String = paths.map(|path| format!("{}\n", folder.join(path).display())).collect();
     text += &format!("\nNext:\n  cd {}\n  afpc run {plan}\n  afpc test\n", folder.display());
     if kind != Kind::Plan {
         text += "  cargo test\n";

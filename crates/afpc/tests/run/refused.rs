@@ -72,7 +72,7 @@ fn files_that_do_not_work_are_named() {
     let said = place.afpc("run wall_following.afp --world missing.toml");
     said.fails(1, &["error: cannot read the world 'missing.toml'"]);
     let said = place.afpc("run wall_following.afp --log no/such/a.mcap");
-    said.fails(1, &["error: cannot write the log 'no/such/a.mcap'"]);
+    said.fails(1, &["error: cannot write the log 'no/such/a.mcap'", "help: check the path"]);
     let said = place.afpc("run wall_following.afp --until 1s --log none --svg no/such/a.svg");
     said.fails(1, &["error: cannot write the picture 'no/such/a.svg'"]);
     assert!(said.out.is_empty(), "it is said before the run: {}", said.out);

@@ -46,6 +46,14 @@ fn what_is_wrong_is_shown_at_its_place() {
 }
 
 #[test]
+fn a_place_that_is_none_touches_nothing() {
+    let hall = Grid::read(HALL, "*o").unwrap();
+    for (x, y) in [(f64::NAN, 1.0), (1.0, f64::NAN), (f64::INFINITY, 1.0)] {
+        assert_eq!(hall.contacts(x, y, 0.25).count(), 0);
+    }
+}
+
+#[test]
 fn walls_push_a_disc_out() {
     let hall = Grid::read(HALL, "*o").unwrap();
     let mut pose = Pose2 { x: 0.65, y: 1.0, heading: 0.0 };

@@ -66,6 +66,10 @@ impl<'a> Check<'a> {
             let message = format!("a polygon has three corners or more, not {}", points.len());
             return Err(self.error(key, &message, "add the others"));
         }
+        if let Some([x, y]) = straight(&points) {
+            let message = format!("the corner [{x}, {y}] lies in a line with those beside it");
+            return Err(self.error(key, &message, "leave it out"));
+        }
         match turning(&points) {
             Some(true) => {}
             Some(false) => points.reverse(),
@@ -112,20 +116,31 @@ impl<'a> Check<'a> {
     }
 }
 
+/// Each corner, and how the edges there turn: the cross and the dot product.
+fn corners(points: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], f64, f64)> {
+    let n = points.len();
+    (0..n).map(move |i| {
+        let [a, b, c] = [points[i], points[(i + 1) % n], points[(i + 2) % n]];
+        let (ux, uy, vx, vy) = (b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]);
+        (b, ux * vy - uy * vx, ux * vx + uy * vy)
+    })
+}
+
+/// A corner that is none: the edges there go on in one line, or back.
+fn straight(points: &[[f64; 2]]) -> Option<[f64; 2]> {
+    corners(points).find(|(_, cross, _)| cross.abs() < 1e-9).map(|(corner, ..)| corner)
+}
+
 /// Whether a convex polygon's corners go counter-clockwise; none if it is not convex.
 fn turning(points: &[[f64; 2]]) -> Option<bool> {
-    let n = points.len();
     let mut left = None;
     // The edges of a convex polygon turn by one full turn in all; a star by more.
     let mut turned = 0.0;
-    for i in 0..n {
-        let [a, b, c] = [points[i], points[(i + 1) % n], points[(i + 2) % n]];
-        let (ux, uy, vx, vy) = (b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]);
-        let cross = ux * vy - uy * vx;
-        if cross.abs() < 1e-9 || *left.get_or_insert(cross > 0.0) != (cross > 0.0) {
+    for (_, cross, along) in corners(points) {
+        if *left.get_or_insert(cross > 0.0) != (cross > 0.0) {
             return None;
         }
-        turned += libm::atan2(cross, ux * vx + uy * vy);
+        turned += libm::atan2(cross, along);
     }
     left.filter(|_| turned.abs() < 7.0)
 }

@@ -1,0 +1,28 @@
+//! The units that helps name of those that fit.
+
+/// What people write most, first what is most usual.
+const USUAL: [&str; 20] = [
+    "m", "cm", "mm", "km", "deg", "rad", "s", "ms", "min", "h", "m/s", "cm/s", "mm/s", "km/h",
+    "deg/s", "rad/s", "kg", "g", "degC", "K",
+];
+
+/// So many are named.
+const NAMED: usize = 8;
+
+/// Some of the units, the usual ones first: `m/s, cm/s, mm/s, km/h, ...`.
+pub fn some<'a>(units: impl IntoIterator<Item = &'a str>) -> String {
+    let mut units: Vec<&str> = units.into_iter().collect();
+    units.sort_by_key(|unit| USUAL.iter().position(|usual| usual == unit).unwrap_or(USUAL.len()));
+    units.truncate(NAMED);
+    units.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_usual_ones_are_named() {
+        let units = ["um/s", "m/ns", "km/h", "m/h", "cm/s", "m/s", "mm/s", "m/us", "m/min", "um/h"];
+        assert_eq!(super::some(units), "m/s, cm/s, mm/s, km/h, um/s, m/ns, m/h, m/us");
+        assert_eq!(super::some(["V", "mV"]), "V, mV");
+    }
+}
