@@ -162,21 +162,8 @@ impl<'t> Lexer<'t, '_> {
     fn number(&mut self) {
         let rest = &self.text[self.at..];
         let length = number_length(rest).max(1);
-        let behind = &rest[length..];
-        let fraction = behind.strip_prefix(',').map_or(0, |tail| run(tail, |c| c.is_ascii_digit()));
-        if fraction > 0 && !rest[..length].contains('.') {
-            let comma = self.span(self.at + length, self.at + length + 1);
-            let better = rest[..length + 1 + fraction].replace(',', ".");
-            self.diags.push(
-                Diagnostic::new(Code::E0106, comma, "a number has a decimal point, not a comma")
-                    .help(format!("write '{better}'"))
-                    .replace("."),
-            );
-            self.push(Kind::Float, length + 1 + fraction);
-        } else {
-            let whole = rest[..length].bytes().all(|byte| byte.is_ascii_digit());
-            self.push(if whole { Kind::Int } else { Kind::Float }, length);
-        }
+        let whole = rest[..length].bytes().all(|byte| byte.is_ascii_digit());
+        self.push(if whole { Kind::Int } else { Kind::Float }, length);
         self.unit();
     }
 

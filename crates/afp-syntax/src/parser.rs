@@ -63,6 +63,8 @@ struct Parser<'t, 'd> {
     is_toolbox: bool,
     /// Whether lines of a scenario are read.
     in_scenario: bool,
+    /// Whether a comma here stands between two formulas, so that it is none of a number.
+    commas_separate: bool,
     marks: Marks,
     /// The token, among those that are read, that is read as another word than it is.
     slip: Option<(usize, &'static str)>,
@@ -97,6 +99,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             balanced: false,
             is_toolbox: false,
             in_scenario: false,
+            commas_separate: false,
             marks,
             slip: None,
             names: Cell::new((1, 0)),
@@ -264,6 +267,16 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.emit(kind, token.text);
         self.built += 1;
         self.at += 1;
+    }
+
+    /// Takes tokens with nothing between them as one.
+    fn bump_together(&mut self, tokens: usize, kind: Kind) {
+        self.trivia();
+        let taken = self.tokens.get(self.built..self.built + tokens).unwrap_or_default();
+        let text: String = taken.iter().map(|token| token.text).collect();
+        self.emit(kind, &text);
+        self.built += taken.len();
+        self.at += taken.len();
     }
 
     fn bump(&mut self) {

@@ -206,11 +206,12 @@ impl Typer<'_> {
                 let function = function::named(self.scope, &name, diags);
                 let inside = !function::takes_celsius(function);
                 // Every operand is looked at, so that all errors come at once.
-                let operands = operands.iter().map(|operand| self.formula(operand, inside, diags));
-                let operands: Vec<_> = operands.collect();
-                let operands = operands.into_iter().collect::<Option<Vec<_>>>()?;
-                let call = (function.filter(|_| !broken)?, name.span);
-                function::call(self.scope, call, operands, span, diags)
+                let values = operands.iter().map(|operand| self.formula(operand, inside, diags));
+                let values: Vec<_> = values.collect();
+                let values = values.into_iter().collect::<Option<Vec<_>>>()?;
+                let function = function.filter(|_| !broken)?;
+                function::takes(function, &operands, name.span, diags)?;
+                function::call(self.scope, function, values, span, diags)
             }
             ast::FormulaKind::Number { number, unit, whole, broken } => {
                 if broken {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::edges::Leads;
 use super::{PlanHead, Program};
 use crate::toolbox::Toolbox;
+use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic};
 use afp_syntax::units::Unit;
 
@@ -156,4 +157,13 @@ fn no_element(
     program.toolboxes.iter().find(is_it)?;
     let help = format!("add an element made of '{name}', and lead to that by its own name");
     Some(said().help(help))
+}
+
+/// What help on too many values says of the first two that may be one number with a decimal comma.
+pub(super) fn decimal_comma<'a>(
+    values: impl Iterator<Item = &'a ast::Formula> + Clone,
+) -> Option<String> {
+    let mut pairs = values.clone().zip(values.skip(1));
+    let better = pairs.find_map(|(value, next)| value.with_decimal_point(next))?;
+    Some(format!("; if '{}' is one number, write '{better}'", better.replace('.', ",")))
 }

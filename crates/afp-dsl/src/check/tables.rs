@@ -8,6 +8,7 @@ mod bound;
 use std::sync::Arc;
 
 use crate::check::formula::Scope;
+use crate::check::meant::decimal_comma;
 use crate::check::names::{DeclaredNames, Indices};
 use crate::check::scope::FileScope;
 use crate::check::types::Types;
@@ -133,10 +134,15 @@ fn row(
     let cells = row.cells();
     // What could not be read may have been the values.
     let whole = diags.syntax_errors_within(table.span()).next().is_none();
-    if whole && cells.len() != columns.len() && !columns.is_empty() {
-        diags.push(misfit(row, &cells, columns));
+    let misfits = whole && cells.len() != columns.len() && !columns.is_empty();
+    let comma = decimal_comma(cells.iter().flatten())
+        .filter(|_| misfits && cells.len() > columns.len());
+    // Halves of numbers say nothing of the other values.
+    let known = if comma.is_some() { &[] } else { columns };
+    if misfits {
+        diags.push(misfit(row, &cells, columns, comma));
     }
-    let types = columns.iter().map(|column| column.ty.as_ref()).chain(std::iter::repeat(None));
+    let types = known.iter().map(|column| column.ty.as_ref()).chain(std::iter::repeat(None));
     let values: Vec<_> = cells
         .iter()
         .zip(types)
@@ -155,7 +161,12 @@ fn row(
 }
 
 /// A row with more or fewer values than there are columns.
-fn misfit(row: &ast::Row, cells: &[Option<ast::Formula>], columns: &[Column]) -> Diagnostic {
+fn misfit(
+    row: &ast::Row,
+    cells: &[Option<ast::Formula>],
+    columns: &[Column],
+    comma: Option<String>,
+) -> Diagnostic {
     let count = |count: usize, what: &str| match count {
         1 => format!("1 {what}"),
         _ => format!("{count} {what}s"),
@@ -168,7 +179,7 @@ fn misfit(row: &ast::Row, cells: &[Option<ast::Formula>], columns: &[Column]) ->
     let much = cells.get(columns.len()).and_then(Option::as_ref).map(ast::Formula::span);
     let help = match (much, columns.get(cells.len())) {
         (None, Some(column)) => format!("write a value for '{}', too", column.name),
-        _ => "remove what has no column, or add a column".to_owned(),
+        _ => format!("remove what has no column, or add a column{}", comma.unwrap_or_default()),
     };
     let error = Diagnostic::new(Code::E0251, much.unwrap_or_else(|| row.span()), message);
     match columns.last() {

@@ -90,6 +90,28 @@ impl Formula {
         self.node.kind() == Kind::Ref
     }
 
+    /// How the two are written as one number, where `next` stands behind a comma alone that may be a decimal one: `1,5 m`.
+    pub fn with_decimal_point(&self, next: &Formula) -> Option<String> {
+        let (FormulaKind::Number { number: whole, unit: None, whole: true, .. }, true) =
+            (self.unsigned().kind(), next.span().start == self.span().end + 1)
+        else {
+            return None;
+        };
+        let FormulaKind::Number { number: fraction, unit, whole: true, .. } = next.kind() else {
+            return None;
+        };
+        let unit = unit.map_or_else(String::new, |unit| format!(" {}", unit.text));
+        Some(format!("{}.{}{unit}", whole.text, fraction.text))
+    }
+
+    /// Without the sign in front of it.
+    fn unsigned(&self) -> Formula {
+        match self.kind() {
+            FormulaKind::Negation(Some(inner)) => inner,
+            _ => self.clone(),
+        }
+    }
+
     /// Whether it begins at a byte or before it, with comments in front of it.
     pub(super) fn starts_by(&self, byte: u32) -> bool {
         u32::from(self.node.text_range().start()) <= byte

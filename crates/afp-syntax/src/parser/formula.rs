@@ -156,9 +156,16 @@ impl Parser<'_, '_> {
         self.open(Kind::Brackets);
         let opened = self.here();
         self.bump();
-        self.formula();
+        self.with_commas(false, Self::formula);
         self.close_bracket(Kind::CloseParen, opened);
         self.close();
+    }
+
+    /// Reads where commas separate formulas, or where they do not.
+    pub(super) fn with_commas(&mut self, separate: bool, rule: impl FnOnce(&mut Self)) {
+        let around = std::mem::replace(&mut self.commas_separate, separate);
+        rule(self);
+        self.commas_separate = around;
     }
 
     /// `FUNCTION "(" formula {"," formula} ")"`
@@ -168,10 +175,12 @@ impl Parser<'_, '_> {
         let opened = self.here();
         self.bump();
         if !self.at(Kind::CloseParen) {
-            self.formula();
-            while self.eat(Kind::Comma) {
-                self.formula();
-            }
+            self.with_commas(true, |parser| {
+                parser.formula();
+                while parser.eat(Kind::Comma) {
+                    parser.formula();
+                }
+            });
         }
         self.close_bracket(Kind::CloseParen, opened);
         self.close();
@@ -180,7 +189,9 @@ impl Parser<'_, '_> {
     /// A number with its unit, if it has one.
     pub(super) fn number(&mut self) {
         self.open(Kind::Literal);
-        self.bump();
+        if !self.decimal_comma() {
+            self.bump();
+        }
         self.number_that_ends_with_a_point();
         if !self.eat(Kind::Unit) && !self.number_with_letters() {
             self.unknown_unit();
@@ -307,7 +318,9 @@ impl Parser<'_, '_> {
     fn factor(&mut self) {
         self.open(Kind::Factor);
         match self.nth(0) {
-            Kind::Int => self.bump(),
+            Kind::Int => {
+                self.whole_number("write a whole number");
+            }
             Kind::Name if self.on_same_line() || !self.begins_item() => {
                 let first = self.next_span();
                 self.reference();
@@ -320,7 +333,7 @@ impl Parser<'_, '_> {
         }
         if self.eat(Kind::Caret) {
             self.eat(Kind::Minus);
-            self.expect(Kind::Int, "write a whole number behind the '^'");
+            self.whole_number("write a whole number behind the '^'");
         }
         self.close();
     }

@@ -8,6 +8,7 @@ mod items;
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
+use crate::lexer::Token;
 use crate::source::Span;
 
 /// How a choice is written.
@@ -213,6 +214,52 @@ impl Parser<'_, '_> {
             }
             _ => None,
         }
+    }
+
+    /// How many tokens the number is that is next: three where it has a decimal comma, or two numbers a comma between them.
+    pub(super) fn tokens_of_number(&self) -> usize {
+        let adjacent = self.token_index(2) == self.token_index(0) + 2;
+        let is_fraction = |token: Token<'_>| token.text.bytes().all(|byte| byte != b'.');
+        let kinds = (self.nth(0), self.nth(1), self.nth(2));
+        match (kinds, self.token(2)) {
+            ((Kind::Int, Kind::Comma, Kind::Int | Kind::Float), Some(fraction))
+                if adjacent && is_fraction(fraction) =>
+            {
+                3
+            }
+            _ => 1,
+        }
+    }
+
+    /// `2,5`: reports the comma and takes all of the number, unless a comma stands between two of them here.
+    pub(super) fn decimal_comma(&mut self) -> bool {
+        let (Some(whole), Some(comma), Some(fraction)) = (self.token(0), self.token(1), self.token(2))
+        else {
+            return false;
+        };
+        if self.commas_separate || self.tokens_of_number() == 1 {
+            return false;
+        }
+        let message = "a number has a decimal point, not a comma";
+        let help = format!("write '{}.{}'", whole.text, fraction.text);
+        let error = Diagnostic::new(Code::E0106, self.span_of(comma), message);
+        self.error(error.help(help).replace("."));
+        self.bump_together(3, Kind::Float);
+        true
+    }
+
+    /// Takes a whole number, or reports that one is missing.
+    pub(super) fn whole_number(&mut self, help: &str) -> bool {
+        let tokens = self.tokens_of_number();
+        if tokens == 1 {
+            return self.expect(Kind::Int, help);
+        }
+        let place = self.ahead(tokens);
+        let found: String = (0..tokens).filter_map(|at| self.token(at)).map(|it| it.text).collect();
+        let message = format!("expected {}, found '{found}'", Kind::Int.describe());
+        self.error(Diagnostic::new(Code::E0102, place, message).help(help));
+        self.bump_together(tokens, Kind::Int);
+        true
     }
 
     /// `1_000`, `0x10`: a number with letters in it, which has been taken up to the first of them.

@@ -206,6 +206,26 @@ impl Parser<'_, '_> {
         );
     }
 
+    /// How many commas stand in the bracket that begins here, as far as it is closed.
+    pub(super) fn commas_in_brackets(&self) -> usize {
+        if !self.at(Kind::OpenParen) || !self.is_closed() {
+            return 0;
+        }
+        let (mut depth, mut commas) = (0_usize, 0);
+        for kind in (0..).map(|ahead| self.nth(ahead)) {
+            match kind {
+                Kind::OpenParen => depth += 1,
+                Kind::CloseParen => depth -= 1,
+                Kind::Comma if depth == 1 => commas += 1,
+                _ => {}
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        commas
+    }
+
     /// Whether the bracket that begins here is closed before any brace.
     pub(super) fn is_closed(&self) -> bool {
         self.marks.is_closed(self.at)

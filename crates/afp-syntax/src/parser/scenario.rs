@@ -67,7 +67,7 @@ impl Parser<'_, '_> {
             "seed" => {
                 self.open_item(Kind::Seed);
                 self.keyword();
-                self.expect(Kind::Int, "write a whole number");
+                self.whole_number("write a whole number");
             }
             "over" => self.over(),
             "set" => {
@@ -98,9 +98,9 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Over);
         self.keyword();
         if self.eat_meant("seeds", |next| next == Kind::Int) {
-            let whole = self.expect(Kind::Int, "write the first seed, such as '0..20'");
+            let whole = self.whole_number("write the first seed, such as '0..20'");
             if whole && self.eat(Kind::Dot) && self.expect(Kind::Dot, "write '0..20'") {
-                self.expect(Kind::Int, "write the seed behind the last one");
+                self.whole_number("write the seed behind the last one");
             } else if whole {
                 self.expected("'..'", "write the seeds as '0..20', of which the last is 19");
             }
@@ -145,10 +145,14 @@ impl Parser<'_, '_> {
             self.expected("'at'", "write 'robot at (0.5 m, 2 m) heading 0 deg'");
         }
         let opened = self.here();
+        let commas = self.commas_in_brackets();
         if self.expect(Kind::OpenParen, "write the place in brackets") {
-            self.formula();
-            self.expect(Kind::Comma, "write the second coordinate behind a comma");
-            self.formula();
+            // Of several commas one stands between the coordinates.
+            self.with_commas(commas < 2, |parser| {
+                parser.formula();
+                parser.expect(Kind::Comma, "write the second coordinate behind a comma");
+                parser.formula();
+            });
             self.close_bracket(Kind::CloseParen, opened);
         }
         if self.eat_meant("heading", begins_formula) {
@@ -198,9 +202,9 @@ impl Parser<'_, '_> {
                     self.keyword();
                     self.close();
                 }
-                _ if self.at(Kind::Int) && self.word(1) == "times" => {
+                _ if self.at(Kind::Int) && self.word(self.tokens_of_number()) == "times" => {
                     self.open(Kind::Bound);
-                    self.bump();
+                    self.whole_number("write a whole number");
                     self.keyword();
                     self.close();
                 }

@@ -82,8 +82,10 @@ impl Parser<'_, '_> {
             }
             self.open_item(Kind::Cell);
             self.repeat(|parser| {
-                parser.formula();
-                parser.no_operators();
+                parser.with_commas(true, |parser| {
+                    parser.formula();
+                    parser.no_operators();
+                });
             });
             separated = self.at(Kind::Comma);
             self.close_item();

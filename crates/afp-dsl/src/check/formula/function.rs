@@ -5,12 +5,13 @@ use afp_number::Function;
 use super::Scope;
 use super::operation::{different, dimension, to_float, to_number};
 use crate::check::convert::coerce;
+use crate::check::meant::decimal_comma;
 use crate::check::names::unknown;
 use crate::graph::{Formula, FormulaKind};
 use crate::index::Word;
 use crate::types::text::{a_dimension, a_type};
 use crate::types::{Dimension, Type};
-use afp_syntax::ast::Name;
+use afp_syntax::ast::{self, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
@@ -35,18 +36,14 @@ pub(super) fn takes_celsius(function: Option<Function>) -> bool {
     matches!(function, Some(Function::Min | Function::Max | Function::Clamp))
 }
 
-/// `function(operands)`, which stands at `span`; its name at `name`.
+/// `function(operands)`, which stands at `span`; it takes so many operands.
 pub(super) fn call(
     scope: &Scope<'_>,
-    (function, name): (Function, Span),
+    function: Function,
     operands: Vec<Formula>,
     span: Span,
     diags: &mut Diagnostics,
 ) -> Option<Formula> {
-    if !takes(function, operands.len()) {
-        diags.push(wrong_number(function, operands.len(), name));
-        return None;
-    }
     let numbers = operands.into_iter().map(|operand| to_number(operand, diags));
     let mut numbers = numbers.collect::<Option<Vec<_>>>()?;
     let ints = numbers.iter().all(|number| number.ty == Type::Int);
@@ -112,20 +109,35 @@ fn root(dimension: Dimension, span: Span, diags: &mut Diagnostics) -> Option<Typ
     None
 }
 
-fn takes(function: Function, operands: usize) -> bool {
-    match function.operands() {
-        (least, Some(most)) => (least..=most).contains(&operands),
-        // Of one value alone there is nothing to choose.
-        (least, None) => operands >= least,
+/// Whether a function, whose name stands at `span`, takes so many operands; reports it otherwise.
+pub(super) fn takes(
+    function: Function,
+    operands: &[ast::Formula],
+    span: Span,
+    diags: &mut Diagnostics,
+) -> Option<()> {
+    let (least, most) = function.operands();
+    // Of one value alone there is nothing to choose.
+    let is_too_much = most.is_some_and(|most| operands.len() > most);
+    if operands.len() >= least && !is_too_much {
+        return Some(());
     }
+    let comma = if is_too_much { decimal_comma(operands.iter()) } else { None };
+    let help = format!("write '{}'{}", with_operands(function), comma.unwrap_or_default());
+    diags.push(wrong_number(function, operands.len(), span).help(help));
+    None
 }
 
 fn wrong_number(function: Function, given: usize, span: Span) -> Diagnostic {
     let (least, most) = function.operands();
     let more = if most.is_none() { " or more" } else { "" };
     let plural = if least == 1 { "" } else { "s" };
-    let name = function.name();
-    let message = format!("'{name}' takes {least}{more} operand{plural}, not {given}");
+    let message = format!("'{}' takes {least}{more} operand{plural}, not {given}", function.name());
+    Diagnostic::new(Code::E0243, span, message)
+}
+
+/// How a function is called.
+fn with_operands(function: Function) -> String {
     let operands = match function {
         Function::Min | Function::Max => "a, b",
         Function::Clamp => "value, low, high",
@@ -134,5 +146,5 @@ fn wrong_number(function: Function, given: usize, span: Span) -> Diagnostic {
         Function::Abs | Function::Sqrt => "a",
         Function::Sin | Function::Cos => "angle",
     };
-    Diagnostic::new(Code::E0243, span, message).help(format!("write '{name}({operands})'"))
+    format!("{}({operands})", function.name())
 }
