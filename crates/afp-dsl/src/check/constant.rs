@@ -133,7 +133,11 @@ fn floats(operator: Operator, left: f64, right: f64) -> Result<f64, Error> {
     })
 }
 
-fn convert(conversion: &Conversion, value: Constant) -> Result<Constant, Error> {
+/// The value that a conversion makes of another one.
+///
+/// # Errors
+/// What the conversion would fail with.
+pub(crate) fn convert(conversion: &Conversion, value: Constant) -> Result<Constant, Error> {
     Ok(match (conversion, value) {
         (Conversion::IntToFloat, Constant::Int(value)) => Constant::Float(int_to_float(value)),
         (Conversion::FloatToInt, Constant::Float(value)) => Constant::Int(float_to_int(value)?),

@@ -6,6 +6,7 @@
 //! step, so at their own level they close no cycle.
 
 mod count;
+mod decided;
 mod holding;
 mod instant;
 
@@ -16,6 +17,7 @@ use crate::flow::view::{Cause, Edge, Node, View, takes_time};
 use crate::flow::{INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
+use decided::Known;
 pub(super) use holding::standard;
 
 /// Greatest number of elements of a cycle that a message names.
@@ -33,13 +35,17 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         }
     }
     // A counter with a small limit lets a cycle be taken a few times only.
+    let constants = decided::for_ever(view);
     let lasting = Quick::of(view, |edge| {
         let cause = edge.cause;
-        is_quick(view, edge) && holding::can_hold(view, cause) && !count::is_bounded(view, cause)
+        is_quick(view, edge)
+            && holding::can_hold(view, cause)
+            && !count::is_bounded(view, cause)
+            && !decided::excludes(view, cause, &constants)
     });
     for (_, inner) in lasting.cycles() {
         if inner.iter().any(|edge| !is_sure(view, edge.cause)) {
-            lasting.report_conditions(&inner, diags);
+            lasting.report_conditions(&inner, &constants, diags);
         }
     }
 }
@@ -206,13 +212,15 @@ impl<'a, 'b> Quick<'a, 'b> {
         );
     }
 
-    fn report_conditions(&self, inner: &[&Edge], diags: &mut Diagnostics) {
+    fn report_conditions(&self, inner: &[&Edge], constants: &Known, diags: &mut Diagnostics) {
         let mut unsure: Vec<&Edge> =
             inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause)).collect();
         let (closing, cycle) = loop {
             let Some(closing) = self.closing(unsure.iter().copied()) else { return };
             let cycle = self.cycle(closing);
-            if !holding::contradict(self.view, &cycle) {
+            if !holding::contradict(self.view, &cycle)
+                && !decided::breaks_off(self.view, &cycle, constants)
+            {
                 break (closing, cycle);
             }
             unsure.retain(|edge| edge.cause != closing.cause);

@@ -270,12 +270,7 @@ impl<'a> View<'a> {
 
     /// The value of a formula of constants.
     pub fn constant(&self, formula: &Formula) -> Option<Constant> {
-        let known = |entry: u16| {
-            let entry = self.plan.entries.get(usize::from(entry))?;
-            let init = entry.init.as_ref().filter(|_| entry.kind == EntryKind::Const)?;
-            evaluate(init, &|_| None).ok()?
-        };
-        evaluate(formula, &known).ok()?
+        constant(self.plan, formula)
     }
 
     /// What is known of the flow of a sub-plan.
@@ -401,6 +396,16 @@ impl<'a> View<'a> {
         let end = if node == self.end(FAILED) { "fail" } else { "terminate" };
         self.element(node).map_or(end, |element| &element.name)
     }
+}
+
+/// The value of a formula of constants of a plan.
+pub(super) fn constant(plan: &Plan, formula: &Formula) -> Option<Constant> {
+    let known = |entry: u16| {
+        let entry = plan.entries.get(usize::from(entry))?;
+        let init = entry.init.as_ref().filter(|_| entry.kind == EntryKind::Const)?;
+        evaluate(init, &|_| None).ok()?
+    };
+    evaluate(formula, &known).ok()?
 }
 
 /// The events of global supervisors, and missed deadlines, that some element replaces.

@@ -138,7 +138,7 @@ pub(crate) fn standard<'a>(view: &View<'a>, supervisor: &Supervisor) -> Option<&
 }
 
 /// The name of a template, if it is one of the standard toolbox.
-fn standard_template<'a>(view: &View<'a>, id: TemplateId) -> Option<&'a str> {
+pub(super) fn standard_template<'a>(view: &View<'a>, id: TemplateId) -> Option<&'a str> {
     let toolbox = &view.model.toolboxes[id.toolbox.index()];
     (toolbox.name == "std").then(|| view.model.template(id).name.as_str())
 }

@@ -1,32 +1,49 @@
 //! Which endings of a plan can come in the very step that starts it.
 
+use super::decided::{self, Known};
 use super::ending_of;
 use crate::flow::view::{Cause, Edge, View};
 
 /// `quick` are the edges that take no time. The plan's own global supervisors are started and asked
-/// in the same step, so here their events count.
+/// in the same step, so here their events count. Computations take the way that what is known at the start decides.
 pub(super) fn endings(view: &View<'_>, quick: &[Edge]) -> [bool; 2] {
     let mut first = vec![0usize; view.nodes() + 1];
     quick.iter().for_each(|edge| first[edge.from + 1] += 1);
     for node in 0..view.nodes() {
         first[node + 1] += first[node];
     }
-    let mut seen = vec![false; view.nodes()];
+    let mut entered: Vec<Option<Known>> = vec![None; view.nodes()];
+    entered[view.start()] = Some(decided::at_start(view));
     let mut open = vec![view.start()];
     let mut ends = [false, false];
     while let Some(node) = open.pop() {
-        if std::mem::replace(&mut seen[node], true) {
-            continue;
-        }
         if let Some(ending) = ending_of(view, node) {
             ends[ending] = true;
         }
+        let known = entered[node].clone().unwrap_or_default();
         // Quick edges are grouped by their origin, in the order of the nodes.
-        open.extend(quick[first[node]..first[node + 1]].iter().map(|edge| edge.to));
+        let own = quick[first[node]..first[node + 1]].iter();
         let events = view
             .of_globals(node)
             .filter(|edge| matches!(edge.cause, Cause::Event(..) | Cause::On(_, _, Some(_))));
-        open.extend(events.map(|edge| edge.to));
+        for edge in own.chain(events).filter(|edge| !decided::excludes(view, edge.cause, &known)) {
+            let mut then = known.clone();
+            decided::after(view, edge.cause, &mut then);
+            if joins(&mut entered[edge.to], then) {
+                open.push(edge.to);
+            }
+        }
     }
     ends
+}
+
+/// Keeps of what is known at a node only what is known on another way, too. Returns whether that is less, or the first.
+fn joins(entered: &mut Option<Known>, then: Known) -> bool {
+    let Some(known) = entered else {
+        *entered = Some(then);
+        return true;
+    };
+    let before = known.len();
+    known.retain(|entry, value| then.get(entry) == Some(value));
+    known.len() < before
 }

@@ -1,0 +1,209 @@
+//! What computations of the standard toolbox decide where the values that go into them are known.
+//!
+//! Known are constants, the values that entries have at the start of a plan, what every user of a sub-plan binds to an
+//! input of it, and what these computations write from those.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::count;
+use super::holding::standard_template;
+use crate::check::constant::{convert, evaluate};
+use crate::flow::view::{Cause, Edge, View, constant, each_entry, takes_time};
+use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
+use crate::table::Table;
+use crate::toolbox::Constant;
+
+/// Values of entries; those of others are not known.
+pub(super) type Known = BTreeMap<EntryId, Constant>;
+
+/// Greatest number of entries of a plan that are followed; with more none is.
+const MOST: usize = 64;
+
+/// The entries that a computation of the standard toolbox reads, with their values at the start of the plan.
+pub(super) fn at_start(view: &View<'_>) -> Known {
+    let mut read = BTreeSet::new();
+    for (_, element) in view.elements().filter(|(_, element)| name(view, element).is_some()) {
+        let inputs = element.inputs.iter();
+        inputs.for_each(|input| each_entry(input, &mut |entry, _| _ = read.insert(entry)));
+    }
+    if read.is_empty() || read.len() > MOST {
+        return Known::new();
+    }
+    let mut known = Known::new();
+    let mut inputs = 0;
+    for (id, entry) in (0..).map(EntryId).zip(&view.plan.entries) {
+        let value = match entry.kind {
+            EntryKind::In => {
+                inputs += 1;
+                given(view, inputs - 1)
+            }
+            _ => entry.init.as_ref().and_then(|init| value_of(init, &known)),
+        };
+        known.extend(value.map(|value| (id, value)));
+    }
+    known.retain(|entry, _| read.contains(entry));
+    known
+}
+
+/// Those of the values at the start that nothing changes.
+pub(super) fn for_ever(view: &View<'_>) -> Known {
+    let mut known = at_start(view);
+    let elements = view.plan.elements.iter().flat_map(|element| &element.outputs);
+    let supervisors = view.plan.supervisors.iter().flat_map(|supervisor| &supervisor.outputs);
+    elements.chain(supervisors).for_each(|output| _ = known.remove(&output.entry));
+    known
+}
+
+/// What all users of the plan bind to one of its inputs.
+fn given(view: &View<'_>, input: usize) -> Option<Constant> {
+    let plans = &view.model.plans;
+    let own = plans.iter().position(|plan| plan.is_some_and(|it| std::ptr::eq(it, view.plan)))?;
+    let own = Component::SubPlan(PlanId(u16::try_from(own).ok()?));
+    let mut all = None;
+    for plan in plans {
+        // What a plan with errors binds nobody knows.
+        let plan = (*plan)?;
+        for element in plan.elements.iter().filter(|element| element.component == own) {
+            let value = constant(plan, element.inputs.get(input)?)?;
+            if all.get_or_insert_with(|| value.clone()) != &value {
+                return None;
+            }
+        }
+    }
+    all
+}
+
+/// Whether an edge is another one than that which a computation takes with these values.
+pub(super) fn excludes(view: &View<'_>, cause: Cause, known: &Known) -> bool {
+    let Cause::State(id, state) = cause else { return false };
+    outcome(view, &view.plan.elements[id.index()], known).is_some_and(|decided| decided != state)
+}
+
+/// What is known behind an edge.
+pub(super) fn after(view: &View<'_>, cause: Cause, known: &mut Known) {
+    let values: Vec<_> = view.writes(cause).map(|output| written(view, cause, output, known)).collect();
+    // A sub-plan may write what it does not surely write.
+    let outputs: &[Output] = match cause {
+        Cause::State(id, _) => &view.plan.elements[id.index()].outputs,
+        Cause::Event(id, _) | Cause::On(_, id, Some(_)) => &view.supervisor(id).outputs,
+        Cause::Error(_) | Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => &[],
+    };
+    outputs.iter().for_each(|output| _ = known.remove(&output.entry));
+    known.extend(values.into_iter().flatten());
+}
+
+/// Whether a cycle ends by itself, or nobody knows how often it is taken: a computation on it chooses another way, or
+/// chooses by a value that the cycle changes.
+pub(super) fn breaks_off(view: &View<'_>, cycle: &[Edge], constants: &Known) -> bool {
+    let mut known = constants.clone();
+    cycle.iter().for_each(|edge| after(view, edge.cause, &mut known));
+    let outputs = cycle.iter().flat_map(|edge| view.writes(edge.cause));
+    let changed: BTreeSet<_> = outputs.map(|output| output.entry).collect();
+    cycle.iter().any(|edge| {
+        let breaks = chooses_by(view, edge, &changed, &known);
+        after(view, edge.cause, &mut known);
+        breaks
+    })
+}
+
+/// Whether an edge is not that which its computation takes, or may be none because of what has changed.
+fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: &Known) -> bool {
+    let Cause::State(id, state) = edge.cause else { return false };
+    let element = &view.plan.elements[id.index()];
+    let mut others = element.states.iter().flatten();
+    let is_choice = others.any(|target| Some(target) != element.states[usize::from(state)].as_ref());
+    if takes_time(element) || !is_choice || count::limit(view, element).is_some() {
+        return false;
+    }
+    let mut reads_changed = false;
+    let mut look = |entry: EntryId, _| reads_changed |= changed.contains(&entry);
+    element.inputs.iter().for_each(|input| each_entry(input, &mut look));
+    match outcome(view, element, known) {
+        Some(decided) => decided != state,
+        None => reads_changed,
+    }
+}
+
+/// The state in which a computation ends with these values.
+pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Option<u16> {
+    use std::cmp::Ordering::{Equal, Greater, Less};
+    let name = name(view, element)?;
+    let value = |input: usize| value_of(element.inputs.get(input)?, known);
+    let yes = |holds: bool| Some(u16::from(!holds));
+    match name {
+        "Compare" => Some(match order(&value(0)?, &value(1)?)? {
+            Less => 0,
+            Equal => 1,
+            Greater => 2,
+        }),
+        "Count" => yes(order(&value(0)?, &value(1)?)? == Less),
+        "Is" => yes(value(0)? == value(1)?),
+        "Row" => match value(0)? {
+            Constant::Int(index) if index >= 0 => yes(index < rows(view, element)?),
+            _ => None,
+        },
+        "Switch" => match value(0)? {
+            Constant::Choice(place) => Some(place),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// What an output writes to its entry on an edge.
+fn written(view: &View<'_>, cause: Cause, output: &Output, known: &Known) -> Option<(EntryId, Constant)> {
+    let Cause::State(id, state) = cause else { return None };
+    let element = &view.plan.elements[id.index()];
+    let value = |input: usize| value_of(element.inputs.get(input)?, known);
+    let value = match (name(view, element)?, state) {
+        ("Assign", _) => value(0)?,
+        ("Count", 0) => match value(0)? {
+            Constant::Int(count) => Constant::Int(count.checked_add(1)?),
+            _ => return None,
+        },
+        ("Count", _) => Constant::Int(0),
+        ("Row", 0) => cell(view, element, value(0)?, output.port)?,
+        _ => return None,
+    };
+    let value = match &output.conversion {
+        Some(conversion) => convert(conversion, value).ok()?,
+        None => value,
+    };
+    Some((output.entry, value))
+}
+
+/// The name of a computation's template, if that is one of the standard toolbox.
+fn name<'a>(view: &View<'a>, element: &Element) -> Option<&'a str> {
+    match element.component {
+        Component::Computation(id) => standard_template(view, id),
+        _ => None,
+    }
+}
+
+fn value_of(formula: &Formula, known: &Known) -> Option<Constant> {
+    evaluate(formula, &|entry| known.get(&EntryId(entry)).cloned()).ok()?
+}
+
+fn order(left: &Constant, right: &Constant) -> Option<std::cmp::Ordering> {
+    match (left, right) {
+        (Constant::Int(left), Constant::Int(right)) => Some(left.cmp(right)),
+        (Constant::Float(left), Constant::Float(right)) => left.partial_cmp(right),
+        _ => None,
+    }
+}
+
+/// How many rows the table of a `Row` has.
+fn rows(view: &View<'_>, element: &Element) -> Option<i64> {
+    i64::try_from(table(view, element)?.rows.len()).ok()
+}
+
+fn cell(view: &View<'_>, element: &Element, index: Constant, column: u16) -> Option<Constant> {
+    let Constant::Int(index) = index else { return None };
+    let row = table(view, element)?.rows.get(usize::try_from(index).ok()?)?;
+    Some(row.get(usize::from(column))?.value.clone())
+}
+
+fn table<'a>(view: &View<'a>, element: &Element) -> Option<&'a Table> {
+    let Component::Computation(id) = element.component else { return None };
+    view.model.template(id).reads_table.as_ref()?.table.as_deref()
+}
