@@ -65,6 +65,10 @@ struct Parser<'t, 'd> {
     in_scenario: bool,
     /// Whether a comma here stands between two formulas, so that it is none of a number.
     commas_separate: bool,
+    /// The entries of the plan as far as it is read, each with the word that declares it.
+    entries: BTreeMap<&'t str, &'t str>,
+    /// The names with '-' in them.
+    hyphens: BTreeSet<String>,
     marks: Marks,
     /// The token, among those that are read, that is read as another word than it is.
     slip: Option<(usize, &'static str)>,
@@ -100,6 +104,8 @@ impl<'t, 'd> Parser<'t, 'd> {
             is_toolbox: false,
             in_scenario: false,
             commas_separate: false,
+            entries: BTreeMap::new(),
+            hyphens: BTreeSet::new(),
             marks,
             slip: None,
             names: Cell::new((1, 0)),
@@ -217,6 +223,26 @@ impl<'t, 'd> Parser<'t, 'd> {
         let before = self.at.checked_sub(1).map(|before| self.tokens[self.solid[before] as usize]);
         before
             .map_or(Span { file: self.file, start: 0, end: 0 }, |token| self.span_of(token).after())
+    }
+
+    /// The place from one token that is read to the one before another.
+    fn place_between(&self, first: usize, end: usize) -> Span {
+        let span = |at: usize| self.solid.get(at).map(|at| self.span_of(self.tokens[*at as usize]));
+        let first = span(first).unwrap_or_else(|| self.behind());
+        end.checked_sub(1).and_then(span).map_or(first, |last| first.to(last))
+    }
+
+    /// The text of the same tokens, with what stands between them.
+    fn text_between(&self, first: usize, end: usize) -> String {
+        let last = end.checked_sub(1).filter(|last| *last >= first).and_then(|at| self.solid.get(at));
+        let (Some(first), Some(last)) = (self.solid.get(first), last) else { return String::new() };
+        let tokens = &self.tokens[*first as usize..=*last as usize];
+        tokens.iter().map(|token| token.text).collect()
+    }
+
+    /// The text from one token ahead to the one before another.
+    fn text_of(&self, first: usize, end: usize) -> String {
+        self.text_between(self.at + first, self.at + end)
     }
 
     fn found(&self) -> String {

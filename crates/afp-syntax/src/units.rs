@@ -82,6 +82,13 @@ impl Unit {
         symbol.or_else(|| Unit::symbols().find(|symbol| symbol.eq_ignore_ascii_case(word)))
     }
 
+    /// The power of a unit that was meant by a word that is none: `s2`, `m3`.
+    pub fn power_meant(word: &str) -> Option<String> {
+        let unit = word.trim_end_matches(|each: char| each.is_ascii_digit());
+        let power = format!("{unit}^{}", &word[unit.len()..]);
+        Unit::parse(&power).map(|_| power)
+    }
+
     /// The symbols of all single units.
     pub fn symbols() -> impl Iterator<Item = &'static str> {
         SingleUnit::ALL.iter().map(|single| single.symbol)

@@ -6,7 +6,7 @@ use std::collections::hash_map::Entry;
 
 use crate::check::formula::too_long;
 use crate::check::meant;
-use crate::check::names::{Indices, unknown};
+use crate::check::names::{Indices, is_word, unknown};
 use crate::check::resume;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
@@ -381,7 +381,11 @@ pub(crate) fn find(
             words.filter(|word| leads != Leads::Start && elements.indices.find(word).is_none());
         let names = elements.names().chain(words);
         let message = format!("the plan has no element '{}'", to.text);
-        let none = "add an element of that name";
+        // None can be called like a word.
+        let none = match is_word(&to.text) {
+            true => "add an element, and name that",
+            false => "add an element of that name",
+        };
         let meant = meant::target(&to.text, leads);
         diags.push(match meant.filter(|_| words::nearest(&to.text, elements.names()).is_none()) {
             Some(word) => Diagnostic::new(Code::E0216, to.span, message)

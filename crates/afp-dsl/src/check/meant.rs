@@ -76,7 +76,7 @@ pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnos
     .unwrap_or(error)
 }
 
-/// `20 cm / s`, `20 cm/sec`
+/// `20 cm / s`, `20 cm/sec`, `1 m/s2`
 fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let (before, rest) = text.split_at(error.span.start as usize);
     let last = &rest[..(error.span.end - error.span.start) as usize];
@@ -93,11 +93,11 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
         return None;
     }
     if !is_unit(&spelled) && sign == '/' && left.len() + 1 == before.len() {
-        // `20 cm/sec`
-        let ours = Unit::meant(last)?;
-        let help = format!("write '{}'", of(ours));
+        // `20 cm/sec`, `1 m/s2`
+        let ours = Unit::meant(last).map(str::to_owned).or_else(|| Unit::power_meant(last))?;
+        let help = format!("write '{}'", of(&ours));
         let said = Diagnostic::new(error.code, error.span, &*error.message);
-        return is_unit(&of(ours)).then(|| said.help(help).replace(ours));
+        return is_unit(&of(&ours)).then(|| said.help(help).replace(ours));
     }
     let whole = Some(spelled).filter(is_unit)?;
     let mut place = error.span;

@@ -69,9 +69,14 @@ impl Indices {
 
 /// Reports an element whose name means something else behind `->`.
 pub(crate) fn element(name: &Name, diags: &mut Diagnostics) {
-    if matches!(name.text.as_str(), "terminate" | "fail" | "ignore" | "resume") {
+    if is_word(&name.text) {
         refuse(name, diags);
     }
+}
+
+/// Whether a name means something behind `->` that is no element.
+pub(crate) fn is_word(name: &str) -> bool {
+    matches!(name, "terminate" | "fail" | "ignore" | "resume")
 }
 
 /// Warns of an entry that reads like a unit behind a number.
@@ -138,7 +143,7 @@ pub(crate) fn unknown<'a>(
 ) -> Diagnostic {
     let known = known.into_iter();
     let diagnostic = Diagnostic::new(code, span, message);
-    match words::all_nearest(name, known.clone()).as_slice() {
+    match once(words::all_nearest(name, known.clone()), usize::MAX).as_slice() {
         [] => {}
         [meant] => return diagnostic.help(format!("write '{meant}'")).replace(*meant),
         // Which one is meant nobody knows.
@@ -147,7 +152,7 @@ pub(crate) fn unknown<'a>(
             return diagnostic.help(format!("write {}", words::list(some, "or")));
         }
     }
-    let mut some: Vec<&str> = known.take(MOST_LISTED + 1).collect();
+    let mut some = once(known, MOST_LISTED + 1);
     match some.len() {
         0 => diagnostic.help(none),
         count if count > MOST_LISTED => {
@@ -156,4 +161,15 @@ pub(crate) fn unknown<'a>(
         }
         _ => diagnostic.help(format!("write {}", words::list(some, "or"))),
     }
+}
+
+/// The first so many names, each of them once.
+fn once<'a>(names: impl IntoIterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
+    let mut some = Vec::new();
+    for name in names {
+        if some.len() < most && !some.contains(&name) {
+            some.push(name);
+        }
+    }
+    some
 }

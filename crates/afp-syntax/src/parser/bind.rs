@@ -33,7 +33,7 @@ impl Parser<'_, '_> {
     }
 
     /// `value += 1`
-    fn changes(&self) -> bool {
+    pub(super) fn changes(&self) -> bool {
         let is_sign = matches!(self.nth(1), Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash);
         is_sign && self.nth(2) == Kind::Equal
     }
@@ -102,12 +102,11 @@ impl Parser<'_, '_> {
         }
         // A formula here is an error of its own, reported where outputs are checked.
         self.open(Kind::Target);
-        if self.at(Kind::Name)
-            && !matches!(
-                self.nth(1),
-                Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash | Kind::Percent | Kind::Dot
-            )
-        {
+        let computes = matches!(
+            self.nth(1),
+            Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash | Kind::Percent | Kind::Dot
+        );
+        if self.at(Kind::Name) && (!computes || self.has_hyphens_in_use()) {
             self.name("name the entry that takes the value");
         } else {
             self.formula();

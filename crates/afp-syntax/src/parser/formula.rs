@@ -193,7 +193,7 @@ impl Parser<'_, '_> {
             self.bump();
         }
         self.number_that_ends_with_a_point();
-        if !self.eat(Kind::Unit) && !self.number_with_letters() {
+        if !self.eat(Kind::Unit) && !self.number_with_letters() && !self.percent() {
             self.unknown_unit();
         }
         self.close();
@@ -209,7 +209,8 @@ impl Parser<'_, '_> {
             return;
         }
         let error = Diagnostic::new(Code::E0236, self.here(), format!("'{word}' is not a unit"));
-        self.error(match Unit::meant(word) {
+        let meant = Unit::meant(word).map(str::to_owned);
+        self.error(match meant.or_else(|| Unit::power_meant(word)) {
             Some(unit) => error.help(format!("write '{unit}'")).replace(unit),
             None => error.help(
                 "use one of the units m cm mm km, deg rad, s ms min h, kg, N, V, K, Hz or a product such as 'cm/s'",
@@ -228,6 +229,12 @@ impl Parser<'_, '_> {
         WORDS_BEHIND_NUMBERS.contains(&word)
             || is_operator(word)
             || is_slip && words::nearest(word, WORDS_BEHIND_NUMBERS.iter().copied()).is_some()
+    }
+
+    /// Whether a word of the grammar stands here, with what it has behind it on its line.
+    pub(super) fn at_word_of_grammar(&self) -> bool {
+        let goes_on = begins_formula(self.nth(1)) && !self.begins_line(1);
+        goes_on && WORDS_BEHIND_NUMBERS.contains(&self.word(0))
     }
 
     /// `.5`
@@ -274,7 +281,12 @@ impl Parser<'_, '_> {
     /// `NAME ["." NAME]`
     pub(super) fn reference(&mut self) {
         self.open(Kind::Ref);
-        self.name("write a name");
+        // In a formula a '-' subtracts.
+        let is_word = self.at(Kind::Name) && !self.has_hyphens_in_use();
+        match is_word && (self.on_same_line() || !self.begins_item()) {
+            true => self.take_word(),
+            false => _ = self.name("write a name"),
+        }
         if self.eat(Kind::Dot) || self.double_colon() {
             // An item on the next line is none of what is still being typed here.
             if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {

@@ -4,15 +4,23 @@ mod bodies;
 mod edges;
 mod heads;
 mod items;
+mod lines;
+mod names;
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::source::Span;
+use items::is_type;
+use super::formula::begins_formula;
 
 /// How a choice is written.
 const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
+
+/// How something is done several times.
+pub(super) const LOOP: &str =
+    "lead an edge back to an element; 'Count' of 'std' counts how often that is done";
 
 /// Words that are written where a `->` belongs.
 const ARROW_WORDS: &[&str] = &["goto", "to", "then", "next"];
@@ -73,11 +81,11 @@ impl Parser<'_, '_> {
             self.ty();
         } else if self.at(Kind::Name) && self.on_same_line() && !begins {
             let (before, word) = (self.word_before(), self.word(0));
-            let is_type = matches!(before, "int" | "bool" | "float" | "string");
+            let is_swapped = is_type(before) && !is_type(word);
             let message = "no ':' before the type";
             let here = self.here().before();
             let error = Diagnostic::new(Code::E0102, here, message);
-            match is_type {
+            match is_swapped {
                 true => self.error(error.help(format!("write '{word}: {before}'"))),
                 false => self.error(error.help("write ':'").fix(here, ": ")),
             }
@@ -216,6 +224,30 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// `50 %`: reports the sign behind a number that nothing is divided by, and reads past it.
+    pub(super) fn percent(&mut self) -> bool {
+        let before = self.at.checked_sub(1).map(|at| self.tokens[self.solid[at] as usize]);
+        let number = before.filter(|token| matches!(token.kind, Kind::Int | Kind::Float));
+        let (Some(number), true) = (number, self.at(Kind::Percent) && self.on_same_line()) else {
+            return false;
+        };
+        // What begins there is no operand.
+        self.at += 1;
+        let is_item = !self.on_same_line() && (self.begins_item() || self.begins_scenario_line());
+        let ends = is_item || self.names_something(0) || self.at_word_of_grammar();
+        let ends = ends || !begins_formula(self.nth(0));
+        self.at -= 1;
+        if !ends {
+            return false;
+        }
+        let better = hundredth(number.text);
+        let place = self.span_of(number).to(self.next_span());
+        let error = Diagnostic::new(Code::E0102, place, "formulas have no percent");
+        self.error(error.help(format!("write '{better}'")).replace(better));
+        self.pass(1);
+        true
+    }
+
     /// How many tokens the number is that is next: three where it has a decimal comma, or two numbers a comma between them.
     pub(super) fn tokens_of_number(&self) -> usize {
         let adjacent = self.token_index(2) == self.token_index(0) + 2;
@@ -331,4 +363,16 @@ impl Parser<'_, '_> {
         (0..tokens).for_each(|_| self.bump());
         self.close();
     }
+}
+
+/// A hundredth of a number as it is written: `0.5` for `50`.
+fn hundredth(number: &str) -> String {
+    let (number, exponent) = number.split_at(number.find(['e', 'E']).unwrap_or(number.len()));
+    let (whole, fraction) = number.split_once('.').unwrap_or((number, ""));
+    let digits = format!("{whole:0>3}");
+    let (whole, moved) = digits.split_at(digits.len() - 2);
+    let whole = Some(whole.trim_start_matches('0')).filter(|digits| !digits.is_empty());
+    let fraction = format!("{moved}{fraction}");
+    let fraction = Some(fraction.trim_end_matches('0')).filter(|digits| !digits.is_empty());
+    format!("{}.{}{exponent}", whole.unwrap_or("0"), fraction.unwrap_or("0"))
 }

@@ -15,6 +15,7 @@ const ITEM_HELP: &str =
 impl Parser<'_, '_> {
     pub(super) fn plan(&mut self) {
         self.open_item(Kind::Plan);
+        self.entries.clear();
         self.keyword();
         self.name("give the plan a name");
         self.eat_meant("forever", |next| next == Kind::OpenBrace);
@@ -133,16 +134,23 @@ impl Parser<'_, '_> {
             self.bump();
             self.close();
         }
+        let (word, name) = (self.word_before(), self.word(0));
         self.name("give the entry a name");
+        let end = self.at;
         self.ty_of_entry();
+        let is_typed = self.at != end;
         self.value_and_range();
+        if !is_typed && self.at != end {
+            self.type_behind_value(end);
+        }
+        self.entries.entry(name).or_insert(word);
         self.close_item();
     }
 
     fn element(&mut self) {
         self.open_item(Kind::Element);
         self.keyword();
-        self.head("an actor's template, a computation's or a plan");
+        self.head("an actor's template, a computation's or a plan", false);
         self.no_timing();
         let body = self.open_body("put supervisors and edges in braces", Self::begins_body);
         if let Some(body) = body {
@@ -170,7 +178,7 @@ impl Parser<'_, '_> {
     pub(super) fn guard(&mut self) {
         self.open_item(Kind::Guard);
         self.keyword();
-        self.head("a supervisor's template");
+        self.head("a supervisor's template", true);
         while self.at_timing() || self.time_by_another_word() {
             self.timing();
         }
@@ -179,13 +187,15 @@ impl Parser<'_, '_> {
     }
 
     /// `NAME ":" ref [args]`
-    fn head(&mut self, what: &str) {
+    fn head(&mut self, what: &str, watches: bool) {
         self.name("give it a name");
+        self.times_before_template(watches);
         if self.colon_of_head() {
+            self.times_before_template(watches);
             // The name of an edge or of the next item is no template.
             let template = !self.names_something(0) && !self.begins_item();
             if self.at(Kind::Name) && (self.on_same_line() || template) {
-                self.reference();
+                self.template_name();
             } else {
                 self.expected(what, "name the template behind the ':'");
             }
@@ -195,6 +205,15 @@ impl Parser<'_, '_> {
         } else {
             self.ports_without_parentheses();
         }
+    }
+
+    fn template_name(&mut self) {
+        if self.tokens_of_name(0) == 1 {
+            return self.reference();
+        }
+        self.open(Kind::Ref);
+        self.take_name();
+        self.close();
     }
 
     pub(super) fn at_timing(&self) -> bool {
@@ -245,7 +264,10 @@ impl Parser<'_, '_> {
             let message = format!("no {} before an edge", self.found());
             return self.instead(1, message, "remove it".to_owned(), "");
         }
-        if self.at_edge() {
+        if self.port_in_braces() {
+            return;
+        }
+        if self.at_edge_with_hyphens() || self.at_edge() {
             return self.edge();
         }
         if self.sign_between_states() || self.strange_item(what) {

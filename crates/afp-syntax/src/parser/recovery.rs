@@ -3,6 +3,7 @@
 //! One thing is said about a line: what else does not fit there comes of it, more often than not.
 
 use super::Parser;
+use super::habits::LOOP;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::source::Span;
@@ -93,7 +94,7 @@ impl Parser<'_, '_> {
 
     pub(super) fn expected_at(&mut self, here: Span, what: &str, help: &str) {
         if matches!(self.nth(0), Kind::OpenBracket | Kind::CloseBracket | Kind::At) {
-            return self.reserved();
+            return self.reserved("remove it");
         }
         let message = format!("expected {what}, found {}", self.found());
         self.error(Diagnostic::new(Code::E0102, here, message).help(help));
@@ -172,8 +173,15 @@ impl Parser<'_, '_> {
 
     /// Takes the next token, which is a name.
     pub(super) fn take_name(&mut self) {
+        if !self.name_with_hyphens() {
+            self.take_word();
+        }
+    }
+
+    /// Takes the next token, which is a name; a '-' behind it is none of it.
+    pub(super) fn take_word(&mut self) {
         if self.word(0) == "repeat" {
-            self.reserved();
+            self.reserved("choose another name");
         }
         self.bump();
     }
@@ -184,9 +192,8 @@ impl Parser<'_, '_> {
         (first && !self.names_something(0)) || self.leaves_body() || self.at_tool()
     }
 
-    pub(super) fn reserved(&mut self) {
+    fn reserved(&mut self, help: &str) {
         let message = format!("{} is reserved for a later version", self.found());
-        let help = if self.at(Kind::Name) { "choose another name" } else { "remove it" };
         let here = self.next_span();
         self.error(Diagnostic::new(Code::E0112, here, message).help(help));
     }
@@ -242,7 +249,7 @@ impl Parser<'_, '_> {
     pub(super) fn report_skipped(&mut self, what: &str, help: &str, meant: Option<&str>) {
         let here = self.next_span();
         match (self.nth(0), meant) {
-            (Kind::Name, _) if self.word(0) == "repeat" => self.reserved(),
+            (Kind::Name, _) if self.word(0) == "repeat" => self.reserved(LOOP),
             (Kind::CloseParen, _) => {
                 let error = Diagnostic::new(Code::E0102, here, "this ')' is too much");
                 self.error(error.help("remove it").replace(""));

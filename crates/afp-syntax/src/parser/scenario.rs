@@ -40,6 +40,8 @@ impl Parser<'_, '_> {
                     let what = "a line of the scenario";
                     if parser.at_word("always") && parser.claims_behind() {
                         parser.always_first();
+                    } else if parser.action_without_its_time() {
+                        // It is reported.
                     } else if parser.at_line() || parser.item_meant(what, LINES) {
                         parser.line();
                     } else {
@@ -183,10 +185,12 @@ impl Parser<'_, '_> {
     }
 
     fn expectation(&mut self) {
+        let first = self.at;
         self.open_item(Kind::Expect);
         self.keyword();
         self.misplaced_word();
         self.claim_with_bounds();
+        self.never_behind(first);
     }
 
     fn claim_with_bounds(&mut self) {
@@ -293,8 +297,9 @@ impl Parser<'_, '_> {
                 self.path();
             }
             self.by();
-        } else if self.nth(0).is_comparison() {
-            self.bump();
+        } else if self.nth(0).is_comparison() || self.comparison_meant() {
+            // A '=' stands for '=='.
+            self.bump_as(if self.at(Kind::Equal) { Kind::EqualEqual } else { self.nth(0) });
             self.formula();
         } else {
             self.eat_meant("active", |_| true);
@@ -309,6 +314,6 @@ impl Parser<'_, '_> {
 }
 
 /// Whether a line of a scenario begins with this word.
-fn is_line(word: &str) -> bool {
+pub(super) fn is_line(word: &str) -> bool {
     LINES.contains(&word)
 }

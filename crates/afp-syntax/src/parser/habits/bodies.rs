@@ -1,5 +1,6 @@
 //! What stands in the braces of an element or a supervisor as other languages have it.
 
+use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::parser::Parser;
 use crate::parser::plan::BODY;
@@ -23,6 +24,43 @@ impl Parser<'_, '_> {
         is_word && self.nth(1) == Kind::Name && !self.begins_line(1) && self.arrow_at(2).is_some()
     }
 
+    /// `{ distance = 30 cm`: reports ports that stand in the braces, and reads past them. Returns whether one stands here.
+    pub(in crate::parser) fn port_in_braces(&mut self) -> bool {
+        if !self.at_port() {
+            return false;
+        }
+        let (here, name) = (self.next_span(), self.word(0));
+        let (message, help) = match self.assignment_help(true) {
+            Some(help) => (format!("braces hold no '{name} {} ...'", self.found_at(1).trim_matches('\'')), help),
+            None => {
+                let sign = if self.nth(1) == Kind::FatArrow { "=>" } else { "=" };
+                let help = format!("move it before the '{{', in brackets: '({name} {sign} ...)'");
+                (format!("'{name}' stands in braces where it has no place"), help)
+            }
+        };
+        self.error(Diagnostic::new(Code::E0114, here, message).help(help));
+        self.open(Kind::Error);
+        while self.at_port() {
+            self.bind();
+        }
+        self.close();
+        true
+    }
+
+    /// Whether a port or an entry stands here with its value behind it. States begin with a capital letter.
+    fn at_port(&self) -> bool {
+        use Kind::{Colon, Equal, FatArrow, Float, Int, Minus, Name, OpenParen, Text};
+        let is_small = self.word(0).starts_with(|first: char| first.is_ascii_lowercase());
+        let is_value = matches!(self.nth(2), Int | Float | Text | Minus | OpenParen)
+            || matches!(self.word(2), "true" | "false");
+        match self.nth(1) {
+            _ if !self.at(Name) || self.begins_line(1) || self.begins_line(2) => false,
+            Equal | Colon if is_value => true,
+            Equal | FatArrow => is_small && self.nth(2) == Name,
+            _ => self.changes() && is_small,
+        }
+    }
+
     /// Whether an edge begins here, perhaps with a word before it that edges do not have.
     pub(in crate::parser) fn begins_edge(&self) -> bool {
         self.at_edge() || self.at_word_before_edge()
@@ -39,7 +77,7 @@ impl Parser<'_, '_> {
         let chooses = matches!(self.word(0), "if" | "else" | "elif" | "switch" | "case" | "match")
             || matches!(self.word(0), "when" | "while" | "for" | "loop");
         let chooses =
-            chooses && matches!(self.nth(1), Kind::Name | Kind::OpenParen | Kind::OpenBrace);
+            chooses && matches!(self.nth(1), Kind::Name | Kind::Int | Kind::OpenParen | Kind::OpenBrace);
         let help = match self.meant(&["actor", "computation", "subplan", "supervise"]) {
             _ if chooses => self.item_help().unwrap_or_default(),
             Some("supervise") => "move it behind the '}' of this supervisor".to_owned(),

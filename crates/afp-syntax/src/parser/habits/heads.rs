@@ -33,6 +33,43 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// `supervise t: every 5 ms CheckTouchSensor`: reports times before a template, and reads them.
+    pub(in crate::parser) fn times_before_template(&mut self, watches: bool) {
+        let mut tokens = 0;
+        while matches!(self.word(tokens), "every" | "deadline")
+            && matches!(self.nth(tokens + 1), Kind::Int | Kind::Float)
+        {
+            tokens += 2 + usize::from(self.nth(tokens + 2) == Kind::Unit);
+        }
+        if tokens == 0 || !self.on_same_line() {
+            return;
+        }
+        let (times, word) = (self.text_of(0, tokens), self.word(0));
+        let template = Some(self.word(tokens)).filter(|name| !name.is_empty() && !self.begins_line(tokens));
+        let named = template.filter(|_| self.nth(tokens + 1) == Kind::OpenBrace);
+        let error = match (watches, named) {
+            (false, _) => {
+                let message = format!("only supervisors have '{word}'");
+                Diagnostic::new(Code::E0102, self.ahead(tokens), message).help("remove it").replace("")
+            }
+            (true, Some(template)) => {
+                let better = format!("{template} {times}");
+                let place = self.ahead(tokens + 1);
+                let error = Diagnostic::new(Code::E0102, place, format!("'{word}' stands behind the template"));
+                error.help(format!("write '{better}'")).replace(better)
+            }
+            (true, None) => {
+                let message = format!("'{word}' stands behind the template");
+                let help = format!("write the template, its ports in brackets, and then '{times}'");
+                Diagnostic::new(Code::E0102, self.ahead(tokens), message).help(help)
+            }
+        };
+        self.error(error);
+        while self.at_timing() {
+            self.timing();
+        }
+    }
+
     /// `within 50 ms`, `evry 50 ms`: reports the word, and reads it as the one that is meant. Returns whether it stands
     /// there.
     pub(in crate::parser) fn time_by_another_word(&mut self) -> bool {

@@ -1,17 +1,20 @@
 //! Items that no plan and no file has, and items that stand in braces where they have no place.
 
-use super::CHOICE;
+use super::{CHOICE, LOOP};
 use crate::diagnostics::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::kind::Kind;
 use crate::parser::recovery::Body;
 use crate::parser::{MAX_DEPTH, Parser};
+use crate::source::Span;
 
+/// So many tokens of a value are looked at.
+const MOST_TOKENS: usize = 64;
 /// What functions and tasks are here.
 const SUB_PLAN: &str = "write a plan of its own, and use it as a 'subplan'";
 
 /// Whether a word is a type that every file knows.
-fn is_type(word: &str) -> bool {
+pub(super) fn is_type(word: &str) -> bool {
     matches!(word, "int" | "bool" | "float" | "string") || Dimension::named(word).is_some()
 }
 
@@ -20,7 +23,14 @@ impl Parser<'_, '_> {
     pub(in crate::parser) fn item_help(&self) -> Option<String> {
         let (word, next) = (self.word(0), self.word(1));
         let begins_element = || self.on_line_from(1, Kind::OpenBrace).is_some();
-        Some(match (word, self.nth(1)) {
+        // What stands on the next line is none of this.
+        let sign = if self.begins_line(1) { Kind::End } else { self.nth(1) };
+        Some(match (word, sign) {
+            (_, Kind::Equal | Kind::Plus | Kind::Minus | Kind::Star | Kind::Slash)
+                if let Some(help) = self.assignment_help(false) =>
+            {
+                help
+            }
             (_, Kind::Colon) if begins_element() => {
                 "begin an element with 'actor', 'computation' or 'subplan', a supervisor with 'supervise'"
                     .to_owned()
@@ -37,7 +47,7 @@ impl Parser<'_, '_> {
             }
             ("task", Kind::Name) if self.nth(2) == Kind::Colon => return None,
             ("if" | "else" | "elif" | "switch" | "case" | "when" | "match", _) => CHOICE.to_owned(),
-            ("while" | "for" | "loop" | "do", _) => "lead an edge back to an element".to_owned(),
+            ("while" | "for" | "loop" | "do" | "until", _) => LOOP.to_owned(),
             ("import" | "include" | "from", _) => "write 'use' at the top of the file".to_owned(),
             ("fn" | "func" | "function" | "void" | "class" | "task", _) => {
                 SUB_PLAN.to_owned()
@@ -47,6 +57,54 @@ impl Parser<'_, '_> {
             }
             _ => return None,
         })
+    }
+
+    /// `n = n + 1`, `n += 1`, `n++`: how a value is written, where an entry is that changes and not one that is declared, or,
+    /// in the body of an element, a port.
+    pub(in crate::parser) fn assignment_help(&self, in_body: bool) -> Option<String> {
+        let (name, sign) = (self.word(0), self.token(1)?.text);
+        let is_line = |at: usize| {
+            let ends = matches!(self.nth(at), Kind::CloseBrace | Kind::Comma | Kind::End);
+            ends || self.begins_line(at) || self.nth(at + 1) == Kind::Arrow
+        };
+        let end = |from: usize| (from..from + MOST_TOKENS).find(|at| is_line(*at));
+        let value = match (self.nth(1), self.nth(2)) {
+            (Kind::Equal, _) => self.text_of(2, end(2)?),
+            (_, Kind::Equal) => format!("{name} {sign} {}", self.text_of(3, end(3)?)),
+            (first @ (Kind::Plus | Kind::Minus), second) if first == second => {
+                format!("{name} {sign} 1")
+            }
+            _ => return None,
+        };
+        let declared = self.entries.get(name).copied();
+        let reads_itself = end(2)? > 3 && (2..end(2)?).any(|at| self.word(at) == name);
+        let is_entry = declared.is_some() && !in_body || reads_itself;
+        if self.nth(1) == Kind::Equal && !is_entry {
+            return None;
+        }
+        let help = format!("let a computation write it: 'Assign(value = {value}, result => {name})'");
+        Some(match declared {
+            Some(word @ ("in" | "const")) => {
+                format!("declare '{name}' with 'var' in place of '{word}', and {help}")
+            }
+            _ => help,
+        })
+    }
+
+    /// `in d = 30 cm length`: reports a type behind the value of an entry whose name ends before token `end`.
+    pub(in crate::parser) fn type_behind_value(&mut self, end: usize) {
+        let is_type = is_type(self.word(0)) && !self.names_something(0);
+        if !is_type || !self.on_same_line() {
+            return;
+        }
+        let ty = self.word(0);
+        let value = self.text_between(end, self.at);
+        let place = Span { start: self.place_between(0, end).end, ..self.next_span() };
+        let error = Diagnostic::new(Code::E0102, self.next_span(), "the type stands before the '='");
+        let better = format!(": {ty} {value}");
+        let help = format!("write '{}{better}'", self.text_between(end - 1, end));
+        self.error(error.help(help).fix(place, better));
+        self.pass(1);
     }
 
     /// What to write for an item that files of other languages have.

@@ -1,0 +1,100 @@
+//! Lines of scenarios whose words stand in another order, or with other signs.
+
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+use crate::parser::Parser;
+use crate::parser::scenario::is_line;
+
+/// So many tokens of a line are looked at.
+const MOST_TOKENS: usize = 64;
+/// What happens in scenarios, besides 'set'.
+const ACTIONS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle"];
+
+impl Parser<'_, '_> {
+    /// `expect a = 0`: reports the sign. Returns whether it stands here.
+    pub(in crate::parser) fn comparison_meant(&mut self) -> bool {
+        let stands = self.at(Kind::Equal) && self.on_same_line();
+        if stands {
+            let here = self.next_span();
+            let error = Diagnostic::new(Code::E0102, here, "two values are compared with '=='");
+            self.error(error.help("write '=='").replace("=="));
+        }
+        stands
+    }
+
+    /// `press touch at 3 s`, `idle all`: reports where the time stands, and reads past the line. Returns whether an
+    /// action stands here.
+    pub(in crate::parser) fn action_without_its_time(&mut self) -> bool {
+        let tokens = self.tokens_on_line();
+        let at = (1..tokens).find(|at| self.at_time(*at));
+        let is_action = ACTIONS.contains(&self.word(0)) && self.nth(1) == Kind::Name && tokens > 1;
+        let is_set = self.word(0) == "set" && at.is_some();
+        if !(is_action || is_set) {
+            return false;
+        }
+        let place = self.ahead(tokens);
+        let error = match at {
+            Some(at) => {
+                let end = self.token_of_time(at);
+                let (time, what) = (self.text_of(at, end), self.text_of(0, at));
+                let better = format!("{time}: {what} {}", self.text_of(end, tokens));
+                let better = better.trim_end();
+                let message = "a line begins with the time at which something happens";
+                let error = Diagnostic::new(Code::E0102, place, message);
+                error.help(format!("write '{better}'")).replace(better)
+            }
+            None => {
+                let message = format!("no time at which to {}", self.word(0));
+                let help = format!("write it in front, such as 'at 1 s: {}'", self.text_of(0, tokens));
+                Diagnostic::new(Code::E0102, place, message).help(help)
+            }
+        };
+        self.error(error);
+        self.pass(tokens);
+        true
+    }
+
+    /// `expect end never`: reports the word behind the claim of a line that begins at `first`, and reads past it.
+    pub(in crate::parser) fn never_behind(&mut self, first: usize) {
+        let ends = self.begins_line(1)
+            || matches!(self.nth(1), Kind::CloseBrace | Kind::End)
+            || matches!(self.word(1), "within" | "before" | "after");
+        if !self.at_word("never") || !self.on_same_line() || !ends {
+            return;
+        }
+        let place = self.place_between(first, self.at + 1);
+        let better = format!("never {}", self.text_between(first + 1, self.at));
+        let error = Diagnostic::new(Code::E0102, place, "'never' stands in place of 'expect'");
+        self.error(error.help(format!("write '{better}'")).replace(better));
+        self.pass(1);
+        while matches!(self.word(0), "within" | "before" | "after") && self.on_same_line() {
+            self.open(Kind::Bound);
+            self.keyword();
+            self.quantity("write a time such as '3 s'");
+            self.close();
+        }
+    }
+
+    /// How many tokens stand on the line of a scenario that begins here.
+    fn tokens_on_line(&self) -> usize {
+        let ends = |at: usize| {
+            let is_path = at == 1 || self.nth(at - 1) == Kind::Dot;
+            let is_line = is_line(self.word(at)) && !is_path && !self.at_time(at);
+            let kind = self.nth(at);
+            is_line || self.begins_line(at) || matches!(kind, Kind::CloseBrace | Kind::End)
+        };
+        (1..MOST_TOKENS).find(|at| ends(*at)).unwrap_or(1)
+    }
+
+    /// Whether a time stands so many tokens ahead, with 'at' before it and no ':' behind it.
+    fn at_time(&self, ahead: usize) -> bool {
+        self.word(ahead) == "at"
+            && matches!(self.nth(ahead + 1), Kind::Int | Kind::Float)
+            && self.nth(self.token_of_time(ahead)) != Kind::Colon
+    }
+
+    /// The token behind a word and the time behind it.
+    fn token_of_time(&self, word: usize) -> usize {
+        word + 2 + usize::from(self.nth(word + 2) == Kind::Unit)
+    }
+}
