@@ -234,7 +234,8 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// The text of the same tokens, with what stands between them.
     fn text_between(&self, first: usize, end: usize) -> String {
-        let last = end.checked_sub(1).filter(|last| *last >= first).and_then(|at| self.solid.get(at));
+        let last =
+            end.checked_sub(1).filter(|last| *last >= first).and_then(|at| self.solid.get(at));
         let (Some(first), Some(last)) = (self.solid.get(first), last) else { return String::new() };
         let tokens = &self.tokens[*first as usize..=*last as usize];
         tokens.iter().map(|token| token.text).collect()

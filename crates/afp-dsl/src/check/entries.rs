@@ -149,7 +149,8 @@ fn initialise(
     let checked = site.scope(drafts, &readable, unreadable).check(&formula, ty.as_ref(), diags);
     let needs_type = matches!(kind, EntryKind::In | EntryKind::Out) && entry.ty().is_none();
     if needs_type {
-        untyped(own, entry, diags);
+        let of_value = checked.as_ref().map(|(formula, _)| &formula.ty);
+        untyped(own, entry, of_value, diags);
     }
     let Some((formula, value)) = checked else { return };
     let draft = &mut drafts[index];
@@ -210,7 +211,7 @@ fn limit(
 /// Checks an entry without a value.
 fn missing(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
     if entry.ty().is_none() {
-        untyped(own, entry, diags);
+        untyped(own, entry, None, diags);
     } else if own.kind == EntryKind::Const {
         let message = format!("the constant '{}' has no value", own.name.text);
         diags.push(
@@ -219,14 +220,18 @@ fn missing(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
     }
 }
 
-fn untyped(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
+fn untyped(own: &EntryDraft, entry: &ast::Entry, of_value: Option<&Type>, diags: &mut Diagnostics) {
     // What could not be read may have been the type or the value.
     if diags.syntax_errors_within(entry.span()).next().is_some() {
         return;
     }
-    let message = format!("the entry '{}' has no type", own.name.text);
-    diags.push(
-        Diagnostic::new(Code::E0241, own.name.span, message)
-            .help(format!("write its type, such as '{}: float'", own.name.text)),
-    );
+    let name = &own.name;
+    let error =
+        Diagnostic::new(Code::E0241, name.span, format!("the entry '{}' has no type", name.text));
+    diags.push(match of_value {
+        Some(ty) => error
+            .help(format!("write its type: '{}: {ty}'", name.text))
+            .fix(name.span.after(), format!(": {ty}")),
+        None => error.help(format!("write its type, such as '{}: float'", name.text)),
+    });
 }

@@ -135,8 +135,8 @@ fn row(
     // What could not be read may have been the values.
     let whole = diags.syntax_errors_within(table.span()).next().is_none();
     let misfits = whole && cells.len() != columns.len() && !columns.is_empty();
-    let comma = decimal_comma(cells.iter().flatten())
-        .filter(|_| misfits && cells.len() > columns.len());
+    let comma =
+        decimal_comma(cells.iter().flatten()).filter(|_| misfits && cells.len() > columns.len());
     // Halves of numbers say nothing of the other values.
     let known = if comma.is_some() { &[] } else { columns };
     if misfits {

@@ -1,7 +1,7 @@
 //! Plans that never end, and elements that none of their endings can be reached from.
 
 use crate::flow::view::{Cause, Node, View};
-use crate::flow::{FAILED, INTERRUPTED, OK};
+use crate::flow::{FAILED, INTERRUPTED, OK, lasting};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of a plan that cannot end, notes elements from which it cannot; tells which endings can
@@ -24,7 +24,8 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     }
     let back = backward(view);
     for (node, element) in view.elements() {
-        if !back[node] && forth[node] {
+        // Of one that lasts it is said that nothing can end it.
+        if !back[node] && forth[node] && !lasting::lasts(view, node, element) {
             let message = format!("once '{}' is reached, the plan cannot end", element.name);
             diags.push(
                 Diagnostic::new(Code::E0311, element.span, message)

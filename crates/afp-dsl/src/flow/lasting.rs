@@ -1,7 +1,7 @@
 //! Actors without a state that no event can end.
 
-use crate::flow::view::{Cause, Edge, View};
-use crate::graph::Component;
+use crate::flow::view::{Cause, Edge, Node, View};
+use crate::graph::{Component, Element};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of each, at its name, unless the plan is to run for ever. What the plans around it watch for does not count.
@@ -11,22 +11,29 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     }
     for (node, element) in view.elements() {
         let Component::Actor(id) = element.component else { continue };
-        let template = view.model.template(id);
-        let leads_on = |edge: &Edge| {
-            matches!(edge.cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..))
-                && edge.to != node
-        };
-        let all = || view.from(node).iter().chain(view.of_globals(node));
-        if !element.states.is_empty() || all().any(leads_on) {
+        if !lasts(view, node, element) {
             continue;
         }
         let message = format!("nothing can end '{}'", element.name);
         diags.push(
             Diagnostic::new(Code::E0315, element.span, message)
-                .note(template.span, "the actor has no state: it lasts until an event")
+                .note(
+                    view.model.template(id).span,
+                    "the actor has no state: it lasts until an event",
+                )
                 .help(
                     "watch it with a supervisor whose event leads on, or use an actor with a state",
                 ),
         );
     }
+}
+
+/// Whether an element is an actor without a state that no event ends.
+pub(super) fn lasts(view: &View<'_>, node: Node, element: &Element) -> bool {
+    let leads_on = |edge: &Edge| {
+        matches!(edge.cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..)) && edge.to != node
+    };
+    matches!(element.component, Component::Actor(_))
+        && element.states.is_empty()
+        && !view.from(node).iter().chain(view.of_globals(node)).any(leads_on)
 }

@@ -8,12 +8,12 @@ mod lines;
 mod names;
 
 use super::Parser;
+use super::formula::begins_formula;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::source::Span;
 use items::is_type;
-use super::formula::begins_formula;
 
 /// How a choice is written.
 const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
@@ -265,7 +265,8 @@ impl Parser<'_, '_> {
 
     /// `2,5`: reports the comma and takes all of the number, unless a comma stands between two of them here.
     pub(super) fn decimal_comma(&mut self) -> bool {
-        let (Some(whole), Some(comma), Some(fraction)) = (self.token(0), self.token(1), self.token(2))
+        let (Some(whole), Some(comma), Some(fraction)) =
+            (self.token(0), self.token(1), self.token(2))
         else {
             return false;
         };

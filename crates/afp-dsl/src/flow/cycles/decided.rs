@@ -81,7 +81,8 @@ pub(super) fn excludes(view: &View<'_>, cause: Cause, known: &Known) -> bool {
 
 /// What is known behind an edge.
 pub(super) fn after(view: &View<'_>, cause: Cause, known: &mut Known) {
-    let values: Vec<_> = view.writes(cause).map(|output| written(view, cause, output, known)).collect();
+    let values: Vec<_> =
+        view.writes(cause).map(|output| written(view, cause, output, known)).collect();
     // A sub-plan may write what it does not surely write.
     let outputs: &[Output] = match cause {
         Cause::State(id, _) => &view.plan.elements[id.index()].outputs,
@@ -111,7 +112,8 @@ fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: 
     let Cause::State(id, state) = edge.cause else { return false };
     let element = &view.plan.elements[id.index()];
     let mut others = element.states.iter().flatten();
-    let is_choice = others.any(|target| Some(target) != element.states[usize::from(state)].as_ref());
+    let is_choice =
+        others.any(|target| Some(target) != element.states[usize::from(state)].as_ref());
     if takes_time(element) || !is_choice || count::limit(view, element).is_some() {
         return false;
     }
@@ -151,7 +153,12 @@ pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Opti
 }
 
 /// What an output writes to its entry on an edge.
-fn written(view: &View<'_>, cause: Cause, output: &Output, known: &Known) -> Option<(EntryId, Constant)> {
+fn written(
+    view: &View<'_>,
+    cause: Cause,
+    output: &Output,
+    known: &Known,
+) -> Option<(EntryId, Constant)> {
     let Cause::State(id, state) = cause else { return None };
     let element = &view.plan.elements[id.index()];
     let value = |input: usize| value_of(element.inputs.get(input)?, known);

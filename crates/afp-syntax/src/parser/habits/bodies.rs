@@ -31,7 +31,10 @@ impl Parser<'_, '_> {
         }
         let (here, name) = (self.next_span(), self.word(0));
         let (message, help) = match self.assignment_help(true) {
-            Some(help) => (format!("braces hold no '{name} {} ...'", self.found_at(1).trim_matches('\'')), help),
+            Some(help) => (
+                format!("braces hold no '{name} {} ...'", self.found_at(1).trim_matches('\'')),
+                help,
+            ),
             None => {
                 let sign = if self.nth(1) == Kind::FatArrow { "=>" } else { "=" };
                 let help = format!("move it before the '{{', in brackets: '({name} {sign} ...)'");
@@ -76,8 +79,8 @@ impl Parser<'_, '_> {
         }
         let chooses = matches!(self.word(0), "if" | "else" | "elif" | "switch" | "case" | "match")
             || matches!(self.word(0), "when" | "while" | "for" | "loop");
-        let chooses =
-            chooses && matches!(self.nth(1), Kind::Name | Kind::Int | Kind::OpenParen | Kind::OpenBrace);
+        let chooses = chooses
+            && matches!(self.nth(1), Kind::Name | Kind::Int | Kind::OpenParen | Kind::OpenBrace);
         let help = match self.meant(&["actor", "computation", "subplan", "supervise"]) {
             _ if chooses => self.item_help().unwrap_or_default(),
             Some("supervise") => "move it behind the '}' of this supervisor".to_owned(),

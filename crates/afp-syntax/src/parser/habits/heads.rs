@@ -45,17 +45,24 @@ impl Parser<'_, '_> {
             return;
         }
         let (times, word) = (self.text_of(0, tokens), self.word(0));
-        let template = Some(self.word(tokens)).filter(|name| !name.is_empty() && !self.begins_line(tokens));
+        let template =
+            Some(self.word(tokens)).filter(|name| !name.is_empty() && !self.begins_line(tokens));
         let named = template.filter(|_| self.nth(tokens + 1) == Kind::OpenBrace);
         let error = match (watches, named) {
             (false, _) => {
                 let message = format!("only supervisors have '{word}'");
-                Diagnostic::new(Code::E0102, self.ahead(tokens), message).help("remove it").replace("")
+                Diagnostic::new(Code::E0102, self.ahead(tokens), message)
+                    .help("remove it")
+                    .replace("")
             }
             (true, Some(template)) => {
                 let better = format!("{template} {times}");
                 let place = self.ahead(tokens + 1);
-                let error = Diagnostic::new(Code::E0102, place, format!("'{word}' stands behind the template"));
+                let error = Diagnostic::new(
+                    Code::E0102,
+                    place,
+                    format!("'{word}' stands behind the template"),
+                );
                 error.help(format!("write '{better}'")).replace(better)
             }
             (true, None) => {

@@ -82,7 +82,8 @@ impl Parser<'_, '_> {
         if self.nth(1) == Kind::Equal && !is_entry {
             return None;
         }
-        let help = format!("let a computation write it: 'Assign(value = {value}, result => {name})'");
+        let help =
+            format!("let a computation write it: 'Assign(value = {value}, result => {name})'");
         Some(match declared {
             Some(word @ ("in" | "const")) => {
                 format!("declare '{name}' with 'var' in place of '{word}', and {help}")
@@ -100,7 +101,8 @@ impl Parser<'_, '_> {
         let ty = self.word(0);
         let value = self.text_between(end, self.at);
         let place = Span { start: self.place_between(0, end).end, ..self.next_span() };
-        let error = Diagnostic::new(Code::E0102, self.next_span(), "the type stands before the '='");
+        let error =
+            Diagnostic::new(Code::E0102, self.next_span(), "the type stands before the '='");
         let better = format!(": {ty} {value}");
         let help = format!("write '{}{better}'", self.text_between(end - 1, end));
         self.error(error.help(help).fix(place, better));

@@ -45,7 +45,8 @@ impl Parser<'_, '_> {
             }
             None => {
                 let message = format!("no time at which to {}", self.word(0));
-                let help = format!("write it in front, such as 'at 1 s: {}'", self.text_of(0, tokens));
+                let help =
+                    format!("write it in front, such as 'at 1 s: {}'", self.text_of(0, tokens));
                 Diagnostic::new(Code::E0102, place, message).help(help)
             }
         };

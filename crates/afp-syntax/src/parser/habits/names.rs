@@ -4,6 +4,22 @@ use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::parser::Parser;
 
+/// Words before a name that is declared there, so that it can be written otherwise; elsewhere it is one that is there.
+const DECLARES: &[&str] = &[
+    "in",
+    "live",
+    "out",
+    "var",
+    "const",
+    "actor",
+    "computation",
+    "subplan",
+    "supervise",
+    "plan",
+    "enum",
+    "table",
+];
+
 impl Parser<'_, '_> {
     /// `wall-dist`: how many tokens the name so many ahead is, whose parts have nothing but a '-' between them.
     pub(in crate::parser) fn tokens_of_name(&self, ahead: usize) -> usize {
@@ -30,7 +46,9 @@ impl Parser<'_, '_> {
         let help = format!("write '{better}' or '{}'", in_one_word(&parts));
         let error = Diagnostic::new(Code::E0102, self.ahead(tokens), "a name has no '-'");
         self.hyphens.insert(parts.join("-"));
-        self.error(error.help(help).replace(better));
+        let declares = DECLARES.contains(&self.word_before());
+        let error = error.help(help);
+        self.error(if declares { error.replace(better) } else { error });
         self.bump_together(tokens, Kind::Name);
         true
     }
