@@ -88,22 +88,22 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let follows_number = first.trim_end().ends_with(|each: char| each.is_ascii_digit());
     let of = |last: &str| format!("{}{sign}{last}", &left[first.len()..]);
     let is_unit = |whole: &String| Unit::parse(whole).is_some();
-    let spelled = of(last);
+    let meant = || Unit::meant(last).map(str::to_owned).or_else(|| Unit::power_meant(last));
+    let spelled = Some(of(last)).filter(is_unit);
     if !follows_number {
         return None;
     }
-    if !is_unit(&spelled) && sign == '/' && left.len() + 1 == before.len() {
-        // `20 cm/sec`, `1 m/s2`
-        let ours = Unit::meant(last).map(str::to_owned).or_else(|| Unit::power_meant(last))?;
-        let help = format!("write '{}'", of(&ours));
-        let said = Diagnostic::new(error.code, error.span, &*error.message);
-        return is_unit(&of(&ours)).then(|| said.help(help).replace(ours));
+    let said = Diagnostic::new(error.code, error.span, &*error.message);
+    let ours = if spelled.is_some() { last.to_owned() } else { meant()? };
+    let whole = Some(of(&ours)).filter(is_unit)?;
+    // `20 cm/sec`, `1 m/s2`
+    if spelled.is_none() && left.len() + 1 == before.len() {
+        return Some(said.help(format!("write '{whole}'")).replace(ours));
     }
-    let whole = Some(spelled).filter(is_unit)?;
     let mut place = error.span;
     place.start = u32::try_from(first.len()).ok()?;
     let help = format!("a unit has no blanks: write '{whole}'");
-    Some(Diagnostic::new(error.code, error.span, &*error.message).help(help).fix(place, whole))
+    Some(said.help(help).fix(place, whole))
 }
 
 /// An element is no entry.

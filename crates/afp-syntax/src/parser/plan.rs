@@ -188,6 +188,7 @@ impl Parser<'_, '_> {
 
     /// `NAME ":" ref [args]`
     fn head(&mut self, what: &str, watches: bool) {
+        self.times_before_template(watches);
         self.name("give it a name");
         self.times_before_template(watches);
         if self.colon_of_head() {

@@ -63,11 +63,7 @@ impl Parser<'_, '_> {
     /// in the body of an element, a port.
     pub(in crate::parser) fn assignment_help(&self, in_body: bool) -> Option<String> {
         let (name, sign) = (self.word(0), self.token(1)?.text);
-        let is_line = |at: usize| {
-            let ends = matches!(self.nth(at), Kind::CloseBrace | Kind::Comma | Kind::End);
-            ends || self.begins_line(at) || self.nth(at + 1) == Kind::Arrow
-        };
-        let end = |from: usize| (from..from + MOST_TOKENS).find(|at| is_line(*at));
+        let end = |from: usize| self.end_of_value(from);
         let value = match (self.nth(1), self.nth(2)) {
             (Kind::Equal, _) => self.text_of(2, end(2)?),
             (_, Kind::Equal) => format!("{name} {sign} {}", self.text_of(3, end(3)?)),
@@ -89,6 +85,21 @@ impl Parser<'_, '_> {
                 format!("declare '{name}' with 'var' in place of '{word}', and {help}")
             }
             _ => help,
+        })
+    }
+
+    /// The token behind the value that begins so many tokens ahead, on its line.
+    fn end_of_value(&self, from: usize) -> Option<usize> {
+        let mut depth = 0_usize;
+        (from..from + MOST_TOKENS).find(|at| {
+            match self.nth(*at) {
+                Kind::OpenParen => depth += 1,
+                Kind::CloseParen => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            let ends = matches!(self.nth(*at), Kind::CloseBrace | Kind::End)
+                || depth == 0 && self.nth(*at) == Kind::Comma;
+            ends || self.begins_line(*at) || self.nth(*at + 1) == Kind::Arrow
         })
     }
 

@@ -36,8 +36,8 @@ impl Parser<'_, '_> {
         let error = match at {
             Some(at) => {
                 let end = self.token_of_time(at);
-                let (time, what) = (self.text_of(at, end), self.text_of(0, at));
-                let better = format!("{time}: {what} {}", self.text_of(end, tokens));
+                let (time, what) = (self.text_of(at + 1, end), self.text_of(0, at));
+                let better = format!("at {time}: {what} {}", self.text_of(end, tokens));
                 let better = better.trim_end();
                 let message = "a line begins with the time at which something happens";
                 let error = Diagnostic::new(Code::E0102, place, message);
@@ -80,16 +80,17 @@ impl Parser<'_, '_> {
     fn tokens_on_line(&self) -> usize {
         let ends = |at: usize| {
             let is_path = at == 1 || self.nth(at - 1) == Kind::Dot;
-            let is_line = is_line(self.word(at)) && !is_path && !self.at_time(at);
+            let is_line = is_line(self.word(at)) || ACTIONS.contains(&self.word(at));
+            let is_line = is_line && !is_path && !self.at_time(at);
             let kind = self.nth(at);
             is_line || self.begins_line(at) || matches!(kind, Kind::CloseBrace | Kind::End)
         };
         (1..MOST_TOKENS).find(|at| ends(*at)).unwrap_or(1)
     }
 
-    /// Whether a time stands so many tokens ahead, with 'at' before it and no ':' behind it.
+    /// Whether a time stands so many tokens ahead, with 'at' or 'after' before it and no ':' behind it.
     fn at_time(&self, ahead: usize) -> bool {
-        self.word(ahead) == "at"
+        matches!(self.word(ahead), "at" | "after")
             && matches!(self.nth(ahead + 1), Kind::Int | Kind::Float)
             && self.nth(self.token_of_time(ahead)) != Kind::Colon
     }
