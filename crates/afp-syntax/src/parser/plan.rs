@@ -123,16 +123,8 @@ impl Parser<'_, '_> {
         self.keyword();
         if input {
             self.eat_meant("live", |next| next == Kind::Name);
-        } else if self.at_word("live") && self.nth(1) == Kind::Name {
-            let here = self.here();
-            self.error(
-                Diagnostic::new(Code::E0102, here, "only an 'in' is live")
-                    .help("remove 'live'")
-                    .replace(""),
-            );
-            self.open(Kind::Error);
-            self.bump();
-            self.close();
+        } else {
+            self.live_elsewhere();
         }
         let (word, name) = (self.word_before(), self.word(0));
         self.name("give the entry a name");

@@ -50,6 +50,15 @@ impl Parser<'_, '_> {
         self.eat_word(word)
     }
 
+    /// `out live x`: says that nothing else than an input is live, and reads past the word.
+    pub(super) fn live_elsewhere(&mut self) {
+        if self.at_word("live") && self.nth(1) == Kind::Name {
+            let error = Diagnostic::new(Code::E0102, self.here(), "only an 'in' is live");
+            self.error(error.help("remove 'live'").replace(""));
+            self.pass(1);
+        }
+    }
+
     /// `live in x`: says in which order the words stand, and reads past the first. Returns whether they stand so.
     pub(super) fn live_before_in(&mut self) -> bool {
         let stands = self.word(0) == "live" && self.word(1) == "in" && self.nth(2) == Kind::Name;

@@ -126,10 +126,12 @@ impl Parser<'_, '_> {
         if self.at(Kind::Colon) && self.nth(1) == Kind::Equal && self.on_same_line() {
             self.instead(1, "no ':' before '='".to_owned(), "write '='".to_owned(), "");
         }
-        if self.eat(Kind::Equal) {
+        let has_value = self.eat(Kind::Equal);
+        if has_value {
             self.formula();
             self.no_operators();
         }
+        let range = self.at;
         if self.at_word("from") || self.at_slip("from") && begins_formula(self.nth(1)) {
             self.open(Kind::Range);
             self.eat_meant("from", begins_formula);
@@ -140,12 +142,16 @@ impl Parser<'_, '_> {
                 self.expected("'to'", "write both ends, such as 'from 0 cm to 30 cm'");
             }
             self.close();
+            if !has_value && self.at(Kind::Equal) && self.on_same_line() {
+                self.value_behind_range(range);
+            }
         }
     }
 
     fn out_port(&mut self) {
         self.open_item(Kind::OutPort);
         self.keyword();
+        self.live_elsewhere();
         self.port("give the port a name");
         if self.at_word("on") {
             self.open(Kind::On);

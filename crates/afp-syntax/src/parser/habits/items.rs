@@ -120,6 +120,19 @@ impl Parser<'_, '_> {
         self.pass(1);
     }
 
+    /// `from 1 to 2 = 3`: reports a value behind the range that begins at token `range`, and reads it.
+    pub(in crate::parser) fn value_behind_range(&mut self, range: usize) {
+        let (sign, equal) = (self.next_span(), self.at);
+        self.bump();
+        self.formula();
+        let [bounds, value] =
+            [(range, equal), (equal, self.at)].map(|(first, end)| self.text_between(first, end));
+        let error = Diagnostic::new(Code::E0102, sign, "the value stands before its range");
+        let better = format!("{value} {bounds}");
+        let place = self.place_between(range, self.at);
+        self.error(error.help(format!("write '{better}'")).fix(place, better));
+    }
+
     /// What to write for an item that files of other languages have.
     pub(in crate::parser) fn top_help(&self) -> Option<String> {
         let is_import = matches!(self.word(0), "import" | "include" | "from" | "using" | "require");
