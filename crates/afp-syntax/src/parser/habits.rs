@@ -235,7 +235,7 @@ impl Parser<'_, '_> {
         self.at += 1;
         let is_item = !self.on_same_line() && (self.begins_item() || self.begins_scenario_line());
         let ends = is_item || self.names_something(0) || self.at_word_of_grammar();
-        let ends = ends || !begins_formula(self.nth(0));
+        let ends = ends || !begins_formula(self.nth(0)) && !self.at(Kind::Text);
         self.at -= 1;
         if !ends {
             return false;
