@@ -64,7 +64,7 @@ pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, re
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};
-pub use world::{AnyWorld, Drawing, Patch, Thing, World, WorldError};
+pub use world::{AnyWorld, Drawing, Outlines, Patch, Thing, World, WorldError};
 
 /// What macros name in the crates of others.
 #[doc(hidden)]
