@@ -320,8 +320,7 @@ impl Runner {
         let time = some("hold", time)?;
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
-        session.ask(from, Request::Press(control, true)).map_err(error)?;
-        session.ask(from + time, Request::Press(control, false)).map_err(error)
+        session.ask(from, Request::Hold(control, time)).map_err(error)
     }
 
     /// Breaks something.

@@ -1,8 +1,6 @@
 //! `--press` and `--fail` as requests of a session.
 
-use afp_core::devices::{
-    AmountRow, ControlId, DeviceRow, FaultId, faults, find_control, find_stop,
-};
+use afp_core::devices::{AmountRow, DeviceRow, FaultId, faults, find_control, find_stop};
 use afp_core::{Duration, Instant};
 use afp_excerpt::words::nearest;
 use afp_project::duration;
@@ -31,7 +29,8 @@ pub fn make(
         let id = find_control(table, &press.control).ok_or_else(|| {
             RunError::usage(no_control(table, &press.control), "write 'CONTROL@3s'")
         })?;
-        hold(session, id, press.at).map_err(|why| refused(&press.to_string(), &why))?;
+        let made = session.at(press.at, Request::Hold(id, HOLD));
+        made.map_err(|why| refused(&press.to_string(), &why))?;
     }
     Ok(())
 }
@@ -50,14 +49,8 @@ pub(crate) fn repeat(session: &mut dyn AnySession, recipe: &Recipe) -> Result<()
 pub(crate) fn press_stop(session: &mut dyn AnySession, at: Instant) {
     if let Some(id) = find_stop(session.devices()) {
         // It refuses nothing but what is over, and that makes no difference any more.
-        let _ = hold(session, id, at);
+        let _ = session.at(at, Request::Hold(id, HOLD));
     }
-}
-
-fn hold(session: &mut dyn AnySession, id: ControlId, at: Instant) -> Result<(), RequestError> {
-    session.at(at, Request::Press(id, true))?;
-    session.at(at + HOLD, Request::Press(id, false))?;
-    Ok(())
 }
 
 fn refused(what: &str, why: &RequestError) -> RunError {
