@@ -11,7 +11,11 @@ mod read;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
+use afp_dsl::outline::{Outline, Plan};
 use afp_syntax::item::Item;
+
+/// By what the tags of a plan go.
+const TAGS: [&str; 3] = ["start", "terminate", "ignore"];
 
 /// Where something is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,10 +63,18 @@ impl std::error::Error for LayoutError {}
 impl Layout {
     /// Reads the text of a layout file.
     ///
-    /// Lines that do not begin with the path of an item are kept for [`Layout::write`]. A path with
-    /// a wrong position, or placed a second time, is an error and left out.
+    /// Lines that do not begin with the path of an item are kept for [`Layout::write`]; unless they are comments, they
+    /// are errors. A path with a wrong position, or placed a second time, is an error and left out.
     pub fn read(text: &str) -> (Layout, Vec<LayoutError>) {
-        read::read(text)
+        read::read(text, None)
+    }
+
+    /// The same for a file of an outline, by its number there. Where a line places nothing of that file is an error,
+    /// too; the position is kept.
+    pub fn read_for(text: &str, outline: &Outline, file: u16) -> (Layout, Vec<LayoutError>) {
+        let plans = outline.plans.iter().filter(|plan| plan.file() == file);
+        let items = plans.flat_map(items_of).map(|item| (item.clone(), item.to_string()));
+        read::read(text, Some(&items.collect()))
     }
 
     /// The text of the file: unknown lines first, then the positions sorted by path.
@@ -113,6 +125,14 @@ impl Layout {
         self.placed =
             old.into_iter().map(|(item, placed)| (item.moved(from, to), placed)).collect();
     }
+}
+
+/// What can have a position in a plan.
+fn items_of(plan: &Plan) -> impl Iterator<Item = Item> {
+    let tag = |name| Item::inner(plan.item.name(), name);
+    let parts = plan.components().map(|component| &component.item);
+    let entries = plan.entries.iter().map(|entry| &entry.item);
+    parts.chain(entries).cloned().chain(TAGS.map(tag))
 }
 
 #[cfg(test)]

@@ -116,6 +116,25 @@ fn every_edge_of_wall_following_is_a_transition() {
 }
 
 #[test]
+fn components_are_written_with_all_that_they_take() {
+    let text = "use std
+        table stops(x: length, y: length) {
+            (1 m, 2 m)
+        }
+        plan P {
+            var n: int = 0 out x: length out y: length
+            start read
+            computation read: Row(table = stops, index = n, x, y) { Row -> wait, End -> terminate }
+            actor wait: Wait(duration = 1 s) { Elapsed -> terminate }
+        }";
+    let chart = |data| chart(text, &Options { data, ..Options::default() });
+    let (full, flow) = (chart(true), chart(false));
+    assert!(full.contains("<!-- Row(table = stops, index = n, x => x, y => y) -->"), "{full}");
+    assert!(full.contains("<!-- Wait(duration = 1 s) -->"), "{full}");
+    assert!(flow.contains("<!-- Row -->") && flow.contains("<!-- Wait -->"), "{flow}");
+}
+
+#[test]
 fn the_head_says_what_is_left_out() {
     let text = chart(WALL_FOLLOWING, &Options::default());
     for words in

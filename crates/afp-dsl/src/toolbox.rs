@@ -86,6 +86,14 @@ pub struct Template {
     pub span: Span,
 }
 
+impl Template {
+    /// The table that it reads, in the template as a component of a plan has it, and the port that takes it.
+    pub fn table(&self) -> Option<(&InPort, &Arc<Table>)> {
+        let reads = self.reads_table.as_ref()?;
+        Some((&reads.port, reads.table.as_ref()?))
+    }
+}
+
 /// The states of a template that has one for each value of an enum.
 #[derive(Clone, Debug)]
 pub struct StatesOf {

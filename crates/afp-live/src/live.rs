@@ -115,12 +115,11 @@ fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), St
             })
         }
         Asked::Press { control, held } => {
-            let press = |held| Stimulus::Press { control: control.clone(), held };
-            ask(session, at, &press(held.unwrap_or(true)))?;
-            if held.is_none() {
-                ask(session, at + HOLD, &press(false))?;
-            }
-            Ok(())
+            let what = match held {
+                Some(held) => Stimulus::Press { control, held },
+                None => Stimulus::Hold { control, lasting: HOLD },
+            };
+            ask(session, at, &what)
         }
         Asked::Fail { fault, amount, seconds } => {
             let lasting = match seconds {

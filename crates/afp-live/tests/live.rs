@@ -240,7 +240,7 @@ fn entries_are_written_and_services_called_between_two_steps() {
     assert!(session.ending().is_some(), "anybody may stop");
     let millis = |at: Instant| at.as_nanos() / 1_000_000;
     let asked: Vec<_> = session.requests().iter().map(|(at, _)| millis(*at)).collect();
-    assert_eq!(asked, [0, 300, 500, 400], "written, pressed, let go, stopped");
+    assert_eq!(asked, [0, 300, 400], "written, pressed for a while, stopped");
     live.finish();
 }
 

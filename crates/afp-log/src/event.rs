@@ -208,6 +208,9 @@ fn encode_request(request: Requested) -> Request {
         }
         Stimulus::Press { control, held: true } => about(request::Kind::Press, control),
         Stimulus::Press { control, held: false } => about(request::Kind::Release, control),
+        Stimulus::Hold { control, lasting } => {
+            Request { lasting_ns: Some(lasting.as_nanos()), ..about(request::Kind::Press, control) }
+        }
         Stimulus::Break { fault, amount, lasting } => Request {
             amount,
             lasting_ns: (lasting != Duration::MAX).then_some(lasting.as_nanos()),
@@ -256,7 +259,12 @@ fn decode_request(message: Request) -> Option<Requested> {
         request::Kind::Write => {
             Stimulus::Write { entry: name, value: value(message.value), unit: message.unit }
         }
-        request::Kind::Press => Stimulus::Press { control: name, held: true },
+        request::Kind::Press => match message.lasting_ns {
+            Some(lasting) => {
+                Stimulus::Hold { control: name, lasting: Duration::from_nanos(lasting) }
+            }
+            None => Stimulus::Press { control: name, held: true },
+        },
         request::Kind::Release => Stimulus::Press { control: name, held: false },
         request::Kind::Fail => Stimulus::Break {
             fault: name,

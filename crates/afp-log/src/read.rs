@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use afp_core::Instant;
-use afp_session::{Datum, RunEvent};
+use afp_session::{Datum, Outlines, RunEvent};
 use mcap::records::Record;
 use prost::Message;
 use prost_types::Timestamp;
@@ -16,7 +16,7 @@ use crate::names::OwnedNames;
 use crate::proto::afp::{Configuration, Entry, PlanEvent, PlanTable, Sample};
 use crate::proto::foxglove::{
     CompressedImage, FrameTransform, FrameTransforms, LaserScan, Pose, PoseInFrame, Quaternion,
-    Vector3,
+    SceneEntity, SceneUpdate, Vector3,
 };
 use crate::robot::{BELIEVED, Pose2};
 use crate::scan::{load, scan};
@@ -40,6 +40,8 @@ pub struct LogData {
     pub samples: BTreeMap<String, Vec<(Instant, Datum)>>,
     /// Where the robot was.
     pub poses: Vec<(Instant, Pose2)>,
+    /// Where what stands in the room was last.
+    pub things: Outlines,
     /// Where the robot believed to be.
     pub believed: Vec<(Instant, Pose2)>,
     /// What range sensors said.
@@ -200,6 +202,10 @@ impl Reader {
                 let message = PoseInFrame::decode(data)?;
                 self.log.poses.extend(pose(message.pose.as_ref()).map(|pose| (at, pose)));
             }
+            ("/scene", _) => {
+                let entities = SceneUpdate::decode(data)?.entities.into_iter();
+                self.log.things.extend(entities.filter_map(rim));
+            }
             ("/tf", _) => {
                 let message = FrameTransforms::decode(data)?;
                 let believed = |each: &&FrameTransform| each.child_frame_id == BELIEVED;
@@ -245,6 +251,12 @@ fn configured(message: Configuration) -> Configured {
 fn pose(pose: Option<&Pose>) -> Option<Pose2> {
     let pose = pose?;
     plane(pose.position.as_ref()?, pose.orientation.as_ref()?)
+}
+
+/// What an entity of the scene is called, and its outline.
+fn rim(entity: SceneEntity) -> Option<(String, Vec<[f64; 2]>)> {
+    let rim = entity.lines.into_iter().next()?;
+    Some((entity.id, rim.points.iter().map(|point| [point.x, point.y]).collect()))
 }
 
 fn placed(transform: &FrameTransform) -> Option<Pose2> {

@@ -21,7 +21,7 @@ use afp_core::trace::{Names as _, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::Compiled;
 use afp_run::{SoFar, draw_run};
-use afp_session::{Request, SessionError, Track, Waypoint};
+use afp_session::{Outlines, Request, SessionError, Track, Waypoint};
 use numpy::PyArray2;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -228,6 +228,11 @@ impl Runner {
         table(py, &path)
     }
 
+    /// Where what moves was last: outlines in metres.
+    fn things(&self) -> PyResult<Outlines> {
+        Ok(self.lock()?.track.things.clone())
+    }
+
     /// The names of the plan.
     #[getter]
     fn names(&self) -> PyResult<Names> {
@@ -241,8 +246,9 @@ impl Runner {
         drop(run);
         let (world, seed) = (Arc::clone(&world.loaded.world), seed.to_string());
         in_background(py, move || {
-            let Track { path, marks, .. } = &track;
-            draw_run(&SoFar { plan: &plan, world: &*world, seed: &seed, time, path, marks }, &names)
+            let (plan, world, seed) = (&*plan, &*world, &*seed);
+            let Track { path, marks, things, .. } = &track;
+            draw_run(&SoFar { plan, world, seed, time, path, marks, things }, &names)
         })
     }
 
@@ -314,8 +320,7 @@ impl Runner {
         let time = some("hold", time)?;
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
-        session.ask(from, Request::Press(control, true)).map_err(error)?;
-        session.ask(from + time, Request::Press(control, false)).map_err(error)
+        session.ask(from, Request::Hold(control, time)).map_err(error)
     }
 
     /// Breaks something.

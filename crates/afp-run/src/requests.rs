@@ -1,9 +1,8 @@
 //! `--press` and `--fail` as requests of a session.
 
-use afp_core::devices::{
-    AmountRow, ControlId, DeviceRow, FaultId, faults, find_control, find_stop,
-};
+use afp_core::devices::{AmountRow, DeviceRow, FaultId, faults, find_control, find_stop};
 use afp_core::{Duration, Instant};
+use afp_excerpt::words::nearest;
 use afp_project::duration;
 use afp_session::{AnySession, HOLD, Recipe, Request, RequestError};
 
@@ -30,7 +29,8 @@ pub fn make(
         let id = find_control(table, &press.control).ok_or_else(|| {
             RunError::usage(no_control(table, &press.control), "write 'CONTROL@3s'")
         })?;
-        hold(session, id, press.at).map_err(|why| refused(&press.to_string(), &why))?;
+        let made = session.at(press.at, Request::Hold(id, HOLD));
+        made.map_err(|why| refused(&press.to_string(), &why))?;
     }
     Ok(())
 }
@@ -49,14 +49,8 @@ pub(crate) fn repeat(session: &mut dyn AnySession, recipe: &Recipe) -> Result<()
 pub(crate) fn press_stop(session: &mut dyn AnySession, at: Instant) {
     if let Some(id) = find_stop(session.devices()) {
         // It refuses nothing but what is over, and that makes no difference any more.
-        let _ = hold(session, id, at);
+        let _ = session.at(at, Request::Hold(id, HOLD));
     }
-}
-
-fn hold(session: &mut dyn AnySession, id: ControlId, at: Instant) -> Result<(), RequestError> {
-    session.at(at, Request::Press(id, true))?;
-    session.at(at + HOLD, Request::Press(id, false))?;
-    Ok(())
 }
 
 fn refused(what: &str, why: &RequestError) -> RunError {
@@ -77,11 +71,7 @@ fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option
     let Failure { device, kind, .. } = failure;
     let mut all = faults(table);
     let found = all.find(|(_, at, row)| at.name == device && row.name == kind);
-    let such = || match faults(table).next() {
-        Some((_, at, row)) => format!("such as '{}.{}@5s..7s'", at.name, row.name),
-        None => "nothing of this robot can fail".to_owned(),
-    };
-    let wrong = |why: String| RunError::usage(why, such());
+    let wrong = |why: String| RunError::usage(why, such(table, failure));
     let (id, _, row) = found.ok_or_else(|| wrong(no_fault(table, device, kind)))?;
     let amount = failure.amount.as_deref().map(|text| amount(text, row.amount)).transpose();
     let amount = amount.map_err(|why| {
@@ -90,6 +80,24 @@ fn find_fault(table: &[DeviceRow], failure: &Failure) -> Result<(FaultId, Option
         RunError::usage(why, format!("such as '{device}.{kind}{usual}@5s..7s'"))
     })?;
     Ok((id, amount))
+}
+
+/// What can fail and may have been meant: at that time, if it is of the same device.
+fn such(table: &[DeviceRow], failure: &Failure) -> String {
+    let ways = || faults(table).filter(|(_, at, _)| at.name == failure.device);
+    let same = nearest(&failure.kind, ways().map(|(.., row)| row.name));
+    let mut fits = ways().filter(|(.., row)| same.is_none_or(|same| same == row.name));
+    if let Some((.., row)) = fits.next() {
+        let amount = failure.amount.clone().filter(|_| row.amount.is_some());
+        return format!(
+            "such as '{}'",
+            Failure { kind: row.name.to_owned(), amount, ..failure.clone() }
+        );
+    }
+    match faults(table).next() {
+        Some((_, at, row)) => format!("such as '{}.{}@5s..7s'", at.name, row.name),
+        None => "nothing of this robot can fail".to_owned(),
+    }
 }
 
 /// How much of a fault, in SI units.
@@ -110,7 +118,10 @@ pub fn no_fault(table: &[DeviceRow], device: &str, kind: &str) -> String {
     let of_device = faults(table).filter(|(_, at, _)| at.name == device);
     let kinds: Vec<_> = of_device.map(|(_, _, row)| row.name).collect();
     if !kinds.is_empty() {
-        let what = format!("'{device}' cannot be '{kind}'");
+        let what = match kind {
+            "" => format!("how '{device}' fails is missing"),
+            kind => format!("'{device}' cannot be '{kind}'"),
+        };
         return format!("{what}; it can be {}", kinds.join(", "));
     }
     let mut devices: Vec<_> = faults(table).map(|(_, at, _)| at.name).collect();
@@ -143,6 +154,10 @@ mod tests {
     fn what_cannot_be_is_told_what_can() {
         for (text, says) in [
             ("battery.stuck@1s", "'battery' cannot be 'stuck'; it can be frozen, lost"),
+            ("battery.losst@1s", "such as 'battery.lost@1s'"),
+            ("wheels@1s", "how 'wheels' fails is missing; it can be "),
+            ("wheels@1s..2s", "such as 'wheels.slip@1s..2s'"),
+            ("wheels.=0.2@1s", "such as 'wheels.slip=0.2@1s'"),
             ("sonar.lost@1s", "nothing called 'sonar' can fail; there are battery, buttons"),
             ("wheels.slip=3@1s", "no share from 0 to 1"),
             ("touch.lost=3@1s", "no more or less of it"),

@@ -322,7 +322,7 @@ fn draw(
     setting: &Setting<'_>,
 ) -> Result<(), RunError> {
     let picture = Picture {
-        world: &setting.world.world.drawing(),
+        world: &setting.world.world.drawing().ended(&track.things),
         title: figures.plan.clone(),
         subtitle: format!("{}, seed {}", figures.world, figures.seed),
         path: &track.path,

@@ -10,7 +10,7 @@ mod sonar;
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Names};
 use afp_log::OwnedNames;
-use afp_session::{AnyWorld, Drawing, Mark, Pose2, Waypoint};
+use afp_session::{AnyWorld, Drawing, Mark, Outlines, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
@@ -60,11 +60,13 @@ pub struct SoFar<'a> {
     pub path: &'a [Waypoint],
     /// What happened on the way.
     pub marks: &'a [Mark],
+    /// Where what moves is.
+    pub things: &'a Outlines,
 }
 
 /// Draws the path of a run over its world, as far as it has come.
 pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
-    let SoFar { plan, world, seed, time, path, marks } = *run;
+    let SoFar { plan, world, seed, time, path, marks, things } = *run;
     let way = path.windows(2).map(|pair| {
         let (from, to) = (pair[0].pose, pair[1].pose);
         libm::hypot(to.x - from.x, to.y - from.y)
@@ -76,7 +78,7 @@ pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
         ("distance".to_owned(), format!("{distance:.2} m")),
     ];
     let subtitle = subtitle(world, seed);
-    let world = &world.drawing();
+    let world = &world.drawing().ended(things);
     draw(&Picture { world, title: plan.to_owned(), subtitle, figures, path, marks }, names)
 }
 
@@ -127,7 +129,7 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
         }
     }
     for thing in world.things.iter().filter(|thing| thing.labelled) {
-        let (middle, size) = middle(&thing.outline);
+        let (middle, size) = middle(thing.last());
         canvas.label(middle, size, &thing.name);
     }
     if let Some(last) = path.last() {
@@ -147,15 +149,18 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     canvas.finish(legend)
 }
 
-/// The floor with everything that stands on it.
+/// The floor with everything that stands on it, and where it began what stands elsewhere in the end.
 fn room(world: &Drawing, view: View) -> Canvas {
     let mut canvas = Canvas::new(view);
     canvas.floor();
     for patch in &world.patches {
         canvas.patch(&patch.corners, patch.color);
     }
+    for thing in world.things.iter().filter(|thing| thing.end.is_some()) {
+        canvas.beginning(&thing.outline, thing.low);
+    }
     for thing in &world.things {
-        canvas.obstacle(&thing.outline, thing.low);
+        canvas.obstacle(thing.last(), thing.low);
     }
     canvas
 }
@@ -216,7 +221,8 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// The corners of everything: lower left, upper right.
 fn bounds(world: &Drawing, path: &[Waypoint]) -> [[f64; 2]; 2] {
-    let corners = world.things.iter().flat_map(|thing| thing.outline.iter().copied());
+    let outlines = world.things.iter().flat_map(|thing| [&*thing.outline, thing.last()]);
+    let corners = outlines.flatten().copied();
     let path = path.iter().flat_map(|step| placed(&world.body, step.pose));
     let all = corners.chain(path).chain(placed(&world.body, world.start));
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

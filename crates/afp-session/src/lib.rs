@@ -10,7 +10,8 @@
 //! 1. The platform has advanced to it.
 //! 2. Samples, for measures and observers, on a grid of their own; the plan cannot notice them.
 //! 3. Requests that are due, in the order of their times, at one time as they were made; before the start too.
-//!    Faults are a set: whatever begins or ends changes it, then the robot gets all of it at once.
+//!    Faults are a set: whatever begins or ends changes it, then the robot gets all of it at once. Controls are held
+//!    down until the last who holds one lets go, or somebody lets it go for all.
 //! 4. The step, if it is due.
 //! 5. Its records in order to measures, observers and the hash; then [`Observer::after_step`].
 //!
@@ -28,6 +29,7 @@ mod event;
 mod faults;
 mod figures;
 mod hardware;
+mod holds;
 mod observer;
 pub mod parts;
 mod recipe;
@@ -64,7 +66,7 @@ pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, re
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};
-pub use world::{AnyWorld, Drawing, Patch, Thing, World, WorldError};
+pub use world::{AnyWorld, Drawing, Outlines, Patch, Thing, World, WorldError};
 
 /// What macros name in the crates of others.
 #[doc(hidden)]

@@ -19,8 +19,10 @@ pub const HOLD: Duration = Duration::from_millis(200);
 pub enum Request {
     /// An entry is written: before the start an `in` entry at once, later with the next step.
     Write(u16, Value),
-    /// A control is held down or let go.
+    /// A control is held down until it is let go, or let go, whoever holds it.
     Press(ControlId, bool),
+    /// A control is held down for a while, and then for as long as somebody else holds it.
+    Hold(ControlId, Duration),
     /// Something breaks, by that amount, for a while; [`Duration::MAX`] is for good.
     Break(FaultId, Option<f64>, Duration),
     /// A component reports an outcome at its next poll, whatever it sees.

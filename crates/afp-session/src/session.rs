@@ -13,6 +13,7 @@ use afp_core::{Duration, Fault, Instant, Scheduler, StartError, Wake};
 
 use crate::faults::Faults;
 use crate::figures::Figures;
+use crate::holds::Holds;
 use crate::observer::{Gate, Go, Observer, Open};
 use crate::record::{Keep, Kept};
 use crate::request::{Request, Requests};
@@ -49,6 +50,7 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     /// All that was asked for.
     asked: Vec<(Instant, Request)>,
     faults: Faults<FaultOf<R>>,
+    holds: Holds,
     measures: Vec<Box<dyn Measure<R>>>,
     samples: SampleGrid,
     trace: TraceHash,
@@ -101,6 +103,7 @@ where
             requests: Requests::default(),
             asked: Vec::new(),
             faults: Faults::default(),
+            holds: Holds::default(),
             measures: Vec::new(),
             trace: TraceHash::default(),
             line: String::new(),
@@ -137,6 +140,7 @@ where
             requests: self.requests.clone(),
             asked: self.asked.clone(),
             faults: self.faults.clone(),
+            holds: self.holds.clone(),
             line: String::new(),
             started: self.started,
             stepping: self.stepping,
@@ -220,10 +224,10 @@ where
         now >= until.min(self.last) && self.due() > now && self.next_from_outside() > now
     }
 
-    /// When the next request is due, or a fault begins or ends.
+    /// When the next request is due, a fault begins or ends, or somebody lets a control go.
     #[inline]
     fn next_from_outside(&self) -> Instant {
-        self.requests.next().min(self.faults.next_change())
+        self.requests.next().min(self.faults.next_change()).min(self.holds.next_change())
     }
 
     /// Lets time pass up to the next thing to do, but not beyond `limit`, and does it.

@@ -5,7 +5,7 @@ use std::fmt;
 #[cfg(feature = "load")]
 use afp::load::Injection;
 use afp_core::Duration;
-use afp_core::devices::{DeviceRow, controls, faults, find_control, find_fault};
+use afp_core::devices::{ControlId, DeviceRow, controls, faults, find_control, find_fault};
 #[cfg(feature = "load")]
 use afp_core::trace::ComponentKind;
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
@@ -14,7 +14,7 @@ use afp_core::trace::{DEADLINE_MISSED, ERROR};
 use afp_number::Measured;
 
 use crate::event::{Datum, Holder};
-use crate::request::{Put, Request, RequestError};
+use crate::request::{HOLD, Put, Request, RequestError};
 use crate::sample::Pose2;
 
 /// Something that comes from outside, by names.
@@ -29,12 +29,19 @@ pub enum Stimulus {
         /// The SI unit.
         unit: String,
     },
-    /// A control is held down or let go.
+    /// A control is held down until it is let go, or let go, whoever holds it.
     Press {
         /// Device and control, `touch.touch`.
         control: String,
         /// Whether it is held down.
         held: bool,
+    },
+    /// A control is held down for a while, and then for as long as somebody else holds it.
+    Hold {
+        /// Device and control.
+        control: String,
+        /// For how long.
+        lasting: Duration,
     },
     /// Something breaks.
     Break {
@@ -80,6 +87,10 @@ impl Stimulus {
         names: &(impl Names + ?Sized),
     ) -> Stimulus {
         let dotted = |device: &DeviceRow, name: &str| format!("{}.{name}", device.name);
+        let control = |id: ControlId| {
+            let found = controls(devices).find(|(known, ..)| *known == id);
+            found.map(|(_, device, row)| dotted(device, row.name)).unwrap_or_default()
+        };
         match request {
             Request::Write(entry, value) => {
                 let id = TraceEntryId((*entry).into());
@@ -89,10 +100,9 @@ impl Stimulus {
                     unit: names.entry(id).unit.to_owned(),
                 }
             }
-            Request::Press(id, held) => {
-                let found = controls(devices).find(|(known, ..)| known == id);
-                let control = found.map(|(_, device, row)| dotted(device, row.name));
-                Stimulus::Press { control: control.unwrap_or_default(), held: *held }
+            Request::Press(id, held) => Stimulus::Press { control: control(*id), held: *held },
+            Request::Hold(id, lasting) => {
+                Stimulus::Hold { control: control(*id), lasting: *lasting }
             }
             Request::Break(id, amount, lasting) => {
                 let found = faults(devices).find(|(known, ..)| known == id);
@@ -142,6 +152,10 @@ impl Stimulus {
             Stimulus::Press { control, held } => {
                 let id = find_control(devices, control).ok_or(RequestError::NoControl)?;
                 Request::Press(id, *held)
+            }
+            Stimulus::Hold { control, lasting } => {
+                let id = find_control(devices, control).ok_or(RequestError::NoControl)?;
+                Request::Hold(id, *lasting)
             }
             Stimulus::Break { fault, amount, lasting } => {
                 let found = fault.split_once('.').and_then(|(at, of)| find_fault(devices, at, of));
@@ -228,6 +242,10 @@ impl fmt::Display for Stimulus {
             Stimulus::Write { entry, value, unit } => write!(f, "set {entry} = {value} {unit}"),
             Stimulus::Press { control, held: true } => write!(f, "press {control}"),
             Stimulus::Press { control, held: false } => write!(f, "release {control}"),
+            Stimulus::Hold { control, lasting: HOLD } => write!(f, "press {control}"),
+            Stimulus::Hold { control, lasting } => {
+                write!(f, "press {control} for {} s", lasting.as_secs_f64())
+            }
             Stimulus::Break { fault, amount, lasting } => {
                 write!(f, "fail {fault}")?;
                 if let Some(amount) = amount {

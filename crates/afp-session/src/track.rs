@@ -1,12 +1,13 @@
 //! Where the robot went, and what happened on the way.
 
 use afp_core::Instant;
-use afp_core::devices::{DeviceRow, SignalId, find_signal};
+use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, ComponentKind, Record};
 
 use crate::observer::{NamedRecord, Observer, Sampling, View};
-use crate::sample::{Pose2, SampleRef};
+use crate::sample::{Pose2, SampleRef, Shape};
 use crate::session::SAMPLE;
+use crate::world::Outlines;
 
 /// A point of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,13 +40,16 @@ pub struct Track {
     pub path: Vec<Waypoint>,
     /// The events that were taken.
     pub marks: Vec<Mark>,
+    /// Where what moves was last, as far as the robot's devices tell it truly.
+    pub things: Outlines,
     /// How far the robot went, metres.
     pub distance: f64,
-    /// Whether path and marks are kept.
+    /// Whether path, marks and things are kept.
     keeps: bool,
     /// Where the robot was last.
     last: Option<Pose2>,
     signal: Option<SignalId>,
+    outlines: Vec<SignalId>,
     actor: Option<ComponentId>,
     /// Marks of this step, whose pose is not known yet, are from here on.
     unplaced: usize,
@@ -54,20 +58,37 @@ pub struct Track {
 impl Track {
     /// The distance alone, in memory that does not grow with time.
     pub fn distance_alone(devices: &[DeviceRow]) -> Self {
-        Track { keeps: false, ..Track::new(devices) }
+        Track { keeps: false, outlines: Vec::new(), ..Track::new(devices) }
     }
 
     /// For a robot with those devices.
     pub fn new(devices: &[DeviceRow]) -> Self {
+        let is_outline = |row: &SignalRow| row.truth && row.ty == SignalType::Outline;
         Track {
             path: Vec::new(),
             marks: Vec::new(),
+            things: Outlines::new(),
             distance: 0.0,
             keeps: true,
             last: None,
             signal: find_signal(devices, "robot", "pose"),
+            outlines: signals(devices)
+                .filter(|(_, _, row)| is_outline(row))
+                .map(|(id, ..)| id)
+                .collect(),
             actor: None,
             unplaced: 0,
+        }
+    }
+}
+
+impl Track {
+    fn note_thing(&mut self, shape: &Shape) {
+        match self.things.get_mut(&shape.id) {
+            Some(outline) => outline.clone_from(&shape.outline),
+            None => {
+                self.things.insert(shape.id.clone(), shape.outline.clone());
+            }
         }
     }
 }
@@ -121,11 +142,15 @@ impl Observer for Track {
     }
 
     fn wants(&self, _: Instant, signal: SignalId) -> bool {
-        self.signal == Some(signal)
+        self.signal == Some(signal) || self.outlines.contains(&signal)
     }
 
     fn on_sample(&mut self, at: Instant, _: SignalId, value: SampleRef<'_>) {
-        let SampleRef::Pose(frame) = value else { return };
+        let frame = match value {
+            SampleRef::Pose(frame) => frame,
+            SampleRef::Outline(shape) => return self.note_thing(shape),
+            _ => return,
+        };
         let pose = frame.pose;
         if let Some(last) = self.last.replace(pose) {
             self.distance += libm::hypot(pose.x - last.x, pose.y - last.y);

@@ -1,6 +1,7 @@
 //! Worlds of simulated robots, whatever they are.
 
 use std::any::Any;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -94,6 +95,32 @@ pub struct Drawing {
     pub lights: Vec<[f64; 2]>,
 }
 
+/// Outlines of things in metres, by what scenes know them by.
+pub type Outlines = BTreeMap<String, Vec<[f64; 2]>>;
+
+/// How far a corner of a thing has to be from where it was for the thing to stand elsewhere, metres.
+const ELSEWHERE: f64 = 0.004;
+
+impl Drawing {
+    /// The same after a run that left things at these places.
+    pub fn ended(mut self, places: &Outlines) -> Drawing {
+        let far =
+            |(a, b): (&[f64; 2], &[f64; 2])| libm::hypot(a[0] - b[0], a[1] - b[1]) > ELSEWHERE;
+        for thing in &mut self.things {
+            let end = places.get(&thing.id);
+            thing.end = end.filter(|end| thing.outline.iter().zip(*end).any(far)).cloned();
+        }
+        self
+    }
+}
+
+impl Thing {
+    /// Its outline at the end of a run, as far as that is known.
+    pub fn last(&self) -> &[[f64; 2]] {
+        self.end.as_ref().unwrap_or(&self.outline)
+    }
+}
+
 /// Something that stands or moves on the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thing {
@@ -103,6 +130,8 @@ pub struct Thing {
     pub name: String,
     /// Its outline at the start, counter-clockwise.
     pub outline: Vec<[f64; 2]>,
+    /// The same at the end of a run, where it stands elsewhere then.
+    pub end: Option<Vec<[f64; 2]>>,
     /// Whether sensors look over it.
     pub low: bool,
     /// Whether a hand can put it elsewhere.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use afp::load::value_of;
 use afp_core::devices::SignalId;
+use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, Instant, StartError};
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
@@ -12,8 +13,8 @@ use afp_log::{About, OwnedNames, SessionLog};
 use afp_resolve::own_toolbox_texts;
 use afp_run::RunError;
 use afp_session::{
-    AnySession, Applied, Build, Go, Loader, NamedRecord, Observer, Recipe, RequestError, RequestId,
-    SampleRef, Sampling, Stimulus, TextFile, View,
+    AnySession, Applied, Build, Datum, Go, Holder, Loader, NamedRecord, Observer, Recipe,
+    RequestError, RequestId, SampleRef, Sampling, TextFile, View,
 };
 
 use crate::Recording;
@@ -202,10 +203,7 @@ impl Judge<'_> {
     /// What was to happen and did not: the run was over before.
     fn note_not_reached(&mut self, session: &dyn AnySession) {
         let end = session.now();
-        let mut pending = session.pending();
-        // What was begun in time is allowed to end later.
-        pending.retain(|(_, _, what)| !matches!(what, Stimulus::Press { held: false, .. }));
-        for (_, id, _) in pending {
+        for (_, id, _) in session.pending() {
             if let Some(line) = self.lines.get(&id).copied() {
                 self.note_not_done(line, end);
             }
@@ -228,6 +226,8 @@ impl Judge<'_> {
             return;
         };
         let name = entries.get(index).map_or("", |entry| entry.name.as_str());
+        let holder = Holder::Entry(TraceEntryId(index as u32));
+        let [held, known] = [held, known].map(|value| Datum::new(view.names(), holder, value));
         self.broken.push(Broken {
             text: "(entries hold what was committed)".to_owned(),
             span: self.scenario.span,

@@ -4,9 +4,11 @@
 //! another seed, then others in which somebody fires an event or finishes an actor on the way. What none
 //! of them reaches has no scenario, and the text says so.
 
+mod draft;
 mod pair;
 mod reach;
 
+use std::collections::HashMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -17,6 +19,7 @@ use afp_run::RunError;
 
 use crate::parts::Parts;
 use crate::verdict::Verdict;
+use draft::Draft;
 use pair::Pair;
 use reach::Reach;
 
@@ -28,13 +31,10 @@ pub fn is_generated(text: &str) -> bool {
     text.lines().any(|line| line == MADE_BY)
 }
 
-/// The text of a file of scenarios.
+/// Scenarios that were made for a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Generated {
-    /// The text, as the formatter would have it but for alignment.
-    pub text: String,
-    /// How many scenarios it has.
-    pub scenarios: usize,
+    drafts: Vec<Draft>,
     /// What has none, and why.
     pub left_out: Vec<String>,
 }
@@ -55,14 +55,14 @@ impl Rest {
     }
 }
 
-/// Scenarios for a graph's plan and all its sub-plans. `from` is the plan's file, seen from the one to be
-/// written; `quiet` is a run of the plan in which nothing happens; `robot` has the devices of the robot that it
-/// runs on; `run` runs it, and others like it.
+/// Scenarios for a graph's plan and all its sub-plans. `quiet` is a run of the plan in which nothing happens;
+/// `robot` has the devices of the robot that it runs on; `run` runs it, and others like it.
+///
+/// They say what an event does; whether that is all that happens is known once they have run: see [`Generated::prove`].
 ///
 /// # Errors
 /// What `run` says.
 pub fn generate(
-    from: &str,
     quiet: &Scenario,
     robot: &[DeviceRow],
     run: &mut dyn FnMut(&Scenario) -> Result<Verdict, RunError>,
@@ -71,7 +71,7 @@ pub fn generate(
     let parts = Parts::new(graph);
     let rest = Rest::of(robot);
     let reach = Reach::explore(&parts, quiet, run)?;
-    let mut all = Generated { text: String::new(), scenarios: 0, left_out: Vec::new() };
+    let mut all = Generated { drafts: Vec::new(), left_out: Vec::new() };
     for element in parts.elements() {
         if matches!(parts.component(element), Some(Component::Computation(_)) | None) {
             continue;
@@ -85,11 +85,59 @@ pub fn generate(
             pair.add(&mut all);
         }
     }
-    let mut text = format!("use \"{from}\"\n\n{MADE_BY}\n");
-    for why in &all.left_out {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "// Left out: {why}.");
+    if all.drafts.is_empty() && all.left_out.is_empty() {
+        let plan = parts.path(0);
+        all.left_out.push(format!("no event interrupts anything in '{plan}'"));
     }
-    text.push_str(&all.text);
-    Ok(Generated { text, ..all })
+    Ok(all)
+}
+
+impl Generated {
+    /// How many scenarios there are.
+    pub fn count(&self) -> usize {
+        self.drafts.len()
+    }
+
+    /// The text of a file with them, as the formatter would have it but for alignment. `from` is the plan's file, seen
+    /// from that one.
+    pub fn text(&self, from: &str) -> String {
+        let mut text = format!("use \"{from}\"\n\n{MADE_BY}\n");
+        for why in &self.left_out {
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "// Left out: {why}.");
+        }
+        self.drafts.iter().for_each(|draft| draft.write(&mut text));
+        text
+    }
+
+    /// Runs the scenarios, so that all that are left pass on the plan as it is: those whose plan goes on to end in `Error`
+    /// expect that, what does not pass then is left out. `read` gives what stands in the text of a file with them,
+    /// `run_all` what each scenario came to.
+    ///
+    /// # Errors
+    /// What `read` and `run_all` say.
+    pub fn prove<E>(
+        &mut self,
+        read: &dyn Fn(&Generated) -> Result<Vec<Scenario>, E>,
+        run_all: &dyn Fn(&[Scenario]) -> Result<Vec<Verdict>, E>,
+    ) -> Result<(), E> {
+        while self.drafts.iter().any(|draft| !draft.proven) {
+            let is_new = |name: &str| self.drafts.iter().any(|it| !it.proven && it.title == name);
+            let mut scenarios = read(self)?;
+            scenarios.retain(|scenario| is_new(&scenario.name));
+            let verdicts = run_all(&scenarios)?;
+            let came: HashMap<_, _> =
+                scenarios.iter().map(|scenario| &*scenario.name).zip(&verdicts).collect();
+            let left_out = &mut self.left_out;
+            self.drafts.retain_mut(|draft| {
+                let judged = match came.get(&*draft.title) {
+                    _ if draft.proven => Ok(()),
+                    Some(verdict) => draft.judge(verdict),
+                    None => Err(format!("'{}' is no scenario of the plan", draft.title)),
+                };
+                judged.map_err(|why| left_out.push(why)).is_ok()
+            });
+        }
+        Ok(())
+    }
 }

@@ -24,43 +24,34 @@ pub(crate) fn request(
     let stimuli = scenario.stimuli.iter().enumerate();
     for (line, stimulus) in stimuli.filter(|(_, stimulus)| stimulus.from == from) {
         let at = begin + Duration::from_nanos(stimulus.at);
-        let requests = requests(session, at, &stimulus.action).map_err(|why| (line, why))?;
-        for (at, request) in requests {
-            lines.insert(session.at(at, request).map_err(|why| (line, why))?, line);
-        }
+        let made = requested(session, &stimulus.action);
+        let made = made.and_then(|request| session.at(at, request));
+        lines.insert(made.map_err(|why| (line, why))?, line);
     }
     Ok(lines)
 }
 
-/// What an action asks for, and when.
-fn requests(
-    session: &dyn AnySession,
-    at: Instant,
-    action: &Action,
-) -> Result<Vec<(Instant, Request)>, RequestError> {
-    let press = |at: Instant, control: &Part, held| {
+/// What an action asks for.
+fn requested(session: &dyn AnySession, action: &Action) -> Result<Request, RequestError> {
+    let control = |control: &Part| {
         let id = find_control(session.devices(), &control.to_string());
-        let id = id.ok_or(RequestError::NoControl)?;
-        Ok((at, Request::Press(id, held)))
+        id.ok_or(RequestError::NoControl)
     };
     Ok(match action {
-        Action::Set(entry, value) => vec![(at, Request::Write(*entry, value_of(value)))],
-        Action::Press(control, time) => {
-            let end = at + time.map_or(HOLD, Duration::from_nanos);
-            vec![press(at, control, true)?, press(end, control, false)?]
+        Action::Set(entry, value) => Request::Write(*entry, value_of(value)),
+        Action::Press(part, time) => {
+            Request::Hold(control(part)?, time.map_or(HOLD, Duration::from_nanos))
         }
-        Action::Release(control) => vec![press(at, control, false)?],
+        Action::Release(part) => Request::Press(control(part)?, false),
         Action::Fail(failure, time) => {
             let Failure { fault, amount } = failure;
             let id = find_fault(session.devices(), &fault.device, &fault.name);
             let id = id.ok_or(RequestError::NoFault)?;
             let lasting = time.map_or(Duration::MAX, Duration::from_nanos);
-            vec![(at, Request::Break(id, *amount, lasting))]
+            Request::Break(id, *amount, lasting)
         }
-        Action::Idle(element) => vec![(at, Request::Idle(element.map(ComponentId)))],
-        Action::Inject(injection) => {
-            vec![(at, Request::Inject(injected(injection, session.names())))]
-        }
+        Action::Idle(element) => Request::Idle(element.map(ComponentId)),
+        Action::Inject(injection) => Request::Inject(injected(injection, session.names())),
     })
 }
 

@@ -18,7 +18,7 @@ use afp_dsl::scenario::{
 use afp_dsl::toolbox::Constant;
 use afp_dsl::unfold::{Goal, Place, places};
 
-use afp_session::{Datum, SampleRef};
+use afp_session::{Datum, Holder, SampleRef};
 
 use crate::verdict::Broken;
 use expected::Expected;
@@ -62,6 +62,8 @@ pub(crate) struct State {
     active: Vec<bool>,
     /// What each entry holds, by number.
     entries: Vec<Value>,
+    /// The same with the names in it, for people.
+    named: Vec<Datum>,
     /// The SI unit of each entry.
     units: Vec<String>,
     /// How the plan ended.
@@ -95,6 +97,7 @@ impl<'a> Watch<'a> {
             state: State {
                 active: vec![false; places.len()],
                 entries: vec![Value::Unset; units.len()],
+                named: vec![Datum::Unset; units.len()],
                 units,
                 ending: None,
                 why: String::new(),
@@ -147,6 +150,9 @@ impl<'a> Watch<'a> {
                 self.failed(at, component);
             }
             Record::Committed { author, entry, new, .. } => {
+                if let Some(named) = self.state.named.get_mut(entry.0 as usize) {
+                    *named = Datum::new(names, Holder::Entry(entry), new);
+                }
                 self.committed(at, author, entry, new);
             }
             Record::Ended { plan, ending } => self.ended(at, plan, ending),
@@ -349,10 +355,9 @@ impl State {
             Subject::Signal(signal, field) => self.signals.shown(signal, *field),
             Subject::Entry(entry) => {
                 let unit = self.units.get(*entry as usize).map_or("", String::as_str);
-                match self.entries.get(*entry as usize)? {
-                    Value::Unset => None,
-                    Value::Float(number) => Some(Datum::Number(*number).in_unit(unit)),
-                    value => Some(value.borrow().to_string()),
+                match self.named.get(*entry as usize)? {
+                    Datum::Unset => None,
+                    value => Some(value.in_unit(unit)),
                 }
             }
         }

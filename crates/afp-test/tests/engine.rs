@@ -2,6 +2,8 @@
 
 #[path = "engine/edges.rs"]
 mod edges;
+#[path = "engine/generation.rs"]
+mod generation;
 #[path = "engine/moments.rs"]
 mod moments;
 
@@ -9,7 +11,6 @@ use std::path::Path;
 
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
-use afp_dsl::scenario::Scenario;
 use afp_dsl::toolbox::Toolboxes;
 use afp_session::Loader;
 use afp_syntax::source::Source;
@@ -166,6 +167,66 @@ fn each_kind_of_claim_breaks() {
     breaks("expect way < gone\n until 1 s", "in the end it is 1 m, compared with ", 1.0);
     breaks("never robot.pose.x > -90 m after 1 s\n until 2 s", "it was so", 1.0);
     breaks("at 1 s: press escape\n expect running always\n until 5 s", "otherwise", 1.0);
+}
+
+#[test]
+fn what_is_otherwise_is_told_as_the_timeline_tells_it() {
+    let plan = r#"
+        use carbot
+        enum Lamp { red, green }
+        plan Ahead {
+            in lamp: Lamp = Lamp.red
+            var other: Lamp = Lamp.green
+            var word: string = "on"
+            var way: length = 20 cm
+            start go
+            supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }
+            subplan go: Inner(lamp) { OK -> terminate, Interrupted -> terminate }
+        }
+        plan Inner {
+            in lamp: Lamp
+            start wait
+            actor wait: Forward(distance = 1 m) { ForwardSuccessful -> terminate }
+        }"#;
+    for (claim, is) in [
+        ("lamp == Lamp.green", "Lamp.red"),
+        ("other == Lamp.red", "Lamp.green"),
+        ("lamp == other", "Lamp.red, compared with Lamp.green"),
+        ("go.lamp == Lamp.green", "Lamp.red"),
+        ("word == \"off\"", "\"on\""),
+        ("way < 10 cm", "20 cm"),
+    ] {
+        let verdict = run_of(plan, &format!("expect {claim} always after 10 ms\n until 1 s"));
+        let whys: Vec<_> = verdict.broken.iter().map(|broken| broken.why.as_str()).collect();
+        assert_eq!(whys, [format!("it was otherwise; in the end it is {is}")], "{claim}");
+    }
+}
+
+#[test]
+fn presses_that_overlap_hold_until_the_last_one_ends() {
+    let plan = "use carbot
+        use std
+        plan Ahead {
+            start wait
+            actor wait: Wait(duration = 10 s) { Elapsed -> terminate }
+        }";
+    for (lines, pressed, released) in [
+        ("at 1 s: press touch for 500 ms\n at 1.1 s: press touch for 100 ms", "1.25 s", "1.5 s"),
+        ("at 1.1 s: press touch for 100 ms\n at 1 s: press touch for 500 ms", "1.25 s", "1.5 s"),
+        ("at 1 s: press touch\n at 1.1 s: press touch", "1.25 s", "1.3 s"),
+        ("at 1 s: press touch for 3 s\n at 1.3 s: release touch", "1.2 s", "1.3 s"),
+    ] {
+        let claims = format!(
+            "expect touch.touched always after 1.01 s before {released}
+            expect touch.touched after {pressed} before {released}
+            never touch.touched after {released} before 2 s
+            until 2 s"
+        );
+        let verdict = run_of(plan, &format!("{lines}\n{claims}"));
+        assert!(verdict.passed(), "{lines}\n{}", verdict.report());
+    }
+    let late = run_of(plan, "expect wait active\n at 11.5 s: release touch\n until 12 s");
+    assert!(late.broken.iter().any(|it| it.why.contains("this was not done")), "{}", late.report());
 }
 
 #[test]
@@ -330,78 +391,4 @@ fn the_report_shows_the_timeline_around_what_broke() {
     assert!(report.contains("never go -> back by touch\n    1.000 s: it was so\n"), "{report}");
     let (before, behind) = report.split_once("broken here").unwrap();
     assert!(before.contains("TouchSensorPressed → back") && !behind.contains("→ back"), "{report}");
-}
-
-#[test]
-fn scenarios_are_made_for_every_event_at_five_points_and_pass() {
-    let base = compiled(PLAN, "expect go active\n until 20 s");
-    let scenario = &base.scenarios[0];
-    let setting = Setting::find(scenario, Path::new("case.afp"), robot().kind()).unwrap();
-    let quiet = Scenario::quiet("", scenario.graph.clone(), "case.afp", 30_000_000_000);
-    let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, &robot(), None);
-    let made = afp_test::generate("case.afp", &quiet, robot().kind().devices(), &mut go).unwrap();
-    assert_eq!(made.left_out, [""; 0]);
-    assert!(made.scenarios >= 15, "{}", made.text);
-    assert!(made.text.contains("expect go -> back by touch.TouchSensorPressed once within"));
-    let text = made.text.split_once("\n\n").unwrap().1;
-    let all = compiled(
-        PLAN,
-        &format!("expect go active }}\n{text}\nscenario \"end\" for Ahead {{ expect go active"),
-    );
-    assert_eq!(all.scenarios.len(), made.scenarios + 2);
-    for scenario in &all.scenarios {
-        let verdict = afp_test::run(scenario, &setting, &robot(), None).unwrap();
-        assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
-    }
-}
-
-#[test]
-fn generation_reaches_what_needs_events_and_says_what_it_does_not_reach() {
-    const HIDDEN: &str = r#"
-use carbot
-use std
-plan Ahead {
-    start go
-    actor go: Wait(duration = 5 s) {
-        supervise touch: CheckTouchSensor { TouchSensorPressed -> aside }
-        Elapsed -> terminate
-    }
-    actor aside: Wait(duration = 2 s) {
-        supervise escape: CheckEscapeButton { EscapeButtonPressed -> pick }
-        Elapsed -> terminate
-    }
-    computation pick: Compare(left = 1, right = 2) { Less -> deep, Equal -> never, Greater -> never }
-    actor deep: Forward(distance = 1 m) {
-        supervise touch: CheckTouchSensor { TouchSensorPressed -> go }
-        ForwardSuccessful -> terminate
-    }
-    actor never: Wait(duration = 1 s) { Elapsed -> terminate }
-}
-"#;
-    let base = compiled(HIDDEN, "expect end");
-    let quiet = Scenario::quiet("", base.scenarios[0].graph.clone(), "case.afp", 30_000_000_000);
-    let setting = Setting::find(&quiet, Path::new("case.afp"), robot().kind()).unwrap();
-    let mut runs = 0;
-    let made = afp_test::generate(
-        "case.afp",
-        &quiet,
-        robot().kind().devices(),
-        &mut |scenario: &Scenario| {
-            runs += 1;
-            afp_test::run(scenario, &setting, &robot(), None)
-        },
-    );
-    let made = made.unwrap();
-    assert_eq!(made.left_out, ["no run reached 'never'"]);
-    assert!(runs < 20, "{runs} runs");
-    let (_, deep) = made.text.split_once("\"deep: touch.TouchSensorPressed at 10 %").unwrap();
-    let place = |text: &str| deep.find(text).unwrap();
-    assert!(place("fire go.touch.TouchSensorPressed") < place("fire aside.escape.Escape"));
-    assert!(place("fire aside.escape.Escape") < place("fire deep.touch.TouchSensorPressed"));
-    let (_, text) = made.text.split_once('\n').unwrap();
-    let plan = format!("{}\n{text}", HIDDEN);
-    for scenario in compiled(&plan, "expect end").scenarios {
-        let verdict = afp_test::run(&scenario, &setting, &robot(), None).unwrap();
-        assert!(verdict.passed(), "{}\n{}", scenario.name, verdict.report());
-    }
 }

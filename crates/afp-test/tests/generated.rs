@@ -71,10 +71,25 @@ impl Made {
         let quiet = Scenario::quiet("as it goes", graph, &*name, until);
         let setting = Setting::find(&quiet, file, robot.kind()).unwrap();
         let mut go = |scenario: &Scenario| afp_test::run(scenario, &setting, robot, None);
-        let generated =
-            afp_test::generate("same file", &quiet, robot.kind().devices(), &mut go).unwrap();
+        let generated = afp_test::generate(&quiet, robot.kind().devices(), &mut go).unwrap();
         let scenarios = scenarios(&name, text, &generated);
         Made { setting, generated, scenarios }
+    }
+
+    /// The text of the scenarios.
+    fn text(&self) -> String {
+        self.generated.text("same file")
+    }
+
+    /// With those that stay once all have run.
+    fn proven(mut self, plan: &str, robot: &dyn Loader) -> Made {
+        let read = |made: &Generated| Ok::<_, ()>(scenarios("plan.afp", plan, made));
+        let run_all = |all: &[Scenario]| Ok(all.iter().map(|it| self.run(it, robot)).collect());
+        let mut generated = self.generated.clone();
+        generated.prove(&read, &run_all).unwrap();
+        self.scenarios = scenarios("plan.afp", plan, &generated);
+        self.generated = generated;
+        self
     }
 
     /// With those scenarios alone in which an event comes halfway through an element's run.
@@ -106,9 +121,10 @@ impl Made {
 /// The scenarios that were made, for a plan that may be another one.
 fn scenarios(name: &str, plan: &str, generated: &Generated) -> Vec<Scenario> {
     // They stand below the plan itself, so nothing is used.
-    let (_, scenarios) = generated.text.split_once('\n').unwrap();
+    let text = generated.text("same file");
+    let (_, scenarios) = text.split_once('\n').unwrap();
     let all = compiled(name, &format!("{plan}\n{scenarios}"));
-    assert_eq!(all.scenarios.len(), generated.scenarios, "{}", all.render(false));
+    assert_eq!(all.scenarios.len(), generated.count(), "{}", all.render(false));
     all.scenarios
 }
 
@@ -134,6 +150,71 @@ fn another_distance_breaks_what_it_concerns_alone() {
     assert_eq!(names, ["go: escape.EscapeButtonPressed at 90 %"]);
 }
 
+/// Plans that go on to something else soon after an event, or at the very instant: what stays out, and whether some
+/// scenarios expect an end in `Error` of which the event knows nothing.
+#[test]
+fn what_is_generated_passes_whatever_the_plan_does_behind_the_event() {
+    let global = |line: &str| format!("supervise own: CheckEscapeButton {{ {line} }}");
+    let fails = "actor rest: Signal(times = 3) { Signalled -> fail \"battery\" }";
+    let go = "actor go: Forward(distance = 50 cm) { ForwardSuccessful -> terminate }";
+    let battery = "supervise battery: CheckBattery { BatteryLow -> rest }";
+    let late =
+        |to: &str| format!("supervise late: CheckTimeout(duration = 1.3 s) {{ TimedOut -> {to} }}");
+    let plans = [
+        (vec![battery.to_owned(), go.to_owned(), fails.to_owned()], true),
+        (vec![battery.to_owned(), go.to_owned(), fails.to_owned(), late("fail \"late\"")], true),
+        (vec![battery.to_owned(), go.to_owned(), late("rest"), fails.replace("fail \"battery\"", "go")], false),
+        (vec![global("EscapeButtonPressed -> resume"), late("fail \"late\""), go.to_owned()], true),
+        (
+            vec![
+                global("EscapeButtonPressed -> choose"),
+                "var n: int = 0".to_owned(),
+                "computation choose: Count(value = n, limit = 1, next => n) { Again -> go, Done -> fail \"twice\" }".to_owned(),
+                go.to_owned(),
+            ],
+            false,
+        ),
+        (
+            vec![
+                "var gone: length = 0 m".to_owned(),
+                global("EscapeButtonPressed -> back"),
+                go.replace("50 cm)", "50 cm, driven => gone)"),
+                "actor back: Forward(distance = -1 mm, driven => gone) { ForwardSuccessful -> terminate }".to_owned(),
+            ],
+            false,
+        ),
+        (
+            vec![
+                "actor go: Forward(distance = 50 cm) {
+                    supervise own: CheckTouchSensor { TouchSensorPressed -> terminate }
+                    ForwardSuccessful -> terminate
+                }".to_owned(),
+                "supervise own: CheckTouchSensor { TouchSensorPressed -> fail \"bump\" }".to_owned(),
+            ],
+            false,
+        ),
+    ];
+    for (lines, fails) in plans {
+        let plan = format!("use carbot use std plan M {{ start go\n{}\n}}", lines.join("\n"));
+        let made = Made::of(Path::new("plan.afp"), &plan, &robot());
+        let before = made.generated.count();
+        let made = made.proven(&plan, &robot());
+        made.all_pass(&robot());
+        let all = made.generated.count() as f64 / before as f64;
+        assert!(before == 0 || all > 0.5, "{plan}\n{:?}", made.generated.left_out);
+        assert_eq!(made.text().contains("expect end by Error\n"), fails, "{plan}\n{}", made.text());
+    }
+}
+
+#[test]
+fn what_cannot_be_interrupted_has_no_scenarios_and_that_is_said() {
+    let plan = "use carbot plan Square { start go
+        actor go: Forward(distance = 50 cm) { ForwardSuccessful -> terminate } }";
+    let made = Made::of(Path::new("square.afp"), plan, &robot());
+    assert_eq!(made.generated.count(), 0);
+    assert_eq!(made.generated.left_out, ["no event interrupts anything in 'Square'"]);
+}
+
 #[test]
 fn errors_and_supervisors_of_sub_plans_lead_on_too() {
     let plan = "use carbot\nplan Errand {
@@ -153,7 +234,7 @@ fn errors_and_supervisors_of_sub_plans_lead_on_too() {
         }";
     let made = Made::of(Path::new("errand.afp"), plan, &robot());
     assert_eq!(made.generated.left_out, [""; 0]);
-    assert!(made.generated.text.contains("go.back"), "{}", made.generated.text);
+    assert!(made.text().contains("go.back"), "{}", made.text());
 }
 
 /// What a second event leads to alone: `MakeRoom` and `Pass` do one thing and the other in turn. Their own scenarios see to both.
@@ -171,7 +252,7 @@ fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
         let out = made.generated.left_out.iter().filter(|why| why.starts_with("no run reached"));
         let out = out.filter(|why| !EVERY_OTHER_TIME.iter().any(|it| why.contains(it)));
         assert_eq!(out.collect::<Vec<_>>(), [""; 0], "{name} has actors that nobody can test");
-        assert!(made.generated.scenarios >= 5, "{name}");
+        assert!(made.generated.count() >= 5, "{name}");
         match by_night || file.ends_with("wall_following.afp") {
             true => made.all_pass(&robot()),
             // The others take minutes; 'cargo xtask nightly' has time for all.
@@ -186,7 +267,7 @@ fn every_event_in_the_sub_plans_of_the_example_does_too() {
         shop::register(registry);
     });
     let made = Made::new(&root().join("examples/embed/plans/errands.afp"), &robot);
-    assert!(made.generated.text.contains("expect fetch.there -> terminate by touch"));
+    assert!(made.text().contains("expect fetch.there -> terminate by touch"));
     assert_eq!(made.generated.left_out, [""; 0]);
     made.all_pass(&robot);
 }

@@ -129,12 +129,20 @@ fn plans_are_drawn_in_every_format_there_is() {
 fn positions_come_from_the_side_file_and_broken_lines_are_warnings() {
     let place = Place::with_plan();
     let automatic = place.afpc("graph wall_following.afp").out;
-    place.write("wall_following.afp.layout", "WallFollowing.followWall 900 0\nP.x 1 far\n");
+    let lines =
+        "WallFollowing.followWall 900 0\nP.x 1 far\nnonsense\nWallFolowing.followWall 1 2\n";
+    place.write("wall_following.afp.layout", lines);
     let said = place.afpc("graph wall_following.afp");
     said.succeeds();
     assert_ne!(said.out, automatic);
-    let warning = "warning: wall_following.afp.layout:2:7: expected a whole number, found 'far'";
-    assert!(said.err.contains(warning), "{}", said.err);
+    for warning in [
+        "2:7: expected a whole number, found 'far'",
+        "3:1: expected a line such as 'Plan.element 300 120', found 'nonsense'",
+        "4:1: nothing in the plan's file is called 'WallFolowing.followWall': write 'WallFollowing.followWall'",
+    ] {
+        let warning = format!("warning: wall_following.afp.layout:{warning}\n");
+        assert!(said.err.contains(&warning), "{}", said.err);
+    }
     let said = place.afpc("graph wall_following.afp --format json");
     assert!(said.out.contains("\"position\": ["), "{}", said.out);
 }

@@ -102,6 +102,33 @@ fn the_plan_of_a_log_is_drawn_with_what_was_used() {
 }
 
 #[test]
+fn pictures_show_where_what_was_pushed_began_and_ended() {
+    let place = Place::new();
+    let push = "actor go: Forward(distance = 2 m) { ForwardSuccessful -> terminate }";
+    place.write("push.afp", &format!("use carbot\nplan Push {{ start go {push} }}\n"));
+    let world = "version = 1\nrobot = { pose_m_deg = [0.6, 1, 0] }\n[[wall]]\n\
+        points_m = [[0, 0], [5, 0], [5, 2], [0, 2]]\nclosed = true\n[[box]]\nname = \"carton\"\n\
+        pose_m_deg = [1.6, 1, 0]\nsize_m = [0.3, 0.3]\nheight_m = 0.3\nmass_kg = 0.5\n";
+    place.write("push.toml", world);
+    place.afpc("run push.afp --world push.toml --log a.mcap --svg a.svg").succeeds();
+    place.afpc("log a.mcap --svg b.svg").succeeds();
+    let things = |picture: &str| -> Vec<String> {
+        let text = place.read(picture);
+        let shown =
+            text.lines().filter(|it| it.contains("class=\"high") || it.contains(">carton<"));
+        shown.map(str::to_owned).collect()
+    };
+    let (run, log) = (things("a.svg"), things("b.svg"));
+    assert_eq!(run, log);
+    let began = run.iter().filter(|line| line.contains("\"high began\"")).count();
+    assert_eq!(
+        (began, run.len()),
+        (1, 1 + 4 + 1 + 1),
+        "where it began, walls, where it ended, its name"
+    );
+}
+
+#[test]
 fn echoes_and_camera_pictures_are_drawn() {
     let place = Place::with_plan();
     let run = "run wall_following.afp --until 1s --camera --log a.mcap --svg none";

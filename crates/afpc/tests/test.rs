@@ -86,6 +86,24 @@ fn scenarios_are_generated_and_pass() {
 }
 
 #[test]
+fn scenarios_of_a_plan_that_fails_by_itself_pass_and_of_one_without_events_there_are_none() {
+    let place = Place::new();
+    let parts = "actor go: Forward(distance = 50 cm) { ForwardSuccessful -> terminate }";
+    let fails = "supervise battery: CheckBattery { BatteryLow -> rest }
+        actor rest: Signal(times = 3) { Signalled -> fail \"battery\" }";
+    place.write("m.afp", &format!("use carbot\nplan M {{ start go\n{parts}\n{fails} }}\n"));
+    place.write("square.afp", &format!("use carbot\nplan Square {{ start go\n{parts} }}\n"));
+    let said = place.afpc("test --generate square.afp");
+    said.succeeds();
+    let told = "square.afp: no scenarios; nothing is written\n  left out: no event interrupts anything in 'Square'\n";
+    assert_eq!(said.out, told);
+    assert_eq!(place.files(), ["m.afp", "square.afp"]);
+    place.afpc("test --generate m.afp").succeeds();
+    assert!(place.read("tests/m_generated.afp").contains("expect end by Error\n"));
+    place.afpc("test tests").succeeds();
+}
+
+#[test]
 fn generated_scenarios_find_their_plan_from_where_they_are_written() {
     let place = Place::with_plan();
     let said = place.afpc("test --generate wall_following.afp -o checks/deep/walls.afp");

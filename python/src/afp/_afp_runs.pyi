@@ -141,8 +141,10 @@ class Names:
         time: float,
         path: NDArray[np.float64],
         events: Sequence[Event],
+        things: dict[str, list[list[float]]],
     ) -> str:
-        """The path of a run over its world, as SVG: rows of time, x, y, heading, and what happened on the way."""
+        """The path of a run over its world, as SVG: rows of time, x, y, heading, what happened on the way, and where what
+        moves was last."""
 
 @final
 class Runner:
@@ -170,6 +172,8 @@ class Runner:
     @property
     def stopped_by(self) -> str | None:
         """Why the plan stopped though it did not end by itself: `until` or `stop`."""
+    def things(self) -> dict[str, list[list[float]]]:
+        """Where what moves was last: outlines in metres."""
     @property
     def names(self) -> Names:
         """The names of the plan."""

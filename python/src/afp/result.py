@@ -92,6 +92,7 @@ class Result(tables.Events):
     ) -> None:
         self._world = world
         self._names: Names | None = runner.names
+        self._things = runner.things()
         self.plan = plan
         self.world = world.name
         self.seed = seed
@@ -137,7 +138,8 @@ class Result(tables.Events):
         """
         if self._names is None:
             raise AfpError("a result that was pickled has no names for a picture; plot_path() draws it without")
-        return Picture(self._names.draw(self.plan, self._world, self.seed, self.time, self.path, self.events))
+        run = (self.plan, self._world, self.seed, self.time, self.path, self.events, self._things)
+        return Picture(self._names.draw(*run))
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_names": None}

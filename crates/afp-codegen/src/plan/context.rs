@@ -175,7 +175,7 @@ impl<'a> Context<'a> {
 
     /// Those of what reads a table, which stands beside the plan's module.
     fn table_paths(&self, template: &Template) -> Option<Paths> {
-        let table = template.reads_table.as_ref()?.table.as_ref()?;
+        let (_, table) = template.table()?;
         let (_, name) = self.tables.iter().find(|(known, _)| Arc::ptr_eq(known, table))?;
         Some(Paths {
             marker: quote!(super::tables::#name::Row),

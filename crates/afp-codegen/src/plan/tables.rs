@@ -29,7 +29,7 @@ fn readers(graph: &Graph) -> impl Iterator<Item = (&Template, &Arc<Table>)> {
     elements.filter_map(|element| {
         let Component::Computation(id) = element.component else { return None };
         let template = graph.template(id);
-        Some((template, template.reads_table.as_ref()?.table.as_ref()?))
+        Some((template, template.table()?.1))
     })
 }
 

@@ -57,20 +57,12 @@ fn options(
     devices: &[DeviceRow],
 ) -> Option<Vec<(&'static str, String)>> {
     let mut options = Vec::new();
-    let mut left = requests;
-    while let [(at, what), rest @ ..] = left {
-        left = rest;
-        match what {
-            Stimulus::Press { control, held: true } => {
-                let end = (*at + HOLD, Stimulus::Press { control: control.clone(), held: false });
-                left = match rest.strip_prefix(&[end]) {
-                    Some(later) => later,
-                    // What the press has ended does not see how long it lasts.
-                    None if rest.is_empty() && ended <= *at + HOLD => rest,
-                    None => return None,
-                };
-                options.push(("--press", format!("{control}@{}", second(*at))));
-            }
+    for (at, what) in requests {
+        let press = |control| ("--press", format!("{control}@{}", second(*at)));
+        options.push(match what {
+            Stimulus::Hold { control, lasting: HOLD } => press(control),
+            // What a press has ended does not see how long it lasts.
+            Stimulus::Press { control, held: true } if ended <= *at + HOLD => press(control),
             Stimulus::Break { fault, amount, lasting } => {
                 let amount = match amount {
                     Some(amount) => format!("={amount}{}", unit(fault, devices)),
@@ -80,10 +72,10 @@ fn options(
                     Duration::MAX => String::new(),
                     lasting => format!("..{}", second(*at + lasting)),
                 };
-                options.push(("--fail", format!("{fault}{amount}@{}{to}", second(*at))));
+                ("--fail", format!("{fault}{amount}@{}{to}", second(*at)))
             }
             _ => return None,
-        }
+        });
     }
     Some(options)
 }

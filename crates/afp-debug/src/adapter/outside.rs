@@ -50,11 +50,8 @@ impl Adapter<'_> {
         let devices = target.devices();
         let unknown = || Refusal(format!("the robot has no control '{}'", press.control));
         let id = find_control(devices, &press.control).ok_or_else(unknown)?;
-        let pressed = target.ask(Duration::ZERO, Request::Press(id, press.held.unwrap_or(true)))?;
-        if press.held.is_none() {
-            let later = (pressed + HOLD).since(target.now());
-            target.ask(later, Request::Press(id, false))?;
-        }
+        let hold = Request::Hold(id, HOLD);
+        target.ask(Duration::ZERO, press.held.map_or(hold, |held| Request::Press(id, held)))?;
         Ok(Value::Null)
     }
 

@@ -35,6 +35,6 @@ impl Adapter<'_> {
 }
 
 fn thing(thing: &Thing) -> Value {
-    let Thing { id, name, outline, low, movable, labelled, path } = thing;
+    let Thing { id, name, outline, low, movable, labelled, path, end: _ } = thing;
     json!({ "id": id, "name": name, "outline": outline, "low": low, "movable": movable, "labelled": labelled, "path": path })
 }

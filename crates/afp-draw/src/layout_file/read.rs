@@ -1,29 +1,44 @@
 //! Reading a layout file, line by line.
 
+use std::collections::BTreeMap;
+
 use super::{Layout, LayoutError, Placed, Position};
+use afp_syntax::diagnostics::words::nearest;
 use afp_syntax::item::Item;
 
-/// Reads all lines; those with errors are left out.
-pub(super) fn read(text: &str) -> (Layout, Vec<LayoutError>) {
+/// What a comment begins with.
+const COMMENT: char = '#';
+
+/// Reads all lines. Those with errors are left out, but for lines of another form, which are kept. `known` are the
+/// items that can have positions; all can where it is none.
+pub(super) fn read(
+    text: &str,
+    known: Option<&BTreeMap<Item, String>>,
+) -> (Layout, Vec<LayoutError>) {
     let mut layout = Layout::default();
     let mut errors = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        if let Err((column, message)) = self::line(line.trim_end(), &mut layout) {
+        let read = self::line(line.trim_end(), &mut layout);
+        let read = read.and_then(|item| is_known(line, item, known));
+        if let Err((column, message)) = read {
             errors.push(LayoutError { line: index + 1, column, message });
         }
     }
     (layout, errors)
 }
 
-/// Reads a line; an error has its column.
-fn line(line: &str, layout: &mut Layout) -> Result<(), (usize, String)> {
+/// Reads a line, and gives what it places; an error has its column.
+fn line(line: &str, layout: &mut Layout) -> Result<Option<Item>, (usize, String)> {
     let mut words = Words { line, at: 0 };
+    let column = words.column();
     let path = words.next();
     let Some(item) = item(path) else {
         if !line.is_empty() {
             layout.unknown.push(line.to_owned());
         }
-        return Ok(());
+        let is_nothing = path.is_empty() || path.starts_with(COMMENT);
+        let wrong = || format!("expected a line such as 'Plan.element 300 120', found '{path}'");
+        return if is_nothing { Ok(None) } else { Err((column, wrong())) };
     };
     let column = words.column();
     let x = number(words.next(), column)?;
@@ -33,8 +48,27 @@ fn line(line: &str, layout: &mut Layout) -> Result<(), (usize, String)> {
         return Err((1, format!("'{path}' is placed already")));
     }
     let rest = words.rest().to_owned();
-    layout.placed.insert(item, Placed { position: Position { x, y }, rest });
-    Ok(())
+    layout.placed.insert(item.clone(), Placed { position: Position { x, y }, rest });
+    Ok(Some(item))
+}
+
+/// Whether what a line places is there; one that is left from another name is kept all the same.
+fn is_known(
+    line: &str,
+    item: Option<Item>,
+    known: Option<&BTreeMap<Item, String>>,
+) -> Result<(), (usize, String)> {
+    let (Some(item), Some(known)) = (item, known) else { return Ok(()) };
+    if known.contains_key(&item) {
+        return Ok(());
+    }
+    let path = item.to_string();
+    let help = match nearest(&path, known.values().map(String::as_str)) {
+        Some(near) => format!("write '{near}'"),
+        None => "remove the line".to_owned(),
+    };
+    let column = Words { line, at: 0 }.column();
+    Err((column, format!("nothing in the plan's file is called '{path}': {help}")))
 }
 
 fn number(word: &str, column: usize) -> Result<i32, (usize, String)> {

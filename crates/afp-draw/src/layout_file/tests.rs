@@ -7,7 +7,7 @@ use afp_syntax::item::Item;
 
 const FILE: &str = "\
 # placed by hand
-zoom 120
+#zoom 120
 P.back 300 -40
 P.go 10 20 folded wide
 P.go.touch 12 60
@@ -40,6 +40,62 @@ fn lines_are_sorted_as_texts_are() {
     assert_eq!(layout.write(), "P.a 1 2\nP.a.z 1 2\nP.aB 1 2\nP.a_b 1 2\nP.b 1 2\n");
 }
 
+/// What is kept without being understood is told.
+const OTHER_FORM: &str = "expected a line such as 'Plan.element 300 120'";
+
+#[test]
+fn lines_of_another_form_are_told_and_kept() {
+    for line in [
+        "nonsense",
+        "go 300 300",
+        "P.go: 300 300",
+        "  P.ä 1 2",
+        "P.go.touch.x 1 2",
+        ". 1 2",
+        "P-go 1 2",
+    ] {
+        let (layout, errors) = Layout::read(line);
+        let [LayoutError { line: 1, column, message }] = &*errors else {
+            panic!("{line}: {errors:?}")
+        };
+        let word = line.split_whitespace().next().unwrap();
+        assert_eq!(message, &format!("{OTHER_FORM}, found '{word}'"));
+        assert_eq!(line.find(word).unwrap() + 1, *column, "{line}");
+        assert_eq!(layout.write(), format!("{line}\n"));
+    }
+}
+
+#[test]
+fn lines_that_name_nothing_of_the_file_are_told_what_is_near_and_kept() {
+    let plan = "use carbot
+        plan Square { in side: length = 1 m start drive
+            supervise esc: CheckEscapeButton { EscapeButtonPressed -> terminate }
+            actor drive: Forward(distance = side) {
+                supervise touch: CheckTouchSensor { TouchSensorPressed -> terminate }
+                ForwardSuccessful -> terminate } }";
+    let outline = crate::sample::compiled(plan).outline;
+    for (path, says) in [
+        ("Square.drive", None),
+        ("Square.drive.touch", None),
+        ("Square.esc", None),
+        ("Square.side", None),
+        ("Square.start", None),
+        ("Square.terminate", None),
+        ("Sqare.drive", Some("write 'Square.drive'")),
+        ("Square.drvie", Some("write 'Square.drive'")),
+        ("Square.drive.tuch", Some("write 'Square.drive.touch'")),
+        ("Circle.turn", Some("remove the line")),
+    ] {
+        let text = format!("# by hand\n  {path} 300 300\n");
+        let (layout, errors) = Layout::read_for(&text, &outline, outline.plans[0].file());
+        let said: Vec<_> = errors.iter().map(ToString::to_string).collect();
+        let expected =
+            says.map(|it| format!("2:3: nothing in the plan's file is called '{path}': {it}"));
+        assert_eq!(said, Vec::from_iter(expected));
+        assert_eq!(layout, Layout::read(&text).0, "it may be there again");
+    }
+}
+
 #[test]
 fn errors_have_a_place_and_spoil_nothing_else() {
     let (layout, errors) =
@@ -48,6 +104,7 @@ fn errors_have_a_place_and_spoil_nothing_else() {
     let expected = [
         error(1, 6, "expected a whole number, found the end of the line"),
         error(3, 1, "'P.b' is placed already"),
+        error(4, 3, &format!("{OTHER_FORM}, found 'P.ä'")),
         error(5, 5, "expected a whole number, found '1.5'"),
         error(6, 9, "expected a whole number, found '99999999999'"),
     ];
@@ -62,7 +119,7 @@ proptest! {
         let (layout, _) = Layout::read(&text);
         let written = layout.write();
         let (again, errors) = Layout::read(&written);
-        prop_assert_eq!(errors, vec![]);
+        prop_assert!(errors.iter().all(|error| error.message.starts_with(OTHER_FORM)), "{errors:?}");
         prop_assert_eq!(&again, &layout);
         prop_assert_eq!(again.write(), written);
     }

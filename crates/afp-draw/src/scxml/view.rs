@@ -68,10 +68,17 @@ impl<'a> View<'a> {
     }
 
     fn template_inputs(&self, id: TemplateId, formulas: &[Formula]) -> Vec<Input<'a>> {
-        let ports = self.graph.template(id).inputs.iter();
+        let template = self.graph.template(id);
         let with =
             |(port, formula): (&'a InPort, &Formula)| self.input(&port.name, port.span, formula);
-        ports.zip(self.shown(formulas)).map(with).collect()
+        let inputs = template.inputs.iter().zip(self.shown(formulas)).map(with);
+        let table = template.table().filter(|_| self.options.data);
+        let table = table.map(|(port, table)| Input {
+            port: &port.name,
+            text: table.name.clone(),
+            bound: true,
+        });
+        table.into_iter().chain(inputs).collect()
     }
 
     fn plan_inputs(&self, id: PlanId, formulas: &[Formula]) -> Vec<Input<'a>> {

@@ -127,8 +127,7 @@ impl Dump<'_> {
 
     /// The table that a template reads.
     fn table(&mut self, id: TemplateId) {
-        let reads = self.graph.template(id).reads_table.as_ref();
-        if let Some(table) = reads.and_then(|reads| reads.table.as_ref()) {
+        if let Some((_, table)) = self.graph.template(id).table() {
             self.line(3, &format!("table = {} ({} rows)", table.name, table.rows.len()));
         }
     }

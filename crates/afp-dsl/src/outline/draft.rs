@@ -224,9 +224,8 @@ fn declared(signature: &Signature, generic: Option<&Type>) -> (Vec<Input>, Vec<O
 
 /// The port that takes a table, which the signature with its columns does not have.
 fn table(signature: &Signature) -> Option<Input> {
-    let reads = signature.template()?.reads_table.as_ref()?;
-    reads.table.as_ref()?;
-    let (name, declared) = (reads.port.name.as_str().into(), Some(reads.port.span));
+    let (port, _) = signature.template()?.table()?;
+    let (name, declared) = (port.name.as_str().into(), Some(port.span));
     Some(Input { declared, required: true, ..input(name) })
 }
 

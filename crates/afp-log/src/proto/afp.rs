@@ -272,7 +272,7 @@ pub struct Request {
     /// In SI units; as much as the robot declares where there is none.
     #[prost(double, optional, tag = "7")]
     pub amount: ::core::option::Option<f64>,
-    /// For good where there is none.
+    /// Of a fault, for good where there is none.
     #[prost(uint64, optional, tag = "8")]
     pub lasting_ns: ::core::option::Option<u64>,
     #[prost(message, repeated, tag = "9")]
@@ -311,9 +311,9 @@ pub mod request {
         Unknown = 0,
         /// The entry `name` is written with `value`.
         Write = 1,
-        /// The control `name` is held down.
+        /// The control `name` is held down, for `lasting_ns` or until it is let go.
         Press = 2,
-        /// The control `name` is let go.
+        /// The control `name` is let go, whoever holds it.
         Release = 3,
         /// The fault `name` begins, by `amount`, for `lasting_ns`.
         Fail = 4,

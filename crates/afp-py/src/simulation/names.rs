@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp::load::PlanNames;
 use afp_core::Instant;
 use afp_run::{SoFar, draw_run, follow};
-use afp_session::Pose2;
+use afp_session::{Outlines, Pose2};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -32,6 +32,7 @@ impl Names {
         time: f64,
         path: PyReadonlyArray2<'_, f64>,
         events: Vec<Bound<'_, Event>>,
+        things: Outlines,
     ) -> PyResult<String> {
         let path = path.as_array();
         if path.ncols() != 4 {
@@ -48,8 +49,9 @@ impl Names {
         let (names, time) = (self.0.clone(), instant(time)?);
         let (world, seed) = (Arc::clone(&world.loaded.world), seed.to_string());
         in_background(py, move || {
-            let (path, marks) = (&path[..], &marks[..]);
-            draw_run(&SoFar { plan: &plan, world: &*world, seed: &seed, time, path, marks }, &names)
+            let (plan, world, seed) = (&*plan, &*world, &*seed);
+            let (path, marks, things) = (&path[..], &marks[..], &things);
+            draw_run(&SoFar { plan, world, seed, time, path, marks, things }, &names)
         })
     }
 }

@@ -105,6 +105,13 @@ impl Canvas {
         ));
     }
 
+    /// Where something began that stands elsewhere in the end.
+    pub(super) fn beginning(&mut self, corners: &[[f64; 2]], low: bool) {
+        let points = self.points(corners);
+        let class = if low { "low" } else { "high" };
+        self.put(format_args!(r#"<polygon class="{class} began" points="{points}"/>"#));
+    }
+
     pub(super) fn obstacle(&mut self, corners: &[[f64; 2]], low: bool) {
         let points = self.points(corners);
         let class = if low { "low" } else { "high" };
@@ -273,6 +280,7 @@ text { font: 13px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #2b2b2b 
 .grid { stroke: #ecebe7; stroke-width: 1 }
 .high { fill: #ddd8cf; stroke: #9b948a; stroke-width: 1 }
 .low { fill: url(#hatch); stroke: #b4642d; stroke-width: 1.2; stroke-dasharray: 4 2.5 }
+.began { fill: #ddd8cf; fill-opacity: .25; stroke-dasharray: 4 3; stroke-opacity: .8 }
 .patch { opacity: .35 }
 .way { fill: none; stroke: #77736b; stroke-width: 1.6; stroke-dasharray: 2 4; stroke-linecap: round }
 .light circle { fill: none; stroke: #c2185b; stroke-width: 1.6 }

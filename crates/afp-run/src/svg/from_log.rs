@@ -27,6 +27,7 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
         time: log.span.map_or(Instant::ZERO, |(_, last)| last),
         path: &path,
         marks: &marks,
+        things: &log.things,
     };
     Ok(draw_run(&run, names))
 }

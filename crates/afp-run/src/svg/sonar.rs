@@ -28,7 +28,7 @@ struct Echo {
 /// The log has no world or one that this release does not understand, or no echoes.
 pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
     let world = world_of(log, robot)?;
-    let drawing = world.drawing();
+    let drawing = world.drawing().ended(&log.things);
     let heard = log.rangings.iter().filter(|heard| heard.range.is_some()).count();
     if heard == 0 || log.poses.is_empty() {
         let help = "log a longer run, with something in reach of the range sensor";

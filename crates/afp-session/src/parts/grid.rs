@@ -205,6 +205,7 @@ impl Grid {
             id: format!("wall {number}"),
             name: "wall".to_owned(),
             outline,
+            end: None,
             low: false,
             movable: false,
             labelled: false,

@@ -9,6 +9,7 @@ use afp_core::{Duration, Instant, Value, WriteError};
 
 use super::Session;
 use crate::any::SetError;
+use crate::holds::Hold;
 use crate::observer::{Applied, Observer};
 use crate::record::Keep;
 #[cfg(feature = "load")]
@@ -23,6 +24,18 @@ pub(super) struct Testing<P> {
     #[cfg(feature = "load")]
     inject: fn(&mut P, Option<u16>, &Injection) -> Result<(), NotInjected>,
     idle: fn(&mut P, Option<ComponentId>) -> bool,
+}
+
+/// What has become of a request.
+struct Done {
+    /// When it was due.
+    at: Instant,
+    id: RequestId,
+    /// By names, where somebody wants to know.
+    what: Option<Stimulus>,
+    /// Whether it breaks something.
+    breaks: bool,
+    result: Result<(), RequestError>,
 }
 
 impl<P> Testing<P> {
@@ -91,8 +104,10 @@ where
 
     /// Whether a request can be met: at all, or where it is one for now.
     fn check(&self, request: &Request, is_now: bool) -> Result<(), RequestError> {
-        let of_plan =
-            !matches!(request, Request::Press(..) | Request::Break(..) | Request::Put(..));
+        let of_plan = !matches!(
+            request,
+            Request::Press(..) | Request::Hold(..) | Request::Break(..) | Request::Put(..)
+        );
         if of_plan && self.scheduler.ending().is_some() {
             return Err(RequestError::Ended);
         }
@@ -100,7 +115,7 @@ where
             Request::Write(entry, value) => {
                 self.scheduler.plan().accepts(*entry, value).map_err(RequestError::Write)
             }
-            Request::Press(id, _) => self.check_control(*id),
+            Request::Press(id, _) | Request::Hold(id, _) => self.check_control(*id),
             Request::Break(id, amount, _) => self.check_fault(*id, *amount),
             #[cfg(feature = "load")]
             Request::Inject(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
@@ -140,42 +155,47 @@ where
         }
     }
 
-    /// Does what is due, and lets faults begin and end.
+    /// Does what is due, lets faults begin and end, and lets go of controls.
     pub(super) fn apply_due(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
         let mut applied = Vec::new();
         while let Some((at, id, Waiting { request, done })) = self.requests.take_due(now) {
             let what = (!to.is_empty()).then(|| Stimulus::new(&request, self.table(), &self.names));
-            let broken = matches!(request, Request::Break(..));
-            let result = if done { Ok(()) } else { self.apply(request, now) };
-            applied.push((at, id, what, broken, result));
+            let breaks = matches!(request, Request::Break(..));
+            let result = if done { Ok(()) } else { self.apply(id, request, now) };
+            applied.push(Done { at, id, what, breaks, result });
         }
-        if applied.iter().any(|it| it.3) || self.faults.next_change() <= now {
+        applied.extend(self.let_go(now, !to.is_empty()));
+        if applied.iter().any(|done| done.breaks) || self.faults.next_change() <= now {
             let set = self.robot.set_faults(&self.faults.advance(now));
-            for (.., broken, result) in &mut applied {
-                if *broken && result.is_ok() && set.is_err() {
-                    *result = Err(RequestError::Refused);
+            for done in applied.iter_mut().filter(|done| done.breaks && done.result.is_ok()) {
+                if set.is_err() {
+                    done.result = Err(RequestError::Refused);
                 }
             }
         }
-        for (at, id, what, _, result) in &applied {
+        for Done { at, id, what, result, .. } in &applied {
             let Some(what) = what else { continue };
             let applied = Applied { now, at: *at, id: *id, what, refused: result.as_ref().err() };
             to.iter_mut().for_each(|each| each.on_request(&applied));
         }
     }
 
-    fn apply(&mut self, request: Request, now: Instant) -> Result<(), RequestError> {
+    fn apply(&mut self, by: RequestId, request: Request, now: Instant) -> Result<(), RequestError> {
         match request {
             Request::Write(entry, value) => {
                 self.scheduler.write(entry, value).map_err(RequestError::Write)
             }
-            Request::Press(id, held) => {
-                let control = R::Devices::control(id).ok_or(RequestError::NoControl)?;
-                self.robot.press(control, held).map_err(|_| RequestError::Refused)
+            Request::Press(control, true) => self.hold(Hold { control, by, until: Instant::MAX }),
+            Request::Hold(control, lasting) => {
+                self.hold(Hold { control, by, until: now + lasting })
+            }
+            Request::Press(control, false) => {
+                self.holds.end(control);
+                self.press(control, false)
             }
             Request::Break(id, amount, lasting) => {
                 let fault = R::Devices::fault(id, amount).ok_or(RequestError::NoFault)?;
-                self.faults.add(fault, now, until(now, lasting));
+                self.faults.add(fault, now, now + lasting);
                 Ok(())
             }
             #[cfg(feature = "load")]
@@ -195,6 +215,29 @@ where
                 Ok(())
             }
         }
+    }
+
+    fn press(&mut self, id: ControlId, held: bool) -> Result<(), RequestError> {
+        let control = R::Devices::control(id).ok_or(RequestError::NoControl)?;
+        self.robot.press(control, held).map_err(|_| RequestError::Refused)
+    }
+
+    fn hold(&mut self, hold: Hold) -> Result<(), RequestError> {
+        self.press(hold.control, true)?;
+        self.holds.add(hold);
+        Ok(())
+    }
+
+    /// Lets go of the controls that nobody holds down any more.
+    fn let_go(&mut self, now: Instant, told: bool) -> Vec<Done> {
+        let over = self.holds.advance(now);
+        let release = |Hold { control, by, until }| {
+            let result = self.press(control, false);
+            let request = Request::Press(control, false);
+            let what = told.then(|| Stimulus::new(&request, self.table(), &self.names));
+            Done { at: until, id: by, what, breaks: false, result }
+        };
+        over.into_iter().map(release).collect()
     }
 
     #[cfg(feature = "load")]
@@ -255,9 +298,4 @@ fn lacks<R: Robot>(device: &str, part: &str) -> Result<(), RequestError> {
         Some((of, what)) => of == device && what == part,
     });
     missing.map_or(Ok(()), |what| Err(RequestError::Lacks(what)))
-}
-
-/// The end of what lasts so long.
-fn until(now: Instant, lasting: Duration) -> Instant {
-    now + lasting
 }

@@ -104,6 +104,11 @@ impl Toy {
         Toy { grip: 1.0, ..Toy::default() }
     }
 
+    /// Whether its bumper is held down.
+    pub fn is_pressed(&self) -> bool {
+        self.pressed
+    }
+
     /// One whose time does not begin at zero.
     pub fn at(now: Instant) -> Self {
         Toy { now, ..Toy::new() }

@@ -17,6 +17,11 @@ impl Simulation {
         self.switch.step(touched);
     }
 
+    /// Whether something or somebody presses the bumper.
+    pub(super) fn is_touched(&self) -> bool {
+        self.held || self.switch.says()
+    }
+
     /// Remembers by what way the robot came and where the bumper is pressed, as far as it can tell.
     pub(super) fn note_motion(&mut self, now: Instant) {
         let Ok(at) = self.lines.odometry.read(self.raw_motion()).value else { return };

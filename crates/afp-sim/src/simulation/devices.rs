@@ -68,7 +68,7 @@ impl Simulation {
     }
 
     pub(super) fn raw_touched(&self) -> Reading<bool> {
-        self.measured(self.held || self.switch.says())
+        self.measured(self.is_touched())
     }
 
     pub(super) fn raw_escape(&self) -> Reading<bool> {

@@ -54,7 +54,7 @@ impl Simulation {
             odometry: self.odometer.motion(),
             rotator: self.rotator.position(),
             sonar,
-            touched: self.switch.says(),
+            touched: self.is_touched(),
         }
     }
 }

@@ -124,6 +124,7 @@ fn thing(index: usize, obstacle: &Obstacle, low: f64) -> Thing {
         id,
         name: obstacle.name.clone(),
         outline,
+        end: None,
         low: obstacle.height < low,
         movable: matches!(obstacle.mobility, Mobility::Movable { .. }),
         labelled: least > ROOM_FOR_NAME,

@@ -100,6 +100,22 @@ fn the_reader_knows_the_keys_of_the_schema_and_no_others() {
 }
 
 #[test]
+fn the_page_on_worlds_names_every_key() {
+    let page = include_str!("../../../../docs/simulator.md");
+    // Every other part between fences, and of those between ticks, is text.
+    let text: String = page.split("```").step_by(2).collect();
+    let words =
+        text.split('`').skip(1).step_by(2).flat_map(|span| span.split([' ', '[', ']', ',']));
+    let words: BTreeSet<&str> = words.collect();
+    let schema = schema();
+    for (name, _) in TABLES {
+        for key in known(table(&schema, name)) {
+            assert!(words.contains(&*key), "docs/simulator.md: nothing of '{key}' in '{name}'");
+        }
+    }
+}
+
+#[test]
 fn what_the_schema_requires_is_what_the_reader_misses() {
     World::parse(FULL).expect("the example is whole");
     let schema = schema();

@@ -1,12 +1,11 @@
 //! The scenarios of one element and one supervisor that watches over it.
 
-use std::fmt::Write;
-
 use afp_core::Instant;
 use afp_dsl::graph::Component;
 use afp_dsl::scenario::DEFAULT_UNTIL;
 use afp_dsl::unfold::{Goal, Place};
 
+use super::draft::Draft;
 use super::reach::SampleRun;
 use super::{Generated, Rest};
 use crate::parts::Parts;
@@ -67,10 +66,8 @@ impl Pair<'_> {
                 ));
                 return;
             }
-            for point in &points {
-                self.scenario(*point, event, goal, &fire, &mut all.text);
-                all.scenarios += 1;
-            }
+            let drafts = points.iter().filter_map(|point| self.draft(*point, event, goal, &fire));
+            all.drafts.extend(drafts);
         }
     }
 
@@ -102,10 +99,19 @@ impl Pair<'_> {
         }
     }
 
-    fn scenario(&self, point: Point, event: u16, goal: Goal, fire: &str, text: &mut String) {
+    /// Says in a title that the supervisor is the plan's, where the element has one of its name.
+    fn whose(&self) -> &'static str {
+        let name = self.parts.name(self.supervisor);
+        let over = self.parts.supervisors_over(self.element).into_iter();
+        let same = over.filter(|other| self.parts.name(*other) == name).count();
+        let own = self.parts.place(self.supervisor).is_some_and(|place| place.owner.is_some());
+        if same > 1 && !own { " of the plan" } else { "" }
+    }
+
+    fn draft(&self, point: Point, event: u16, goal: Goal, fire: &str) -> Option<Draft> {
         let Point { percent, at } = point;
         let since = self.active.from.as_nanos();
-        let Some(supervisor) = self.parts.supervisor(self.supervisor) else { return };
+        let supervisor = self.parts.supervisor(self.supervisor)?;
         let (parts, element) = (self.parts, self.parts.path(self.element));
         let name = format!("{}.{}", supervisor.name, parts.outcome(self.supervisor, event));
         // It resumes, or would lead a global supervisor to where the plan is already.
@@ -115,7 +121,8 @@ impl Pair<'_> {
         let (time, within) = (duration(at - since), duration(wait + supervisor.deadline));
         let soon = format!("within {within} after {time}");
         let stand = self.standstill(at).map(|stand| stand + wait);
-        let mut lines = Vec::new();
+        let ending = self.ending(goal, &soon).filter(|_| !there);
+        let (mut lines, ends) = (Vec::new(), ending.is_some());
         if !there {
             lines.push(format!("at {time}: idle all"));
         }
@@ -130,7 +137,7 @@ impl Pair<'_> {
             };
             let to = self.beside(goal, to);
             lines.push(format!("expect {element} -> {to} by {name} once {soon}"));
-            lines.extend(self.ending(goal, &soon));
+            lines.extend(ending);
             lines.extend(self.interrupts(at, &soon));
             lines.extend(self.commits(at, event, goal, &soon));
             if self.rest.halted {
@@ -143,19 +150,16 @@ impl Pair<'_> {
             );
         }
         let end = stand.unwrap_or(at + wait + supervisor.deadline) + BEHIND;
-        lines.push(format!("until {}", duration(end - since)));
-        let plan = parts.path(0);
-        let title = format!("{element}: {name} at {percent} %");
-        // Writing to a String cannot fail.
-        let _ = write!(text, "\nscenario \"{title}\" for {plan} {{\n");
-        for line in self.setting(at) {
-            let _ = writeln!(text, "    {line}");
-        }
-        let _ = writeln!(text, "    from {element} active {{");
-        for line in lines {
-            let _ = writeln!(text, "        {line}");
-        }
-        text.push_str("    }\n}\n");
+        Some(Draft {
+            title: format!("{element}: {name}{} at {percent} %", self.whose()),
+            plan: parts.path(0).to_owned(),
+            setting: self.setting(at),
+            element: element.to_owned(),
+            lines,
+            until: duration(end - since),
+            ends,
+            proven: false,
+        })
     }
 
     /// The lines that lead up to the element: the seed, what is done on the way, and room for it to take longer.

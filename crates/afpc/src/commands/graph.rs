@@ -161,7 +161,7 @@ fn positions(file: &PlanFile) -> Vec<Layout> {
     let holds_plans =
         |file: usize| outline.plans.iter().any(|plan| usize::from(plan.file()) == file);
     let read = |(file, source): (usize, &Source)| match holds_plans(file) {
-        true => layout(&format!("{}.layout", source.name)),
+        true => layout(&format!("{}.layout", source.name), outline, file),
         false => Layout::default(),
     };
     file.compiled.sources.iter().enumerate().map(read).collect()
@@ -169,13 +169,14 @@ fn positions(file: &PlanFile) -> Vec<Layout> {
 
 /// The positions of a side file, none without one. What cannot be used there is told on standard
 /// error: a drawing does not fail for it.
-fn layout(path: &str) -> Layout {
+fn layout(path: &str, outline: &Outline, file: usize) -> Layout {
     let (text, why) = match read_text_file(path.as_ref()) {
         Ok(text) => (text, None),
         Err(error) if error.kind() == ErrorKind::NotFound => (String::new(), None),
         Err(error) => (String::new(), Some(error.to_string())),
     };
-    let (layout, errors) = Layout::read(&text);
+    let file = u16::try_from(file).unwrap_or(u16::MAX);
+    let (layout, errors) = Layout::read_for(&text, outline, file);
     let wrong = errors.iter().map(|error| format!("{path}:{error}"));
     let unread = why.iter().map(|why| format!("cannot read '{path}': {why}"));
     for warning in unread.chain(wrong) {

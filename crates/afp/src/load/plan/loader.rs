@@ -79,9 +79,8 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
                 Running::Actor(self.find(id, element.span, Registry::new_actor)?)
             }
             Component::Computation(id) => {
-                let reads = self.graph.template(id).reads_table.as_ref();
-                Running::Computation(match reads.and_then(|reads| reads.table.as_ref()) {
-                    Some(table) => Box::new(RowSlot::new(table)),
+                Running::Computation(match self.graph.template(id).table() {
+                    Some((_, table)) => Box::new(RowSlot::new(table)),
                     None => self.find(id, element.span, Registry::new_computation)?,
                 })
             }

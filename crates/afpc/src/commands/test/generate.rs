@@ -10,9 +10,10 @@ use afp_dsl::scenario::Scenario;
 use afp_run::{EXIT_OK, RunError, check_apart, write_whole};
 use afp_session::Loader;
 use afp_test::{Generated, Setting, is_generated};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::commands::print;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::plan_file::{NoPlan, PlanFile, PlanText};
 use crate::{Linked, runner};
 
 /// How long the run lasts that says when actors are active, nanoseconds.
@@ -38,14 +39,21 @@ pub(super) fn run(
     for file in read {
         let (file, graph) = file.checked()?;
         has_own_plan(&file.path, &graph)?;
-        let path = place(&file.path, output, files.len() > 1)?;
+        let path = place(&file.path, output, files.len() > 1);
         may_be_made_anew(&path)?;
         let sources = file.compiled.plan_sources().map(|source| Path::new(&source.name));
         check_apart([&*path], sources)?;
-        let made = generate(&file.path, &path, graph, linked.robot)?;
-        let text = afp_format::format(&made.text).unwrap_or(made.text);
-        write_whole("cannot write the scenarios", &path, text)?;
-        print(&format!("{}: {} scenarios\n", path.display(), made.scenarios))?;
+        let mut made = generate(&file.path, graph, linked.robot)?;
+        prove(&file.path, &mut made, linked.robot)?;
+        let count = made.count();
+        let said = match count {
+            0 => format!("{}: no scenarios; nothing is written\n", file.path.display()),
+            count => format!("{}: {count} scenarios\n", path.display()),
+        };
+        if count > 0 {
+            write(&file.path, &path, &made)?;
+        }
+        print(&said)?;
         for why in &made.left_out {
             print(&format!("  left out: {why}\n"))?;
         }
@@ -79,13 +87,31 @@ fn may_be_made_anew(path: &Path) -> Result<(), RunError> {
     ))
 }
 
-/// Scenarios for a plan, which will stand in the file `to`.
-fn generate(
-    file: &Path,
-    to: &Path,
-    graph: Graph,
-    robot: &dyn Loader,
-) -> Result<Generated, RunError> {
+/// Runs the scenarios that were made for a plan on all cores, as if they stood beside it.
+fn prove(file: &Path, made: &mut Generated, robot: &dyn Loader) -> Result<(), RunError> {
+    let from = file.file_name().unwrap_or_default().to_string_lossy();
+    let read = |made: &Generated| {
+        let path = file.with_file_name("generated.afp");
+        let text = PlanText { path, text: made.text(&from), plan: None };
+        Ok::<_, RunError>(text.compile()?.compiled.scenarios)
+    };
+    let run_one = |scenario: &Scenario| {
+        let setting = Setting::find(scenario, file, robot.kind())?;
+        afp_test::run(scenario, &setting, robot, None)
+    };
+    made.prove(&read, &|scenarios| scenarios.par_iter().with_max_len(1).map(run_one).collect())
+}
+
+/// Writes scenarios into the file `to`, whose folder is made.
+fn write(file: &Path, to: &Path, made: &Generated) -> Result<(), RunError> {
+    let folder = to.parent().unwrap_or(Path::new(""));
+    fs::create_dir_all(folder).map_err(RunError::file("cannot make the folder", folder))?;
+    let text = made.text(&relative_path(file, to)?);
+    write_whole("cannot write the scenarios", to, afp_format::format(&text).unwrap_or(text))
+}
+
+/// Scenarios for a plan.
+fn generate(file: &Path, graph: Graph, robot: &dyn Loader) -> Result<Generated, RunError> {
     let missing =
         |entry: &&afp_dsl::graph::Entry| entry.kind == EntryKind::In && entry.init.is_none();
     if let Some(entry) = graph.main().entries.iter().find(missing) {
@@ -96,24 +122,21 @@ fn generate(
     let quiet = Scenario::quiet("as it goes", Arc::new(graph), plan_file, RUN);
     let setting = Setting::find(&quiet, file, robot.kind())?;
     let devices = robot.kind().devices();
-    afp_test::generate(&relative_path(file, to)?, &quiet, devices, &mut |scenario| {
+    afp_test::generate(&quiet, devices, &mut |scenario| {
         afp_test::run(scenario, &setting, robot, None)
     })
 }
 
 /// Where the scenarios of a plan go: into `output`, a folder if there are several, or else into
-/// `tests/patrol_generated.afp` beside `patrol.afp`. The folder is made.
-fn place(file: &Path, output: Option<&Path>, several: bool) -> Result<PathBuf, RunError> {
+/// `tests/patrol_generated.afp` beside `patrol.afp`.
+fn place(file: &Path, output: Option<&Path>, several: bool) -> PathBuf {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     let name = format!("{stem}_generated.afp");
-    let path = match output {
+    match output {
         Some(output) if several || output.is_dir() => output.join(name),
         Some(output) => output.to_owned(),
         None => file.with_file_name("tests").join(name),
-    };
-    let folder = path.parent().unwrap_or(Path::new(""));
-    fs::create_dir_all(folder).map_err(RunError::file("cannot make the folder", folder))?;
-    Ok(path)
+    }
 }
 
 /// The relative path from the file `to` to a plan, as `use` takes it.

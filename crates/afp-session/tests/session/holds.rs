@@ -1,0 +1,66 @@
+//! Who presses a control, and when it is let go.
+
+use afp_core::{Duration, Instant};
+use afp_session::{AnySession, Applied, Observer, Open, Request, Stimulus};
+
+use super::{FRONT, at, session};
+
+#[test]
+fn a_control_is_held_down_until_the_last_who_presses_it_lets_go() {
+    let hold = |lasting| Request::Hold(FRONT, Duration::from_millis(lasting));
+    let (press, release) = (Request::Press(FRONT, true), Request::Press(FRONT, false));
+    let cases: [(&[(u64, Request)], &[(u64, bool)]); 5] = [
+        (
+            &[(100, hold(500)), (200, hold(100))],
+            &[(150, true), (350, true), (590, true), (610, false)],
+        ),
+        (
+            &[(100, hold(100)), (200, hold(100))],
+            &[(199, true), (200, true), (299, true), (301, false)],
+        ),
+        // Made in the other order it is the same.
+        (
+            &[(200, hold(100)), (100, hold(100))],
+            &[(199, true), (200, true), (299, true), (301, false)],
+        ),
+        // Who lets go does so for all, and what was to end later ends nothing of what is pressed then.
+        (
+            &[(100, hold(500)), (200, release), (300, hold(600))],
+            &[(190, true), (250, false), (310, true), (650, true), (890, true), (910, false)],
+        ),
+        (&[(100, press), (200, hold(100))], &[(350, true), (5000, true)]),
+    ];
+    for (requests, looks) in cases {
+        let mut session = session();
+        for (millis, request) in requests {
+            session.at(at(*millis), request.clone()).unwrap();
+        }
+        let mut told = Told::default();
+        for (millis, pressed) in looks {
+            session.run(at(*millis), &mut Open, &mut [&mut told]).unwrap();
+            assert_eq!(session.robot().is_pressed(), *pressed, "{requests:?} at {millis} ms");
+        }
+        // A repetition of what was told, as from a log, is the same run.
+        let end = session.robot().now();
+        let mut repeated = super::session();
+        for (at, what) in &told.0 {
+            let request =
+                what.request(AnySession::devices(&repeated), AnySession::names(&repeated));
+            repeated.at(*at, request.unwrap()).unwrap();
+        }
+        let mut again = Told::default();
+        repeated.run(end, &mut Open, &mut [&mut again]).unwrap();
+        assert_eq!((repeated.trace(), again.0), (session.trace(), told.0), "{requests:?}");
+    }
+}
+
+/// What has come from outside.
+#[derive(Default)]
+struct Told(Vec<(Instant, Stimulus)>);
+
+impl Observer for Told {
+    fn on_request(&mut self, applied: &Applied<'_>) {
+        assert_eq!(applied.refused, None);
+        self.0.push((applied.at, applied.what.clone()));
+    }
+}
