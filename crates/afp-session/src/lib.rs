@@ -28,6 +28,7 @@ mod event;
 mod faults;
 mod figures;
 mod hardware;
+mod not_set;
 mod observer;
 pub mod parts;
 mod recipe;
@@ -39,6 +40,7 @@ mod sample;
 mod session;
 mod stimulus;
 mod track;
+mod units;
 mod world;
 
 pub use any::{AnySession, SetError, refusal};
@@ -52,6 +54,7 @@ pub use figures::{Figure, FigureValue, Figures, Span};
 pub use hardware::{Hardware, LastResort, NoWorld, Opened, Settings};
 #[cfg(feature = "load")]
 pub use hardware::{Opener, hardware};
+pub use not_set::{NotSet, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
@@ -64,6 +67,7 @@ pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, re
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};
+pub use units::some_units;
 pub use world::{AnyWorld, Drawing, Patch, Thing, World, WorldError};
 
 /// What macros name in the crates of others.
