@@ -1,12 +1,13 @@
 //! Breakpoints: where a run pauses.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use afp_core::Fault;
 use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR};
-use afp_session::{EventKind, RunEvent};
+use afp_session::{EndingKind, EventKind, RunEvent};
 
 use crate::adapter::{ClientId, Wanted};
+use crate::hit_count::HitCount;
 use crate::program::{Program, Spot};
 use crate::state::State;
 use crate::watched::Watched;
@@ -37,16 +38,23 @@ pub(crate) struct Breakpoint {
     pub id: u64,
     /// What it was set with, for a text that has changed.
     pub wanted: Wanted,
-    /// Where.
+    /// Where it is in the program that runs; or why it is nowhere.
+    pub found: Result<Found, String>,
+    /// The step of each hit so far.
+    pub hits: Vec<u64>,
+}
+
+/// Where a breakpoint is in a program.
+#[derive(Clone, Debug)]
+pub(crate) struct Found {
+    /// What happens there, in each use of its plan.
     pub spots: Vec<Spot>,
     /// The line at which it is, from 0, where it was set at one.
     pub line: Option<u32>,
-    /// The run stands still at the hit of that number alone, and later ones.
-    pub from_hit: u64,
-    /// Counts as hit only while this holds.
-    pub condition: Option<Watched>,
-    /// The step of each hit so far.
-    pub hits: Vec<u64>,
+    /// Which hits count.
+    pub counted: HitCount,
+    /// Counts as hit only while this holds, in each use of its plan.
+    pub conditions: BTreeMap<ComponentId, Watched>,
 }
 
 /// What a breakpoint is set with.
@@ -133,25 +141,27 @@ impl Breakpoints {
         others.flat_map(|((owner, _), all)| all.iter().map(|each| (*owner, each)))
     }
 
-    /// Finds all of them in a program anew; gives those that are nowhere in it any more, with why.
-    pub fn find_in(&mut self, program: &Program) -> Vec<(Breakpoint, String)> {
-        let mut lost = Vec::new();
-        for all in self.sets.values_mut() {
-            for each in std::mem::take(all) {
-                match each.wanted.clone().made(each.id, program) {
-                    Ok(found) => all.push(found),
-                    Err(why) => lost.push((each, why)),
+    /// Finds all of them in a program anew; gives those that are elsewhere now, or nowhere, with whose they are.
+    pub fn find_in(&mut self, program: &Program) -> Vec<(ClientId, Breakpoint)> {
+        let mut moved = Vec::new();
+        for ((owner, _), all) in &mut self.sets {
+            for each in all {
+                let made = each.wanted.clone().made(each.id, program);
+                let before = std::mem::replace(each, made);
+                if before.line() != each.line() {
+                    moved.push((*owner, each.clone()));
                 }
             }
         }
         self.sort();
-        lost
+        moved
     }
 
     fn sort(&mut self) {
         let mut at: HashMap<Spot, Vec<u64>> = HashMap::new();
         for each in self.sets.values().flatten() {
-            each.spots.iter().for_each(|spot| at.entry(*spot).or_default().push(each.id));
+            let spots = each.found.iter().flat_map(|found| &found.spots);
+            spots.for_each(|spot| at.entry(*spot).or_default().push(each.id));
         }
         self.at = at;
     }
@@ -175,25 +185,35 @@ impl Breakpoints {
     pub fn hits(&mut self, event: &RunEvent, steps: u64, program: &Program, state: &State) -> Hits {
         let exception = self.filters.values().find_map(|filters| filters.exception(event));
         let mut hits = Hits { exception, ..Hits::default() };
-        let numbers: Vec<_> = spots(event, program)
-            .filter_map(|spot| self.at.get(&spot))
-            .flatten()
-            .copied()
+        let mut there = BTreeSet::new();
+        let at: Vec<_> = spots(event, program)
+            .flat_map(|spot| self.at.get(&spot).into_iter().flatten().map(move |id| (*id, spot)))
+            .filter(|(id, _)| there.insert(*id))
             .collect();
-        for id in numbers {
-            let Some((kind, found)) = self.find(id) else { continue };
-            if found.condition.as_ref().is_some_and(|condition| !condition.holds(program, state)) {
+        for (id, spot) in at {
+            let Some((kind, each)) = self.find(id) else { continue };
+            let Ok(found) = &each.found else { continue };
+            let plan = program.plan_at(spot);
+            if found.conditions.get(&plan).is_some_and(|it| !it.holds(program, state)) {
                 continue;
             }
-            found.hits.push(steps);
-            let plan = found.spots.first().map_or(ComponentId(0), |spot| program.plan_at(*spot));
-            match &found.wanted.log {
+            each.hits.push(steps);
+            if !found.counted.holds(each.hits.len() as u64) {
+                continue;
+            }
+            match &each.wanted.log {
                 Some(text) => hits.logs.push(filled(text, plan, program, state)),
-                None if found.hits.len() as u64 >= found.from_hit => hits.stop.push((id, kind)),
-                None => {}
+                None => hits.stop.push((id, kind)),
             }
         }
         hits
+    }
+}
+
+impl Breakpoint {
+    /// The line at which it is, where it was set at one; or why it is nowhere.
+    fn line(&self) -> Result<Option<u32>, &str> {
+        self.found.as_ref().map(|found| found.line).map_err(|why| &**why)
     }
 }
 
@@ -228,7 +248,13 @@ fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
             let reaction = Spot::Reaction(id, by, outcome);
             [Some(Spot::Reports(by)), Some(Spot::Outcome(by, outcome)), Some(reaction)]
         }
+        // The plan itself ends, whether something of it failed or it all.
+        EventKind::Faulted if id == ComponentId(0) => [None; 3],
         EventKind::Faulted => [Some(Spot::Outcome(id, ERROR)), None, None],
+        EventKind::Ended if id == ComponentId(0) => {
+            let failed = event.ending == Some(EndingKind::Error);
+            [failed.then_some(Spot::Outcome(id, ERROR)), None, None]
+        }
         EventKind::Missed => [Some(Spot::Outcome(id, DEADLINE_MISSED)), None, None],
         // That a plan begins with its initial values is no writing.
         EventKind::Committed => {

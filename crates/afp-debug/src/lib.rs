@@ -15,6 +15,7 @@
 
 mod adapter;
 mod breakpoints;
+mod hit_count;
 mod log_target;
 mod program;
 mod sensed;

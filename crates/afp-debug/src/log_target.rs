@@ -16,7 +16,7 @@ use crate::target::{Advance, Happened, Position, Target};
 const KEYFRAMES: usize = 1024;
 
 /// What a client hears that wants to change what is over.
-const READ_ONLY: &str = "a log shows what was: launch its plan to change something";
+pub(crate) const READ_ONLY: &str = "a log shows what was: launch its plan to change something";
 
 /// What a camera had seen last at a time: width, height, and a byte for each of red, green and blue.
 type Pictures = Box<dyn Fn(Instant) -> Option<(u32, u32, Vec<u8>)> + Send>;

@@ -313,14 +313,20 @@ impl Program {
     }
 
     /// What a path means: an element (`patrol.avoid`), a supervisor, one of its states or events
-    /// (`patrol.avoid.touch.TouchSensorPressed`).
+    /// (`patrol.avoid.touch.TouchSensorPressed`), that the plan itself fails (`Patrol.Error`).
     pub fn find(&self, path: &str) -> Option<Spot> {
         let unit = |path: &str| self.units.iter().skip(1).position(|unit| unit.path == path);
         if let Some(at) = unit(path) {
             return Some(first(ComponentId(at as u32 + 1), self.units[at + 1].kind));
         }
         let (component, outcome) = path.rsplit_once('.')?;
-        let at = unit(component)? + 1;
+        let Some(at) = unit(component) else {
+            let plan = self.units.first().filter(|plan| plan.path == component);
+            return plan
+                .filter(|_| outcome == "Error")
+                .map(|_| Spot::Outcome(ComponentId(0), ERROR));
+        };
+        let at = at + 1;
         let known = self.units[at].outcomes.iter().position(|(name, _)| name == outcome);
         let number = match (known, outcome) {
             (Some(number), _) => u16::try_from(number).ok()?,

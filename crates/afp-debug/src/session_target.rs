@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
-use afp_core::trace::{ComponentId, ComponentKind, EntryName, TraceEntryId, TraceHash};
+use afp_core::trace::{ComponentId, ComponentKind, TraceEntryId, TraceHash};
 use afp_core::{Duration, Instant, StartError};
 use afp_session::{
     AnySession, Applied, Datum, Figures, Holder, NamedRecord, Observer, Open, Pose2, Request,
-    RunEvent, SampleRef, SetError, Stimulus, View, refusal,
+    RunEvent, SampleRef, SetError, Stimulus, View,
 };
 
 use crate::program::Program;
@@ -37,6 +37,8 @@ pub struct SessionTarget<'m> {
     keyframes: Vec<Run>,
     /// How much time lies between two of them.
     apart: Duration,
+    /// What is strange about the run.
+    warnings: Vec<String>,
 }
 
 /// A run at an instant.
@@ -56,7 +58,13 @@ impl<'m> SessionTarget<'m> {
         let keyframes = run.keyframe().into_iter().collect();
         let furthest = run.session.now();
         let asked = vec![furthest; run.session.requests().len()];
-        Ok(SessionTarget { program, make, run, furthest, asked, keyframes, apart: KEYFRAMES })
+        let (apart, warnings) = (KEYFRAMES, Vec::new());
+        Ok(SessionTarget { program, make, run, furthest, asked, keyframes, apart, warnings })
+    }
+
+    /// The same with what is to be said of it before it begins.
+    pub fn with_warnings(self, warnings: Vec<String>) -> Self {
+        SessionTarget { warnings, ..self }
     }
 
     /// The same without copies, as of a robot that cannot be copied: going back always runs again from the start.
@@ -181,6 +189,10 @@ impl Target for SessionTarget<'_> {
         self.run.steps
     }
 
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
     fn is_kept(&self) -> bool {
         !self.keyframes.is_empty()
     }
@@ -293,17 +305,12 @@ impl Target for SessionTarget<'_> {
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {
         self.forget_later()?;
         let id = self.program.entries.iter().position(|it| it.path == entry);
-        let value = self.run.session.set(entry, text).map_err(|why| match why {
-            SetError::Unreadable { units, .. } if !units.is_empty() => {
-                let units: Vec<_> = units.iter().take(8).map(String::as_str).collect();
-                format!("'{text}' does not fit: write a number and a unit, of {}", units.join(", "))
+        let value = self.run.session.set(entry, text).map_err(|why| {
+            let told = why.explained(&*self.run.session, entry, text);
+            match why {
+                SetError::TooEarly => format!("{} (help: step once, then write it)", told.why),
+                _ => told.to_string(),
             }
-            SetError::Refused(why) => {
-                let names = self.run.session.names();
-                let about = id.map_or(EntryName::NONE, |id| names.entry(TraceEntryId(id as u32)));
-                format!("'{text}': {}", refusal(why, about))
-            }
-            other => format!("'{text}': {other}"),
         })?;
         self.note_asked();
         let id = id.map(|id| TraceEntryId(id as u32));

@@ -31,6 +31,11 @@ pub trait Target {
         false
     }
 
+    /// What is strange about the run, to be said before it begins.
+    fn warnings(&self) -> &[String] {
+        &[]
+    }
+
     /// Whether going back begins at a copy of the run; else it begins at the start.
     fn is_kept(&self) -> bool {
         true

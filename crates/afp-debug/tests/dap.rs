@@ -120,6 +120,70 @@ plan P {
 }
 
 #[test]
+fn breakpoints_that_are_nowhere_for_a_while_are_found_again() {
+    let short = "use std
+plan P {
+    start a
+    actor a: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+";
+    let long = "use std
+
+plan P {
+    start a
+    actor a: Wait(duration = 1 s) { Elapsed -> b }
+
+    actor b: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+";
+    let texts = [short, long, short, long].map(str::to_owned).to_vec();
+    let mut clients = Clients::new(Box::new(Edited(texts)));
+    for said in [
+        r#"initialize {"adapterID":"afp"}"#,
+        r#"launch {"program":"plan.afp"}"#,
+        r#"setBreakpoints {"source":{"path":"plan.afp"},"breakpoints":[{"line":6},{"line":3}]}"#,
+        r#"setFunctionBreakpoints {"breakpoints":[{"name":"b"}]}"#,
+    ] {
+        clients.say(said);
+    }
+    clients.say_as(2, r#"initialize {"adapterID":"afp","clientName":"second"}"#);
+    clients.say_as(2, "attach {}");
+    let nothing = r#""message":"nothing happens at this line or below it","verified":false"#;
+    assert!(clients.told.contains(nothing), "{}", clients.told);
+    let second = r#""message":"set by client 1: nothing happens at this line or below it""#;
+    assert!(clients.told.contains(second), "{}", clients.told);
+    clients.say("configurationDone");
+    clients.tick(None);
+    for there in [true, false, true] {
+        clients.told.clear();
+        clients.say("restart");
+        clients.tick(None);
+        let told = &clients.told;
+        let place = |line: u32| {
+            format!(
+                r#""line":{line},"source":{{"name":"plan.afp","path":"plan.afp"}},"verified":true}},"reason":"changed""#
+            )
+        };
+        let changed =
+            |id: u32, what: &str| format!(r#"event breakpoint {{"breakpoint":{{"id":{id},{what}"#);
+        assert_eq!(told.contains(&changed(1, &place(7))), there, "{told}");
+        assert_eq!(told.contains(&changed(1, nothing)), !there, "{told}");
+        assert!(told.contains(&changed(2, &place(if there { 5 } else { 4 }))), "{told}");
+        assert_eq!(told.contains(&changed(3, r#""verified":true"#)), there, "{told}");
+        assert!(
+            told.contains(r#""description":"a started at 0.000 s","hitBreakpointIds":[2]"#),
+            "{told}"
+        );
+        clients.told.clear();
+        clients.say("continue");
+        clients.tick(None);
+        let told = &clients.told;
+        let held = r#""description":"b started at 1.000 s","hitBreakpointIds":[1,3]"#;
+        assert_eq!(told.contains(held), there, "{told}");
+    }
+}
+
+#[test]
 fn a_run_is_held_where_edges_are_taken_without_time_passing() {
     let plan = "use std
 plan Spin {

@@ -137,7 +137,11 @@ fn a_log_is_sought_through_and_cannot_be_changed() {
     let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
     past.say(r#"initialize {"adapterID":"afp"}"#);
     past.say(r#"launch {"log":"plan.afp","until":3}"#);
-    assert!(past.told.contains("leave 'world', 'start', 'set' and 'until' out"), "{}", past.told);
+    assert!(
+        past.told.contains("leave 'world', 'start', 'seed', 'set' and 'until' out"),
+        "{}",
+        past.told
+    );
     past.say(r#"launch {"log":"plan.afp"}"#);
     assert!(past.told.contains(r#""supportsSetVariable":false"#), "{}", past.told);
     past.say(r#"setFunctionBreakpoints {"breakpoints":[{"name":"backupCollision"}]}"#);
@@ -238,4 +242,30 @@ fn a_log_of_another_plan_is_refused() {
     let mut past = Clients::new(Box::new(Recorded(other, log)));
     past.say(r#"launch {"log":"plan.afp:Outer"}"#);
     assert!(past.told.contains("which its plan has not any more"), "{}", past.told);
+}
+
+#[test]
+fn nothing_of_a_log_can_be_changed() {
+    let log = recorded(SHIPPED, "plan.afp", 1, None);
+    let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log)));
+    for fresh in [r#""seed":3"#, r#""until":3"#, r#""set":{"walldist":"3 cm"}"#] {
+        past.told.clear();
+        past.say(&format!(r#"launch {{"log":"plan.afp",{fresh}}}"#));
+        assert!(past.told.contains("a log shows what was: leave"), "{}", past.told);
+    }
+    past.say(r#"launch {"log":"plan.afp","stopOnEntry":true}"#);
+    past.say("configurationDone");
+    for change in [
+        r#"afp/press {"control":"touch.touch"}"#,
+        r#"afp/fault {"fault":"ultrasonic.lost"}"#,
+        r#"afp/move {"to":[1,1,0]}"#,
+        r#"afp/drop {"shape":"box","to":[1,1,0]}"#,
+        r#"afp/force {"path":"walldist","value":"3 cm"}"#,
+        r#"setExpression {"expression":"walldist","value":"3 cm"}"#,
+    ] {
+        past.told.clear();
+        past.say(change);
+        let why = "a log shows what was: launch its plan to change something";
+        assert!(past.told.contains(why), "{change}: {}", past.told);
+    }
 }

@@ -41,6 +41,7 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use add::edit_of_use;
 pub use afp_syntax::diagnostics::Edit as TextEdit;
+pub use buffer::difference;
 pub(crate) use name::Taken;
 pub use positions::follow;
 pub use several::{Made, edit_all};
@@ -369,7 +370,9 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
         Change::RenameValue { enumeration, value, to } => {
             return rename::value(workspace, enumeration, value, to);
         }
-        Change::Inline { plan, element } => return inline::run(workspace, plan, element),
+        Change::Inline { plan, element } => {
+            return in_form(workspace, |workspace| inline::run(workspace, plan, element));
+        }
         Change::Remove { item } | Change::Move { item, .. } => workspace.check_inside(item)?,
         Change::Extract { plan, elements, .. } => {
             for element in elements {
@@ -379,6 +382,18 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
         _ => {}
     }
     inside(workspace.buffer(), change)
+}
+
+/// Makes a change that moves lines about: files that were in canonical form before it are so after it.
+fn in_form(
+    workspace: &mut Workspace,
+    change: impl FnOnce(&mut Workspace) -> Result<(), Refused>,
+) -> Result<(), Refused> {
+    let canonical: Vec<_> = workspace.buffers.iter().map(TextBuffer::is_canonical).collect();
+    change(workspace)?;
+    let buffers = workspace.buffers.iter_mut().zip(canonical);
+    buffers.filter(|(_, before)| *before).for_each(|(buffer, _)| buffer.make_canonical());
+    Ok(())
 }
 
 /// Makes a change that edits one file.

@@ -190,11 +190,11 @@ impl Client<'_> {
                     Value::String(text) => text.clone(),
                     other => other.to_string(),
                 };
-                let (queue, entry) = (Arc::clone(self.queue), name.clone());
+                let queue = Arc::clone(self.queue);
                 let what = Asked::Set { entry: name.clone(), text };
                 let answer = Box::new(move |done: Result<(), String>| {
                     if let Err(why) = done {
-                        queue.answer(protocol::status(2, &format!("'{entry}': {why}")));
+                        queue.answer(protocol::status(2, &why));
                     }
                 });
                 self.hub.ask(Question { what, answer });

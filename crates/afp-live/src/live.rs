@@ -9,7 +9,7 @@ use std::thread::JoinHandle;
 
 use afp_core::{Duration, Instant};
 use afp_log::Messages;
-use afp_session::{AnySession, HOLD, Request, SetError, Stimulus};
+use afp_session::{AnySession, HOLD, Request, Stimulus};
 
 use crate::admission::Tokens;
 use crate::hub::{Asked, Hub, Question, Stream};
@@ -105,14 +105,9 @@ impl fmt::Debug for Live {
 fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), String> {
     match what {
         Asked::Set { entry, text } => {
-            session.set(&entry, text.trim()).map(|_| ()).map_err(|why| match why {
-                SetError::Unreadable { units, .. } if !units.is_empty() => {
-                    let units = units.iter().take(8).map(String::as_str).collect::<Vec<_>>();
-                    let units = units.join(", ");
-                    format!("'{text}' does not fit: write a number and a unit, of {units}")
-                }
-                other => other.to_string(),
-            })
+            let text = text.trim();
+            let set = session.set(&entry, text);
+            set.map(|_| ()).map_err(|why| why.explained(session, &entry, text).to_string())
         }
         Asked::Press { control, held } => {
             let what = match held {

@@ -6,7 +6,7 @@ use std::path::Path;
 use mcap::records::{MessageHeader, Record, Statistics};
 
 use crate::error::LogError;
-use crate::read::read;
+use crate::read::read_any;
 use crate::scan::{load, scan};
 
 /// Everything that is wrong with a log; empty for a sound one.
@@ -21,7 +21,7 @@ pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
         Ok(())
     });
     // Reading decodes AFP's own messages and knows why a log was cut short.
-    let log = read(path)?;
+    let log = read_any(path)?;
     match (log.cut_short, scanned) {
         (Some(cut), _) => doctor.found.push(cut),
         (None, Err(error)) => doctor.found.push(error.to_string()),

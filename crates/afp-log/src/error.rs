@@ -28,6 +28,13 @@ pub enum LogError {
         /// Its name.
         path: PathBuf,
     },
+    /// The file is an MCAP file, but not the log of a run.
+    NoRun {
+        /// Its name.
+        path: PathBuf,
+    },
+    /// What the file holds is compressed in a way that cannot be read, by its name.
+    Compressed(String),
     /// Writing failed, or the contents are damaged.
     Mcap(mcap::McapError),
     /// The writing thread died.
@@ -62,8 +69,11 @@ impl LogError {
                 }
                 ELSEWHERE
             }
-            LogError::NotALog { .. } => {
+            LogError::NotALog { .. } | LogError::NoRun { .. } => {
                 "name a file that a run wrote: 'afpc run PLAN --log FILE.mcap'"
+            }
+            LogError::Compressed(_) => {
+                "'mcap decompress FILE -o OTHER.mcap', a tool of https://mcap.dev, makes one that can be read"
             }
             LogError::Mcap(mcap::McapError::Io(_)) => "",
             LogError::Mcap(_) => "'afpc log FILE recover' saves what is intact into a new file",
@@ -86,6 +96,12 @@ impl fmt::Display for LogError {
             LogError::NotALog { path } => {
                 write!(f, "'{}' is not an MCAP log", path.display())
             }
+            LogError::NoRun { path } => {
+                write!(f, "'{}' is not the log of a run of AFP", path.display())
+            }
+            LogError::Compressed(how) => {
+                write!(f, "the log is compressed with '{how}', which cannot be read")
+            }
             // What it says of its own is 'I/O error', for a full disk too.
             LogError::Mcap(mcap::McapError::Io(error)) => write!(f, "the log failed: {error}"),
             LogError::Mcap(error) => write!(f, "the log failed: {error}"),
@@ -98,6 +114,9 @@ impl std::error::Error for LogError {}
 
 impl From<mcap::McapError> for LogError {
     fn from(error: mcap::McapError) -> Self {
-        LogError::Mcap(error)
+        match error {
+            mcap::McapError::UnsupportedCompression(how) => LogError::Compressed(how),
+            error => LogError::Mcap(error),
+        }
     }
 }

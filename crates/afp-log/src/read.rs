@@ -93,11 +93,31 @@ pub struct TopicInfo {
     pub messages: u64,
 }
 
-/// Reads a log, as far as it goes: one that was cut short yields what it holds.
+/// Reads the log of a run, as far as it goes: one that was cut short yields what it holds.
 ///
 /// # Errors
-/// The file cannot be opened, or is no MCAP file from the first byte on.
+/// The file cannot be opened, is no MCAP file from the first byte on, is not the log of a run, or is compressed in a way
+/// that cannot be read.
 pub fn read(path: &Path) -> Result<LogData, LogError> {
+    let (log, says_run) = read_all(path)?;
+    // What says of which run a log is comes first.
+    let begun = log.cut_short.is_none() || !log.topics.is_empty();
+    match says_run || !begun {
+        true => Ok(log),
+        false => Err(LogError::NoRun { path: path.to_owned() }),
+    }
+}
+
+/// As [`read`], of any MCAP file.
+///
+/// # Errors
+/// As [`read`], but for what the file is of.
+pub fn read_any(path: &Path) -> Result<LogData, LogError> {
+    read_all(path).map(|(log, _)| log)
+}
+
+/// What a file holds, and whether it says of which run it is.
+fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
     let bytes = load(path)?;
     let mut reader = Reader::default();
     let scanned = scan(&bytes, |record| {
@@ -108,6 +128,7 @@ pub fn read(path: &Path) -> Result<LogData, LogError> {
     log.bytes = bytes.len() as u64;
     if let Err(error) = scanned {
         let cut = match (reader.footer, error) {
+            (_, error @ LogError::Compressed(_)) => return Err(error),
             (false, LogError::Mcap(mcap::McapError::UnexpectedEof)) => {
                 "it has no footer: the run ended before the log was closed".to_owned()
             }
@@ -115,7 +136,7 @@ pub fn read(path: &Path) -> Result<LogData, LogError> {
         };
         log.cut_short.get_or_insert(cut);
     }
-    Ok(log)
+    Ok((log, reader.says_run))
 }
 
 /// What all entries hold, as a message of `/plan/configuration` says; none for other bytes.
@@ -137,6 +158,8 @@ struct Reader {
     schemas: BTreeMap<u16, String>,
     /// Topic and schema.
     channels: BTreeMap<u16, (String, String)>,
+    /// It says of which run it is.
+    says_run: bool,
     footer: bool,
 }
 
@@ -168,6 +191,7 @@ impl Reader {
                 }
             }
             Record::Metadata(metadata) if metadata.name == "afp.run" => {
+                self.says_run = true;
                 self.log.facts = metadata.metadata;
             }
             Record::Metadata(metadata) if metadata.name == "afp.end" => {

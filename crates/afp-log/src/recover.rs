@@ -1,15 +1,17 @@
-//! Makes a whole log out of one that was cut short.
+//! Makes a whole log out of one that was cut short or is damaged.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use afp_core::Instant;
 use afp_output::Output;
-use mcap::Attachment;
-use mcap::records::Record;
+use mcap::records::{self, Record};
+use mcap::{Attachment, Summary};
 
 use crate::error::LogError;
-use crate::scan::{load, scan};
+use crate::scan::{Damage, load, salvage, scan};
 use crate::write::{LogWriter, begin, end};
 
 /// What could be saved.
@@ -19,8 +21,19 @@ pub struct Recovered {
     pub path: PathBuf,
     /// Messages in it.
     pub messages: u64,
-    /// Why the old one ended; `None` when nothing was wrong with it.
+    /// What is wrong with the old one; `None` when nothing was.
     pub damage: Option<String>,
+    /// The stretches of time of which messages are lost.
+    pub missing: Vec<Missing>,
+}
+
+/// A stretch of time of which messages are lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// The last message before it; none from the beginning on.
+    pub after: Option<Instant>,
+    /// The first message behind it; none up to the end.
+    pub before: Option<Instant>,
 }
 
 /// The name of the log that [`recover`] makes by default: `a.mcap.part` and `a.mcap` become
@@ -34,10 +47,10 @@ pub fn recovered_name(path: &Path) -> PathBuf {
     bare.with_extension("recovered.mcap")
 }
 
-/// Copies everything that is intact at the front of a log into a new, whole one.
+/// Copies everything that is intact in a log into a new, whole one.
 ///
 /// # Errors
-/// The old log cannot be opened, the new one cannot be written. There is no new one then.
+/// The old log cannot be opened or is compressed in a way that cannot be read, the new one cannot be written. There is no new one then.
 pub fn recover(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     copy(from, to).map_err(|error| error.writing(to))
 }
@@ -49,60 +62,72 @@ fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     let old = File::open(from).map_err(|error| LogError::Open { path: from.to_owned(), error })?;
     let _ = old.try_lock_shared();
     let failed = |error| LogError::Create { path: to.to_owned(), error };
-    let mut copy = Copy::new(Output::create_beside_part(to).map_err(failed)?)?;
-    let mut broken = None;
-    let scanned = scan(&bytes, |record| {
-        // A failed write must not pass for damage of the old log.
-        copy.take(record).map_err(|error| {
-            broken = Some(error);
-            LogError::Writer
-        })
-    });
-    if let Some(error) = broken {
-        return Err(error);
-    }
-    let messages = copy.messages;
-    let (output, _) = end(copy.writer)?;
+    // Where a summary is intact it knows what a damaged chunk has said of later ones.
+    let summary = Summary::read(&bytes).ok().flatten();
+    let output = Output::create_beside_part(to).map_err(failed)?;
+    let mut copy = Copy::new(output, summary.as_ref())?;
+    salvage(&bytes, summary.as_ref(), |record| match record {
+        Ok(record) => copy.take(record),
+        Err(damage) => copy.pass(damage),
+    })?;
+    let Copy { writer, messages, missing, mut damage, .. } = copy;
+    let (output, _) = end(writer)?;
     output.finish().map_err(failed)?;
-    let damage = scanned.err().map(|error| error.to_string());
-    Ok(Recovered { path: to.to_owned(), messages, damage })
+    // What is wrong outside of what was copied.
+    damage = damage.or_else(|| scan(&bytes, |_| Ok(())).err().map(|why| why.to_string()));
+    Ok(Recovered { path: to.to_owned(), messages, damage, missing })
 }
 
-struct Copy {
+struct Copy<'a> {
     writer: LogWriter,
+    summary: Option<&'a Summary>,
     schemas: BTreeMap<u16, u16>,
     channels: BTreeMap<u16, u16>,
     messages: u64,
-    over: bool,
+    /// When the last message was.
+    last: Option<Instant>,
+    /// The first thing that is wrong.
+    damage: Option<String>,
+    missing: Vec<Missing>,
 }
 
-impl Copy {
-    fn new(output: Output) -> Result<Self, LogError> {
+impl<'a> Copy<'a> {
+    fn new(output: Output, summary: Option<&'a Summary>) -> Result<Self, LogError> {
         let writer = begin(output, None)?;
-        let (schemas, channels) = (BTreeMap::new(), BTreeMap::new());
-        Ok(Copy { writer, schemas, channels, messages: 0, over: false })
+        let (schemas, channels, missing) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
+        let (messages, last, damage) = (0, None, None);
+        Ok(Copy { writer, summary, schemas, channels, messages, last, damage, missing })
+    }
+
+    /// Passes over what is damaged.
+    fn pass(&mut self, Damage { why, messages }: Damage) -> Result<(), LogError> {
+        if let LogError::Compressed(_) = why {
+            return Err(why);
+        }
+        let goes_on = self.missing.last().is_some_and(|last| last.before.is_none());
+        if messages && !goes_on {
+            self.missing.push(Missing { after: self.last, before: None });
+        }
+        self.damage.get_or_insert_with(|| why.to_string());
+        Ok(())
     }
 
     fn take(&mut self, record: Record<'_>) -> Result<(), LogError> {
         match record {
-            // What follows is the summary, which is made anew.
-            Record::DataEnd(_) => self.over = true,
-            _ if self.over => {}
             Record::Schema { header, data } => {
                 let id = self.writer.add_schema(&header.name, &header.encoding, &data)?;
                 self.schemas.insert(header.id, id);
             }
-            Record::Channel(channel) => {
-                let schema = self.schemas.get(&channel.schema_id).copied().unwrap_or(0);
-                let (topic, encoding) = (&channel.topic, &channel.message_encoding);
-                let id = self.writer.add_channel(schema, topic, encoding, &channel.metadata)?;
-                self.channels.insert(channel.id, id);
-            }
+            Record::Channel(channel) => self.add_channel(&channel)?,
             Record::Message { mut header, data } => {
                 // A message without a channel cannot be read by anybody.
-                let Some(&id) = self.channels.get(&header.channel_id) else { return Ok(()) };
+                let Some(id) = self.channel(header.channel_id)? else { return Ok(()) };
                 header.channel_id = id;
                 self.messages += 1;
+                let at = Instant::from_nanos(header.log_time);
+                let open = self.missing.last_mut().filter(|last| last.before.is_none());
+                open.into_iter().for_each(|last| last.before = Some(at));
+                self.last = Some(at);
                 self.writer.write_to_known_channel(&header, &data)?;
             }
             Record::Metadata(metadata) => self.writer.write_metadata(&metadata)?,
@@ -116,5 +141,51 @@ impl Copy {
             _ => {}
         }
         Ok(())
+    }
+
+    fn add_channel(&mut self, channel: &records::Channel) -> Result<(), LogError> {
+        let schema = self.schema(channel.schema_id)?;
+        let (topic, encoding) = (&channel.topic, &channel.message_encoding);
+        let id = self.writer.add_channel(schema, topic, encoding, &channel.metadata)?;
+        self.channels.insert(channel.id, id);
+        Ok(())
+    }
+
+    /// The new number of a channel, which only the summary may know.
+    fn channel(&mut self, id: u16) -> Result<Option<u16>, LogError> {
+        let known = self.summary.and_then(|summary| summary.channels.get(&id));
+        if let Some(channel) = known.filter(|_| !self.channels.contains_key(&id)) {
+            self.add_channel(&records::Channel {
+                id,
+                schema_id: channel.schema.as_ref().map_or(0, |schema| schema.id),
+                topic: channel.topic.clone(),
+                message_encoding: channel.message_encoding.clone(),
+                metadata: channel.metadata.clone(),
+            })?;
+        }
+        Ok(self.channels.get(&id).copied())
+    }
+
+    /// The new number of a schema, which only the summary may know.
+    fn schema(&mut self, id: u16) -> Result<u16, LogError> {
+        let known = self.summary.and_then(|summary| summary.schemas.get(&id));
+        if let Some(schema) = known.filter(|_| !self.schemas.contains_key(&id)) {
+            let new = self.writer.add_schema(&schema.name, &schema.encoding, &schema.data)?;
+            self.schemas.insert(id, new);
+        }
+        Ok(self.schemas.get(&id).copied().unwrap_or(0))
+    }
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.after {
+            Some(after) => write!(f, "from {:.3} s", after.as_secs_f64())?,
+            None => f.write_str("from the start")?,
+        }
+        match self.before {
+            Some(before) => write!(f, " to {:.3} s", before.as_secs_f64()),
+            None => f.write_str(" to the end"),
+        }
     }
 }

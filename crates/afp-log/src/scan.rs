@@ -1,12 +1,13 @@
 //! Walks over the records of an MCAP file, chunks unpacked and all checksums verified.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use mcap::parse_record;
-use mcap::records::Record;
+use mcap::records::{ChunkIndex, Record, op};
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{McapError, Summary, parse_record};
 
 use crate::error::LogError;
 
@@ -36,13 +37,20 @@ pub(crate) fn load(path: &Path) -> Result<Vec<u8>, LogError> {
 /// The damage, or what `take` says.
 pub(crate) fn scan(
     bytes: &[u8],
-    mut take: impl FnMut(Record<'_>) -> Result<(), LogError>,
+    take: impl FnMut(Record<'_>) -> Result<(), LogError>,
 ) -> Result<(), LogError> {
     let options = LinearReaderOptions::default()
-        .with_prevalidate_chunk_crcs(true)
         .with_validate_data_section_crc(true)
-        .with_validate_summary_section_crc(true)
-        .with_record_length_limit(LONGEST);
+        .with_validate_summary_section_crc(true);
+    walk(options, bytes, take)
+}
+
+fn walk(
+    options: LinearReaderOptions,
+    bytes: &[u8],
+    mut take: impl FnMut(Record<'_>) -> Result<(), LogError>,
+) -> Result<(), LogError> {
+    let options = options.with_prevalidate_chunk_crcs(true).with_record_length_limit(LONGEST);
     let mut reader = LinearReader::new_with_options(options);
     let mut rest = bytes;
     while let Some(event) = reader.next_event() {
@@ -53,8 +61,100 @@ pub(crate) fn scan(
                 reader.notify_read(now.len());
                 rest = later;
             }
-            LinearReadEvent::Record { data, opcode } => take(parse_record(opcode, data)?)?,
+            LinearReadEvent::Record { data, opcode } => {
+                if opcode == op::ATTACHMENT && !has_head(data) {
+                    return Err(McapError::UnexpectedEof.into());
+                }
+                take(parse_record(opcode, data)?)?;
+            }
         }
     }
     Ok(())
+}
+
+/// Whether the head of an attachment ends inside it: two times, two names, how long it is. What parses it takes that for
+/// granted.
+fn has_head(attachment: &[u8]) -> bool {
+    let name = |at: usize| {
+        let (length, _) = attachment.get(at..)?.split_first_chunk()?;
+        (at + 4).checked_add(usize::try_from(u32::from_le_bytes(*length)).ok()?)
+    };
+    let (lengths, checksum) = (8, 4);
+    let head = name(16).and_then(name).and_then(|at| at.checked_add(lengths + checksum));
+    head.is_some_and(|head| head <= attachment.len())
+}
+
+/// Hands every record of the data section that is intact to `take`, in order, until it fails. Of what is not, `take` is
+/// told why and whether messages may be lost with it.
+///
+/// # Errors
+/// What `take` says.
+pub(crate) fn salvage(
+    bytes: &[u8],
+    summary: Option<&Summary>,
+    mut take: impl FnMut(Result<Record<'_>, Damage>) -> Result<(), LogError>,
+) -> Result<(), LogError> {
+    let mut chunks = summary.map(chunks).unwrap_or_default();
+    // A summary may be of a file that was longer.
+    chunks.retain(|begin, length| begin.saturating_add(*length) <= bytes.len());
+    let options =
+        || LinearReaderOptions::default().with_skip_start_magic(true).with_skip_end_magic(true);
+    let mut at = mcap::MAGIC.len();
+    loop {
+        let next = chunks.range(at + 1..).next().map(|(next, _)| *next);
+        let Some((code, record)) = framed(&bytes[at..next.unwrap_or(bytes.len())], chunks.get(&at))
+        else {
+            let why = McapError::UnexpectedEof.into();
+            take(Err(Damage { why, messages: chunks.contains_key(&at) || next.is_none() }))?;
+            // The summary knows where the next chunk begins; without it nothing does.
+            let Some(next) = next else { return Ok(()) };
+            at = next;
+            continue;
+        };
+        if code == op::DATA_END {
+            return Ok(());
+        }
+        let mut refused = None;
+        let walked = walk(options(), record, |record| {
+            take(Ok(record)).map_err(|why| {
+                refused = Some(why);
+                LogError::Writer
+            })
+        });
+        match (refused, walked) {
+            (Some(why), _) => return Err(why),
+            (None, Err(why)) => take(Err(Damage { why, messages: code == op::CHUNK }))?,
+            (None, Ok(())) => {}
+        }
+        at += record.len();
+    }
+}
+
+/// What is damaged in a log.
+#[derive(Debug)]
+pub(crate) struct Damage {
+    /// How it shows.
+    pub why: LogError,
+    /// Whether messages may be lost with it.
+    pub messages: bool,
+}
+
+/// Where chunks begin, and how long they are.
+fn chunks(summary: &Summary) -> BTreeMap<usize, usize> {
+    let place = |chunk: &ChunkIndex| {
+        let begin = usize::try_from(chunk.chunk_start_offset).ok()?;
+        Some((begin, usize::try_from(chunk.chunk_length).ok()?))
+    };
+    summary.chunk_indexes.iter().filter_map(place).collect()
+}
+
+/// The first record of some bytes with its code, which is a chunk of that length where one is; none where its head is
+/// damaged or its end is missing.
+fn framed<'a>(bytes: &'a [u8], chunk: Option<&usize>) -> Option<(u8, &'a [u8])> {
+    let (head, _) = bytes.split_first_chunk::<9>()?;
+    let (code, length) = (head[0], u64::from_le_bytes(head[1..].try_into().ok()?));
+    let whole = bytes.get(..usize::try_from(length).ok()?.checked_add(head.len())?)?;
+    let is_known = (op::HEADER..=op::DATA_END).contains(&code) || code >= 0x80;
+    let fits = chunk.is_none_or(|length| code == op::CHUNK && *length == whole.len());
+    (is_known && fits).then_some((code, whole))
 }

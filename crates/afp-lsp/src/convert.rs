@@ -96,39 +96,3 @@ impl Workspace {
 pub(crate) fn text_edit(places: &Places<'_>, edit: &TextEdit) -> gen_lsp_types::TextEdit {
     gen_lsp_types::TextEdit { range: places.range(edit.span), new_text: edit.text.clone() }
 }
-
-/// The one edit that makes a text another one; `None` where they are the same. It begins and ends at
-/// borders of lines.
-pub(crate) fn difference(before: &str, after: &str) -> Option<TextEdit> {
-    if before == after {
-        return None;
-    }
-    let same = |lines: &mut dyn Iterator<Item = (&str, &str)>| {
-        lines.take_while(|(a, b)| a == b).map(|(a, _)| a.len()).sum::<usize>()
-    };
-    let start = same(&mut before.split_inclusive('\n').zip(after.split_inclusive('\n')));
-    let (rest, new) = (&before[start..], &after[start..]);
-    let mut back = rest.split_inclusive('\n').rev().zip(new.split_inclusive('\n').rev());
-    let end = same(&mut back);
-    let number = |at| u32::try_from(at).unwrap_or(u32::MAX);
-    let span = Span { file: 0, start: number(start), end: number(before.len() - end) };
-    Some(TextEdit { span, text: new[..new.len() - end].to_owned() })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::difference;
-    use afp_ide::edit::apply;
-
-    #[test]
-    fn the_difference_makes_one_text_the_other() {
-        let texts =
-            ["", "a\n", "a\nb\nc\n", "a\nx\nc\n", "a\nc\n", "a\nb\nc", "a\na\na\n", "a\na\n"];
-        for before in texts {
-            for after in texts {
-                let edits: Vec<_> = difference(before, after).into_iter().collect();
-                assert_eq!(apply(before, &edits), after);
-            }
-        }
-    }
-}

@@ -13,7 +13,7 @@ pub(crate) fn of(workspace: &mut Workspace, path: &str) -> Vec<lsp::Diagnostic> 
     if is_project(path) {
         return of_project(workspace, path);
     }
-    if !path.ends_with(".afp") {
+    if !workspace.is_afp(path) {
         return Vec::new();
     }
     let Some(analysis) = workspace.analysis(path) else { return Vec::new() };

@@ -3,13 +3,15 @@
 use std::collections::BTreeMap;
 
 use afp_syntax::source::{Encoding, LineColumn, Lines};
-use gen_lsp_types::{Position, TextDocumentContentChangeEvent, Uri};
+use gen_lsp_types::{Position, TextDocumentContentChangeEvent, TextDocumentItem, Uri};
 
 /// A document that is open.
 #[derive(Clone, Debug)]
 pub(crate) struct Document {
     /// Its address as the client writes it.
     pub uri: Uri,
+    /// What the client says that it is written in.
+    pub language: String,
     /// The client's number of this state of it.
     pub version: i32,
     /// Its text.
@@ -29,9 +31,11 @@ pub(crate) struct Documents {
 
 impl Documents {
     /// Opens a document, or opens it anew.
-    pub fn open(&mut self, path: String, uri: Uri, version: i32, text: String) {
+    pub fn open(&mut self, path: String, item: TextDocumentItem) {
         let stamp = self.next();
-        self.open.insert(path, Document { uri, version, text, stamp });
+        let TextDocumentItem { uri, language_id, version, text } = item;
+        let language = language_id.into();
+        self.open.insert(path, Document { uri, language, version, text, stamp });
     }
 
     /// Forgets a document; its file counts from now on.

@@ -156,9 +156,8 @@ impl Server {
         let workspace = &mut self.workspace;
         match method.as_str() {
             "textDocument/didOpen" => {
-                let lsp::TextDocumentItem { uri, version, text, .. } =
-                    params::<lsp::DidOpenTextDocumentParams>(value)?.text_document;
-                workspace.documents.open(uri::path(&uri), uri, version, text);
+                let item = params::<lsp::DidOpenTextDocumentParams>(value)?.text_document;
+                workspace.documents.open(uri::path(&item.uri), item);
             }
             "textDocument/didChange" => {
                 let change: lsp::DidChangeTextDocumentParams = params(value)?;

@@ -84,6 +84,12 @@ impl Workspace {
         self.host.read(path)
     }
 
+    /// Whether a file is one of plans or of a toolbox: by its name or, where it has none yet, as the client says.
+    pub fn is_afp(&self, path: &str) -> bool {
+        let said = || self.documents.get(path).is_some_and(|document| document.language == "afp");
+        path.ends_with(".afp") || said()
+    }
+
     /// Forgets what a file meant.
     pub fn forget(&mut self, path: &str) {
         self.analyses.remove(path);
@@ -202,7 +208,7 @@ impl Workspace {
         let mut paths: Vec<String> =
             self.folders.iter().flat_map(|folder| self.host.plan_files(folder)).collect();
         paths.extend(self.documents.iter().map(|(path, _)| path.to_owned()));
-        paths.retain(|path| path.ends_with(".afp"));
+        paths.retain(|path| self.is_afp(path));
         paths.sort();
         paths.dedup();
         paths.retain(|path| self.text(path).is_ok_and(|text| !is_toolbox(&text)));

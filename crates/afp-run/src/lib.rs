@@ -19,7 +19,6 @@ mod run;
 mod stderr;
 mod stop;
 mod svg;
-mod units;
 pub mod world;
 
 use std::process::ExitCode;

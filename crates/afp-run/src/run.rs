@@ -14,8 +14,8 @@ use afp_core::{Ending, Instant};
 use afp_log::{About, LogError, OwnedNames, SessionLog, Written};
 use afp_project::ProjectFile;
 use afp_session::{
-    AnyRobot, AnySession, AnyWorld, Build, Counts, Drawing, Figures, LastResort, Observer, Pose2,
-    Recipe, Requested, SessionError, TextFile, Track,
+    AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
+    Requested, SessionError, TextFile, Track,
 };
 
 use crate::again::Again;
@@ -106,20 +106,8 @@ fn find_world(
         let refused = |why| RunError::usage(format!("'--start': {why}"), "choose another start");
         world = world.started_at(start).map_err(refused)?;
     }
-    let drawing = world.world.drawing();
-    if is_outside(&drawing, drawing.start) && !is_outside(&drawing, usual) {
-        warn("the robot starts outside of all that stands in its world");
-    }
+    world.warning(usual).into_iter().for_each(warn);
     Ok(world)
-}
-
-/// Whether a place is left or right of everything that stands in a world, or above or below of it.
-fn is_outside(world: &Drawing, at: Pose2) -> bool {
-    let beyond = |of: fn(&[f64; 2]) -> f64, at: f64| {
-        let all = || world.things.iter().flat_map(|thing| thing.outline.iter().map(of));
-        all().all(|corner| corner < at) || all().all(|corner| corner > at)
-    };
-    beyond(|corner| corner[0], at.x) || beyond(|corner| corner[1], at.y)
 }
 
 /// All that it takes to repeat the run, but for what comes from outside.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use afp_output::{read_file, read_text};
 use afp_project::{ProjectFile, shown};
-use afp_session::{AnyRobot, AnyWorld, Pose2, WorldError};
+use afp_session::{AnyRobot, AnyWorld, Drawing, Pose2, WorldError};
 
 use crate::error::RunError;
 
@@ -44,6 +44,22 @@ impl LoadedWorld {
         let world = self.world.started_at(start)?;
         Ok(LoadedWorld { world, start: Some(start), ..self })
     }
+
+    /// What is strange about where the robot starts, but usually does not.
+    pub fn warning(&self, usual: Pose2) -> Option<&'static str> {
+        let drawing = self.world.drawing();
+        let strange = is_outside(&drawing, drawing.start) && !is_outside(&drawing, usual);
+        strange.then_some("the robot starts outside of all that stands in its world")
+    }
+}
+
+/// Whether a place is left or right of everything that stands in a world, or above or below of it.
+fn is_outside(world: &Drawing, at: Pose2) -> bool {
+    let beyond = |of: fn(&[f64; 2]) -> f64, at: f64| {
+        let all = || world.things.iter().flat_map(|thing| thing.outline.iter().map(of));
+        all().all(|corner| corner < at) || all().all(|corner| corner > at)
+    };
+    beyond(|corner| corner[0], at.x) || beyond(|corner| corner[1], at.y)
 }
 
 /// What asks for a room made up instead of a file, before the seed.

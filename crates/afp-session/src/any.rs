@@ -143,13 +143,16 @@ pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
 }
 
 /// Why an entry cannot be set.
+///
+/// [`SetError::explained`] says it with the entry, and what to do.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum SetError {
     /// There is no such entry.
     Unknown,
-    /// It is no `in` entry.
-    NotIn,
+    /// It is a `var` entry before the start, when its initial value would replace it.
+    TooEarly,
+    /// It is no `in` or `var` entry.
+    ReadOnly,
     /// The text is no value of its type; a quantity may be written in these units.
     Unreadable {
         /// Why.
@@ -165,7 +168,10 @@ impl fmt::Display for SetError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SetError::Unknown => f.write_str("there is no such entry"),
-            SetError::NotIn => f.write_str("it cannot be set from outside: it is no 'in' entry"),
+            SetError::TooEarly => {
+                f.write_str("it cannot be set before the start: its initial value would replace it")
+            }
+            SetError::ReadOnly => f.write_str("it cannot be set from outside"),
             SetError::Unreadable { why, .. } => why.fmt(f),
             SetError::Refused(why) => why.fmt(f),
         }

@@ -30,6 +30,7 @@ mod faults;
 mod figures;
 mod hardware;
 mod holds;
+mod not_set;
 mod observer;
 pub mod parts;
 mod recipe;
@@ -41,6 +42,7 @@ mod sample;
 mod session;
 mod stimulus;
 mod track;
+mod units;
 mod world;
 
 pub use any::{AnySession, SetError, refusal};
@@ -54,6 +56,7 @@ pub use figures::{Figure, FigureValue, Figures, Span};
 pub use hardware::{Hardware, LastResort, NoWorld, Opened, Settings};
 #[cfg(feature = "load")]
 pub use hardware::{Opener, hardware};
+pub use not_set::{NotSet, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
@@ -66,6 +69,7 @@ pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, re
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};
+pub use units::some_units;
 pub use world::{AnyWorld, Drawing, Outlines, Patch, Thing, World, WorldError};
 
 /// What macros name in the crates of others.

@@ -111,24 +111,25 @@ impl PlanFile {
         PlanText::read(argument)?.compile()
     }
 
-    /// The plan of a log, from the texts that the log holds, or else from its file.
+    /// The plan of a log in a file, from the texts that the log holds, or else from the plan's file.
     ///
     /// # Errors
     /// The log names no plan, or its file cannot be read.
-    pub fn of_log(log: &LogData) -> Result<PlanFile, RunError> {
+    pub fn of_log(log: &LogData, at: &Path) -> Result<PlanFile, RunError> {
         let Recipe { plan, file, texts, toolboxes, .. } = log.recipe();
         if file.is_empty() {
             return Err(RunError::usage("the log does not say which plan ran", "name a whole log"));
         }
+        let path = path_of_log(log, at);
         let Some(first) = texts.first() else {
-            return PlanFile::read(&format!("{file}:{plan}"));
+            return PlanFile::read(&format!("{}:{plan}", path.display()));
         };
         let read = |path: &str| {
             let found = texts.iter().find(|known| known.name == path);
             found.map(|it| it.text.clone()).ok_or_else(|| "it is not in the log".to_owned())
         };
         let source = Source::new(&first.name, &first.text);
-        PlanFile::compile_with((file.into(), &source), &read, Some(&plan), &toolboxes)
+        PlanFile::compile_with((path, &source), &read, Some(&plan), &toolboxes)
     }
 
     /// Compiles a plan with toolboxes that its project may not have, for their declarations.
@@ -183,6 +184,19 @@ impl PlanFile {
     }
 }
 
+/// The file of the plan that a log is of. It may have been named as seen from another folder than that of this command:
+/// then it is looked for from the folders around the log, too, first with the text that ran.
+pub fn path_of_log(log: &LogData, at: &Path) -> PathBuf {
+    let Recipe { file, texts, .. } = log.recipe();
+    let log = std::path::absolute(at).unwrap_or_else(|_| at.to_owned());
+    let around = log.ancestors().skip(1).map(|folder| folder.join(&file));
+    let found: Vec<_> =
+        std::iter::once(PathBuf::from(&file)).chain(around).filter(|path| path.is_file()).collect();
+    let text = texts.first().map(|first| &first.text);
+    let ran = |path: &&PathBuf| read_text(path).is_ok_and(|known| Some(&known) == text);
+    found.iter().find(ran).or(found.first()).cloned().unwrap_or_else(|| file.into())
+}
+
 /// `FILE:Plan` taken apart; a file whose own name holds the colon wins.
 fn split(argument: &str) -> (PathBuf, Option<&str>) {
     match argument.rsplit_once(':') {
@@ -209,7 +223,7 @@ mod tests {
             attachments: texts.map(owned).into(),
             ..LogData::default()
         };
-        let file = PlanFile::of_log(&log).unwrap();
+        let file = PlanFile::of_log(&log, Path::new("/nowhere/p.mcap")).unwrap();
         assert!(file.compiled.graph.is_some(), "{}", file.compiled.render(false));
         assert_eq!(file.foreign, ["mine"], "the plan does not use the other one");
     }

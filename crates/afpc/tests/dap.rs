@@ -14,8 +14,14 @@ fn told(bytes: &[u8]) -> Said {
 }
 
 fn told_in(place: &Place, bytes: &[u8]) -> Said {
+    told_at(place, "", &["dap"], bytes)
+}
+
+/// The same, started in a folder of the place with other words.
+fn told_at(place: &Place, folder: &str, words: &[&str], bytes: &[u8]) -> Said {
     let mut command = place.command();
-    command.arg("dap").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.current_dir(place.path(folder));
+    command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     // Who is not understood may not be read to the end.
     child.stdin.take().unwrap().write_all(bytes).ok();
@@ -85,6 +91,77 @@ fn a_log_is_looked_at_with_the_text_that_ran() {
     place.write("run.mcap", "no log");
     let none = told_in(&place, talk(1).as_bytes());
     assert!(none.succeeds().out.contains(r#""success":false"#), "{none:?}");
+}
+
+#[test]
+fn breakpoints_bind_in_the_files_of_a_log_wherever_the_adapter_runs() {
+    let place = Place::new();
+    place.write("afp.toml", "");
+    let part = "use std\n\nplan Part {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+    place.write("plans/parts/part.afp", part);
+    let plan = "use \"parts/part.afp\"\n\nplan Whole {\n    start p\n    subplan p: Part { OK -> terminate }\n}\n";
+    place.write("plans/whole.afp", plan);
+    place.write("elsewhere/plans/whole.afp", "another\n");
+    place.write("logs/notes", "");
+    let named = place.path("plans/whole.afp").display().to_string();
+    for (plan, log) in [("plans/whole.afp", "a.mcap"), (&*named, "b.mcap")] {
+        place.afpc(&format!("run {plan} --svg none --log logs/{log}")).succeeds();
+        let log = place.path(&format!("logs/{log}")).display().to_string();
+        for folder in ["", "plans", "elsewhere"] {
+            let file = |name: &str| place.path(name).canonicalize().unwrap().display().to_string();
+            let set = |name: &str| {
+                let at = format!(
+                    r#"{{"source":{{"path":"{}"}},"breakpoints":[{{"line":5}}]}}"#,
+                    file(name)
+                );
+                framed("setBreakpoints", &at)
+            };
+            let launch = framed("launch", &format!(r#"{{"log":"{log}","stopOnEntry":true}}"#));
+            let (whole, part) = (set("plans/whole.afp"), set("plans/parts/part.afp"));
+            let bytes = [launch, whole, part, framed("disconnect", "{}")].concat();
+            let said = told_at(&place, folder, &["dap"], bytes.as_bytes());
+            assert_eq!(
+                said.out.matches(r#""verified":true"#).count(),
+                2,
+                "{folder} {plan}: {said:?}"
+            );
+            assert!(!said.out.contains("sourceReference"), "{folder} {plan}: {said:?}");
+        }
+    }
+}
+
+#[test]
+fn a_folder_is_the_same_however_it_is_named() {
+    let place = Place::new();
+    place.write("w/plan.afp", "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n");
+    place.write("other.afp", "use std\n");
+    let launch =
+        |program: &str| framed("launch", &format!(r#"{{"program":"{program}"}}"#)).into_bytes();
+    for (at, folder, program) in
+        [("w", ".", "plan.afp"), ("", "w", "w/plan.afp"), ("w", "../w/", "plan.afp")]
+    {
+        let said = told_at(&place, at, &["dap", "--inside", folder], &launch(program));
+        assert!(said.out.contains(r#""plan":"P""#), "{folder}: {said:?}");
+    }
+    let said = told_at(&place, "", &["dap", "--inside", "w"], &launch("other.afp"));
+    assert!(said.out.contains("'other.afp' lies outside of '"), "{said:?}");
+    let said = told_at(&place, "", &["dap", "--inside", "nope"], b"");
+    said.fails(1, &["cannot open the folder 'nope'"]);
+    let said = told_at(&place, "", &["dap", "--inside", "other.afp"], b"");
+    said.fails(2, &["'other.afp' is no folder"]);
+}
+
+#[test]
+fn a_strange_start_is_told() {
+    let place = Place::with_plan();
+    for (start, strange) in [("[100,100,0]", true), ("[1,1,0]", false)] {
+        let launch =
+            format!(r#"{{"program":"wall_following.afp","start":{start},"stopOnEntry":true}}"#);
+        let bytes = [framed("launch", &launch), framed("configurationDone", "{}")].concat();
+        let said = told_in(&place, bytes.as_bytes());
+        let warning = "warning: the robot starts outside of all that stands in its world";
+        assert_eq!(said.out.contains(warning), strange, "{start}: {said:?}");
+    }
 }
 
 /// A client on a stream of bytes.

@@ -213,6 +213,31 @@ fn what_is_no_log_is_refused() {
 }
 
 #[test]
+fn what_is_the_log_of_something_else_is_told() {
+    let place = Place::with_plan();
+    let magic = b"\x89MCAP0\r\n";
+    let record =
+        |code: u8, body: &[u8]| [&[code], &(body.len() as u64).to_le_bytes()[..], body].concat();
+    let bytes =
+        [&magic[..], &record(1, &[0; 8]), &record(15, &[0; 4]), &record(2, &[0; 20]), magic]
+            .concat();
+    std::fs::write(place.path("foreign.mcap"), bytes).unwrap();
+    let why = "'foreign.mcap' is not the log of a run of AFP";
+    for words in [
+        "log foreign.mcap",
+        "log foreign.mcap --svg a.svg",
+        "log foreign.mcap --sonar a.svg",
+        "log foreign.mcap --film a.svg",
+        "log foreign.mcap --coverage a.svg",
+        "run --again foreign.mcap",
+    ] {
+        place.afpc(words).fails(1, &[why, "help: name a file that a run wrote"]);
+    }
+    assert!(!place.exists("a.svg"));
+    assert!(place.afpc("log foreign.mcap info").succeeds().out.contains("whole  yes"));
+}
+
+#[test]
 fn words_that_do_nothing_or_stand_elsewhere_are_told() {
     let place = Place::with_plan();
     place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none").succeeds();

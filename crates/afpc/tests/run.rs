@@ -157,7 +157,7 @@ fn entries_are_set_with_their_units() {
     run("--set walldist=35deg").fails(2, &["not a length", "a number and a unit: m, cm, mm"]);
     run("--set walldist=3,5cm").fails(2, &["not a length", "help: write 'walldist=3.5cm'"]);
     run("--set wall=1m").fails(2, &["no entry 'wall'", "can be set: 'walldist' (length)"]);
-    run("--set wallangle=1rad").fails(2, &["'wallangle' cannot be set", "'in' entry"]);
+    run("--set wallangle=1rad").fails(2, &["'wallangle' cannot be set", "'walldist' (length)"]);
     run("--set walldist").fails(2, &["distance=35cm"]);
 }
 

@@ -23,8 +23,8 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
     if let Some([x, y, heading]) = launch.start {
         add("--start", format!("{x}m,{y}m,{heading}rad"));
     }
-    if launch.seed != 0 {
-        add("--seed", launch.seed.to_string());
+    if let Some(seed) = launch.seed.filter(|seed| *seed != 0) {
+        add("--seed", seed.to_string());
     }
     for (entry, text) in &launch.set {
         add("--set", format!("{entry}={text}"));

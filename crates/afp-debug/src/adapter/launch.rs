@@ -13,7 +13,7 @@ use super::clients::Counting;
 use super::ended::By;
 use super::steer::{Mode, Pace};
 use super::stop::stopped_event;
-use super::{Adapter, Answer, Refusal, Run};
+use super::{Adapter, Answer, Refusal, Run, parse};
 use crate::breakpoints::Filters;
 
 /// What is to be run, and how.
@@ -32,9 +32,9 @@ pub struct Launch {
     /// Where the robot starts, metres and radians; without it where the world says.
     #[serde(default)]
     pub start: Option<[f64; 3]>,
-    /// The seed of all noise.
+    /// The seed of all noise; 0 without one.
     #[serde(default)]
-    pub seed: u64,
+    pub seed: Option<u64>,
     /// Values for `in` entries as people write them, `"30 cm"`.
     #[serde(default)]
     pub set: BTreeMap<String, String>,
@@ -67,12 +67,6 @@ pub(super) struct Attach {
     /// Whether it answers for its role.
     #[serde(default)]
     lease: bool,
-}
-
-/// What a run begins with again, where the client says so.
-#[derive(Deserialize)]
-struct Restart {
-    arguments: Option<Launch>,
 }
 
 /// What can go wrong that a run may be held at.
@@ -270,6 +264,9 @@ impl Adapter<'_> {
         let run = self.run()?;
         run.has_begun = true;
         let (held, kept) = (run.launch.stop_on_entry, run.target.is_kept());
+        for warning in run.target.warnings().to_vec() {
+            self.output("console", &format!("warning: {warning}\n"));
+        }
         if !kept {
             self.output("console", "the robot, or something of the plan, cannot be copied: going back runs all of it again from the start\n");
         }
@@ -284,11 +281,7 @@ impl Adapter<'_> {
     pub(super) fn restart(&mut self, arguments: &Value, now: Wall) -> Answer<Value> {
         let run = self.run()?;
         let traced = run.traced.is_some();
-        // Clients send along what they launched with; what is no launch is nothing new.
-        let wanted = serde_json::from_value(arguments.clone()).ok();
-        let wanted = wanted.and_then(|it: Restart| it.arguments);
-        let wanted = wanted.filter(|it| !it.program.is_empty() || it.log.is_some());
-        let launch = wanted.unwrap_or_else(|| run.launch.clone());
+        let launch = again(arguments)?.unwrap_or_else(|| run.launch.clone());
         check(&launch)?;
         self.begin(launch, now)?;
         let run = self.run()?;
@@ -352,6 +345,16 @@ impl Adapter<'_> {
     }
 }
 
+/// What a run begins with again, where a client says so; one that joined the run sends along what it joined with.
+///
+/// # Errors
+/// It says so, and it is wrong.
+fn again(arguments: &Value) -> Answer<Option<Launch>> {
+    let said = &arguments["arguments"];
+    let names = |key: &str| !matches!(&said[key], Value::Null) && said[key] != "";
+    (names("program") || names("log")).then(|| parse(said.clone())).transpose()
+}
+
 /// # Errors
 /// What is to be run cannot be: why.
 fn check(launch: &Launch) -> Answer<()> {
@@ -363,6 +366,7 @@ fn check(launch: &Launch) -> Answer<()> {
     }
     let fresh = launch.world.is_some()
         || launch.start.is_some()
+        || launch.seed.is_some()
         || !launch.set.is_empty()
         || launch.until.is_some();
     match &launch.log {
@@ -373,7 +377,7 @@ fn check(launch: &Launch) -> Answer<()> {
         }
         Some(_) if fresh => {
             return Err(
-                "a log is run again as it was: leave 'world', 'start', 'set' and 'until' out"
+                "a log shows what was: leave 'world', 'start', 'seed', 'set' and 'until' out"
                     .into(),
             );
         }

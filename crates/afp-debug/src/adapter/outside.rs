@@ -12,6 +12,8 @@ use serde_json::{Value, json};
 
 use super::steer::Pace;
 use super::{Adapter, Answer, Refusal};
+use crate::log_target::READ_ONLY;
+use crate::target::Target;
 
 #[derive(Deserialize)]
 pub(super) struct Press {
@@ -44,9 +46,18 @@ pub(super) struct Speed {
     factor: Option<f64>,
 }
 
-impl Adapter<'_> {
+impl<'h> Adapter<'h> {
+    /// What runs, to change something in it.
+    fn changeable(&mut self) -> Answer<&mut (dyn Target + 'h)> {
+        let target = &mut *self.run()?.target;
+        match target.is_recorded() {
+            true => Err(READ_ONLY.into()),
+            false => Ok(target),
+        }
+    }
+
     pub(super) fn press(&mut self, press: &Press) -> Answer<Value> {
-        let target = &mut self.run()?.target;
+        let target = self.changeable()?;
         let devices = target.devices();
         let unknown = || Refusal(format!("the robot has no control '{}'", press.control));
         let id = find_control(devices, &press.control).ok_or_else(unknown)?;
@@ -56,7 +67,7 @@ impl Adapter<'_> {
     }
 
     pub(super) fn fault(&mut self, fault: &Break) -> Answer<Value> {
-        let target = &mut self.run()?.target;
+        let target = self.changeable()?;
         let named = fault.fault.split_once('.');
         let found = named.and_then(|(device, name)| find_fault(target.devices(), device, name));
         let unknown = || Refusal(format!("nothing of the robot fails as '{}'", fault.fault));
@@ -90,7 +101,7 @@ impl Adapter<'_> {
 
     fn put(&mut self, what: Put, [x, y, heading]: [f64; 3]) -> Answer<Value> {
         let at = Pose2 { x, y, heading };
-        self.run()?.target.ask(Duration::ZERO, Request::Put(what, at))?;
+        self.changeable()?.ask(Duration::ZERO, Request::Put(what, at))?;
         Ok(Value::Null)
     }
 

@@ -1,12 +1,15 @@
 //! Breakpoints by lines, paths and entries.
 
+use std::collections::BTreeSet;
+
 use afp_core::trace::ComponentId;
 use afp_dsl::graph::EntryKind;
 use dapts::{BreakpointEventReason as Changed, event};
 
 use super::stop::source;
 use super::{Adapter, Answer, ClientId};
-use crate::breakpoints::{Breakpoint, Set};
+use crate::breakpoints::{Breakpoint, Found, Set};
+use crate::hit_count::HitCount;
 use crate::program::{Program, Spot};
 use crate::watched::Watched;
 
@@ -57,17 +60,24 @@ impl At {
 }
 
 impl Wanted {
-    /// The breakpoint of that number in a program.
-    ///
+    /// The breakpoint of that number in a program, which may be nowhere in it.
+    pub(crate) fn made(self, id: u64, program: &Program) -> Breakpoint {
+        Breakpoint { id, found: self.found(program), hits: Vec::new(), wanted: self }
+    }
+
     /// # Errors
-    /// Why there is none.
-    pub(crate) fn made(self, id: u64, program: &Program) -> Result<Breakpoint, String> {
+    /// Why it is nowhere.
+    fn found(&self, program: &Program) -> Result<Found, String> {
         let (spots, line) = self.at.spots(program)?;
-        let plan = spots.first().map_or(ComponentId(0), |spot| program.plan_at(*spot));
         let text = self.condition.as_deref().filter(|text| !text.trim().is_empty());
-        let condition = text.map(|text| Watched::condition(program, plan, text)).transpose()?;
-        let from_hit = hit(self.hits.as_deref())?;
-        Ok(Breakpoint { id, spots, line, condition, from_hit, hits: Vec::new(), wanted: self })
+        let plans: BTreeSet<_> = spots.iter().map(|spot| program.plan_at(*spot)).collect();
+        let condition = |text| {
+            let inside = |plan| Ok((plan, Watched::condition(program, plan, text)?));
+            plans.into_iter().map(inside).collect::<Result<_, String>>()
+        };
+        let conditions = text.map(condition).transpose()?.unwrap_or_default();
+        let counted = HitCount::new(self.hits.as_deref().unwrap_or_default())?;
+        Ok(Found { spots, line, counted, conditions })
     }
 
     /// The file that it is in, where it was set in one.
@@ -127,21 +137,10 @@ impl Adapter<'_> {
     /// Sets all breakpoints of a kind; an answer for each that is wanted. Others are told of them.
     fn set_all(&mut self, set: Set, wanted: Vec<Wanted>) -> Answer<Vec<dapts::Breakpoint>> {
         let program = self.run()?.target.program().clone();
-        let (mut all, mut told) = (Vec::new(), Vec::new());
-        let counting = self.counting();
-        for wanted in wanted {
-            let id = self.breakpoints.number();
-            match wanted.made(id, &program) {
-                Ok(made) => {
-                    told.push(shown(&made, &program, counting.first_line));
-                    all.push(made);
-                }
-                Err(why) => {
-                    let (id, message) = (Some(id), Some(why));
-                    told.push(dapts::Breakpoint { id, message, ..dapts::Breakpoint::default() });
-                }
-            }
-        }
+        let first = self.counting().first_line;
+        let made = |wanted: Wanted| wanted.made(self.breakpoints.number(), &program);
+        let all: Vec<_> = wanted.into_iter().map(made).collect();
+        let told = all.iter().map(|each| shown(each, &program, first)).collect();
         let owner = self.asker;
         let before = self.breakpoints.set(owner, set, all.clone());
         self.send_breakpoints(owner, Changed::Removed, &before, &program);
@@ -165,7 +164,7 @@ impl Adapter<'_> {
         }
     }
 
-    /// Tells a client of a breakpoint of another one.
+    /// Tells a client of a breakpoint, whose it is where it is of another one.
     pub(super) fn send_breakpoint(
         &mut self,
         other: ClientId,
@@ -175,21 +174,22 @@ impl Adapter<'_> {
         program: &Program,
     ) {
         let first = self.counting_of(other).first_line;
-        let message = Some(format!("set by {}", self.name_of(owner)));
-        let breakpoint = dapts::Breakpoint { message, ..shown(breakpoint, program, first) };
+        let mut breakpoint = shown(breakpoint, program, first);
+        if other != owner {
+            let why = breakpoint.message.map(|why| format!(": {why}")).unwrap_or_default();
+            breakpoint.message = Some(format!("set by {}{why}", self.name_of(owner)));
+        }
         self.event_to::<event::Breakpoint>(other, &dapts::BreakpointEvent { breakpoint, reason });
     }
 
-    /// Finds all breakpoints anew in a program that has taken the place of another one.
+    /// Finds all breakpoints anew in a program that has taken the place of another one; tells everybody of those that
+    /// are elsewhere now.
     pub(super) fn find_breakpoints(&mut self, program: &Program) {
-        for (lost, why) in self.breakpoints.find_in(program) {
-            let breakpoint = dapts::Breakpoint {
-                id: Some(lost.id),
-                message: Some(why),
-                ..dapts::Breakpoint::default()
-            };
-            let reason = Changed::Changed;
-            self.event::<event::Breakpoint>(&dapts::BreakpointEvent { breakpoint, reason });
+        let clients: Vec<_> = self.attached().collect();
+        for (owner, moved) in self.breakpoints.find_in(program) {
+            for client in &clients {
+                self.send_breakpoint(*client, owner, Changed::Changed, &moved, program);
+            }
         }
     }
 
@@ -236,24 +236,22 @@ impl Adapter<'_> {
     }
 }
 
-/// A breakpoint that is somewhere, as the protocol has it.
+/// A breakpoint as the protocol has it.
 fn shown(breakpoint: &Breakpoint, program: &Program, first_line: u32) -> dapts::Breakpoint {
-    let file = breakpoint.wanted.file().and_then(|path| program.file(path));
-    dapts::Breakpoint {
-        id: Some(breakpoint.id),
-        verified: true,
-        line: breakpoint.line.map(|line| line + first_line),
-        source: file.and_then(|file| source(program, file)),
-        ..dapts::Breakpoint::default()
+    let id = Some(breakpoint.id);
+    match &breakpoint.found {
+        Ok(found) => {
+            let file = breakpoint.wanted.file().and_then(|path| program.file(path));
+            dapts::Breakpoint {
+                id,
+                verified: true,
+                line: found.line.map(|line| line + first_line),
+                source: file.and_then(|file| source(program, file)),
+                ..dapts::Breakpoint::default()
+            }
+        }
+        Err(why) => {
+            dapts::Breakpoint { id, message: Some(why.clone()), ..dapts::Breakpoint::default() }
+        }
     }
-}
-
-/// From which hit on a breakpoint holds the run: `3`, or `>= 3`.
-fn hit(text: Option<&str>) -> Result<u64, String> {
-    let text = text.unwrap_or_default().trim();
-    if text.is_empty() {
-        return Ok(1);
-    }
-    let number = text.trim_start_matches(['>', '=', ' ']);
-    number.parse().map_err(|_| format!("'{text}' is no number of hits: write one, such as 3"))
 }

@@ -33,10 +33,11 @@ pub fn session(graph: &Graph, launch: &Launch) -> Result<Box<dyn AnySession>, St
     let robot = afp_sim::carbot(|_| {});
     let world = robot.kind().world(robot.kind().default_world());
     let world = world.map_err(|why| why.to_string())?;
-    let session = robot.session(graph, &*world, launch.seed, &[]);
+    let session = robot.session(graph, &*world, launch.seed.unwrap_or(0), &[]);
     let mut session = session.map_err(|why| why.to_string())?;
     for (name, text) in &launch.set {
-        session.set(name, text).map_err(|why| format!("'{name}': {why}"))?;
+        let set = session.set(name, text);
+        set.map_err(|why| why.explained(&*session, name, text).to_string())?;
     }
     Ok(session)
 }

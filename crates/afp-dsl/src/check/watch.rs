@@ -17,12 +17,16 @@ use crate::scenario::Comparison;
 use crate::toolbox::Constant;
 use crate::types::{Enum, Type};
 use afp_syntax::ast::{self, Item, Name};
-use afp_syntax::diagnostics::Diagnostics;
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// What comes before a formula so that it can be read like any other.
 const BEFORE: &str = "plan Watched { var watched: float = ";
 /// What comes behind it.
 const BEHIND: &str = "\n}";
+
+/// What can be watched.
+const WATCHED: &str =
+    "write an entry by its name, or a formula of entries; two formulas may be compared";
 
 /// The signs of comparisons; of two that begin alike the longer one comes first.
 const SIGNS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
@@ -51,6 +55,13 @@ impl Watch {
     pub fn new(graph: &Graph, plan: PlanId, text: &str) -> Result<Watch, WatchError> {
         let inside = Inside::new(graph, graph.plan(plan));
         let Some((left, sign, right)) = compared(text) else {
+            if let Some((left, right)) = text.split_once('=').filter(|_| !text.contains('"')) {
+                let (left, right) = (left.trim(), right.trim());
+                return Err(WatchError {
+                    message: "'=' compares nothing".to_owned(),
+                    help: format!("write '{left} == {right}'"),
+                });
+            }
             return Ok(Watch { left: inside.formula(text, None)?, right: None });
         };
         let left = inside.formula(left, None)?;
@@ -138,23 +149,54 @@ impl Inside {
         };
         // A text that ends the plan around it is none.
         let end = BEFORE.len() + text.trim_end().len();
+        let ends = read.as_ref().map(|read| read.span().end as usize);
         let whole_text = |read: &ast::Formula| read.span().end as usize == end;
         let typed = read.filter(|read| !diags.has_errors() && whole_text(read));
         let typed = typed.and_then(|formula| scope.check(&formula, want, &mut diags));
-        typed.map(|(formula, _)| formula).ok_or_else(|| match diags.iter().next() {
-            Some(first) => {
-                // The bracket that ends the text is not the reader's.
-                let message = match text.contains('}') {
-                    true => first.message.clone(),
-                    false => first.message.replace(", found '}'", ""),
-                };
-                WatchError { message, help: first.help.clone() }
-            }
-            None => WatchError {
-                message: format!("'{}' is no formula", text.trim()),
-                help: "write an entry, or a formula of entries".to_owned(),
-            },
-        })
+        typed.map(|(formula, _)| formula).ok_or_else(|| refused(text, ends, &diags))
+    }
+}
+
+/// What is wrong with a text of which a formula that ends there was read.
+fn refused(text: &str, ends: Option<usize>, diags: &Diagnostics) -> WatchError {
+    let first = diags.iter().next();
+    let from = |first: &Diagnostic| (first.span.start as usize).saturating_sub(BEFORE.len());
+    let ends = ends.map(|ends| ends.saturating_sub(BEFORE.len()));
+    let rest = ends.filter(|ends| first.is_none_or(|first| from(first) >= *ends));
+    let rest = rest.and_then(|ends| text.get(ends..)).map(str::trim).unwrap_or_default();
+    match first {
+        _ if text.contains('}') => WatchError {
+            message: format!("'{}' is no formula", text.trim()),
+            help: WATCHED.to_owned(),
+        },
+        _ if !rest.is_empty() => WatchError {
+            message: format!("'{rest}' stands behind the formula"),
+            help: WATCHED.to_owned(),
+        },
+        // The bracket that ends the text is not the reader's.
+        Some(first) => WatchError {
+            message: first.message.replace(", found '}'", ""),
+            help: help(text, first),
+        },
+        None => WatchError {
+            message: format!("'{}' is no formula", text.trim()),
+            help: WATCHED.to_owned(),
+        },
+    }
+}
+
+/// What to do about a mistake in a formula. Who watches cannot change the plan around it.
+fn help(text: &str, mistake: &Diagnostic) -> String {
+    use Code::{E0101, E0102, E0109, E0209, E0239};
+
+    let of_names = matches!(mistake.code, E0101 | E0102 | E0109 | E0209 | E0239);
+    let behind = (mistake.span.end as usize).saturating_sub(BEFORE.len());
+    // Of 'Plan.entry' the first name is no enum that is written wrong.
+    let is_home = text.get(behind..).is_some_and(|behind| behind.starts_with('.'));
+    let of_formula = mistake.fix.is_some() || mistake.help.starts_with("write ") && !is_home;
+    match of_names && !of_formula {
+        true => WATCHED.to_owned(),
+        false => mistake.help.clone(),
     }
 }
 

@@ -154,6 +154,7 @@ fn sixteen_times_the_junk_takes_about_sixteen_times_as_long() {
         "=> # ",
         "( ",
         "# x = 3\n",
+        "--------------------",
         "plan P {}\n",
         "actor a: Forward(\n",
         "actor a: W { a, a, a, ",

@@ -83,7 +83,16 @@ fn what_cannot_be_watched_says_why() {
         ("side < Side.left", "have no order (help: write '==' or '!=')"),
         ("way > ", ""),
         ("way } plan Q {", "'way } plan Q {' is no formula"),
-        ("way == 1 m == 2 m", ""),
+        ("way == 1 m == 2 m", "'== 2 m' stands behind the formula (help: write an entry"),
+        ("way way", "'way' stands behind the formula (help: write an entry"),
+        ("way, left", "', left' stands behind the formula"),
+        ("?", "'?' has no meaning here (help: write an entry"),
+        ("not lost", "formulas have no 'not' (help: write an entry"),
+        ("lost && lost", "(help: write an entry by its name"),
+        ("lost ? way : 1 m", "(help: write an entry by its name"),
+        ("left = 3", "'=' compares nothing (help: write 'left == 3')"),
+        ("Run.way", "there is no enum 'Run' (help: write an entry by its name"),
+        ("Side.up", "'Side' has no value 'up' (help: write 'left' or 'right')"),
     ] {
         let refused = Watch::new(&graph, graph.main, text).expect_err(text);
         assert!(refused.to_string().contains(why), "{text}: {refused}");

@@ -107,6 +107,20 @@ impl TextBuffer {
         self.pieces = before;
     }
 
+    /// Whether the text so far is in canonical form.
+    pub fn is_canonical(&self) -> bool {
+        afp_format::format(&self.text).is_ok_and(|formatted| formatted == self.text)
+    }
+
+    /// Puts the text so far into canonical form, if it can be read.
+    pub fn make_canonical(&mut self) {
+        let formatted = afp_format::format(&self.text).ok();
+        if let Some(edit) = formatted.and_then(|formatted| difference(&self.text, &formatted)) {
+            let Span { start, end, .. } = edit.span;
+            self.splice(vec![(start as usize..end as usize, edit.text)]);
+        }
+    }
+
     /// The edits that make the first text, of `length` bytes, into the present one, in order; their
     /// spans are in `file`.
     pub fn edits(self, length: usize, file: u16) -> Vec<Edit> {
@@ -134,6 +148,23 @@ pub(super) fn span(file: u16, range: Range<usize>) -> Span {
     Span { file, start: offset(range.start), end: offset(range.end) }
 }
 
+/// The one edit that makes a text another one; `None` where they are the same. It begins and ends at
+/// borders of lines.
+pub fn difference(before: &str, after: &str) -> Option<Edit> {
+    if before == after {
+        return None;
+    }
+    let same = |lines: &mut dyn Iterator<Item = (&str, &str)>| {
+        lines.take_while(|(a, b)| a == b).map(|(a, _)| a.len()).sum::<usize>()
+    };
+    let start = same(&mut before.split_inclusive('\n').zip(after.split_inclusive('\n')));
+    let (rest, new) = (&before[start..], &after[start..]);
+    let mut back = rest.split_inclusive('\n').rev().zip(new.split_inclusive('\n').rev());
+    let end = same(&mut back);
+    let span = span(0, start..before.len() - end);
+    Some(Edit { span, text: new[..new.len() - end].to_owned() })
+}
+
 fn tree(text: &str) -> (Node, usize) {
     let mut diags = Diagnostics::default();
     let parse = parse(text, 0, &mut diags);
@@ -144,7 +175,7 @@ fn tree(text: &str) -> (Node, usize) {
 mod tests {
     use std::rc::Rc;
 
-    use super::TextBuffer;
+    use super::{TextBuffer, difference};
     use crate::edit::apply;
 
     #[test]
@@ -167,5 +198,17 @@ mod tests {
         let edits = buffer.edits(3, 0);
         assert_eq!(edits.len(), 1);
         assert_eq!(apply("abc", &edits), "");
+    }
+
+    #[test]
+    fn the_difference_makes_one_text_the_other() {
+        let texts =
+            ["", "a\n", "a\nb\nc\n", "a\nx\nc\n", "a\nc\n", "a\nb\nc", "a\na\na\n", "a\na\n"];
+        for before in texts {
+            for after in texts {
+                let edits: Vec<_> = difference(before, after).into_iter().collect();
+                assert_eq!(apply(before, &edits), after);
+            }
+        }
     }
 }

@@ -5,6 +5,7 @@
 
 mod answers;
 mod prefixes;
+mod shipped;
 mod support;
 
 use support::{Case, cases, compare};

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use afp_draw::layout_file::Layout;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_dsl::outline::Part;
-use afp_ide::edit::{Change, follow};
+use afp_ide::edit::{Change, difference, follow};
 use afp_syntax::item::Item;
 use afp_syntax::source::{Source, Span};
 use gen_lsp_types as lsp;
 use serde_json::{Value, json};
 
 use crate::answer::{Answer, Failure, ok};
-use crate::convert::{FileEdits, Places, difference, text_edit};
+use crate::convert::{FileEdits, Places, text_edit};
 use crate::server::Server;
 use crate::uri;
 use crate::workspace::Analysis;
@@ -183,7 +183,7 @@ impl Server {
 pub(crate) fn formatting(server: &mut Server, params: lsp::DocumentFormattingParams) -> Answer {
     let path = uri::path(&params.text_document.uri);
     let text = server.workspace.text(&path).map_err(Failure::Refused)?;
-    if !path.ends_with(".afp") {
+    if !server.workspace.is_afp(&path) {
         return Ok(Value::Null);
     }
     let Ok(formatted) = afp_format::format(&text) else {

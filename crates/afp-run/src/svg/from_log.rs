@@ -45,7 +45,8 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
         help: String::new(),
     };
     let Some(text) = log.attachments.get(WORLD) else {
-        return Err(content(format!("the log has no attachment '{WORLD}'"), None, ""));
+        let help = "name the log of a run, which begins with its world";
+        return Err(RunError::usage("the log does not say in which world the plan ran", help));
     };
     let world = robot.world(text).map_err(|error| content(error.message, error.span, text))?;
     let recipe = log.recipe();

@@ -2,8 +2,7 @@
 
 use afp_core::rt::{Scale, Unit, parse_quantity};
 use afp_number::SingleUnit;
-
-use crate::units::some;
+use afp_session::some_units;
 
 /// What a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +37,7 @@ impl Measure {
         let all = units.iter().map(|(name, scale)| Unit { name, scale: *scale });
         parse_quantity(text, all).map_err(|_| {
             let names = units.iter().map(|(name, _)| name.as_str());
-            format!("expected a number with a unit: {}", some(names))
+            format!("expected a number with a unit: {}", some_units(names))
         })
     }
 

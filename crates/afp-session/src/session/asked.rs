@@ -276,8 +276,10 @@ where
         let plan = self.scheduler.plan();
         let id = plan.entry_named(entry).ok_or(SetError::Unknown)?;
         let kind = self.names.entry(TraceEntryId(id.into())).kind;
-        if !self.started && kind != EntryKind::In {
-            return Err(SetError::NotIn);
+        match kind {
+            EntryKind::Out | EntryKind::Const => return Err(SetError::ReadOnly),
+            EntryKind::Var if !self.started => return Err(SetError::TooEarly),
+            EntryKind::In | EntryKind::Var => {}
         }
         let value = plan.read(id, text).map_err(|why| SetError::Unreadable {
             why,
@@ -285,7 +287,8 @@ where
         })?;
         match self.write(id, value.clone()) {
             Ok(()) => Ok(value),
-            Err(WriteError::ReadOnly | WriteError::NotStarted) => Err(SetError::NotIn),
+            Err(WriteError::ReadOnly) => Err(SetError::ReadOnly),
+            Err(WriteError::NotStarted) => Err(SetError::TooEarly),
             Err(why) => Err(SetError::Refused(why)),
         }
     }

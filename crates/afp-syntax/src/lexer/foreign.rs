@@ -85,12 +85,15 @@ impl Lexer<'_, '_> {
         let rest = &self.text[self.at..];
         let sign = COMMENTS.into_iter().find(|sign| rest.starts_with(sign))?;
         let before = self.text[..self.at].trim_end_matches([' ', '\t']);
-        let begins_line = before.is_empty() || before.ends_with('\n');
+        // First, for a line may be long and hold nothing but such signs.
+        if !before.is_empty() && !before.ends_with('\n') {
+            return None;
+        }
         let line = &rest[sign.len()..line_length(rest)];
         let is_text = |word: &str| word.chars().all(|each| is_word(each) || each == '\'');
         let mut words = line.split_whitespace();
         let follow = words.next().is_some_and(is_text) && words.next().is_some_and(is_text);
-        (begins_line && line.starts_with(' ') && follow && begins_comment(rest)).then_some(sign)
+        (line.starts_with(' ') && follow && begins_comment(rest)).then_some(sign)
     }
 
     /// Takes the rest of a line that is a comment elsewhere.

@@ -17,7 +17,7 @@ impl Lexer<'_, '_> {
             self.blank(blank);
             self.foreign(foreign, ours);
         } else if let Some((_, length)) = Unit::scan(behind)
-            && !is_bound(&behind[length..])
+            && !is_bound(&behind[..length], &behind[length..])
         {
             self.blank(blank);
             self.push(Kind::Unit, length);
@@ -47,8 +47,9 @@ impl Lexer<'_, '_> {
     }
 }
 
-/// Whether what looks like a unit is a name: something is bound to it.
-fn is_bound(behind: &str) -> bool {
+/// Whether what looks like a unit is a name that a value is bound to, behind a comma that is missing.
+fn is_bound(unit: &str, behind: &str) -> bool {
     let behind = behind.trim_start();
-    behind.starts_with("->") || (behind.starts_with('=') && !behind.starts_with("=="))
+    let is_name = unit.chars().all(|each| is_word(each) || each.is_ascii_digit());
+    is_name && behind.starts_with('=') && !behind.starts_with("==") && !behind.starts_with("=>")
 }

@@ -137,7 +137,11 @@ impl Parser<'_, '_> {
         let is_value =
             matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Text | Kind::OpenParen)
                 || self.nth(1).is_comparison();
+        let is_arrow = matches!(self.nth(0), Kind::FatArrow | Kind::Arrow);
         match self.word(0) {
+            _ if self.follows_value() && is_arrow && self.nth(1) != Kind::Name => {
+                ("',' or ')' behind a value", "remove it".to_owned())
+            }
             _ if self.follows_value() => {
                 let help = "write ',' and a port before it, or a sign such as '*'";
                 ("',' or ')' behind a value", help.to_owned())

@@ -208,6 +208,10 @@ impl Parser<'_, '_> {
         if !strange {
             return;
         }
+        // Where it is one, what stands behind it is wrong.
+        if Unit::meant(word).is_some_and(|unit| unit == word) {
+            return self.bump_as(Kind::Unit);
+        }
         let error = Diagnostic::new(Code::E0236, self.here(), format!("'{word}' is not a unit"));
         let meant = Unit::meant(word).map(str::to_owned);
         self.error(match meant.or_else(|| Unit::power_meant(word)) {

@@ -5,7 +5,7 @@ mod senses;
 mod simulator;
 mod talk;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use afp_debug::Adapter;
 use afp_run::{EXIT_OK, RunError};
@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     match arguments.port {
         None => {
             let simulator = match &arguments.inside {
-                Some(folder) => Simulator::inside(linked, folder),
+                Some(folder) => Simulator::inside(linked, &opened(folder)?),
                 None => Simulator::new(linked),
             };
             let adapter = Adapter::new(Box::new(simulator));
@@ -71,4 +71,16 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         Some(port) => listen::listen(port, linked)?,
     }
     Ok(EXIT_OK)
+}
+
+/// The path of a folder from the root, without links.
+fn opened(folder: &Path) -> Result<PathBuf, RunError> {
+    let path = folder.canonicalize().map_err(RunError::file("cannot open the folder", folder))?;
+    match path.is_dir() {
+        true => Ok(path),
+        false => Err(RunError::usage(
+            format!("'{}' is no folder", folder.display()),
+            "name the folder of the plans",
+        )),
+    }
 }

@@ -6,7 +6,7 @@ mod timeline;
 
 use std::path::PathBuf;
 
-use afp_log::{doctor, read, recover, recovered_name};
+use afp_log::{doctor, read, read_any, recover, recovered_name};
 use afp_run::{EXIT_FAILED, EXIT_OK, RunError, is_same_file, say};
 use clap::{Args, ValueEnum};
 
@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
             print(&timeline::text(&log))
         }
         Action::Info => {
-            let log = read(&arguments.file).map_err(RunError::from)?;
+            let log = read_any(&arguments.file).map_err(RunError::from)?;
             print(&info::text(&arguments.file, &log))
         }
         Action::Recover => save(arguments),
@@ -116,8 +116,11 @@ fn save(arguments: &Arguments) -> Result<u8, NoPlan> {
     }
     let saved = recover(&arguments.file, &to).map_err(RunError::from)?;
     match &saved.damage {
-        Some(damage) => say(format_args!("the log ends early: {damage}")),
+        Some(damage) => say(format_args!("the log is not whole: {damage}")),
         None => say("nothing was wrong with the log"),
+    }
+    for missing in &saved.missing {
+        say(format_args!("missing: {missing}"));
     }
     print(&format!("{} messages saved\n{}\n", saved.messages, saved.path.display()))
 }

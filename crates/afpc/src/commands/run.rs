@@ -24,7 +24,7 @@ pub struct Arguments {
 
 /// The plan of a log whose run can be repeated here.
 fn of_log(log: &Path) -> Result<PlanFile, RunError> {
-    let file = PlanFile::of_log(&afp_log::read(log)?)?;
+    let file = PlanFile::of_log(&afp_log::read(log)?, log)?;
     let Some(name) = file.foreign.first() else { return Ok(file) };
     let path = log.display();
     Err(RunError::usage(

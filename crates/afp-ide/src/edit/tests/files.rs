@@ -224,8 +224,8 @@ use carbot as c
 use \"lib/deep/rest.afp\"
 
 plan Main {
-    var seen: length
-    var mood: Mood = Mood.calm // Mood
+    var seen:  length
+    var mood:  Mood = Mood.calm // Mood
     var mood2: Mood
     start forth
     // on

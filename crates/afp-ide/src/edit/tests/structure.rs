@@ -221,7 +221,7 @@ plan P {
     // goes
     actor go2: A(x = 3 * (base + 1 m) / 2, y => own) {
         supervise touch: T(far = base2) { Touched -> go2 }
-        Done -> back
+        Done  -> back
         Error -> terminate
     }
 
@@ -241,7 +241,7 @@ fn what_fails_inside_leads_where_the_fault_of_the_sub_plan_leads() {
             "Touched -> go }\n        Done -> fail \"x\"",
         )
         .replace("Error       -> terminate // badly", "Error       -> go");
-    let edge = "{ Touched -> go2 }\n        Done -> go\n        Error -> go\n";
+    let edge = "{ Touched -> go2 }\n        Done  -> go\n        Error -> go\n";
     let inlined = after(&failing, inline());
     assert!(inlined.contains(edge), "{inlined}");
     let uncaught = failing.replace("        Error       -> go\n", "");

@@ -28,7 +28,7 @@ impl<'a> Simulator<'a> {
         Simulator { linked: *linked, folder: None }
     }
 
-    /// Runs plans and shows logs that lie in a folder, and no others.
+    /// Runs plans and shows logs that lie in a folder, and no others; its path is one from the root, without links.
     pub fn inside(linked: &Linked<'a>, folder: &Path) -> Self {
         Simulator { linked: *linked, folder: Some(folder.to_owned()) }
     }
@@ -86,20 +86,24 @@ impl<'a> Host<'a> for Simulator<'a> {
         let asked = launch.world.as_deref().map(Path::new);
         let mut found =
             world::find(asked, &file.path, robot.kind()).map_err(|why| why.to_string())?;
+        let usual = found.world.drawing().start;
         if let Some([x, y, heading]) = launch.start {
             found = found.started_at(Pose2 { x, y, heading })?;
         }
-        let program = program(&graph, &file);
+        let warning = found.warning(usual);
+        let program = program(&graph, &file, &absolute);
         let launch = launch.clone();
         let make = move || {
-            let session = robot.session(&graph, &*found.world, launch.seed, &[]);
+            let session = robot.session(&graph, &*found.world, launch.seed.unwrap_or(0), &[]);
             let mut session = session.map_err(|why| format!("{why}: {}", why.help()))?;
             for (name, text) in &launch.set {
-                session.set(name, text).map_err(|why| format!("'{name}': {why}"))?;
+                let set = session.set(name, text);
+                set.map_err(|why| why.explained(&*session, name, text).to_string())?;
             }
             Ok(session)
         };
-        Ok(Box::new(SessionTarget::new(Arc::new(program), Box::new(make))?))
+        let target = SessionTarget::new(Arc::new(program), Box::new(make))?;
+        Ok(Box::new(target.with_warnings(warning.map(str::to_owned).into_iter().collect())))
     }
 
     fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
@@ -141,11 +145,19 @@ impl<'a> Host<'a> for Simulator<'a> {
 /// A run that is over.
 fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, String> {
     let mut log = afp_log::read(path).map_err(|why| why.to_string())?;
-    let file = PlanFile::of_log(&log).map_err(|why| why.to_string())?;
+    let file = PlanFile::of_log(&log, path).map_err(|why| why.to_string())?;
     let shown = file.compiled.render(false);
     let graph = file.compiled.graph.clone().ok_or(shown)?;
+    // The texts of a log are named as seen from the folder of the plan.
+    let folder = file.path.parent().unwrap_or(Path::new(""));
+    let folder = std::path::absolute(folder).unwrap_or_default();
+    let named = |name: &str| match log.attachments.contains_key(name) {
+        true => absolute(&folder.join(name).display().to_string()),
+        false => absolute(name),
+    };
+    let program = program(&graph, &file, &named);
     let events = std::mem::take(&mut log.events);
-    let target = LogTarget::new(Arc::new(program(&graph, &file)), events)?;
+    let target = LogTarget::new(Arc::new(program), events)?;
     let target = target.with_poses(std::mem::take(&mut log.poses));
     let senses = Senses::take(&mut log, devices);
     let target = target.with_senses(move |at, robot| senses.at(at, robot));
@@ -153,8 +165,8 @@ fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, Str
 }
 
 /// A plan with its places; texts that are not those of files go along.
-fn program(graph: &Graph, file: &PlanFile) -> Program {
-    let mut program = Program::new(graph, &file.compiled.sources, &absolute);
+fn program(graph: &Graph, file: &PlanFile, path: &dyn Fn(&str) -> String) -> Program {
+    let mut program = Program::new(graph, &file.compiled.sources, path);
     program.keep_texts(&file.compiled.sources, &|path, text| {
         fs::read_to_string(path).is_ok_and(|known| known == text)
     });

@@ -9,7 +9,7 @@ use afp_test::Coverage;
 
 use super::Arguments;
 use crate::commands::graph;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::plan_file::{NoPlan, PlanFile, path_of_log};
 use crate::{Linked, picture, runner};
 
 /// Draws the pictures that are asked for, each into its file.
@@ -26,8 +26,8 @@ pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoP
     let log = read(&arguments.file).map_err(RunError::from)?;
     if svg.is_some() || sonar.is_some() {
         // Only the robot of the project that the run was of can read its world.
-        let file = log.facts.get("plan_file").map_or("", String::as_str);
-        runner::become_one_of(&ProjectFile::of_plan(Path::new(file))?, linked)?;
+        let plan = path_of_log(&log, &arguments.file);
+        runner::become_one_of(&ProjectFile::of_plan(&plan)?, linked)?;
     }
     let robot = linked.robot.kind();
     if let Some(path) = svg {
@@ -40,13 +40,13 @@ pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoP
         picture::write(path, &afp_run::draw_film(&log)?)?;
     }
     if let Some(path) = coverage {
-        draw_coverage(&log, path)?;
+        draw_coverage((&log, &arguments.file), path)?;
     }
     Ok(())
 }
 
-fn draw_coverage(log: &LogData, path: &Path) -> Result<(), NoPlan> {
-    let (file, graph) = PlanFile::of_log(log)?.checked()?;
+fn draw_coverage((log, at): (&LogData, &Path), path: &Path) -> Result<(), NoPlan> {
+    let (file, graph) = PlanFile::of_log(log, at)?.checked()?;
     let Some(used) = Coverage::of_log(&graph, log) else {
         let message = format!("the log does not fit '{}' as it is now", file.path.display());
         return Err(RunError::usage(message, "run the plan again").into());

@@ -10,7 +10,7 @@ const USUAL: [&str; 20] = [
 const NAMED: usize = 8;
 
 /// Some of the units, the usual ones first: `m/s, cm/s, mm/s, km/h, ...`.
-pub fn some<'a>(units: impl IntoIterator<Item = &'a str>) -> String {
+pub fn some_units<'a>(units: impl IntoIterator<Item = &'a str>) -> String {
     let mut units: Vec<&str> = units.into_iter().collect();
     units.sort_by_key(|unit| USUAL.iter().position(|usual| usual == unit).unwrap_or(USUAL.len()));
     units.truncate(NAMED);
@@ -22,7 +22,7 @@ mod tests {
     #[test]
     fn the_usual_ones_are_named() {
         let units = ["um/s", "m/ns", "km/h", "m/h", "cm/s", "m/s", "mm/s", "m/us", "m/min", "um/h"];
-        assert_eq!(super::some(units), "m/s, cm/s, mm/s, km/h, um/s, m/ns, m/h, m/us");
-        assert_eq!(super::some(["V", "mV"]), "V, mV");
+        assert_eq!(super::some_units(units), "m/s, cm/s, mm/s, km/h, um/s, m/ns, m/h, m/us");
+        assert_eq!(super::some_units(["V", "mV"]), "V, mV");
     }
 }

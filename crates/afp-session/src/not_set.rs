@@ -1,0 +1,143 @@
+//! Why an entry cannot be set, for people: one wording for all who set entries.
+
+use std::fmt;
+
+use afp_core::Fault;
+use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
+use afp_excerpt::words::a;
+use afp_number::number_length;
+
+use crate::any::{AnySession, SetError, refusal};
+use crate::units::some_units;
+
+/// Why an entry cannot be set, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotSet {
+    /// Why.
+    pub why: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl fmt::Display for NotSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (help: {})", self.why, self.help)
+    }
+}
+
+impl std::error::Error for NotSet {}
+
+impl SetError {
+    /// Why a session refused that text for an entry of that name.
+    pub fn explained(&self, session: &dyn AnySession, name: &str, text: &str) -> NotSet {
+        let names = session.names();
+        let id = id(names, name);
+        let entry = names.entry(id);
+        let help = || settable(session);
+        match self {
+            SetError::Unknown if entry.path.is_empty() => {
+                NotSet { why: format!("the plan has no entry '{name}'"), help: help() }
+            }
+            SetError::Unknown => NotSet {
+                why: format!("the entry '{name}' of a sub-plan cannot be set from outside"),
+                help: help(),
+            },
+            SetError::TooEarly => NotSet {
+                why: format!(
+                    "the entry '{name}' cannot be set before the start: its initial value would replace it"
+                ),
+                help: help(),
+            },
+            SetError::ReadOnly => NotSet {
+                why: format!(
+                    "the entry '{name}' cannot be set from outside: it is declared '{}'",
+                    entry.kind.word()
+                ),
+                help: help(),
+            },
+            SetError::Unreadable { why, units } => NotSet {
+                why: format!("'{name}={text}': not {}", a(entry.ty)),
+                help: readable(names, id, (name, text), *why, units),
+            },
+            SetError::Refused(why) => {
+                NotSet { why: format!("'{name}={text}': {}", refusal(*why, entry)), help: help() }
+            }
+        }
+    }
+}
+
+/// The entry of that name.
+fn id(names: &dyn Names, name: &str) -> TraceEntryId {
+    let mut ids = (0..names.entries()).map(TraceEntryId);
+    ids.find(|id| names.entry(*id).path == name).unwrap_or(TraceEntryId(u32::MAX))
+}
+
+/// The entries that can be set now.
+fn settable(session: &dyn AnySession) -> String {
+    let names = session.names();
+    let started = session.active().is_some() || session.ending().is_some();
+    let is_open = |kind| kind == EntryKind::In || started && kind == EntryKind::Var;
+    let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
+    let open = entries.filter(|entry| is_open(entry.kind) && !entry.path.contains('.'));
+    let list: Vec<_> = open.map(|it| format!("'{}' ({})", it.path, what_it_takes(it))).collect();
+    match list.is_empty() {
+        false => format!("entries that can be set: {}", list.join(", ")),
+        true if started => "this plan has no 'in' or 'var' entries".to_owned(),
+        true => "this plan has no 'in' entries".to_owned(),
+    }
+}
+
+/// The type of an entry and its range.
+pub fn what_it_takes(entry: EntryName<'_>) -> String {
+    let range = entry.range_text().map(|range| format!(" {range}")).unwrap_or_default();
+    format!("{}{range}", entry.ty)
+}
+
+/// How a value of an entry is written.
+fn readable(
+    names: &dyn Names,
+    id: TraceEntryId,
+    (name, text): (&str, &str),
+    why: Fault,
+    units: &[String],
+) -> String {
+    let EntryName { ty, unit, .. } = names.entry(id);
+    let choices = (0..u16::MAX).map(|value| names.choice(id, value));
+    let choices: Vec<_> = choices.take_while(|choice| !choice.is_empty()).collect();
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+    match (ty, number) {
+        _ if let Some(text) = with_a_point(text, units) => format!("write '{name}={text}'"),
+        (_, Some(_)) if !unit.is_empty() => {
+            let handy = units.iter().find(|unit| *unit == "cm" || *unit == "deg");
+            let unit = handy.map_or(unit, String::as_str);
+            format!("write the unit: '{name}={text}{unit}'")
+        }
+        _ if !unit.is_empty() => {
+            format!("a number and a unit: {}", some_units(units.iter().map(String::as_str)))
+        }
+        _ if !choices.is_empty() => format!("one of: {}", choices.join(", ")),
+        _ if why == Fault::TOO_LONG => why.to_string(),
+        ("bool", _) => format!("write '{name}=true' or '{name}=false'"),
+        ("int", Some(number)) if number.fract() == 0.0 && number.abs() <= EXACT => {
+            format!("write '{name}={number}'")
+        }
+        ("int", _) => format!("a whole number, such as '{name}=3'"),
+        ("float", _) => format!("a number, such as '{name}=0.5'"),
+        _ => format!("'{name}' is {}", a(ty)),
+    }
+}
+
+/// A number with a decimal comma, and one of the units where there are any, with a point.
+fn with_a_point(text: &str, units: &[String]) -> Option<String> {
+    let (whole, part) = text.split_once(',')?;
+    let text = format!("{whole}.{part}");
+    let unit = text.get(number_length(&text)..)?.trim();
+    let fits = match units {
+        [] => unit.is_empty(),
+        units => units.iter().any(|known| known == unit),
+    };
+    fits.then_some(text)
+}
+
+/// The greatest whole number up to which floats have each.
+const EXACT: f64 = 9_007_199_254_740_992.0;
