@@ -22,7 +22,7 @@ export function register(): void {
   command({ id: "text", label: words.text, key: "Ctrl+E", run: () => toggle("text") });
   command({ id: "inspector", label: words.inspector, run: () => toggle("inspector") });
   command({ id: "problems", label: words.problems, key: "Ctrl+Shift+M", run: () => toggle("problems") });
-  command({ id: "run-pane", label: words.runPane, key: "Ctrl+Shift+U", run: () => toggle("run") });
+  command({ id: "run-pane", label: words.runPaneCommand, key: "Ctrl+Shift+U", run: () => toggle("run") });
   command({ id: "timeline", label: words.timeline, key: "Ctrl+Shift+Y", run: () => toggle("timeline") });
   command({ id: "scenarios", label: words.scenarios, run: () => toggle("scenarios") });
   command({ id: "jobs", label: words.jobs, run: () => toggle("jobs") });
@@ -63,7 +63,7 @@ function enterSoon(name: string, before = document.activeElement, end = performa
 const ENTERED_WITHIN = 10_000;
 
 /** What of a pane takes the focus, the first one that is there. */
-const ENTRIES = [".cm-content", "[role=application]", ".body input", ".body button", ".body", "button"];
+const ENTRIES = [".cm-content", "[role=application]", ".body input:enabled", ".body button:enabled", ".body", "button:enabled"];
 
 function enter(pane: Element | null): void {
   const inside = ENTRIES.map((each) => pane?.querySelector<HTMLElement>(each)).find((each) => each);

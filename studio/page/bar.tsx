@@ -2,6 +2,7 @@
 import { batch } from "@preact/signals";
 import { current, isFailed, nameOf, saved } from "./documents";
 import { Controls } from "./debug/controls";
+import { log } from "./debug/run";
 import { drawing, leave, plan, trail, wanted } from "./drawing/model";
 import { finding } from "./finder";
 import { redo, redoLabel, undo, undoLabel } from "./history";
@@ -81,21 +82,28 @@ function Saved() {
   const state = saved.value;
   if (!current.value) return null;
   const failed = isFailed(state);
+  const not = failed || state === "disputed";
+  // What is shown is no text then.
+  const shown = log.value.split("/").at(-1);
+  if (shown && !not) return <span class="saved log" role="status" title={words.logOf(shown)}>{words.logShown(shown)}</span>;
   return (
-    <span class={`saved ${failed ? "failed" : state}`} role="status" title={failed ? words.notSavedBecause(state) : ""}>
-      {failed ? words.notSaved : state === "saved" ? words.saved : words.saving}
+    <span class={`saved ${not ? "failed" : state}`} role="status" title={failed ? words.notSavedBecause(state) : ""}>
+      {not ? words.notSaved : state === "saved" ? words.saved : words.saving}
     </span>
   );
 }
 
+/** Whether what is shown is drawn, and nothing of it is a plan. */
+export const hasNoPlan = (): boolean => drawing.value?.uri === current.value && drawing.value.plan === null;
+
 function ProblemCount() {
   if (!current.value) return null;
   const [errors, warnings] = [number("error"), number("warning")];
-  const said = [errors && words.errors(errors), warnings && words.warnings(warnings)].filter(Boolean).join(", ") || words.ready;
+  const said = [errors && words.errors(errors), warnings && words.warnings(warnings)].filter(Boolean).join(", ") || (hasNoPlan() ? words.noPlan : words.ready);
   const toggle = (): void => (bottom.value === "problems" ? void (bottom.value = null) : show("problems"));
   return (
     <button class="count" onClick={toggle} aria-label={words.showProblems(said)} aria-expanded={bottom.value === "problems"}>
-      {errors > 0 ? <Severity of="error" /> : warnings > 0 ? <Severity of="warning" /> : <Sign name="check" />}
+      {errors > 0 ? <Severity of="error" /> : warnings > 0 ? <Severity of="warning" /> : !hasNoPlan() && <Sign name="check" />}
       <span>{said}</span>
     </button>
   );

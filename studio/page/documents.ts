@@ -1,17 +1,14 @@
 // The texts of the page: opened from the room, changed in one place, told to the server, said to be saved by it alone.
 import { computed, signal } from "@preact/signals";
+import { difference, inOrder, type TextEdit } from "./changes";
+import { conflicts, dispute, settle, type Keep } from "./conflicts";
 import { attach, clear, push, record, type Change, type Step } from "./history";
 import { LOST, Refused, type Lsp } from "./lsp";
-import { offset, position, type Range } from "./positions";
+import { position, type Range } from "./positions";
 import type { Part } from "./drawing/shapes";
 import { select } from "./selection";
 import { files, lsp, pen, type Kept } from "./session";
 import { words } from "./words";
-
-export interface TextEdit {
-  range: Range;
-  newText: string;
-}
 
 export interface WorkspaceEdit {
   documentChanges?: (
@@ -52,16 +49,29 @@ const MOST_TOLD = 256;
 /** The address of the plan file that is shown; empty without one. */
 export const current = signal("");
 
-/** What the server says of the texts: all written, being written, or why one is not. */
-export const saved = computed<"saved" | "saving" | (string & {})>(() => {
+/** What the server says of the texts: all written, being written, not before somebody has chosen, or why one is not. */
+export const saved = computed<"saved" | "saving" | "disputed" | (string & {})>(() => {
   const all = [...documents.value.values()];
   const failed = all.find((each) => each.failed !== null);
   if (failed) return failed.failed!;
-  return all.every((each) => each.written >= each.version) ? "saved" : "saving";
+  if (conflicts.value.length > 0) return "disputed";
+  return all.every(isWritten) ? "saved" : "saving";
 });
 
+const isWritten = (document: Document): boolean => document.written >= document.version;
+
 /** Whether something could not be written; then it says why. */
-export const isFailed = (state: string): boolean => state !== "saved" && state !== "saving";
+export const isFailed = (state: string): boolean => !["saved", "saving", "disputed"].includes(state);
+
+/** The texts that lie nowhere but here, as far as known. */
+export const unsent = computed<readonly { uri: string; text: string }[]>(() => {
+  const open = [...documents.value.values()].filter((document) => !isWritten(document));
+  const asked = conflicts.value.flatMap(({ uri, mine }) => (mine === null ? [] : [{ uri, text: mine }]));
+  return [...asked, ...open.map(({ uri, text }) => ({ uri, text }))];
+});
+
+/** The addresses of the texts that are open. */
+export const opened = computed<readonly string[]>(() => [...documents.value.keys()]);
 
 export const text = (uri: string): string => documents.value.get(uri)?.text ?? "";
 export const version = (uri: string): number => documents.value.get(uri)?.version ?? 0;
@@ -172,28 +182,11 @@ async function asked<T>(ask: () => Promise<T>): Promise<T> {
   }
 }
 
-/** Edits of one text, all for the text as it is, as changes to be made one after the other. */
-export function inOrder(uri: string, text: string, edits: TextEdit[]): Change[] {
-  const changes = edits.map(({ range, newText }) => ({ uri, from: offset(text, range.start), to: offset(text, range.end), insert: newText }));
-  // From the end, so that none moves another; of two at one place the later one first.
-  return changes.map((change, at) => ({ change, at })).sort((a, b) => b.change.from - a.change.from || b.at - a.at).map(({ change }) => change);
-}
-
 /** Takes over what was typed in the text pane. Changes are made one after the other. */
 export function typed(changes: Change[]): void {
   const steps = make(changes, "text");
   const label = steps.every((step) => step.inserted === "") ? words.deleting : words.typing;
   record({ label, steps, ...(steps.length === 1 ? { typed: Date.now() } : {}) });
-}
-
-/** The one change between two texts: what both begin and end with is left out. */
-export function difference(uri: string, before: string, after: string): Change[] {
-  if (before === after) return [];
-  let from = 0;
-  while (from < before.length && from < after.length && before[from] === after[from]) from++;
-  let [to, end] = [before.length, after.length];
-  while (to > from && end > from && before[to - 1] === after[end - 1]) [to, end] = [to - 1, end - 1];
-  return [{ uri, from, to, insert: after.slice(from, end) }];
 }
 
 /** Connects texts, history and server, with no text open; `ask` puts a question with choices and gives the chosen one. */
@@ -215,46 +208,53 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
   lsp().on("afp/changed", ({ uri, text: now, clean }: { uri: string; text: string; clean: boolean }) => {
     if (!documents.peek().has(uri)) return;
     if (clean) {
-      conflicts.value = conflicts.value.filter((one) => one.uri !== uri || !one.held);
+      settle(uri);
       return arrived(uri, now);
     }
-    const choose = (keep: Keep) => lsp().request<void>("afp/choose", { uri, keep });
-    if (pen.value) dispute({ uri, choices: ["mine", "theirs", "both"], held: true, choose });
+    const choose = async (keep: Keep): Promise<void> => {
+      chosen.set(uri, keep);
+      await lsp().request<void>("afp/choose", { uri, keep }).catch((why) => {
+        chosen.delete(uri);
+        throw why;
+      });
+    };
+    if (pen.value) dispute({ uri, choices: ["mine", "theirs", "both"], mine: null, choose });
   });
-  lsp().on("afp/pen", ({ yours }) => {
-    // Who begins to change things begins a history of his own.
-    if (yours && !pen.peek()) clear();
-    pen.value = yours;
-  });
+  lsp().on("afp/pen", hold);
 }
 
-export type Keep = "mine" | "theirs" | "both";
+/** What was chosen here, while the text that comes of it is on its way. */
+const chosen = new Map<string, Keep>();
 
-/** Two changes of the same lines, of which somebody has to choose. */
-export interface Conflict {
-  uri: string;
-  choices: Keep[];
-  /** Whether the room holds both texts, and says when it is over. */
-  held: boolean;
-  choose(keep: Keep): Promise<void>;
+function hold({ yours }: { yours: boolean }): void {
+  // Who begins to change things begins a history of his own.
+  if (yours && !pen.peek()) clear();
+  pen.value = yours;
 }
 
-export const conflicts = signal<readonly Conflict[]>([]);
+/** Begins to change things here; who did it before watches. */
+export async function takePen(): Promise<void> {
+  hold(await lsp().request("afp/pen", { take: true }));
+}
 
-function dispute(one: Conflict): void {
-  const settled = () => conflicts.value.filter(({ uri }) => uri !== one.uri);
+/** Asks whether a text that was written here, and lies nowhere else, takes the place of the one that is shown. */
+export function offer(uri: string, mine: string): void {
   const choose = async (keep: Keep): Promise<void> => {
-    await one.choose(keep);
-    conflicts.value = settled();
+    if (keep !== "mine") return;
+    if (!pen.peek()) await takePen();
+    push({ label: words.keep.mine, changes: difference(uri, text(uri), mine) });
   };
-  conflicts.value = [...settled(), { ...one, choose }];
+  dispute({ uri, choices: ["mine", "theirs"], mine, choose });
 }
 
 /** Takes over a text of the room. What was saved here is so still: theirs lies in the file. */
 function arrived(uri: string, now: string, tell = true): void {
   const { text: before, written, version } = documents.peek().get(uri)!;
+  const own = chosen.get(uri);
+  chosen.delete(uri);
   const steps = before === now ? [] : make(difference(uri, before, now), "outside", tell);
-  if (steps.length > 0) record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
+  if (own) record({ label: words.keep[own], steps });
+  else record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
   const document = documents.peek().get(uri)!;
   put({ ...document, written: written >= version ? document.version : written, base: now, failed: null });
 }
@@ -270,15 +270,12 @@ export async function again(first: Lsp): Promise<void> {
     told.delete(uri);
     first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text: theirs } });
     put({ ...documents.peek().get(uri)!, version, written: version, etag, base: theirs, failed: null });
-    if (ours && mine !== theirs) {
+    if (ours && mine !== theirs && pen.peek()) {
       first.notify("textDocument/didChange", { textDocument: { uri, version: version + 1 }, contentChanges: [{ text: mine }] });
       put({ ...documents.peek().get(uri)!, version: version + 1 });
     } else if (theirs !== mine) {
       arrived(uri, theirs, false);
-      const choose = async (keep: Keep) => {
-        if (keep === "mine") push({ label: words.keep.mine, changes: difference(uri, text(uri), mine) });
-      };
-      if (mine !== base) dispute({ uri, choices: ["mine", "theirs"], held: false, choose });
+      if (mine !== base) offer(uri, mine);
     }
   }
 }

@@ -6,7 +6,7 @@ import { listen } from "./commands";
 import * as breakpoints from "./debug/breakpoints";
 import * as run from "./debug/controls";
 import { begin as beginCurves } from "./debug/curves";
-import { begin as beginRuns } from "./debug/run";
+import { begin as beginRuns, log } from "./debug/run";
 import { begin as beginWhy } from "./debug/why";
 import { ask } from "./dialogs";
 import * as documents from "./documents";
@@ -22,6 +22,7 @@ import * as places from "./places";
 import * as problems from "./problems";
 import { Screen } from "./screen";
 import { begin, hello } from "./session";
+import { begin as beginUnsent } from "./unsent";
 import { words } from "./words";
 
 const scheme = location.protocol === "https:" ? "wss" : "ws";
@@ -41,10 +42,12 @@ beginWhy();
 beginCurves();
 beginJobs();
 guide.begin();
+beginUnsent(localStorage);
 listen(window);
 render(h(Screen, {}), document.getElementById("page")!);
 effect(() => {
-  document.title = words.title(documents.current.value && documents.nameOf(documents.current.value));
+  const file = documents.current.value && documents.nameOf(documents.current.value);
+  document.title = words.title(log.value ? words.logShown(log.value.split("/").at(-1)!) : file);
 });
 const begun = hello.subscribe((said) => {
   if (!said) return;

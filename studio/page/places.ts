@@ -13,9 +13,9 @@ export const shown = signal<{ uri: string; range: Range; focus: boolean } | null
 export const itemAt = (uri: string, position: Position): Promise<Part | null> =>
   lsp().request<Part | null>("afp/itemAt", { textDocument: { uri }, position });
 
-/** The place of an item, or of a part of it. */
-export const spanOf = (uri: string, { item, part }: Part): Promise<Range | null> =>
-  lsp().request<Range | null>("afp/spanOf", { textDocument: { uri }, item, ...(part ? { part } : {}) });
+/** The place of an item, or of a part of it; of an item with the comments that belong to it, where they are wanted. */
+export const spanOf = (uri: string, { item, part }: Part, comments = false): Promise<Range | null> =>
+  lsp().request<Range | null>("afp/spanOf", { textDocument: { uri }, item, comments, ...(part ? { part } : {}) });
 
 /** Something of the folder that has a name. */
 export interface Named {

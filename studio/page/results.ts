@@ -77,6 +77,8 @@ export const writeSome = () =>
   doing(words.writing, async () => {
     const done = await run(words.writeSome, { kind: "generate", file: current.peek() });
     if (done && !done.ok) throw new Error(plain(done.said) || words.jobFailed);
+    // What the others came to is no longer what all came to.
+    if (done) results.value = null;
     return done !== null;
   });
 
@@ -87,7 +89,7 @@ export const runAll = () =>
     if (!done) return;
     const all = done.results.filter((one): one is Result => typeof one.scenario === "string");
     coverage.value = done.results.filter((one) => typeof one.coverage === "string");
-    results.value = [...all.filter(({ passed }) => !passed), ...all.filter(({ passed }) => passed)];
+    results.value = all.length ? [...all.filter(({ passed }) => !passed), ...all.filter(({ passed }) => passed)] : null;
     if (!all.length) throw new Error(plain(done.said) || words.jobFailed);
   });
 
@@ -131,8 +133,8 @@ async function placed(mistake: Mistake): Promise<Wrong> {
 /** Where the text shows it. */
 export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1, character: column - 1 });
 
-/** A text of the command line without its colours. */
-export const plain = (text: string): string => text.replace(/\x1b\[[0-9;]*m/g, "").trim();
+/** A text of the command line without its colours, and without what helps at a command line alone. */
+export const plain = (text: string): string => text.replace(/\x1b\[[0-9;]*m/g, "").replace(/^For more information, try '--help'\.\s*$/m, "").trim();
 
 /** A path of the command line as a document of the folder. */
 export function uriOf(path: string): string {

@@ -4,8 +4,10 @@ import { useEffect, useRef } from "preact/hooks";
 import { Bar, Tool } from "./bar";
 import { Book } from "./book";
 import { Dialogs } from "./dialogs";
-import { conflicts, current, isFailed, nameOf, saved } from "./documents";
+import { conflicts } from "./conflicts";
+import { current, isFailed, nameOf, saved, takePen } from "./documents";
 import { EndCard } from "./debug/controls";
+import { pathOf } from "./debug/older";
 import { mountCanvas } from "./drawing/canvas";
 import { Finder } from "./finder";
 import { Sign } from "./icons";
@@ -51,16 +53,16 @@ export function Screen() {
 function Banners() {
   return (
     <div class="banners" role="status">
-      {!lsp().open.value && <p class="banner warning">{words.offline}</p>}
+      {!lsp().open.value && <p class="banner warning">{words.offline(pathOf(hello.value!.root), location.port)}</p>}
       {isFailed(saved.value) && <p class="banner error">{words.notSavedBecause(saved.value)}</p>}
       {!pen.value && (
         <p class="banner">
-          {words.watching} <button onClick={() => void lsp().request("afp/pen", { take: true })}>{words.takePen}</button>
+          {words.watching} <button onClick={() => void takePen().catch(report)}>{words.takePen}</button>
         </p>
       )}
-      {conflicts.value.map(({ uri, choices, choose }) => (
+      {conflicts.value.map(({ uri, choices, mine, choose }) => (
         <p class="banner warning" key={uri}>
-          {words.conflict(nameOf(uri))}
+          {(mine === null ? words.conflict : words.unsent)(nameOf(uri))}
           <span class="choices">
             {choices.map((keep) => <button onClick={() => void choose(keep).catch(report)} key={keep}>{words.keep[keep]}</button>)}
           </span>

@@ -6,7 +6,8 @@ export const words = {
   title: (name: string) => (name ? `${name} · AFP Studio` : "AFP Studio"),
   connecting: "Connecting …",
   connectionLost: "The connection to the server was lost.",
-  offline: "The connection to the server is lost. What you change is kept on this page and sent as soon as it is back.",
+  offline: (folder: string, port: string) =>
+    `The connection to the server is lost. What you change is kept on this page and sent as soon as it is back. If it has ended, start it again with 'afpc studio ${/^[\w./~-]+$/.test(folder) ? folder : `"${folder}"`}${port && ` --port ${port}`}' and open the address that it prints in this browser.`,
   watching: "Somebody else changes this folder. You watch.",
   takePen: "Change it myself",
 
@@ -27,6 +28,7 @@ export const words = {
   ok: "OK",
 
   conflict: (name: string) => `${name} was changed here and by another program, in the same lines. Nothing of it is written until you choose.`,
+  unsent: (name: string) => `What you wrote in ${name} is not in the file: the server was away. Keep it, or take what lies in the file?`,
   keep: { mine: "Keep mine", theirs: "Take theirs", both: "Keep both, marked" },
 
   pane: "this pane",
@@ -109,6 +111,8 @@ export const words = {
   older: "This run is of an older text.",
   olderText: "older text",
   notRun: (errors: number) => `Nothing was run: the plan has ${count(errors, "error", "errors")}. The first is selected.`,
+  notRunNoPlan: "Nothing was run: there is no plan in this file. Files shows the others of this folder.",
+  noPlan: "no plan here",
   notRunNotSaved: "Nothing was run: the text is not saved yet.",
   runLost: "The run has ended: the connection to it was lost.",
   ended: (ending: "ok" | "interrupted" | "error") => ({ ok: "The plan has ended", interrupted: "The run was interrupted", error: "The plan ended in Error" })[ending],
@@ -118,6 +122,7 @@ export const words = {
   copyIt: "Copy",
   studio: "the studio",
   runPane: "Run",
+  runPaneCommand: "Run (pane)",
   entries: "Entries",
   happened: "What happened",
   noRun: "Nothing runs. Press Run (F5): the plan drives the simulated robot.",
@@ -138,6 +143,8 @@ export const words = {
   rowsOf: (number: number) => `What happened, in ${count(number, "row", "rows")}`,
   barOf: (label: string, from: number, to: number | null) => `${label}: from ${from.toFixed(2)} s ${to === null ? "on" : `to ${to.toFixed(2)} s`}`,
   logs: "Logs of runs",
+  logCut: (name: string, why: string) => `The log ${name} is not whole, and is shown as far as it goes: ${why}`,
+  logShown: (name: string) => `log ${name}`,
   logOf: (name: string) => `The log ${name}: nothing of it can be changed`,
   why: "Why does it run, or not?",
   whyOf: (path: string) => `Why ${path}?`,
@@ -230,6 +237,7 @@ export const words = {
   cameraSees: "What the robot's camera sees",
   cameraLater: "The camera sees while a plan runs.",
   seed: "Seed",
+  seedWrong: `A seed is a whole number from 0 to ${Number.MAX_SAFE_INTEGER}`,
   seedHint: "The same seed makes the same noise: a run can be repeated exactly",
   controlsOfRobot: "Controls of the robot",
   pressLater: (help: string) => `${help} It can be pressed while a plan runs.`,

@@ -28,8 +28,8 @@ export interface Studio {
   becomes(name: string, wanted: RegExp): Promise<void>;
   /** Kills the server, as a crash does. */
   crash(): Promise<void>;
-  /** Starts another server on the same port, which the browser may enter. */
-  restart(): Promise<void>;
+  /** Starts another server on the same port, and gives the address that it prints; the browser may enter unless it is to do that itself. */
+  restart(enter?: boolean): Promise<string>;
   /** Waits until the page says "saved". */
   isSaved(): Promise<void>;
 }
@@ -137,9 +137,10 @@ export function inBrowser(name: string, files: Record<string, string>, run: (stu
       const holds = async (file: string, text: string): Promise<void> => assert.equal(await settled(() => read(file), (now) => now === text), text);
       const becomes = async (file: string, wanted: RegExp): Promise<void> => assert.match(await settled(() => read(file), (now) => wanted.test(now)), wanted);
       const crash = () => server.kill();
-      const restart = async (): Promise<void> => {
+      const restart = async (enter = true): Promise<string> => {
         server = await serve(folder, new URL(server.address).port);
-        await context.request.get(server.address);
+        if (enter) await context.request.get(server.address);
+        return server.address;
       };
       const isSaved = () => page.locator(".saved.saved:not(.saving, .failed)").waitFor();
       const failed = await run({ page, folder, read, write, holds, becomes, crash, restart, isSaved }).then(() => null, (why: Error) => why);

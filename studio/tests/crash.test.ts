@@ -1,6 +1,9 @@
 // A server that is killed in the middle of something: what was finished is on the disk once there is a server again.
 import assert from "node:assert/strict";
-import { inBrowser } from "./browser";
+import type { Page } from "playwright-core";
+import { spawnSync } from "node:child_process";
+import { join } from "node:path";
+import { AFPC, inBrowser, shows } from "./browser";
 
 const PLAN = `use std
 
@@ -39,3 +42,62 @@ inBrowser("a server killed in mid-drag loses no finished edit", { "plan.afp": PL
   assert.match(text, /start go \/\/ typed before/);
   assert.match(await read("plan.afp.layout"), /rest/);
 }, { ignore: /WebSocket|connection/i });
+
+const typed = " // typed without a server";
+
+/** Types into the text of a page whose server was killed. */
+async function typeAlone(page: Page, crash: () => Promise<void>): Promise<void> {
+  await page.locator(".node text").first().waitFor();
+  await page.locator(".rail button", { hasText: "Text" }).click();
+  await page.locator(".cm-line", { hasText: "start go" }).waitFor();
+  await crash();
+  await shows(page.locator(".banner.warning"), /start it again with 'afpc studio \S+ --port \d+' and open the address/);
+  await page.locator(".cm-line", { hasText: "start go" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.type(typed);
+}
+
+/** An address with a code for the server of a folder, as whoever starts a second one gets it. */
+const codeFor = (folder: string): string =>
+  /http:\S+/.exec(spawnSync(AFPC, ["studio", folder, "--no-open"], { encoding: "utf8", env: { ...process.env, XDG_CONFIG_HOME: join(folder, ".config") } }).stdout)![0];
+
+const WHOLE = PLAN.replace("start go", `start go${typed}`);
+const ignore = /WebSocket|connection/i;
+
+inBrowser("what was typed without a server is kept where another page has the pen by then", { "plan.afp": PLAN }, async ({ page, folder, crash, restart, read, holds }) => {
+  await typeAlone(page, crash);
+  // Another browser is there first: this one has no code yet.
+  const others = await page.context().browser()!.newContext();
+  const other = await others.newPage();
+  await other.goto(await restart(false));
+  await other.locator(".node text").first().waitFor();
+  await page.context().request.get(codeFor(folder));
+  await page.getByText("You watch").waitFor();
+  await shows(page.locator(".saved"), /not saved/);
+  assert.equal(await read("plan.afp"), PLAN);
+  await page.getByRole("button", { name: "Keep mine" }).click();
+  await holds("plan.afp", WHOLE);
+  await page.locator(".saved.saved:not(.saving, .failed)").waitFor();
+  await page.getByRole("button", { name: "Undo: Keep mine" }).click();
+  await holds("plan.afp", PLAN);
+  await others.close();
+}, { ignore });
+
+inBrowser("what was typed without a server is offered to the page that is opened after it", { "plan.afp": PLAN }, async ({ page, crash, restart, read, holds }) => {
+  await typeAlone(page, crash);
+  let asked = 0;
+  page.on("dialog", (dialog) => void (asked++, dialog.accept()));
+  const address = await restart(false);
+  await page.goto(address);
+  assert.equal(asked, 1, "the page asks before it is left");
+  await page.getByRole("button", { name: "Keep mine" }).waitFor();
+  assert.equal(await read("plan.afp"), PLAN);
+  // Not chosen yet: it is there again.
+  await page.reload();
+  await page.getByRole("button", { name: "Keep mine" }).click();
+  await holds("plan.afp", WHOLE);
+  await page.locator(".saved.saved:not(.saving, .failed)").waitFor();
+  await page.reload();
+  await page.locator(".node text").first().waitFor();
+  assert.equal(await page.getByRole("button", { name: "Keep mine", exact: true }).count(), 0);
+}, { ignore });

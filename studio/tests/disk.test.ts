@@ -80,12 +80,40 @@ inBrowser("a full disk keeps the old bytes, and takes the new ones once it has r
     await type(page, "start go", ` // ${"x".repeat(60)}`);
     await shows(page.locator(".saved"), /not saved/);
     assert.equal(await read("small/there.afp"), PLAN);
+    // As it lies there again, it is saved, though nothing can be written.
+    await page.getByRole("button", { name: "Undo: typing" }).click();
+    await isSaved();
+    await page.getByRole("button", { name: "Redo: typing" }).click();
+    await shows(page.locator(".saved"), /not saved/);
     await rm(join(small, "filler"));
     await isSaved();
     assert.equal(await read("small/there.afp"), PLAN.replace("start go", `start go // ${"x".repeat(60)}`));
   } finally {
     spawnSync("umount", ["-l", small]);
   }
+});
+
+inBrowser("what two programs write at once is saved once both lie on the disk; of one line somebody chooses", { "plan.afp": PLAN }, async ({ page, read, write, holds, isSaved }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  for (let round = 0; round < 3; round++) {
+    await type(page, "start go", ` // ${round}`);
+    const theirs = (await read("plan.afp")).replace("terminate }", `terminate } // ${round}`);
+    await write("plan.afp", theirs);
+    await isSaved();
+  }
+  const before = await read("plan.afp");
+  await type(page, "actor go", " // mine");
+  await write("plan.afp", before.replace("-> rest }", "-> rest } // theirs"));
+  await shows(page.locator(".saved"), /not saved/);
+  await page.getByRole("button", { name: "Keep both, marked" }).click();
+  await isSaved();
+  assert.match(await read("plan.afp"), /<<<<<<<[^]*mine[^]*=======[^]*theirs[^]*>>>>>>>/);
+  await page.locator(".count", { hasText: "error" }).click();
+  await page.locator(".problems", { hasText: "a mark between two versions" }).waitFor();
+  // It was chosen here.
+  await page.getByRole("button", { name: "Undo: Keep both, marked" }).click();
+  await holds("plan.afp", before.replace("-> rest }", "-> rest } // mine"));
 });
 
 inBrowser("a link stays a link, and what it leads to is written", {}, async ({ page, folder, read, isSaved }) => {

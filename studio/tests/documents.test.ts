@@ -1,7 +1,9 @@
 // Texts, against a server of the test: what it is told gives the same texts, edits are made for their version alone.
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { again, apply, begin, change, conflicts, current, difference, inOrder, onText, open, saved, Stale, text, typed, version } from "../page/documents";
+import { difference, inOrder } from "../page/changes";
+import { conflicts } from "../page/conflicts";
+import { again, apply, begin, change, current, onText, open, saved, Stale, text, typed, unsent, version } from "../page/documents";
 import { undo, undoLabel } from "../page/history";
 import type { Lsp } from "../page/lsp";
 import { offset, position } from "../page/positions";
@@ -27,6 +29,7 @@ class Room {
         this.tell("afp/changed", { uri: params.uri, text: this.chooses, clean: true });
         return null as any;
       }
+      if (method === "afp/pen") return { holder: 1, yours: true } as any;
       throw new Error(method);
     },
     notify: (method, params: any) => {
@@ -151,7 +154,7 @@ test("of two changes of the same lines a person chooses; the room does it", asyn
     typed([{ uri, from: 0, to: 3, insert: "mine" }]);
     room.tell("afp/changed", { uri, text: "theirs", clean: false });
     assert.equal(text(uri), "mine");
-    assert.equal(saved.value, "saving");
+    assert.equal(saved.value, "disputed");
     const [conflict] = conflicts.value.filter((each) => each.uri === uri);
     room.chooses = stays;
     await conflict!.choose(keep);
@@ -160,19 +163,28 @@ test("of two changes of the same lines a person chooses; the room does it", asyn
     assert.equal(room.texts.get(uri), stays);
     assert.equal(conflicts.value.length, 0);
     room.tell("afp/saved", { uri, version: version(uri) });
+    assert.equal(saved.value, "saved");
+    // It was chosen here: undoing it does not ask.
+    await undo();
+    assert.equal(text(uri), keep === "mine" ? "one" : "mine");
+    room.tell("afp/saved", { uri, version: version(uri) });
   }
 });
 
 test("after a lost connection what was not told is sent, and what others did is taken over", async () => {
   const cases = [
-    // what the page has, what the room has then, what both have at last, whether somebody has to choose
-    ["base", "base", "base", false],
-    ["mine", "base", "mine", false],
-    ["mine", "mine", "mine", false],
-    ["base", "theirs", "theirs", false],
-    ["mine", "theirs", "theirs", true],
+    // what the page has, what the room has then, who has the pen, what both have at last, whether somebody has to choose
+    ["base", "base", "page", "base", false],
+    ["mine", "base", "page", "mine", false],
+    ["mine", "mine", "page", "mine", false],
+    ["base", "theirs", "page", "theirs", false],
+    ["mine", "theirs", "page", "theirs", true],
+    ["base", "theirs", "other", "theirs", false],
+    ["mine", "base", "other", "base", true],
+    ["mine", "mine", "other", "mine", false],
+    ["mine", "theirs", "other", "theirs", true],
   ] as const;
-  for (const [mine, theirs, last, choice] of cases) {
+  for (const [mine, theirs, holder, last, choice] of cases) {
     const uri = fresh();
     room.texts.set(uri, "base");
     begin(async () => null);
@@ -184,18 +196,23 @@ test("after a lost connection what was not told is sent, and what others did is 
     room.texts.set(uri, theirs);
     room.lsp.notify = kept;
     room.lsp.open.value = true;
+    session.pen.value = holder === "page";
     await again(room.lsp);
-    assert.equal(text(uri), last, `${mine} ${theirs}`);
+    assert.equal(text(uri), last, `${mine} ${theirs} ${holder}`);
+    assert.deepEqual(unsent.value.filter((one) => one.uri === uri && one.text === mine), choice || (mine !== theirs && mine === last) ? [{ uri, text: mine }] : []);
     assert.equal(room.texts.get(uri), last);
     assert.equal(room.versions.get(uri), version(uri));
     const conflict = conflicts.value.find((each) => each.uri === uri);
     assert.equal(conflict !== undefined, choice);
     if (conflict) {
       await conflict.choose("mine");
+      assert.equal(session.pen.value, true);
       assert.equal(text(uri), "mine");
       assert.equal(room.texts.get(uri), "mine");
+      assert.notEqual(undoLabel.value, null);
     }
   }
+  session.pen.value = true;
 });
 
 test("the difference of two texts is one change", () => {

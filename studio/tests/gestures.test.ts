@@ -231,6 +231,36 @@ inBrowser("items are copied as text with their toolbox, cut and pasted, a superv
   await studio.becomes("plan.afp", /actor turn: Turn\(angle = 90 deg\)/);
 }, clipboard);
 
+const NOTED = `use carbot
+
+plan P {
+    start go
+
+    // goes ahead: far
+    actor go: Forward { ForwardSuccessful -> terminate }
+
+    actor turn: Turn(angle = 90 deg) { TurnSuccessful -> terminate }
+}
+`;
+
+inBrowser("what is cut takes its note along, and a start that is pasted is the start again; a scenario that names it does not hold it", { "plan.afp": NOTED, "tests/s.afp": 'use "../plan.afp"\n\nscenario "s" for P {\n    expect go active\n}\n' }, async (studio) => {
+  const { page } = studio;
+  await ready(page, "P.go");
+  const stood = await page.locator('.node [data-item="P.go"]').first().boundingBox();
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Control+x");
+  await studio.becomes("plan.afp", /^(?![^]*(actor go|goes ahead|start))/);
+  await page.keyboard.press("Control+v");
+  await studio.becomes("plan.afp", /start go\n[^]*\/\/ goes ahead: far\n    actor go: Forward \{/);
+  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Control+z");
+  await studio.holds("plan.afp", NOTED);
+  await page.waitForFunction(([x, y]) => {
+    const now = document.querySelector('.node [data-item="P.go"]')?.getBoundingClientRect();
+    return now && Math.abs(now.x - x!) < 1 && Math.abs(now.y - y!) < 1;
+  }, [stood!.x, stood!.y]);
+}, clipboard);
+
 const NESTED = `use carbot
 
 plan P {

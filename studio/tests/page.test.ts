@@ -216,3 +216,25 @@ inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLA
   }
   assert.ok(["bar", "Palette", "Drawing", "World", "Text", "Problems"].every((pane) => reached.has(pane)), [...reached].join());
 });
+
+inBrowser("a name that is none is said, in the drawing and in the inspector, and the old one stays", { "plan.afp": PLAN }, async ({ page, read }) => {
+  const node = page.locator('.node [data-item="P.go"] text.name').first();
+  const { x, y } = (await node.boundingBox())!;
+  await page.mouse.click(x + 5, y + 5);
+  for (const wrong of ["größe", "a b", "1x"]) {
+    await page.locator("[role=application]").focus();
+    await page.keyboard.press("F2");
+    const field = page.locator("input.rename");
+    await field.fill(wrong);
+    await page.keyboard.press("Enter");
+    await page.locator(".board-notice", { hasText: "Letters, digits and _" }).waitFor();
+    assert.equal(await field.inputValue(), wrong, "it can be mended");
+    await page.keyboard.press("Escape");
+    await field.waitFor({ state: "detached" });
+  }
+  const line = page.locator(".inspector .line", { hasText: "Name" }).locator("input");
+  await line.fill("1x");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.querySelector<HTMLInputElement>(".inspector .line input")!.value === "go");
+  assert.equal(await read("plan.afp"), PLAN);
+});

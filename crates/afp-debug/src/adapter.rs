@@ -69,6 +69,10 @@ pub struct Surroundings {
     pub drops: &'static [Droppable],
     /// Whether the robot has a camera.
     pub camera: bool,
+    /// The seed of a run that is over.
+    pub seed: Option<u64>,
+    /// Why the log of a run that is over is not whole.
+    pub cut_short: Option<String>,
 }
 
 /// A debug adapter for clients who share one run: one steers, all watch, anybody may end it.

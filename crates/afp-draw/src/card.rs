@@ -220,11 +220,6 @@ fn heading<'a>(
     template: &str,
     rect: Rect,
 ) {
-    let fallback = match element.kind {
-        ComponentKind::Computation => Glyph::Computation,
-        ComponentKind::SubPlan => Glyph::SubPlan,
-        ComponentKind::Actor | ComponentKind::Supervisor | ComponentKind::Reactions => Glyph::Actor,
-    };
     let icon = view.icon(element);
     let (_, class) = look(view, element);
     card.sketch.pictures.push(Picture {
@@ -233,7 +228,7 @@ fn heading<'a>(
         size: 24.0,
         class,
         icon,
-        fallback,
+        fallback: Glyph::of(element.kind),
     });
     let label = |text: &str, y, size, bold, class| Label {
         x: rect.x + 46.0,

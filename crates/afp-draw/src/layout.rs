@@ -65,6 +65,8 @@ pub(super) struct Placement {
     pub(super) fixed: Vec<Option<Point>>,
     /// Where the nodes were in the layout before.
     pub(super) before: Vec<Option<Point>>,
+    /// Where nodes stood that were not in the layout before, but in an earlier one.
+    pub(super) once: Vec<Option<Point>>,
     /// The routes that the links had.
     pub(super) routes: Vec<Option<Vec<Point>>>,
 }

@@ -40,7 +40,7 @@ pub use json::json;
 pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Point, Scene, Symbol};
 pub use scxml::scxml;
 pub use sketch::Rect;
-pub use svg::{picture, sheet, svg};
+pub use svg::{default_icon, picture, sheet, svg};
 pub use usage::{Count, PlanUsage, Reaction, Usage};
 
 /// Finds the SVG text of an icon that a template of a toolbox names.

@@ -5,6 +5,7 @@
 //! before: boxes stay where they were, and edges whose ends and surroundings are the same keep
 //! their routes to the last digit.
 
+mod gone;
 mod lines;
 mod painted;
 
@@ -24,6 +25,7 @@ use super::view::View;
 use afp_dsl::outline::{Component, Outline, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
+use gone::Gone;
 use painted::Painted;
 use rustc_hash::FxHashMap;
 
@@ -77,6 +79,8 @@ pub struct PlanScene {
     pub elements: Vec<ElementScene>,
     /// The edges that lead to elements; later ones lie above earlier ones.
     pub edges: Vec<EdgeScene>,
+    /// What was drawn in scenes before: it comes back to where it stood.
+    gone: Gone,
 }
 
 /// A box with everything attached to it.
@@ -135,14 +139,14 @@ impl Scene {
     /// The drawing of the main plan and, unless the options say otherwise, of the plans it uses.
     ///
     /// With the scene `before` a change, boxes stay where they were, unless they have positions or
-    /// are in the way of one that has.
+    /// are in the way of one that has; one that was gone for a while comes back to where it stood.
     pub fn new(outline: &Outline, options: &Options, before: Option<&Scene>) -> Scene {
         let drawn = Drawn::new(outline, options, before);
         let mut painter = Painter::new(options.icons);
         let painted = |plan: DrawnPlan<'_>| {
             let known =
                 before.and_then(|before| before.plan(&plan.view.plan.item, plan.view.plan.file()));
-            plan.scene(&mut painter, &Painted::of(known))
+            plan.scene(&mut painter, known)
         };
         let plans = drawn.plans.into_iter().map(painted).collect();
         let legend =
@@ -154,6 +158,7 @@ impl Scene {
     pub fn forget(&mut self, item: &Item) {
         for plan in &mut self.plans {
             plan.elements.retain(|element| element.item != *item);
+            plan.gone.forget(item);
         }
     }
 
@@ -278,12 +283,13 @@ impl<'a> DrawnPlan<'a> {
         all
     }
 
-    fn scene(self, painter: &mut Painter, painted: &Painted<'_>) -> PlanScene {
+    fn scene(self, painter: &mut Painter, before: Option<&PlanScene>) -> PlanScene {
+        let painted = Painted::of(before);
         let joined = lines::joined(&self.edges);
         let edges = self.edges.into_iter().zip(joined);
-        let edges = edges.filter_map(|(edge, joined)| painted.edge(edge, joined)).collect();
+        let edges: Vec<_> = edges.filter_map(|(edge, joined)| painted.edge(edge, joined)).collect();
         let cards = self.cards.into_iter();
-        let elements = cards.map(|(card, at)| painted.element(card, at, painter)).collect();
+        let elements: Vec<_> = cards.map(|(card, at)| painted.element(card, at, painter)).collect();
         PlanScene {
             plan: self.view.plan.item.clone(),
             file: self.view.plan.file(),
@@ -291,6 +297,8 @@ impl<'a> DrawnPlan<'a> {
             doc: self.view.plan.doc.clone(),
             offset: self.offset,
             bounds: self.bounds,
+            gone: before
+                .map_or_else(Gone::default, |before| Gone::since(before, &elements, &edges)),
             elements,
             edges,
         }
@@ -317,7 +325,8 @@ fn cards<'a>(view: &View<'a>, towards: &dyn Fn(&Item, &Part) -> Option<f64>) -> 
 
 /// The cards with states where they have been; new ones come behind them.
 fn as_before<'a>(view: &View<'a>, before: &PlanScene) -> Vec<Card<'a>> {
-    let pieces = before.elements.iter().flat_map(|element| &element.pieces);
+    let elements = before.elements.iter().chain(before.gone.elements());
+    let pieces = elements.flat_map(|element| &element.pieces);
     let pieces = pieces.filter(|piece| matches!(piece.part, Part::Exit { .. }));
     let known: FxHashMap<_, _> =
         pieces.map(|piece| ((&piece.item, &piece.part), piece.rect.x)).collect();
@@ -371,17 +380,25 @@ fn placement(
         let position = view.position(&card.item)?;
         Some(corner(card, (position.x.into(), position.y.into())))
     });
-    let elements = before.iter().flat_map(|before| &before.elements);
-    let elements: FxHashMap<_, _> =
-        elements.map(|known| (&known.item, (known.rect.x, known.rect.y))).collect();
-    let stood = cards.iter().map(|card| Some(corner(card, *elements.get(&card.item)?)));
-    let edges = before.iter().flat_map(|before| &before.edges);
+    let stood = |elements: Vec<&ElementScene>| {
+        let known = elements.into_iter().map(|known| (&known.item, (known.rect.x, known.rect.y)));
+        let known: FxHashMap<_, _> = known.collect();
+        cards.iter().map(|card| Some(corner(card, *known.get(&card.item)?))).collect()
+    };
+    let elements = before.iter().flat_map(|before| &before.elements).collect();
+    let gone = before.iter().flat_map(|before| before.gone.elements()).collect();
+    let edges = before.iter().flat_map(|before| before.gone.edges().chain(&before.edges));
     let edges: FxHashMap<_, _> =
         edges.map(|known| ((&known.item, &known.part), &known.points)).collect();
     let routes = exits
         .iter()
         .map(|(_, exit)| edges.get(&(&exit.item, &exit.part)).map(|points| points.to_vec()));
-    Placement { fixed: fixed.collect(), before: stood.collect(), routes: routes.collect() }
+    Placement {
+        fixed: fixed.collect(),
+        before: stood(elements),
+        once: stood(gone),
+        routes: routes.collect(),
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 use super::metrics;
 use super::usage::Class;
-use afp_dsl::outline::Part;
+use afp_dsl::outline::{ComponentKind, Part};
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
@@ -93,6 +93,18 @@ pub(super) enum Glyph {
     Error,
     Warning,
     Note,
+}
+
+impl Glyph {
+    /// That of what has no icon.
+    pub(super) fn of(kind: ComponentKind) -> Glyph {
+        match kind {
+            ComponentKind::Actor | ComponentKind::Reactions => Glyph::Actor,
+            ComponentKind::Computation => Glyph::Computation,
+            ComponentKind::SubPlan => Glyph::SubPlan,
+            ComponentKind::Supervisor => Glyph::Supervisor,
+        }
+    }
 }
 
 /// Something of a drawing that has an identity in the text.

@@ -12,6 +12,7 @@ use super::{Options, Theme};
 use afp_dsl::outline::Outline;
 use paint::{escaped, line, number};
 
+pub use icon::default_icon;
 pub use style::sheet;
 
 /// The main plan as an SVG picture, its sub-plans behind it unless the options say otherwise.

@@ -34,9 +34,10 @@ use buffer::TextBuffer;
 use project::Workspace;
 
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;
 use afp_syntax::kind::Kind;
-use afp_syntax::source::Source;
+use afp_syntax::source::{Source, Span};
 use serde::{Deserialize, Serialize};
 
 pub(crate) use add::edit_of_use;
@@ -361,6 +362,12 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     result + text.get(at..).unwrap_or_default()
 }
 
+/// The place of an item of a file with the comments that belong to it, as [`Change::Remove`] takes them out.
+pub fn with_comments(file: u16, text: &str, item: &Item) -> Option<Span> {
+    let root = afp_syntax::parse(text, file, &mut Diagnostics::default()).root();
+    tree::find(&root, item).ok().map(|node| buffer::span(file, tree::own_range(&node)))
+}
+
 fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
     match change {
         Change::Rename { item, to } => return rename::item(workspace, item, to),
@@ -373,11 +380,10 @@ fn make(workspace: &mut Workspace, change: &Change) -> Result<(), Refused> {
         Change::Inline { plan, element } => {
             return in_form(workspace, |workspace| inline::run(workspace, plan, element));
         }
-        Change::Remove { item } | Change::Move { item, .. } => workspace.check_inside(item)?,
-        Change::Extract { plan, elements, .. } => {
-            for element in elements {
-                workspace.check_inside(&Item::inner(plan, element))?;
-            }
+        Change::Remove { item: item @ Item::Plan { .. } } => workspace.check_inside(item)?,
+        Change::Remove { item } | Change::Move { item, .. } => workspace.check_unused(item)?,
+        Change::Extract { plan, elements, new_plan, element } => {
+            return extract::run(workspace, plan, elements, new_plan, element);
         }
         _ => {}
     }
@@ -423,10 +429,8 @@ fn inside(buffer: &mut TextBuffer, change: &Change) -> Result<(), Refused> {
         Change::SetDoc { item, text } => doc::set(buffer, item, text, Kind::Doc),
         Change::SetNote { item, text } => doc::set(buffer, item, text, Kind::Comment),
         Change::Move { item, plan, owner } => relocate::shift(buffer, item, plan, owner.as_deref()),
-        Change::Extract { plan, elements, new_plan, element } => {
-            extract::run(buffer, plan, elements, new_plan, element)
-        }
         Change::Rename { .. }
+        | Change::Extract { .. }
         | Change::RenameColumn { .. }
         | Change::RenameValue { .. }
         | Change::Inline { .. } => Ok(()),

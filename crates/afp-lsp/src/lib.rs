@@ -27,3 +27,10 @@ pub use host::{Host, NoFiles};
 pub use lsp_server::Message;
 pub use server::Server;
 pub use uri::{path_of, uri_of};
+
+/// Whether a text has a plan in it, whatever else is wrong with it.
+pub fn holds_plan(text: &str) -> bool {
+    let file =
+        afp_syntax::parse(text, 0, &mut afp_syntax::diagnostics::Diagnostics::default()).file();
+    file.items().iter().any(|item| matches!(item, afp_syntax::ast::Item::Plan(_)))
+}

@@ -194,8 +194,11 @@ impl Room {
         let path = path_of(uri);
         match self.document(&path) {
             Ok(document) => {
-                let text = document.text.clone();
-                self.differs(id, uri, &text)
+                let (text, theirs) = (document.text.clone(), document.theirs().map(str::to_owned));
+                let mut out = self.differs(id, uri, &text);
+                // Who comes while there is something to choose chooses, too.
+                out.extend(theirs.map(|theirs| (id, changed(uri, &theirs, false))));
+                out
             }
             // Texts that lie elsewhere are looked at and never written.
             Err(_) => Vec::new(),
@@ -209,14 +212,16 @@ impl Room {
         let pen = *self.pen.get_or_insert(id);
         let Ok(document) = self.document(&path) else { return Vec::new() };
         if document.text == text {
-            return Vec::new();
+            return self.tell_if_saved(id, &path);
         }
         if pen != id {
             let kept = document.text.clone();
             return vec![(id, changed(uri, &kept, true))];
         }
         document.set(text.clone(), now);
-        self.tell_all(uri, &text, true, Some(id))
+        let mut out = self.tell_all(uri, &text, true, Some(id));
+        out.extend(self.tell_if_saved(id, &path));
+        out
     }
 
     /// Forgets a text that no client has open any more, once it is saved.

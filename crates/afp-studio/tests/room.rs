@@ -199,6 +199,45 @@ fn changes_of_other_lines_go_together() {
     place.pass(600);
     let both = format!("// theirs\n{}", PLAN.replace("Elapsed -> terminate", "Elapsed -> go"));
     assert_eq!(place.on_disk(), both);
+    // The client was told of it and takes it over once it is written: what it has then is saved.
+    let out = place.types(1, 3, &both);
+    assert_eq!(
+        (methods(&out), &out[0].1["params"]["version"]),
+        (vec![(1, "afp/saved")], &json!(3))
+    );
+}
+
+#[test]
+fn a_text_that_is_again_what_lies_in_the_file_is_saved_whether_or_not_the_disk_takes_anything() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.types(1, 2, &PLAN.replace("go", "stay"));
+    let out = place.types(1, 3, PLAN);
+    assert_eq!(
+        (methods(&out), &out[0].1["params"]["version"]),
+        (vec![(1, "afp/saved")], &json!(3))
+    );
+    assert_eq!(place.pass(1000), [], "nothing is written");
+}
+
+#[test]
+fn who_comes_while_there_is_something_to_choose_is_asked_too() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.types(1, 2, &PLAN.replace("terminate", "go"));
+    let theirs = PLAN.replace("terminate", "other");
+    place.outside(&theirs);
+    place.pass(1000);
+    place.room.join(2);
+    place.ask(2, "initialize", json!({ "capabilities": {} })).unwrap();
+    let document = json!({ "uri": place.uri("p.afp"), "languageId": "afp", "version": 1,
+        "text": PLAN.replace("terminate", "go") });
+    let out = place.tell(2, "textDocument/didOpen", json!({ "textDocument": document }));
+    assert_eq!(methods(&out), [(2, "afp/changed")]);
+    assert_eq!(
+        (&out[0].1["params"]["clean"], &out[0].1["params"]["text"]),
+        (&json!(false), &json!(theirs))
+    );
 }
 
 #[test]
@@ -288,6 +327,9 @@ fn one_client_has_the_pen() {
     assert_eq!(methods(&out), [(2, "afp/changed")], "who watches sees it");
     // What a watcher is told it takes over; that is no change.
     assert_eq!(place.types(2, 2, &next), []);
+    place.pass(300);
+    // One that is late has the text that is written.
+    assert_eq!(methods(&place.types(2, 2, &next)), [(2, "afp/saved")]);
     let out = place.types(2, 3, "nothing");
     assert_eq!((out[0].0, &out[0].1["params"]["text"]), (2, &json!(next)));
     let refused = place.ask(2, "afp/create", json!({ "uri": place.uri("n.afp") })).unwrap_err();
@@ -326,6 +368,19 @@ fn files_are_made_renamed_and_removed_within_the_folder_alone() {
     fs::write(place.path("q.afp"), PLAN).unwrap();
     let hello = place.ask(1, "afp/hello", json!({})).unwrap();
     assert_eq!(hello["files"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_folder_opens_with_the_first_file_that_has_a_plan() {
+    let mut place = Place::new("toolbox p {\n}\n");
+    fs::create_dir(place.path("plans")).unwrap();
+    fs::write(place.path("plans/a.afp"), "use std\n").unwrap();
+    fs::write(place.path("plans/b.afp"), "plan P {\n    start\n").unwrap();
+    place.room.join(1);
+    let hello = |place: &mut Place| place.ask(1, "afp/hello", json!({})).unwrap()["open"].clone();
+    assert_eq!(hello(&mut place), json!(place.uri("plans/b.afp")));
+    fs::remove_file(place.path("plans/b.afp")).unwrap();
+    assert_eq!(hello(&mut place), Value::Null);
 }
 
 #[test]

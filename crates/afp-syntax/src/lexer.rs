@@ -72,6 +72,7 @@ impl<'t> Lexer<'t, '_> {
             [b'"', ..] => self.quoted(),
             [b'/', b'*', ..] => self.block_comment(),
             [b'/', b'/', ..] => self.comment(),
+            _ if self.is_version_mark() => self.version_mark(),
             _ => match (self.comment_sign(), sign(rest)) {
                 (Some(sign), _) => self.foreign_comment(sign),
                 (None, Some((kind, length))) => {

@@ -1,6 +1,6 @@
 // Run, pause, step and stop in the bar; the card that says how a run has ended.
 import { useState } from "preact/hooks";
-import { Tool } from "../bar";
+import { hasNoPlan, Tool } from "../bar";
 import { command } from "../commands";
 import { reveal } from "../drawing/reveal";
 import { refuse } from "../drawing/say";
@@ -43,7 +43,7 @@ export function Controls() {
       {now === "running" && <Tool icon="pause" label={`${words.pause} (F8)`} run={pause} />}
       {active.value && <Tool icon="stop" label={`${words.stop} (Shift+F5)`} run={stop} />}
       {now !== "running" && now !== "starting" && (
-        <button class={`run ${number("error") ? "" : "main"}`} onClick={() => void goOn()} title={`${held ? words.goOn : words.run} (F5)`}>
+        <button class={`run ${number("error") || hasNoPlan() ? "" : "main"}`} onClick={() => void goOn()} title={`${held ? words.goOn : words.run} (F5)`}>
           <Sign name="run" />
           <span>{held ? words.goOn : words.run}</span>
         </button>
@@ -97,7 +97,8 @@ function showEnd(edge: string): void {
 
 /** The commands of a run, with their keys. */
 export function commands(): void {
-  command({ id: "run", label: words.run, key: "F5", run: goOn, enabled: () => phase.value !== "running" && phase.value !== "starting" });
+  command({ id: "run", label: words.run, key: "F5", run: goOn, enabled: () => !active.value });
+  command({ id: "go", label: words.goOn, key: "F5", run: goOn, enabled: () => phase.value === "held" });
   command({ id: "pause", label: words.pause, key: "F8", run: pause, enabled: () => phase.value === "running" });
   command({ id: "step", label: words.step, key: "F10", run: next, enabled: () => phase.value !== "running" });
   command({ id: "into", label: words.stepInto, key: "F11", run: into, enabled: () => phase.value !== "running" });

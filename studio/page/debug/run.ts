@@ -2,7 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { connect, type Dap } from "../dap";
 import { current } from "../documents";
-import { plan as shownPlan, trail, wanted } from "../drawing/model";
+import { drawing, plan as shownPlan, trail, wanted } from "../drawing/model";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import type { Position } from "../positions";
@@ -59,6 +59,10 @@ export async function start(hold = false): Promise<void> {
     trouble.value = words.notRun(errors);
     return reveal(current.value, problems.value[0]!.range, "other");
   }
+  if (drawing.peek()?.plan === null) {
+    trouble.value = words.notRunNoPlan;
+    return;
+  }
   if (!(await isWritten())) {
     trouble.value = words.notRunNotSaved;
     return;
@@ -82,6 +86,7 @@ const wantedWorld = (): object => ({
 export async function openLog(path: string): Promise<void> {
   await stop();
   dismiss();
+  trouble.value = null;
   const still = { stopOnEntry: true };
   await launch({ log: path, ...still }, "");
 }

@@ -189,8 +189,8 @@ export async function automatic(): Promise<void> {
 /** The selected items as text, with the toolboxes that they need above. */
 export async function copied(): Promise<string> {
   const items = [...new Set(selected.peek().map((part) => part.item))].filter((item) => item.includes("."));
-  const texts = await Promise.all(items.map((item) => ask.written(item)));
-  const templates = new Set(texts.flatMap((text) => [...text.matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
+  const texts = await Promise.all(items.map((item) => ask.written(item, undefined, true)));
+  const templates = new Set(texts.flatMap((text) => [...text.replace(/\/\/.*/g, "").matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
   // Who copies before the palette is there needs its toolboxes, too.
   const known = catalog.offers.peek().length ? catalog.offers.peek() : await ask.palette("");
   const toolboxes = new Set(known.filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
@@ -204,7 +204,7 @@ export async function paste(text: string): Promise<void> {
   const at = here();
   if (!at || text.trim() === "") return;
   const part = focused();
-  const supervisors = /^(\s*use\s.*\n)*\s*supervise\b/.test(text);
+  const supervisors = /^(\s*(use\s|\/\/).*\n)*\s*supervise\b/.test(text);
   const rect = part && rectOf(at.drawn, { item: part.item });
   const place: Point | null = rect && !supervisors ? [Math.round(rect[0] + 24), Math.round(rect[1] + 24)] : null;
   await ask.paste(at.plan, supervisors && part ? ownerOf(at.drawn, part) : null, text, place);

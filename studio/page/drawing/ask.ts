@@ -50,9 +50,9 @@ export const targets = async (item: string, outcome: string): Promise<Candidate[
 
 export const port = (item: string, port: string): Promise<PortAnswer | null> => ask<PortAnswer | null>("afp/candidates", { item, port });
 
-/** The text of an item or part, as it stands in the document; empty where it has none. */
-export async function written(item: string, part?: PartOf): Promise<string> {
-  const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) });
+/** The text of an item or part, as it stands in the document, with an item's comments where they are wanted; empty where it has none. */
+export async function written(item: string, part?: PartOf, comments = false): Promise<string> {
+  const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) }, comments);
   const whole = text(current.peek());
   return range ? whole.slice(offset(whole, range.start), offset(whole, range.end)) : "";
 }

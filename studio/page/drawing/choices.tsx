@@ -3,6 +3,7 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/ho
 import { filtered, question, type Choice, type Question } from "./choose";
 import { icon } from "./fragment";
 import { isName, renaming } from "./rename";
+import { refuse } from "./say";
 import { size } from "./stage";
 import { words } from "./words";
 import type { Point } from "./shapes";
@@ -112,15 +113,20 @@ export function Rename() {
     input.select();
   }, [asked]);
   if (!asked) return null;
-  const end = (take: boolean): void => {
+  const end = (take: boolean, leaves: boolean): void => {
     const name = field.current?.value.trim() ?? "";
-    if (renaming.peek() === asked) asked.done(take && isName(name) ? name : null);
+    if (renaming.peek() !== asked) return;
+    const wrong = take && name !== "" && !isName(name);
+    if (wrong) refuse(words.nameHint);
+    // Who is still there can mend it.
+    if (wrong && !leaves) field.current?.select();
+    else asked.done(take && isName(name) ? name : null);
   };
   const key = (event: KeyboardEvent): void => {
     if (event.key !== "Enter" && event.key !== "Escape") return;
     event.preventDefault();
     event.stopPropagation();
-    end(event.key === "Enter");
+    end(event.key === "Enter", false);
   };
-  return <input class="over rename" ref={field} aria-label={words.renameLabel(asked.name)} title={words.nameHint} pattern="[A-Za-z_]\w*" spellcheck={false} autocomplete="off" value={asked.name} onKeyDown={key} onBlur={() => end(true)} />;
+  return <input class="over rename" ref={field} aria-label={words.renameLabel(asked.name)} title={words.nameHint} pattern="[A-Za-z_]\w*" spellcheck={false} autocomplete="off" value={asked.name} onKeyDown={key} onBlur={() => end(true, true)} />;
 }

@@ -9,8 +9,8 @@ const NAME = 10.5;
 const PILL = 10;
 /** A pill holds no larger text, in units of the plan. */
 const TALLEST = 17;
-/** How much wider than its text a pill is, and what a name gains where its icon stood. */
-const SPARE = 14;
+/** How much wider than as it is drawn a text may be, so that it stays off the round ends of its pill, and what a name gains where its icon stood. */
+const SPARE = 6;
 const ICON = { element: 36, supervisor: 28 };
 
 const isName = (text: SVGTextElement): boolean => text.classList.contains("name");
@@ -43,7 +43,7 @@ function fit(group: SVGGElement, step: number, width: number): void {
     const supervisor = name && (!own || size < 13);
     const gained = text.classList.contains("bare") ? 0 : supervisor ? ICON.supervisor : ICON.element;
     if (name) text.style.transform = `translate(${-gained}px, 4px)`;
-    const room = !name ? long + SPARE : supervisor ? long + (gained || SPARE / 2) : Math.max(width - 20, long);
+    const room = !name ? long + SPARE : supervisor ? long + (gained || SPARE) : Math.max(width - 20, long);
     text.style.fontSize = `${wanted}px`;
     if (long * (wanted / size) > room) {
       text.setAttribute("textLength", String(room));

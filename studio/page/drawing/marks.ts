@@ -28,17 +28,19 @@ export function mark(stage: Stage, drawing: Drawing | null, marked: Marked): voi
   const below: SVGElement[] = [];
   const last = marked.selected.at(-1);
   if (drawing) {
+    const entries = new Set(drawing.entries.map(({ item }) => item));
+    const isWhole = ({ part }: Part): boolean => part === undefined || part.kind === "whole";
+    // Exits lie over the ring of their element, entries on the box of the configuration.
+    const layer = (part: Part): SVGElement[] => (isWhole(part) && !entries.has(part.item) ? below : made);
     for (const part of marked.selected) {
       const rect = rectOf(drawing, part);
-      const whole = part.part === undefined || part.part.kind === "whole";
-      // Exits lie over the ring of their element.
-      if (rect) (whole ? below : made).push(...ring(rect, marked, part === last));
-      if (whole) made.push(...handles(drawing, part.item, marked.zoom));
+      if (rect) layer(part).push(...ring(rect, marked, part === last));
+      if (isWhole(part)) made.push(...handles(drawing, part.item, marked.zoom));
     }
     for (const [item, { rect }] of drawing.elements) if (marked.unreached.has(keyOf({ item }))) below.push(...never(rect));
     for (const part of marked.found) {
       const rect = rectOf(drawing, part);
-      if (rect) below.push(outline(rect, 2, "found"));
+      if (rect) layer(part).push(outline(rect, 2, "found"));
     }
     for (const item of marked.fits ?? []) {
       const element = drawing.elements.get(item);

@@ -34,17 +34,20 @@ export function Inspector() {
   );
 }
 
-/** A line that is taken over with `Enter` or when it is left, and put back with `Escape`; null while its value is fetched. */
-function Line({ label, value, take, hint, hidden }: { label: string; value: string | null; take(text: string): unknown; hint?: string; hidden?: boolean }) {
+/** A line that is taken over with `Enter` or when it is left, and put back with `Escape` or where it is refused; null while its value is fetched. */
+function Line({ label, value, take, hint, hidden }: { label: string; value: string | null; take(text: string): Promise<unknown>; hint?: string; hidden?: boolean }) {
   // What is typed counts over the value that it was typed over, from the first key on.
   const [typed, setTyped] = useState({ over: value, text: value ?? "" });
   const text = typed.over === value ? typed.text : (value ?? "");
+  const back = (): void => setTyped({ over: value, text: value ?? "" });
   const end = (): void => {
-    if (text.trim() !== value) void take(text.trim());
+    if (text.trim() === value) return;
+    // What is typed while the answer is on its way stays.
+    void take(text.trim()).then((done) => done || setTyped((now) => (now.text === text ? { over: value, text: value ?? "" } : now)));
   };
   const key = (event: KeyboardEvent): void => {
     if (event.key === "Enter") end();
-    if (event.key === "Escape") setTyped({ over: value, text: value ?? "" });
+    if (event.key === "Escape") back();
   };
   return (
     <label class="line">
@@ -55,7 +58,7 @@ function Line({ label, value, take, hint, hidden }: { label: string; value: stri
 }
 
 const Name = ({ item }: { item: string }) => (
-  <Line label={words.name} value={nameOf(item)} take={(to) => (isName(to) ? ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }]) : refuse(words.nameHint))} />
+  <Line label={words.name} value={nameOf(item)} take={async (to) => (isName(to) ? ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }]) : refuse(words.nameHint))} />
 );
 
 /** The help above an item, as one line. */

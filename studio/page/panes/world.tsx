@@ -4,6 +4,7 @@ import { Tool } from "../bar";
 import { active, given, seed, world as chosen } from "../debug/run";
 import { putBack } from "../debug/arranged";
 import { arranged } from "../world/hand";
+import { refuse } from "../drawing/say";
 import { show, watched } from "../world/camera";
 import { again, awaited, choose, missing, sow, surroundings, type Surroundings } from "../world/surroundings";
 import { words } from "../words";
@@ -47,11 +48,18 @@ function Where({ world }: { world: Surroundings }) {
       </select>
       <label title={words.seedHint}>
         {words.seed}
-        <input type="number" min="0" step="1" value={seed.value} disabled={active.value} onChange={(event) => sow(event.currentTarget.value)} />
+        <input type="number" min="0" step="1" value={world.seed ?? seed.value} disabled={active.value || world.seed !== null} onChange={(event) => sowIn(event.currentTarget)} />
       </label>
       {Object.entries(given.value).map(([name, text]) => <Given name={name} text={text} key={name} />)}
     </div>
   );
+}
+
+/** Takes over a seed; what is none is told, and the one that counts stands there again. */
+function sowIn(field: HTMLInputElement): void {
+  if (sow(field.value)) return;
+  field.value = String(seed.peek());
+  refuse(words.seedWrong);
 }
 
 /** An input that has another value in the next runs than the plan says. */

@@ -4,7 +4,7 @@ import { defaultKeymap, indentWithTab } from "@codemirror/commands";
 import { bracketMatching, indentOnInput, indentService, indentUnit } from "@codemirror/language";
 import { setDiagnostics, type Diagnostic as Shown } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, Compartment, EditorSelection, EditorState, StateEffect, StateField, type ChangeSet, type Extension } from "@codemirror/state";
+import { Annotation, Compartment, EditorSelection, EditorState, StateEffect, StateField, Text, type ChangeSet, type Extension } from "@codemirror/state";
 import { Decoration, EditorView, drawSelection, highlightActiveLine, highlightSpecialChars, hoverTooltip, keymap, lineNumbers, type DecorationSet } from "@codemirror/view";
 import { effect, untracked } from "@preact/signals";
 import { onText, text, typed, version } from "../documents";
@@ -14,6 +14,7 @@ import { offset, position } from "../positions";
 import { diagnostics, fixes, mend, said, severityOf, type Diagnostic } from "../problems";
 import { pen } from "../session";
 import { words } from "../words";
+import { Late, type Then } from "./late";
 import { marks } from "./marks";
 import * as seek from "./seek";
 import { completion, hover } from "./sources";
@@ -79,7 +80,7 @@ const behaviour: Extension = [
   EditorView.contentAttributes.of({ "aria-label": words.text, spellcheck: "false" }),
 ];
 
-function problem(now: string, one: Diagnostic): Shown {
+function problem(then: Then, one: Diagnostic): Shown {
   const { message, help } = said(one);
   const renderMessage = (): HTMLElement => {
     const made = document.createElement("span");
@@ -91,7 +92,8 @@ function problem(now: string, one: Diagnostic): Shown {
   };
   const actions = (fixes.value.get(one) ?? []).map((fix) => ({ name: fix.title, apply: () => void mend(fix) }));
   const severity = { error: "error", warning: "warning", note: "info" } as const;
-  return { from: offset(now, one.range.start), to: offset(now, one.range.end), severity: severity[severityOf(one)], message, renderMessage, actions };
+  const [from, to] = [one.range.start, one.range.end].map((place) => then.now(offset(then.text, place)));
+  return { from: from!, to: Math.max(from!, to!), severity: severity[severityOf(one)], message, renderMessage, actions };
 }
 
 /** An editor of a text inside of `host`; the answer has its view and what ends it. */
@@ -109,6 +111,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
   };
   const heard = EditorView.updateListener.of((update) => {
     for (const each of update.transactions) if (each.docChanged && !each.annotation(fromPage)) take(sequence(uri, each.changes));
+    if (update.docChanged) late.note(version(uri), update.state.doc, update.changes);
     const moved = update.transactions.some((each) => each.isUserEvent("select") || each.isUserEvent("input") || each.isUserEvent("delete"));
     if (moved) cursorAt(uri, position(update.state.doc.toString(), update.state.selection.main.head));
   });
@@ -122,6 +125,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
     marks(uri),
     heard,
   ];
+  const late = new Late(version(uri), Text.of(text(uri).split("\n")));
   const view = new EditorView({ parent: host, state: EditorState.create({ doc: text(uri), extensions }) });
   const ends = [
     follow(view, uri),
@@ -133,8 +137,8 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
     effect(() => view.dispatch({ effects: writable.reconfigure(ability()) })),
     effect(() => {
       const said = diagnostics.value.get(uri);
-      if (!said || (said.version !== null && said.version !== version(uri))) return;
-      view.dispatch(setDiagnostics(view.state, said.list.map((each) => problem(text(uri), each))));
+      const then = said && late.at(said.version);
+      if (then) view.dispatch(setDiagnostics(view.state, said.list.map((each) => problem(then, each))));
     }),
     effect(() => {
       const place = shown.value;

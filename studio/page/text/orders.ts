@@ -1,7 +1,8 @@
 // What is ordered at the cursor of the text: definition, rename, fixes, formatting.
 import type { EditorView } from "@codemirror/view";
 import { ask, askLine } from "../dialogs";
-import { apply, text, type TextEdit, type WorkspaceEdit } from "../documents";
+import type { TextEdit } from "../changes";
+import { apply, text, type WorkspaceEdit } from "../documents";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import { offset, position, range, type Range } from "../positions";

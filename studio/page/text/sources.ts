@@ -2,7 +2,8 @@
 import { snippet, type Completion, type CompletionContext, type CompletionResult } from "@codemirror/autocomplete";
 import type { EditorView, Tooltip } from "@codemirror/view";
 import { valueAt } from "../debug/run";
-import { inOrder, text, type TextEdit } from "../documents";
+import { inOrder, type TextEdit } from "../changes";
+import { text } from "../documents";
 import { nodes } from "../markdown";
 import { offset, position, type Range } from "../positions";
 import { lsp } from "../session";

@@ -8,6 +8,7 @@ import { current } from "../documents";
 import { trouble } from "../panes/files";
 import { files, lsp } from "../session";
 import { trusted } from "../trust";
+import { words } from "../words";
 import { extended, type Path, type Point, type World } from "./geometry";
 
 export interface Surroundings extends World {
@@ -17,6 +18,9 @@ export interface Surroundings extends World {
   drops: readonly { shape: string; outline: readonly Point[] }[];
   /** Whether the robot has a camera. */
   camera: boolean;
+  /** Of a log: the seed of its run, and why it is not whole. */
+  seed: string | null;
+  cutShort: string | null;
 }
 
 export interface Stimulus {
@@ -60,6 +64,7 @@ async function askWorld(uri: string, chosen: string | null, log = ""): Promise<v
   try {
     const found = await dap.request<Surroundings>("afp/world", { ...(log ? { log } : {}), program: uri ? pathOf(uri) : "", ...(chosen === null ? {} : { world: chosen }) });
     if (own === asked) batch(() => ([surroundings.value, missing.value] = [found, ""]));
+    if (own === asked && found.cutShort) trouble.value = words.logCut(log.split("/").at(-1)!, found.cutShort);
   } catch (why) {
     if (own === asked) refuse((why as Error).message, chosen);
   } finally {
@@ -123,8 +128,9 @@ export function choose(name: string): void {
   world.value = name === surroundings.peek()?.worlds[0]?.name ? null : name;
 }
 
-/** Sets the seed of all noise of the next run; what is no whole number from 0 on is left. */
-export function sow(text: string): void {
-  const number = Number(text);
-  if (text.trim() && Number.isSafeInteger(number) && number >= 0) seed.value = number;
+/** Sets the seed of all noise of the next run, and says whether the text is one. */
+export function sow(text: string): boolean {
+  const fits = /^\d+$/.test(text.trim()) && Number.isSafeInteger(Number(text));
+  if (fits) seed.value = Number(text);
+  return fits;
 }

@@ -8,7 +8,8 @@ use super::{Adapter, Answer, Launch, Surroundings};
 impl Adapter<'_> {
     /// What a run would take place in: metres and radians, x forward from the start, y left.
     pub(super) fn world(&mut self, launch: Launch) -> Answer<Value> {
-        let Surroundings { drawing, worlds, drops, camera } = self.host.world(&launch)?;
+        let Surroundings { drawing, worlds, drops, camera, seed, cut_short } =
+            self.host.world(&launch)?;
         let Drawing { start, body, things, patches, lights } = &drawing;
         let Pose2 { x, y, heading } = start;
         let patches: Vec<_> = patches
@@ -30,6 +31,9 @@ impl Adapter<'_> {
             "worlds": worlds,
             "drops": drops,
             "camera": camera,
+            // Numbers of clients are not that long.
+            "seed": seed.map(|seed| seed.to_string()),
+            "cutShort": cut_short,
         }))
     }
 }

@@ -1,7 +1,7 @@
 //! A layout in which some nodes have places of their own: those stay, the others go around them.
 //!
-//! The others keep the places of the automatic layout relative to placed neighbours and give way
-//! downwards. Edges then find their ways through the gaps that are left.
+//! The others keep the places of the automatic layout relative to placed neighbours, or take the
+//! nearest ones that are free. Edges then find their ways through the gaps that are left.
 
 use super::super::router::{self, Bounds, Connector, Point};
 use super::{LaidOut, Link, Node, Placement, Rows, arranged, bounds, connectors, layout};
@@ -105,16 +105,20 @@ fn places(nodes: &[Node], links: &[Link], placement: &Placement) -> Vec<Point> {
     let mut moved: Vec<(usize, Point)> = Vec::new();
     for (node, before) in placement.before.iter().enumerate() {
         let Some(before) = before.filter(|_| corners[node].is_none()) else { continue };
-        match obstacle(nodes, &corners, node, before, NEAR) {
+        match obstacle(nodes, &corners, node, before, |_| NEAR) {
             None => corners[node] = Some(before),
             Some(_) => moved.push((node, before)),
         }
     }
     for (node, mut corner) in moved {
-        while let Some(bottom) = obstacle(nodes, &corners, node, corner, GAP) {
-            corner.1 = bottom + GAP;
+        while let Some(way) = obstacle(nodes, &corners, node, corner, |_| GAP) {
+            corner.1 = way.bottom + GAP;
         }
         corners[node] = Some(corner);
+    }
+    for (node, once) in placement.once.iter().enumerate() {
+        let Some(once) = once.filter(|_| corners[node].is_none()) else { continue };
+        corners[node] = obstacle(nodes, &corners, node, once, |_| NEAR).is_none().then_some(once);
     }
     if corners.iter().all(Option::is_some) {
         return corners.into_iter().flatten().collect();
@@ -127,11 +131,10 @@ fn places(nodes: &[Node], links: &[Link], placement: &Placement) -> Vec<Point> {
     free.sort_by(|a, b| automatic[*a].1.total_cmp(&automatic[*b].1));
     for node in free {
         let (dx, dy) = shift(node, links, &fixed, &automatic);
-        let mut corner = (automatic[node].0 + dx, automatic[node].1 + dy);
-        while let Some(bottom) = obstacle(nodes, &corners, node, corner, GAP) {
-            corner.1 = bottom + GAP;
-        }
-        corners[node] = Some(corner);
+        let wish = (automatic[node].0 + dx, automatic[node].1 + dy);
+        // Two boxes may stand as near to each other as the automatic layout puts them.
+        let gap = |other: usize| apart(nodes, &automatic, node, other).clamp(NEAR, GAP);
+        corners[node] = Some(nearest(nodes, &corners, node, wish, gap));
     }
     corners.into_iter().zip(automatic).map(|(corner, other)| corner.unwrap_or(other)).collect()
 }
@@ -156,23 +159,68 @@ fn shift(
     (sum.0 / count, sum.1 / count)
 }
 
-/// The lower border of what lies nearer than `gap` to where a node would go.
+/// The free place nearest to where a node would go: straight down from there, or beside it; of the node that comes first
+/// straight up.
+fn nearest(
+    nodes: &[Node],
+    corners: &[Option<Point>],
+    node: usize,
+    wish: Point,
+    gap: impl Fn(usize) -> f64,
+) -> Point {
+    let (width, height) = (nodes[node].width, nodes[node].height);
+    let along: fn(Bounds, Point, Point) -> Point = match node {
+        0 => |way, (x, _), (_, height)| (x, way.top - GAP - height),
+        _ => |way, (x, _), _| (x, way.bottom + GAP),
+    };
+    let past: [fn(Bounds, Point, Point) -> Point; 3] = [
+        along,
+        |way, (_, y), _| (way.right + GAP, y),
+        |way, (_, y), (width, _)| (way.left - GAP - width, y),
+    ];
+    let slid = past.map(|past| {
+        let mut corner = wish;
+        while let Some(way) = obstacle(nodes, corners, node, corner, &gap) {
+            corner = past(way, corner, (width, height));
+        }
+        corner
+    });
+    let far = |at: &Point| (at.0 - wish.0).abs() + (at.1 - wish.1).abs();
+    slid.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(wish)
+}
+
+/// How far two boxes are apart, across or down, whichever is more.
+fn apart(nodes: &[Node], corners: &[Point], one: usize, other: usize) -> f64 {
+    let ((x, y), (to_x, to_y)) = (corners[one], corners[other]);
+    let across = (to_x - x - nodes[one].width).max(x - to_x - nodes[other].width);
+    let down = (to_y - y - nodes[one].height).max(y - to_y - nodes[other].height);
+    across.max(down)
+}
+
+/// What lies nearer than `gap` to where a node would go, all of it together.
 fn obstacle(
     nodes: &[Node],
     corners: &[Option<Point>],
     node: usize,
     (x, y): Point,
-    gap: f64,
-) -> Option<f64> {
+    gap: impl Fn(usize) -> f64,
+) -> Option<Bounds> {
     let own = &nodes[node];
     let meets = |other: usize| {
         let (left, top) = corners[other]?;
         let (right, bottom) = (left + nodes[other].width, top + nodes[other].height);
+        // What was added up twice differs in the last digits.
+        let gap = gap(other) - 0.01;
         let apart = x + own.width + gap <= left
             || right + gap <= x
             || y + own.height + gap <= top
             || bottom + gap <= y;
-        (!apart).then_some(bottom)
+        (!apart).then_some(Bounds { left, top, right, bottom })
     };
-    (0..nodes.len()).filter_map(meets).reduce(f64::max)
+    (0..nodes.len()).filter_map(meets).reduce(|a, b| Bounds {
+        left: a.left.min(b.left),
+        top: a.top.min(b.top),
+        right: a.right.max(b.right),
+        bottom: a.bottom.max(b.bottom),
+    })
 }

@@ -19,16 +19,18 @@ pub(super) struct Rows {
 impl Rows {
     /// Rows with as much room as the nets need that go side by side.
     pub(super) fn new(grid: &Grid, nodes: &[Node]) -> Rows {
-        let height = |nets: &Vec<usize>| match nets.is_empty() {
-            true => 0.0,
-            false => ABOVE + BELOW + tracks(grid, nets).saturating_sub(1) as f64 * LINE,
+        // Boxes one below the other are apart, whether or not an edge leads from one to the other.
+        let last = grid.channels.len().saturating_sub(1);
+        let height = |(at, nets): (usize, &Vec<usize>)| match nets.is_empty() {
+            true if at == 0 || at == last => 0.0,
+            _ => ABOVE + BELOW + tracks(grid, nets).saturating_sub(1) as f64 * LINE,
         };
         let tallest = |layer: &Vec<usize>| {
             let boxes = layer.iter().filter_map(|item| grid.items[*item].node);
             boxes.map(|node| nodes[node].height).fold(0.0, f64::max)
         };
         Rows {
-            channels: grid.channels.iter().map(height).collect(),
+            channels: grid.channels.iter().enumerate().map(height).collect(),
             layers: grid.layers.iter().map(tallest).collect(),
         }
     }

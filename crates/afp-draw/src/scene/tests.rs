@@ -151,6 +151,70 @@ fn moved(before: &Scene, after: &Scene) -> usize {
     before.plans[0].elements.iter().filter(far).count()
 }
 
+/// A plan whose first element is watched, entered again and left for the end.
+const LOOP: &str = "use std\n\nplan P {\n    start a\n\n    actor a: Wait(duration = 1 s) {\n        \
+    Elapsed -> b\n\n        supervise bump: CheckTimeout(duration = 2 s) {\n            TimeUp -> back\n        \
+    }\n    }\n    actor b: Wait(duration = 1 s) { Elapsed -> c }\n    actor c: Wait(duration = 1 s) { \
+    Elapsed -> a, Error -> terminate }\n    actor back: Wait(duration = 1 s) { Elapsed -> b }\n}\n";
+
+#[test]
+fn what_is_taken_out_and_put_back_stands_where_it_stood() {
+    let start = LOOP.find("    start a\n").unwrap();
+    let (from, to) = (LOOP.find("    actor a").unwrap(), LOOP.find("    actor b").unwrap());
+    let without = |text: &str| text.replace("Elapsed -> a, ", "");
+    let taken = without(&[&LOOP[..start], &LOOP[start + 12..from], &LOOP[to..]].concat());
+    let other = "    actor more: Wait(duration = 1 s) {}\n}\n";
+    let pasted = taken.replace("\n}\n", &format!("\n{other}"));
+    let before = scene(LOOP, None);
+    for meanwhile in [vec![&taken], vec![&taken, &pasted, &taken], vec![&taken, &taken]] {
+        let now = meanwhile.iter().fold(before.clone(), |now, text| scene(text, Some(&now)));
+        let after = scene(LOOP, Some(&now));
+        assert_eq!(fragments(&after), fragments(&before), "{}", meanwhile.len());
+    }
+    // What was given back to the automatic layout is laid out anew.
+    let mut now = scene(&taken, Some(&before));
+    now.forget(&Item::inner("P", "a"));
+    assert!(scene(LOOP, Some(&now)).plans[0].elements.len() == before.plans[0].elements.len());
+}
+
+#[test]
+fn a_new_box_stands_at_the_nearest_free_place() {
+    let before = scene(LOOP, None);
+    // Before everything, where the start tag stands, and between two rows.
+    for (old, new, to) in [("start a", "start z", "a"), ("Elapsed -> c", "Elapsed -> z", "c")] {
+        let text = LOOP.replace(old, new);
+        let one = format!("\n    actor z: Wait(duration = 1 s) {{ Elapsed -> {to} }}\n}}\n");
+        let after = scene(&text.replace("\n}\n", &one), Some(&before));
+        let elements = &after.plans[0].elements;
+        let rect = |name: &str| elements.iter().find(|one| one.item.name() == name).unwrap().rect;
+        let lowest = elements.iter().map(|one| one.rect.bottom()).fold(0.0, f64::max);
+        assert!(rect("z").bottom() < lowest, "{new}: {:?}", rect("z"));
+        assert_eq!(moved(&before, &after), 0);
+    }
+}
+
+#[test]
+fn the_start_stands_above_a_first_element_that_is_placed() {
+    let simple = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+    let starts = |scene: &Scene| {
+        let rect = |at: usize| scene.plans[0].elements[at].rect;
+        (rect(1).x - rect(0).x, rect(1).y - rect(0).y)
+    };
+    for text in [simple, LOOP] {
+        let automatic = starts(&scene(text, None));
+        for (x, y) in [(24, 96), (0, 0), (24, 120), (300, 240), (-60, -36), (1200, 12)] {
+            let compiled = whatever(text);
+            let mut positions = Layout::default();
+            positions.set(Item::inner("P", "a"), Position { x, y });
+            let positions = vec![positions; compiled.sources.len()];
+            let options = Options { positions: &positions, ..Options::default() };
+            let (dx, dy) = starts(&Scene::new(&compiled.outline, &options, None));
+            let same = (dx - automatic.0).abs() < 0.1 && (dy - automatic.1).abs() < 0.1;
+            assert!(same, "{x} {y}: {dx} {dy}, not {automatic:?}");
+        }
+    }
+}
+
 #[test]
 fn a_moved_box_takes_its_own_edges_along_and_leaves_the_others() {
     let text = generated(30, 5);

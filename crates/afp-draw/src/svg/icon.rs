@@ -5,6 +5,7 @@
 //! that a drawing never runs scripts or loads anything.
 
 use super::super::sketch::Glyph;
+use afp_dsl::outline::ComponentKind;
 
 /// Elements that an icon may consist of.
 const ELEMENTS: &[&str] =
@@ -187,6 +188,11 @@ impl<'t> Reader<'t> {
         self.rest = rest.unwrap_or(self.rest);
         rest.is_some()
     }
+}
+
+/// The icon, as a whole `svg`, of what is made from a template that has none.
+pub fn default_icon(kind: ComponentKind) -> &'static str {
+    glyph(Glyph::of(kind))
 }
 
 /// The simple pictures for elements without icon, 24 x 24 in the current colour.

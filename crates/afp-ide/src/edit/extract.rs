@@ -7,11 +7,11 @@ mod data;
 mod flow;
 mod scenarios;
 
-use super::buffer::TextBuffer;
+use super::buffer::{Splice, TextBuffer};
 use super::list::{Page, indented};
-use super::project::Project;
+use super::project::{Project, Workspace};
 use super::tree::{self, Scope, children, is_named, name_of, range};
-use super::{Refused, add, fragment, name, remove};
+use super::{Item, Refused, add, fragment, name, remove};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
@@ -66,13 +66,34 @@ impl Selection {
     }
 }
 
-/// Extracts elements of a plan into a plan of their own.
+/// Extracts elements of a plan into a plan of their own; scenarios of all files follow.
 pub(super) fn run(
-    buffer: &mut TextBuffer,
+    workspace: &mut Workspace,
     plan: &str,
     elements: &[String],
     new_plan: &str,
     element: &str,
+) -> Result<(), Refused> {
+    let items: Vec<_> = elements.iter().map(|name| Item::inner(plan, name)).collect();
+    for item in &items {
+        workspace.check_unused(item)?;
+    }
+    let (project, home) = (workspace.project(), workspace.home);
+    let follow = |file| scenarios::splices(&project, (home, &items), file, element);
+    let mut scenarios: Vec<_> = (0..workspace.buffers.len()).map(follow).collect();
+    let own = std::mem::take(&mut scenarios[home]);
+    in_file(workspace.buffer(), (plan, elements), (new_plan, element), own)?;
+    for (buffer, splices) in workspace.buffers.iter_mut().zip(scenarios) {
+        buffer.splice(splices);
+    }
+    Ok(())
+}
+
+fn in_file(
+    buffer: &mut TextBuffer,
+    (plan, elements): (&str, &[String]),
+    (new_plan, element): (&str, &str),
+    scenarios: Vec<Splice>,
 ) -> Result<(), Refused> {
     let root = buffer.root();
     let selection = Selection::new(buffer, plan, elements)?;
@@ -80,7 +101,7 @@ pub(super) fn run(
     check_reactions(&selection)?;
     let flow = Flow::of(&selection)?;
     let data = Data::of(&selection, &flow.first)?;
-    lead_through(buffer, plan, &selection, &flow, element);
+    lead_through(buffer, &flow, element, scenarios);
     let text = plan_text(buffer, plan, &selection, &flow, &data, new_plan)?;
     let call = call_text(&flow, &data, new_plan, element);
     let first = name_of(&selection.elements[0]).unwrap_or_default();
@@ -131,19 +152,13 @@ fn chosen(root: &Node, plan: &str, selection: &Selection, new_plan: &str) -> Vec
         .collect()
 }
 
-/// Leads edges into the selection to the sub-plan, edges out of it to `terminate`, and paths of
-/// scenarios through the sub-plan.
-fn lead_through(
-    buffer: &mut TextBuffer,
-    plan: &str,
-    selection: &Selection,
-    flow: &Flow,
-    element: &str,
-) {
+/// Leads edges into the selection to the sub-plan, edges out of it to `terminate`, and scenarios
+/// through the sub-plan.
+fn lead_through(buffer: &mut TextBuffer, flow: &Flow, element: &str, scenarios: Vec<Splice>) {
     let mut splices: Vec<_> =
         flow.ways_in.iter().map(|token| (range(token), element.to_owned())).collect();
     splices.extend(flow.ways_out.iter().map(|token| (range(token), "terminate".to_owned())));
-    splices.extend(scenarios::splices(selection, plan, element));
+    splices.extend(scenarios);
     buffer.splice(splices);
 }
 

@@ -160,7 +160,7 @@ fn redirect(
         .map(|token| (range(token), call.first.clone()))
         .collect();
     let mut seen = Vec::new();
-    for token in refer::in_scenarios(&call.project, workspace.home, &[wanted]) {
+    for token in refer::in_scenarios(&call.project, workspace.home, &[wanted], workspace.home) {
         let names: Vec<_> = token
             .parent()
             .iter()

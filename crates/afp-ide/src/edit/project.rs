@@ -60,14 +60,20 @@ impl Workspace {
 
     /// Checks that no other file names an item.
     pub fn check_inside(&self, item: &Item) -> Result<(), Refused> {
+        self.check_unnamed(item, |_| true)
+    }
+
+    /// Checks that no other file names an item in what a plan does: the check marks scenarios of one that is gone.
+    pub fn check_unused(&self, item: &Item) -> Result<(), Refused> {
+        self.check_unnamed(item, |name| refer::scenario(name).is_none())
+    }
+
+    fn check_unnamed(&self, item: &Item, counts: impl Fn(&Token) -> bool) -> Result<(), Refused> {
         let found = refer::to(&self.project(), self.home, item);
-        match found.iter().find(|(file, _)| *file != self.home) {
-            None => Ok(()),
-            Some((file, _)) => {
-                let path = &self.paths[*file];
-                Err(Refused::new(format!("'{}' is named in '{path}'", item.name())))
-            }
-        }
+        let mut others = found.iter().filter(|(file, name)| *file != self.home && counts(name));
+        let Some((file, _)) = others.next() else { return Ok(()) };
+        let (name, path) = (item.name(), &self.paths[*file]);
+        Err(Refused::new(format!("'{name}' is named in '{path}': take it out of there first")))
     }
 }
 

@@ -40,10 +40,15 @@ pub(super) fn users_of(project: &Project, home: usize, plan: &Item) -> Vec<Node>
         .collect()
 }
 
-/// The names in scenarios of a file that mean one of the items of it.
-pub(super) fn in_scenarios(project: &Project, home: usize, items: &[Item]) -> Vec<Token> {
+/// The names in scenarios of a file that mean one of the items of the file `home`.
+pub(super) fn in_scenarios(
+    project: &Project,
+    home: usize,
+    items: &[Item],
+    file: usize,
+) -> Vec<Token> {
     let all = items.iter().flat_map(|item| to(project, home, item));
-    let own = all.filter(|(file, token)| *file == home && scenario(token).is_some());
+    let own = all.filter(|(other, token)| *other == file && scenario(token).is_some());
     own.map(|(_, token)| token).collect()
 }
 

@@ -60,9 +60,9 @@ fn check_unused_plan(project: &Project, item: &Item) -> Result<(), Refused> {
         let user = name_of(user).unwrap_or_default();
         return Err(Refused::new(format!("'{name}' is used by the sub-plan '{user}'")));
     }
-    match refer::in_scenarios(project, 0, std::slice::from_ref(item)).is_empty() {
+    match refer::in_scenarios(project, 0, std::slice::from_ref(item), 0).is_empty() {
         true => Ok(()),
-        false => Err(Refused::new(format!("a scenario is for '{name}'"))),
+        false => Err(Refused::new(format!("a scenario is for '{name}': remove that first"))),
     }
 }
 
@@ -78,9 +78,6 @@ fn check_unread(project: &Project, item: &Item) -> Result<(), Refused> {
     if let Some(reader) = reader {
         let reader = name_of(&reader).unwrap_or_default();
         return Err(Refused::new(format!("'{}' is read by '{reader}'", item.name())));
-    }
-    if !refer::in_scenarios(project, 0, std::slice::from_ref(item)).is_empty() {
-        return Err(Refused::new(format!("'{}' is named by a scenario", item.name())));
     }
     Ok(())
 }

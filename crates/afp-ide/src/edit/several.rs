@@ -137,14 +137,16 @@ fn renamed(
     inner.map(str::to_owned).ok_or_else(|| Refused::new(format!("'{wanted}' is taken")))
 }
 
-/// Lets a plan start with the first element that was added to it.
+/// Lets a plan without a start begin with the first element that was added to it: it is the only one, or the start that
+/// was cut out comes back.
 fn first_start(workspace: &mut Workspace, change: &Change) -> Option<Change> {
-    let Change::Add { plan, owner: None, .. } = change else { return None };
+    let Change::Add { plan, owner: None, text, .. } = change else { return None };
     let node = tree::plan(&workspace.buffer().root(), plan).ok()?;
     if children(&node, Kind::Start).next().is_some() {
         return None;
     }
-    let to = children(&node, Kind::Element).next().as_ref().and_then(name_of)?;
+    let (_, added) = fragment::items(text, false).ok()?;
+    let to = added.iter().find(|node| node.kind() == Kind::Element).and_then(name_of)?;
     Some(Change::SetStart { plan: plan.clone(), to })
 }
 

@@ -2,7 +2,7 @@
 
 use afp_dsl::Compiled;
 use afp_dsl::outline::{Identity, Part};
-use afp_ide::edit::{item, path};
+use afp_ide::edit::{item, path, with_comments};
 use gen_lsp_types as lsp;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -26,6 +26,9 @@ pub(crate) struct SpanOf {
     item: String,
     #[serde(default)]
     part: Option<PartOf>,
+    /// The comments that belong to the item, too, as whoever copies it wants them.
+    #[serde(default)]
+    comments: bool,
 }
 
 /// A part of an item, as [`part`] says it.
@@ -47,6 +50,10 @@ fn first() -> u16 {
 pub(crate) fn span_of(server: &mut Server, params: SpanOf) -> Answer {
     let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
     let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
+    if params.comments {
+        let span = with_comments(analysis.file, analysis.view().text(), &item);
+        return ok(span.map(|span| server.places(&analysis).range(span)));
+    }
     let part = params.part.map_or(Some(Part::Whole), meant);
     let part = part.ok_or_else(|| Failure::Malformed("there is no such part".to_owned()))?;
     let identity = Identity { file: analysis.file, item, part };

@@ -31,6 +31,7 @@ pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
         let icon = icon.and_then(|(name, toolbox)| {
             server.workspace.icon(&analysis.set, toolbox, name, &mut Reads::default())
         });
+        let icon = icon.unwrap_or_else(|| afp_draw::default_icon(offer.kind).to_owned());
         json!({
             "template": offer.name,
             "kind": offer.kind.keyword(),

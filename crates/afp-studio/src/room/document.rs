@@ -77,10 +77,19 @@ impl Document {
         self.kept.etag.as_deref()
     }
 
-    /// Another text, to be written soon.
+    /// Another text, to be written soon, unless it is what lies in the file.
     pub fn set(&mut self, text: String, now: Duration) {
         self.text = text;
-        self.due.get_or_insert(now + SAVES_AFTER);
+        match self.is_as_kept() {
+            true => self.due = None,
+            false => _ = self.due.get_or_insert(now + SAVES_AFTER),
+        }
+    }
+
+    /// Whether the file holds this text, as far as known.
+    fn is_as_kept(&self) -> bool {
+        let known = self.kept.etag.is_some() && !self.unreadable && self.theirs.is_none();
+        known && self.text == self.kept.text
     }
 
     pub fn is_saved(&self) -> bool {
@@ -90,6 +99,11 @@ impl Document {
     /// Whether somebody has to choose between this text and theirs.
     pub fn is_disputed(&self) -> bool {
         self.theirs.is_some()
+    }
+
+    /// Theirs, while somebody has to choose.
+    pub fn theirs(&self) -> Option<&str> {
+        self.theirs.as_ref().map(|theirs| theirs.text.as_str())
     }
 
     /// When it is to be written.
@@ -111,7 +125,7 @@ impl Document {
                 return Look::Unreadable(why);
             }
         };
-        self.unreadable = false;
+        let was_unreadable = std::mem::take(&mut self.unreadable);
         if found.etag.is_some() && self.is_being_written(&found.text, stamp) {
             self.due = self.due.map(|_| now + SAVES_AFTER);
             return Look::Same;
@@ -120,7 +134,7 @@ impl Document {
         // What was in conflict no longer lies there; what lies there may be so anew.
         self.theirs = None;
         if found.etag == self.kept.etag {
-            return Look::Same;
+            return if was_unreadable && self.due.is_none() { Look::Saved } else { Look::Same };
         }
         // The text is all that is left, and stays; the next change writes it anew.
         if found.etag.is_none() {

@@ -173,7 +173,20 @@ fn checked(
     let Some(word) = value.as_str().filter(|word| !word.is_empty()) else { return Ok(None) };
     match word.chars().all(fits) && !word.starts_with('-') {
         true => Ok(Some(word.to_owned())),
-        false => Err(format!("'{word}' cannot be {name}")),
+        false => Err(format!("'{word}' cannot be {name}{}", remedy(name))),
+    }
+}
+
+/// How a word of a job is written.
+fn remedy(name: &str) -> &'static str {
+    match name {
+        "seeds" => ": write some, '1,5,9', or from one up to another, '0..100'",
+        "until" => ": write a time, '30s'",
+        "vary" => {
+            ": write an input with its values, 'walldist=20cm..60cm:10cm' or 'walldist=20cm,30cm'"
+        }
+        "name" => ": use letters, digits, '-' and '_'",
+        _ => "",
     }
 }
 

@@ -8,6 +8,8 @@ use serde_json::{Value, json};
 
 use crate::examples::{self, Example};
 
+use crate::files;
+
 use super::document::Keep;
 use super::{ClientId, Out, Room};
 
@@ -79,13 +81,20 @@ fn hello(room: &Room, client: ClientId) -> Value {
     json!({
         "client": client,
         "root": room.root(),
-        "open": room.open,
+        "open": room.open.clone().or_else(|| first_plan(room)),
         "pen": room.pen == Some(client),
         "trusted": room.trust.is_given(),
         "documents": documents.collect::<Vec<_>>(),
         "files": room.listed(),
         "examples": examples.collect::<Vec<_>>(),
     })
+}
+
+/// The first file of the folder with a plan: one that is opened for nothing in particular shows something.
+fn first_plan(room: &Room) -> Option<String> {
+    let plans = room.files.keys().filter(|path| path.ends_with(".afp"));
+    let mut read = plans.filter_map(|path| Some((path, files::read(path.as_ref()).ok()?.text)));
+    read.find(|(_, text)| afp_lsp::holds_plan(text)).map(|(path, _)| uri_of(path))
 }
 
 /// Whether the folder is trusted, and what of it would run then; gives it that trust where it is asked to.

@@ -6,7 +6,7 @@ use afp_lsp::uri_of;
 use serde_json::json;
 
 use super::document::Look;
-use super::{LOOKS_EVERY, Out, Room, changed, notification};
+use super::{ClientId, LOOKS_EVERY, Out, Room, changed, notification};
 
 impl Room {
     /// When [`Room::tick`] has something to do.
@@ -75,6 +75,20 @@ impl Room {
             out.push((id, notification("afp/saved", said)));
         }
         out
+    }
+
+    /// Tells a client that the text that it has come to is the one that lies in the file.
+    pub(super) fn tell_if_saved(&self, id: ClientId, path: &str) -> Out {
+        let Some(document) = self.documents.get(path).filter(|it| it.is_saved()) else {
+            return Vec::new();
+        };
+        let uri = uri_of(path);
+        let version = self.clients.get(&id).and_then(|client| client.server.text(&uri));
+        let Some((version, _)) = version.filter(|(_, own)| *own == document.text) else {
+            return Vec::new();
+        };
+        let said = json!({ "uri": uri, "version": version, "etag": document.etag() });
+        vec![(id, notification("afp/saved", said))]
     }
 
     /// Looks at the file of an open text.

@@ -33,6 +33,9 @@ const QUOTES: (&str, &str) = ("'`“”„‟‘’‚«»", "'`“”‟‘’�
 /// Signs that a line begins with that is a comment elsewhere.
 const COMMENTS: [&str; 3] = ["--", ";", "%"];
 
+/// What lines begin with that part two versions of a text.
+const VERSION_MARKS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
+
 /// What to write where other languages compare or choose.
 const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
 
@@ -109,6 +112,27 @@ impl Lexer<'_, '_> {
         let message = format!("comments do not begin with '{sign}'");
         let span = self.push(Kind::Comment, length);
         self.diags.push(Diagnostic::new(Code::E0101, span, message).help(help).replace(better));
+    }
+
+    /// Whether a line begins as those with which version control, and the studio, part two versions of a text.
+    pub(super) fn is_version_mark(&self) -> bool {
+        let rest = &self.text[self.at..];
+        let mut tails = VERSION_MARKS.iter().filter_map(|mark| rest.strip_prefix(mark));
+        tails.any(|tail| tail.is_empty() || tail.starts_with([' ', '\r', '\n']))
+            && (self.at == 0 || self.text[..self.at].ends_with('\n'))
+    }
+
+    /// Takes a line that parts two versions.
+    pub(super) fn version_mark(&mut self) {
+        let length = line_length(&self.text[self.at..]);
+        let span = self.push(Kind::Comment, length);
+        let error = Diagnostic::new(
+            Code::E0101,
+            span,
+            "this line is a mark between two versions of the text",
+        );
+        let help = "keep one of the versions between '<<<<<<<' and '>>>>>>>', and remove the other one and the marks";
+        self.diags.push(error.help(help));
     }
 
     /// Reports characters that something else should be written for.

@@ -3,19 +3,22 @@
 
 use std::ops::Range;
 
-use super::Selection;
 use crate::edit::buffer::Splice;
-use crate::edit::tree::{children, name_of, range, solid_range, tokens};
+use crate::edit::project::Project;
+use crate::edit::tree::{children, range, solid_range, tokens};
 use crate::edit::{Item, refer};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// Leads scenarios of a plan through the sub-plan `element`.
-pub(super) fn splices(selection: &Selection, plan: &str, element: &str) -> Vec<Splice> {
-    let names = selection.elements.iter().filter_map(name_of);
-    let items: Vec<_> = names.map(|name| Item::inner(plan, name)).collect();
-    let inside = refer::in_scenarios(&selection.project, 0, &items);
-    let reader = Reader { selection, element, inside: &inside };
+/// Leads the scenarios of a file through the sub-plan `element`, which stands for items of the file `home`.
+pub(super) fn splices(
+    project: &Project,
+    (home, items): (usize, &[Item]),
+    file: usize,
+    element: &str,
+) -> Vec<Splice> {
+    let inside = refer::in_scenarios(project, home, items, file);
+    let reader = Reader { project, file, element, inside: &inside };
     let mut splices = Vec::new();
     let mut read: Vec<Node> = Vec::new();
     for token in &inside {
@@ -38,7 +41,9 @@ fn claim_of(token: &Token) -> Option<Node> {
 
 /// Reads claims.
 struct Reader<'a> {
-    selection: &'a Selection,
+    project: &'a Project,
+    /// The file that they stand in.
+    file: usize,
     /// The name of the sub-plan.
     element: &'a str,
     /// The names in scenarios that mean selected elements.
@@ -101,7 +106,7 @@ impl Reader<'_> {
     /// What the supervisor belongs to that a path names: the plan or an element; `None` without one.
     fn watcher(&self, path: &Path) -> Option<Kind> {
         tokens(&path.node, Kind::Name).find_map(|token| {
-            let (_, node) = self.selection.project.item(0, &token)?;
+            let (_, node) = self.project.item(self.file, &token)?;
             let owner = node.parent().filter(|_| node.kind() == Kind::Guard)?;
             Some(owner.kind())
         })

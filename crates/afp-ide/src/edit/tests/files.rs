@@ -197,17 +197,43 @@ fn an_enum_is_renamed_in_types_and_values() {
 #[test]
 fn what_another_file_names_is_not_taken_away() {
     let remove = |item| Change::Remove { item };
-    refused(1, &remove(Item::plan("Lap")), "'Lap' is named in 'main.afp'");
-    refused(1, &remove(Item::inner("Lap", "seen")), "'seen' is named in 'main.afp'");
-    refused(1, &remove(Item::enumeration("Mood")), "'Mood' is named in 'main.afp'");
+    let named = |name: &str| format!("'{name}' is named in 'main.afp': take it out of there first");
+    refused(1, &remove(Item::plan("Lap")), &named("Lap"));
+    refused(1, &remove(Item::inner("Lap", "seen")), &named("seen"));
+    refused(1, &remove(Item::enumeration("Mood")), &named("Mood"));
+    refused(9, &remove(Item::plan("Lap")), "there is no such file");
+}
+
+#[test]
+fn scenarios_of_other_files_hold_no_element() {
+    let texts = after(&files(), 1, &Change::Remove { item: Item::inner("Lap", "forth") });
+    assert!(!texts[1].contains("forth"), "{}", texts[1]);
+    assert_eq!(texts[0], files()[0].text, "what names it there is for the check to mark");
     let extract = Change::Extract {
         plan: "Lap".into(),
         elements: vec!["forth".into()],
         new_plan: "New".into(),
         element: "new".into(),
     };
-    refused(1, &extract, "'forth' is named in 'main.afp'");
-    refused(9, &remove(Item::plan("Lap")), "there is no such file");
+    let mut files = files();
+    let text = &mut files[0].text;
+    *text = text.replace(
+        "    expect lap.forth active
+",
+        "    expect lap.forth active
+    expect lap.forth -> lap.rest
+",
+    );
+    let texts = after(&files, 1, &extract);
+    for wanted in [
+        "expect lap.new.forth active
+",
+        "expect lap.new -> lap.rest
+",
+    ] {
+        assert!(texts[0].contains(wanted), "{wanted}: {}", texts[0]);
+    }
+    assert_compiles(&texts);
 }
 
 #[test]

@@ -43,15 +43,22 @@ impl<'a> Simulator<'a> {
 
     /// The world that a log was recorded in.
     fn world_of_log(&self, log: &Path) -> Result<Surroundings, String> {
-        let Recipe { world, start, .. } =
-            afp_log::read(log).map_err(|why| why.to_string())?.recipe();
+        let log = afp_log::read(log).map_err(|why| why.to_string())?;
+        let Recipe { world, start, seed, .. } = log.recipe();
         let found = self.linked.robot.kind().world(&world.text).map_err(|why| why.to_string())?;
         let found = match start {
             Some(start) => found.started_at(start)?,
             None => found,
         };
         let worlds = vec![(world.name, "the log")];
-        Ok(Surroundings { drawing: found.drawing(), worlds, ..Surroundings::default() })
+        let (seed, cut_short) = (Some(seed), log.cut_short);
+        Ok(Surroundings {
+            drawing: found.drawing(),
+            worlds,
+            seed,
+            cut_short,
+            ..Surroundings::default()
+        })
     }
 
     fn check(&self, path: &str) -> Result<(), String> {
@@ -134,7 +141,13 @@ impl<'a> Host<'a> for Simulator<'a> {
         worlds.retain(|(name, _)| open(name));
         let drops = kind.drops();
         let camera = signals(kind.devices()).any(|(.., row)| row.ty == SignalType::Image);
-        Ok(Surroundings { drawing: found.world.drawing(), worlds, drops, camera })
+        Ok(Surroundings {
+            drawing: found.world.drawing(),
+            worlds,
+            drops,
+            camera,
+            ..Surroundings::default()
+        })
     }
 
     fn path(&self, path: &str) -> String {

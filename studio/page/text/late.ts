@@ -1,0 +1,38 @@
+// What is said of an older state of a text is shown where that stands now: whoever types is ahead of whoever answers.
+import type { ChangeSet, Text } from "@codemirror/state";
+
+/** States that are kept. */
+const MOST = 500;
+
+interface State {
+  version: number;
+  doc: Text;
+  /** What made it of the state before. */
+  changes: ChangeSet | null;
+}
+
+export interface Then {
+  text: string;
+  /** Where a place of that text is now. */
+  now(place: number): number;
+}
+
+/** The last states of a text, by version. */
+export class Late {
+  private states: State[];
+
+  constructor(version: number, doc: Text) {
+    this.states = [{ version, doc, changes: null }];
+  }
+
+  note(version: number, doc: Text, changes: ChangeSet): void {
+    this.states = [...this.states, { version, doc, changes }].slice(-MOST);
+  }
+
+  /** The text of a version, without one as it is; null where nobody knows it any more. */
+  at(version: number | null): Then | null {
+    const at = version === null ? this.states.length - 1 : this.states.findLastIndex((state) => state.version <= version);
+    const since = this.states.slice(at + 1);
+    return at < 0 ? null : { text: this.states[at]!.doc.toString(), now: (place) => since.reduce((to, { changes }) => changes!.mapPos(to), place) };
+  }
+}

@@ -1,0 +1,80 @@
+// Texts that the server could not take outlive their page: kept in the browser's storage while they lie nowhere else, and
+// offered when their file is opened again. Each page has a key of its own, since several may show one file.
+import { effect } from "@preact/signals";
+import { offer, opened, saved, text, unsent } from "./documents";
+import { lsp } from "./session";
+
+const PREFIX = "afp-studio-unsent-";
+/** Milliseconds that a text may be on its way before it is kept. */
+const PAUSE = 300;
+
+export interface Kept {
+  /** When it was written, in milliseconds. */
+  at: number;
+  texts: readonly { uri: string; text: string }[];
+}
+
+type Pages = Pick<Storage, "getItem" | "setItem" | "removeItem" | "key" | "length">;
+
+/** What pages have kept, by their keys, the newest first. */
+export function kept(storage: Pages): [string, Kept][] {
+  const keys = Array.from({ length: storage.length }, (_, at) => storage.key(at)!).filter((key) => key.startsWith(PREFIX));
+  return keys.flatMap((key) => read(storage, key)).sort(([, a], [, b]) => b.at - a.at);
+}
+
+function read(storage: Pages, key: string): [string, Kept][] {
+  try {
+    const found = JSON.parse(storage.getItem(key) ?? "null");
+    return Array.isArray(found?.texts) ? [[key, found]] : [];
+  } catch {
+    return [];
+  }
+}
+
+/** Keeps texts under a key; none of them leaves no key. */
+export function keep(storage: Pages, key: string, { at, texts }: Kept): void {
+  try {
+    if (texts.length > 0) storage.setItem(key, JSON.stringify({ at, texts }));
+    else storage.removeItem(key);
+  } catch {
+    // It is full: the page itself still has them, and says before it is left that they are not saved.
+  }
+}
+
+/** Takes the newest text out that another page has kept of a file, unless it is what the file has. */
+export function claim(storage: Pages, uri: string, now: string): string | null {
+  for (const [key, { at, texts }] of kept(storage)) {
+    const found = texts.findLast((one) => one.uri === uri);
+    if (!found) continue;
+    keep(storage, key, { at, texts: texts.filter((one) => one !== found) });
+    if (found.text !== now) return found.text;
+  }
+  return null;
+}
+
+/** Begins to keep and to offer. */
+export function begin(storage: Storage): void {
+  const key = `${PREFIX}${Date.now().toString(36)}${Math.random().toString(36).slice(2)}`;
+  const write = (): void => keep(storage, key, { at: Date.now(), texts: unsent.peek() });
+  let timer: ReturnType<typeof setTimeout>;
+  effect(() => {
+    void unsent.value;
+    clearTimeout(timer);
+    timer = setTimeout(write, PAUSE);
+  });
+  const seen = new Set<string>();
+  effect(() => {
+    for (const uri of opened.value) {
+      if (seen.has(uri)) continue;
+      seen.add(uri);
+      const mine = claim(storage, uri, text(uri));
+      // Once the text is told to everybody who hears that it is open.
+      if (mine !== null) queueMicrotask(() => offer(uri, mine));
+    }
+  });
+  addEventListener("pagehide", write);
+  addEventListener("beforeunload", (event) => {
+    const lost = saved.peek() !== "saved" && (saved.peek() !== "saving" || !lsp().open.peek());
+    if (lost) event.preventDefault();
+  });
+}
