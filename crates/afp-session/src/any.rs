@@ -146,6 +146,7 @@ pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
 ///
 /// [`SetError::explained`] says it with the entry, and what to do.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SetError {
     /// There is no such entry.
     Unknown,

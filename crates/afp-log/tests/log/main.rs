@@ -1,5 +1,7 @@
 //! A log is written, read back, cut short, recovered.
 
+mod damaged;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,8 +15,7 @@ use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
 use afp_log::statistics::statistics;
 use afp_log::{
-    About, LogError, OwnedNames, Recorder, Signal, WhenFull, doctor, read, read_any, recover,
-    recovered_name,
+    About, LogError, OwnedNames, Recorder, Signal, WhenFull, doctor, read, recover, recovered_name,
 };
 use afp_session::{
     Build, Datum, Done, EventKind, Put, Recipe, Requested, RunEvent, Stimulus, TextFile,
@@ -310,104 +311,6 @@ fn a_flipped_byte_is_found() {
         fs::write(&bad, &bytes).unwrap();
         assert!(!doctor(&bad).unwrap().is_empty(), "byte {at}");
     }
-}
-
-/// Where chunks begin, and how long they are.
-fn chunks(bytes: &[u8]) -> Vec<(usize, usize)> {
-    let summary = mcap::Summary::read(bytes).unwrap().unwrap();
-    let chunks = summary.chunk_indexes.iter();
-    let mut chunks: Vec<_> =
-        chunks.map(|it| (it.chunk_start_offset as usize, it.chunk_length as usize)).collect();
-    chunks.sort();
-    chunks
-}
-
-#[test]
-fn what_is_behind_a_damaged_chunk_is_saved() {
-    let dir = tempfile::tempdir().unwrap();
-    let path = dir.path().join("a.mcap");
-    let mut log = create(&path);
-    for n in 1..=14_000 {
-        log.record(at(n), &Record::Polled { supervisor: ComponentId(2), verdict: Verdict::Clear });
-    }
-    log.finish().unwrap();
-    let (bytes, whole) = (fs::read(&path).unwrap(), recover(&path, &dir.path().join("c.mcap")));
-    let (whole, chunks) = (whole.unwrap(), chunks(&bytes));
-    assert!(whole.damage.is_none() && whole.missing.is_empty() && chunks.len() > 2, "{whole:?}");
-    let (bad, saved) = (dir.path().join("bad.mcap"), dir.path().join("saved.mcap"));
-    for (number, (begin, length)) in chunks.iter().copied().enumerate() {
-        // Its kind, how long it is, when it begins, and what it holds.
-        for at in [begin, begin + 1, begin + 3, begin + 8, begin + length / 2] {
-            let mut bytes = bytes.clone();
-            bytes[at] ^= 0x10;
-            fs::write(&bad, &bytes).unwrap();
-            let saved = recover(&bad, &saved).unwrap();
-            assert!(saved.damage.is_some(), "byte {at}");
-            let lost = whole.messages - saved.messages;
-            assert!(0 < lost && lost < whole.messages * 2 / 3, "byte {at}: {lost} are lost");
-            let [missing] = saved.missing[..] else { panic!("byte {at}: {:?}", saved.missing) };
-            assert_eq!(missing.after.is_none(), number == 0, "byte {at}");
-            assert_eq!(missing.before.is_none(), number + 1 == chunks.len(), "byte {at}");
-            assert!(missing.before.is_none_or(|before| missing.after < Some(before)));
-            assert_eq!(doctor(&saved.path).unwrap(), [""; 0], "byte {at}");
-        }
-    }
-}
-
-#[test]
-fn what_is_damaged_beside_the_messages_costs_none() {
-    let dir = tempfile::tempdir().unwrap();
-    let path = written(dir.path());
-    let bytes = fs::read(&path).unwrap();
-    let (first, _) = chunks(&bytes)[0];
-    let (bad, saved) = (dir.path().join("bad.mcap"), dir.path().join("saved.mcap"));
-    let whole = recover(&path, &saved).unwrap().messages;
-    for at in (20..first).chain(bytes.len() - 400..bytes.len()).step_by(13) {
-        let mut bytes = bytes.clone();
-        bytes[at] ^= 0x10;
-        fs::write(&bad, &bytes).unwrap();
-        let saved = recover(&bad, &saved).unwrap();
-        assert!(saved.damage.is_some(), "byte {at}");
-        assert_eq!((saved.messages, &saved.missing[..]), (whole, &[][..]), "byte {at}");
-    }
-}
-
-#[test]
-fn what_is_compressed_in_another_way_is_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    let mut bytes = fs::read(written(dir.path())).unwrap();
-    let name = b"\x03\0\0\0lz4";
-    while let Some(at) = bytes.windows(name.len()).position(|it| it == name) {
-        bytes[at..at + name.len()].copy_from_slice(b"\x03\0\0\0zst");
-    }
-    let [other, saved] = ["other.mcap", "saved.mcap"].map(|name| dir.path().join(name));
-    fs::write(&other, &bytes).unwrap();
-    let refused = [read(&other).err(), doctor(&other).err(), recover(&other, &saved).err()];
-    for why in refused {
-        let why = why.unwrap();
-        assert!(matches!(&why, LogError::Compressed(how) if how == "zst"), "{why}");
-        assert!(why.help().starts_with("'mcap decompress FILE"), "{}", why.help());
-    }
-    assert!(!saved.exists());
-}
-
-#[test]
-fn what_is_no_log_of_a_run_is_told() {
-    let dir = tempfile::tempdir().unwrap();
-    let path = dir.path().join("foreign.mcap");
-    let mut writer = mcap::Writer::new(fs::File::create(&path).unwrap()).unwrap();
-    let channel = writer.add_channel(0, "/foo", "json", &Default::default()).unwrap();
-    let (sequence, log_time, publish_time) = (1, 5, 5);
-    let header =
-        mcap::records::MessageHeader { channel_id: channel, sequence, log_time, publish_time };
-    writer.write_to_known_channel(&header, b"{}").unwrap();
-    writer.finish().unwrap();
-    drop(writer);
-    let why = read(&path).err().unwrap().to_string();
-    assert!(why.ends_with("foreign.mcap' is not the log of a run of AFP"), "{why}");
-    assert_eq!(read_any(&path).unwrap().topics["/foo"].messages, 1);
-    assert!(doctor(&path).unwrap()[0].contains("'afp.run'"));
-    assert_eq!(recover(&path, &dir.path().join("saved.mcap")).unwrap().messages, 1);
 }
 
 #[test]
