@@ -1,6 +1,6 @@
 //! Who presses a control, and when it is let go.
 
-use afp_core::{Duration, Instant};
+use afp_core::{Duration, Instant, Platform as _};
 use afp_session::{AnySession, Applied, Observer, Open, Request, Stimulus};
 
 use super::{FRONT, at, session};
