@@ -21,6 +21,7 @@ plan P {
     start go
 
     actor go: Forward(distance = 10 cm) {
+        supervise touch: CheckTouchSensor { TouchSensorPressed -> terminate }
         ForwardSuccessful -> terminate
     }
 }

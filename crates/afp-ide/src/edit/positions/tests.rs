@@ -5,7 +5,7 @@ use afp_draw::layout_file::Layout;
 
 const FILE: &str = "\
 # placed by hand
-zoom 120
+#zoom 120
 P.back 300 -40
 P.go 10 20 folded wide
 P.go.touch 12 60
@@ -32,7 +32,7 @@ fn positions_follow_names() {
 fn positions_follow_other_changes() {
     let go = || Item::inner("P", "go");
     let removed = after(Change::Remove { item: go() });
-    assert_eq!(removed, "# placed by hand\nzoom 120\nP.back 300 -40\nQ.go 0 0\n");
+    assert_eq!(removed, "# placed by hand\n#zoom 120\nP.back 300 -40\nQ.go 0 0\n");
     let moved = after(Change::Move { item: go(), plan: "R".into(), owner: None });
     assert!(moved.ends_with("Q.go 0 0\nR.go 10 20 folded wide\nR.go.touch 12 60\n"), "{moved}");
     let owner = Some("back".to_owned());

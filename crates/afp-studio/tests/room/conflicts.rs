@@ -1,0 +1,130 @@
+//! Two who write one file at once.
+
+use super::*;
+
+#[test]
+fn changes_of_other_lines_go_together() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.types(1, 2, &PLAN.replace("Elapsed -> terminate", "Elapsed -> go"));
+    place.outside(&format!("// theirs\n{PLAN}"));
+    place.pass(600);
+    let both = format!("// theirs\n{}", PLAN.replace("Elapsed -> terminate", "Elapsed -> go"));
+    assert_eq!(place.on_disk(), both);
+    // The client was told of it and takes it over once it is written: what it has then is saved.
+    let out = place.types(1, 3, &both);
+    assert_eq!(
+        (methods(&out), &out[0].1["params"]["version"]),
+        (vec![(1, "afp/saved")], &json!(3))
+    );
+}
+
+#[test]
+fn a_text_that_is_again_what_lies_in_the_file_is_saved_whether_or_not_the_disk_takes_anything() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.types(1, 2, &PLAN.replace("go", "stay"));
+    let out = place.types(1, 3, PLAN);
+    assert_eq!(
+        (methods(&out), &out[0].1["params"]["version"]),
+        (vec![(1, "afp/saved")], &json!(3))
+    );
+    assert_eq!(place.pass(1000), [], "nothing is written");
+}
+
+#[test]
+fn who_comes_while_there_is_something_to_choose_is_asked_too() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.types(1, 2, &PLAN.replace("terminate", "go"));
+    let theirs = PLAN.replace("terminate", "other");
+    place.outside(&theirs);
+    place.pass(1000);
+    place.room.join(2);
+    place.ask(2, "initialize", json!({ "capabilities": {} })).unwrap();
+    let document = json!({ "uri": place.uri("p.afp"), "languageId": "afp", "version": 1,
+        "text": PLAN.replace("terminate", "go") });
+    let out = place.tell(2, "textDocument/didOpen", json!({ "textDocument": document }));
+    assert_eq!(methods(&out), [(2, "afp/changed")]);
+    assert_eq!(
+        (&out[0].1["params"]["clean"], &out[0].1["params"]["text"]),
+        (&json!(false), &json!(theirs))
+    );
+}
+
+#[test]
+fn what_does_not_go_together_is_not_written_before_somebody_has_chosen() {
+    let mine = PLAN.replace("terminate", "go");
+    let theirs = PLAN.replace("terminate", "other");
+    for (keep, expected) in [("mine", Some(&mine)), ("theirs", Some(&theirs)), ("both", None)] {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.types(1, 2, &mine);
+        place.outside(&theirs);
+        let out = place.pass(1000);
+        let conflict = out.iter().find(|(_, value)| value["params"]["clean"] == false).unwrap();
+        assert_eq!(conflict.1["params"]["text"], theirs);
+        assert_eq!(place.on_disk(), theirs, "never over somebody else's change");
+        let choice = json!({ "uri": place.uri("p.afp"), "keep": keep });
+        place.ask(1, "afp/choose", choice).unwrap();
+        place.pass(300);
+        match expected {
+            Some(text) => assert_eq!(&place.on_disk(), text),
+            None => assert!(
+                place.on_disk().contains("<<<<<<<") && place.on_disk().contains("-> other"),
+                "{}",
+                place.on_disk()
+            ),
+        }
+    }
+}
+
+#[test]
+fn a_conflict_that_others_take_back_is_none() {
+    let mine = PLAN.replace("terminate", "go");
+    let merged = format!("// more\n{mine}");
+    // Taken back with another change, as it was, by writing the same, and with the file.
+    let ways = [
+        (Some(format!("// more\n{PLAN}")), &merged),
+        (Some(PLAN.to_owned()), &mine),
+        (Some(mine.clone()), &mine),
+        (None, &mine),
+    ];
+    for (written, expected) in ways {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.types(1, 2, &mine);
+        place.outside(&PLAN.replace("terminate", "other"));
+        let out = place.pass(1000);
+        assert!(out.iter().any(|(_, value)| value["params"]["clean"] == false), "{out:?}");
+        match &written {
+            Some(text) => place.outside(text),
+            None => fs::remove_file(place.path("p.afp")).unwrap(),
+        }
+        let out = place.pass(1500);
+        let settled = out.iter().find(|(_, value)| value["params"]["clean"] == true);
+        assert_eq!(settled.unwrap().1["params"]["text"], **expected, "{written:?}");
+        assert_eq!(place.on_disk(), *expected, "{written:?}");
+        // What is typed next is written again.
+        place.types(1, 3, PLAN);
+        place.pass(1000);
+        assert_eq!(place.on_disk(), PLAN, "{written:?}");
+    }
+}
+
+#[test]
+fn nothing_is_written_over_what_cannot_be_read() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let mine = PLAN.replace("terminate", "go");
+    place.types(1, 2, &mine);
+    fs::write(place.path("p.afp"), [0xff, 0xfe, b'a']).unwrap();
+    let out = place.pass(1500);
+    let failed: Vec<_> = out.iter().filter(|(_, it)| it["params"]["failed"].is_string()).collect();
+    assert_eq!(failed.len(), 1, "said once: {out:?}");
+    place.room.save_all(place.now);
+    assert_eq!(fs::read(place.path("p.afp")).unwrap(), [0xff, 0xfe, b'a']);
+    place.outside(PLAN);
+    place.pass(1500);
+    assert_eq!(place.on_disk(), mine);
+}
