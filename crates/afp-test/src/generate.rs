@@ -118,8 +118,8 @@ impl Generated {
     /// What `read` and `run_all` say.
     pub fn prove<E>(
         &mut self,
-        read: &dyn Fn(&Generated) -> Result<Vec<Scenario>, E>,
-        run_all: &dyn Fn(&[Scenario]) -> Result<Vec<Verdict>, E>,
+        read: impl Fn(&Generated) -> Result<Vec<Scenario>, E>,
+        run_all: impl Fn(&[Scenario]) -> Result<Vec<Verdict>, E>,
     ) -> Result<(), E> {
         while self.drafts.iter().any(|draft| !draft.proven) {
             let is_new = |name: &str| self.drafts.iter().any(|it| !it.proven && it.title == name);

@@ -86,7 +86,7 @@ impl Made {
         let read = |made: &Generated| Ok::<_, ()>(scenarios("plan.afp", plan, made));
         let run_all = |all: &[Scenario]| Ok(all.iter().map(|it| self.run(it, robot)).collect());
         let mut generated = self.generated.clone();
-        generated.prove(&read, &run_all).unwrap();
+        generated.prove(read, run_all).unwrap();
         self.scenarios = scenarios("plan.afp", plan, &generated);
         self.generated = generated;
         self

@@ -5,11 +5,14 @@ use afp_session::{AnySession, Applied, Observer, Open, Request, Stimulus};
 
 use super::{FRONT, at, session};
 
+/// Requests, and whether the control is held down: each with its milliseconds.
+type Case<'a> = (&'a [(u64, Request)], &'a [(u64, bool)]);
+
 #[test]
 fn a_control_is_held_down_until_the_last_who_presses_it_lets_go() {
     let hold = |lasting| Request::Hold(FRONT, Duration::from_millis(lasting));
     let (press, release) = (Request::Press(FRONT, true), Request::Press(FRONT, false));
-    let cases: [(&[(u64, Request)], &[(u64, bool)]); 5] = [
+    let cases: [Case<'_>; 5] = [
         (
             &[(100, hold(500)), (200, hold(100))],
             &[(150, true), (350, true), (590, true), (610, false)],

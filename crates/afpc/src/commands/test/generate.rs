@@ -99,7 +99,7 @@ fn prove(file: &Path, made: &mut Generated, robot: &dyn Loader) -> Result<(), Ru
         let setting = Setting::find(scenario, file, robot.kind())?;
         afp_test::run(scenario, &setting, robot, None)
     };
-    made.prove(&read, &|scenarios| scenarios.par_iter().with_max_len(1).map(run_one).collect())
+    made.prove(read, |scenarios| scenarios.par_iter().with_max_len(1).map(run_one).collect())
 }
 
 /// Writes scenarios into the file `to`, whose folder is made.
