@@ -102,11 +102,11 @@ def test_what_comes_from_outside_is_among_the_events_and_in_the_timeline(wall_fo
     simulation.set("walldist", afp.cm(40), at=0.2)
     simulation.fail("ultrasonic", "frozen", at=0.5, lasting=1.0)
     simulation.bump(at=0.6, hold=0.1)
-    requests = ["set walldist = 0.4 m", "fail ultrasonic.frozen for 1 s", "press touch.touch", "release touch.touch"]
+    requests = ["set walldist = 0.4 m", "fail ultrasonic.frozen for 1 s", "press touch.touch for 0.1 s", "release touch.touch"]
     streamed = [event.request for event in simulation.stream(until=1.0) if event.kind == "requested"]
     result = simulation.result()
     assert streamed == [event.request for event in result.events if event.request] == requests
-    assert "     0.600  ● press touch.touch  from outside" in result.timeline
+    assert "     0.600  ● press touch.touch for 0.1 s  from outside" in result.timeline
     assert [str(event) for event in result.events if event.kind == "requested"][2] == result.timeline[-4]
 
 

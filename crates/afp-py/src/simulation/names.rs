@@ -21,7 +21,8 @@ pub struct Names(pub(super) PlanNames);
 
 #[pymethods]
 impl Names {
-    /// The path of a run over its world, as SVG: rows of time, x, y, heading, and what happened on the way.
+    /// The path of a run over its world, as SVG: rows of time, x, y, heading, what happened on the way, and where what
+    /// moves was last.
     #[expect(clippy::too_many_arguments, reason = "what a result has")]
     fn draw(
         &self,
