@@ -35,7 +35,7 @@ impl Host<'static> for Simulated {
         let compiled = compile(&Source::new(FILE, PLAN), &toolboxes, &Texts::default());
         let graph = compiled.graph.clone().ok_or_else(|| compiled.render(false))?;
         let program = Program::new(&graph, &compiled.sources, &str::to_owned);
-        let seed = launch.seed;
+        let seed = launch.seed.unwrap_or_default();
         let make = move || {
             let robot = afp_sim::carbot(|_| {});
             let world = robot.kind().world(robot.kind().default_world());
