@@ -105,7 +105,7 @@ test('the plan is watched, written to, pressed and stopped while it runs', async
     await changed;
     const refused = next(client, 'status', (event) => event.level === 2);
     client.setParameters([{ name: 'walldist', value: '42 s' }]);
-    assert.match((await refused).message, /'walldist': '42 s' does not fit: write a number and a unit, of /);
+    assert.match((await refused).message, /'walldist=42 s': not a length \(help: a number and a unit: m, cm, /);
 
     const other = await connect(watcher);
     const held = { held: true };
