@@ -41,9 +41,6 @@ pub enum LogError {
     Writer,
 }
 
-/// What helps where a file or its folder is not there.
-const ELSEWHERE: &str = "check the path, which begins in the folder in which the command runs";
-
 impl LogError {
     /// The same of a log that is being written: a failure of the disk names the file.
     pub(crate) fn writing(self, path: &Path) -> LogError {
@@ -67,7 +64,7 @@ impl LogError {
                     )
                     .into();
                 }
-                ELSEWHERE
+                afp_output::ELSEWHERE
             }
             LogError::NotALog { .. } | LogError::NoRun { .. } => {
                 "name a file that a run wrote: 'afpc run PLAN --log FILE.mcap'"
@@ -77,7 +74,9 @@ impl LogError {
             }
             LogError::Mcap(mcap::McapError::Io(_)) => "",
             LogError::Mcap(_) => "'afpc log FILE recover' saves what is intact into a new file",
-            LogError::Create { error, .. } if error.kind() == io::ErrorKind::NotFound => ELSEWHERE,
+            LogError::Create { error, .. } if error.kind() == io::ErrorKind::NotFound => {
+                afp_output::ELSEWHERE
+            }
             LogError::Create { .. } | LogError::Open { .. } | LogError::Writer => "",
         };
         help.into()

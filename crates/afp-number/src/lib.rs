@@ -32,7 +32,7 @@ pub use function::{
 };
 pub use hash::TextHash;
 pub use kind::{ComponentKind, EntryKind};
-pub use measured::Measured;
+pub use measured::{EXACT, Measured};
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 pub use row::{Child, ElementKind, Range};
 pub use single::SingleUnit;

@@ -84,7 +84,7 @@ fn whole_or_parts<'a>(
 /// To so many decimals; as it is where it has none of them.
 fn rounded(number: f64, decimals: usize) -> f64 {
     let scale = libm::pow(10.0, decimals as f64);
-    match (number * scale).abs() < WHOLE {
+    match (number * scale).abs() < EXACT {
         true => libm::round(number * scale) / scale,
         false => number,
     }
@@ -96,8 +96,8 @@ fn three_digits(number: f64) -> (f64, usize) {
     (rounded(number, decimals), decimals)
 }
 
-/// From here on every number is a whole one.
-const WHOLE: f64 = 9_007_199_254_740_992.0;
+/// Up to here floats have each whole number, and from here on no other ones.
+pub const EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// From here on a number is written with an exponent.
 const LARGE: f64 = 1e12;

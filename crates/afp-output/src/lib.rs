@@ -20,6 +20,9 @@ use part::{Part, Taken};
 pub use read::{read_bytes, read_file, read_text, read_text_file};
 use target::Target;
 
+/// What helps where a file or its folder is not there.
+pub const ELSEWHERE: &str = "check the path, which begins in the folder in which the command runs";
+
 /// A file that is being written.
 ///
 /// Dropped without [`Output::finish`] or [`Output::discard`], as by a crash, it leaves what was

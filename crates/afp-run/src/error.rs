@@ -22,9 +22,6 @@ pub const EXIT_USAGE: u8 = 2;
 /// The plan ended in `Error`.
 pub const EXIT_PLAN_ERROR: u8 = 3;
 
-/// What helps where a file is not there.
-const ELSEWHERE: &str = "check the path, which begins in the folder in which the command runs";
-
 /// Why a run cannot begin or go on.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -137,7 +134,7 @@ impl RunError {
             }
             RunError::File { what, path, error } => {
                 let help = match error.kind() {
-                    io::ErrorKind::NotFound => ELSEWHERE,
+                    io::ErrorKind::NotFound => afp_output::ELSEWHERE,
                     _ => "",
                 };
                 report(&format!("{what} '{}': {error}", path.display()), help, Vec::new())

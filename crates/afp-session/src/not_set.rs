@@ -5,7 +5,7 @@ use std::fmt;
 use afp_core::Fault;
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_excerpt::words::a;
-use afp_number::number_length;
+use afp_number::{EXACT, number_length};
 
 use crate::any::{AnySession, SetError, refusal};
 use crate::units::some_units;
@@ -138,6 +138,3 @@ fn with_a_point(text: &str, units: &[String]) -> Option<String> {
     };
     fits.then_some(text)
 }
-
-/// The greatest whole number up to which floats have each.
-const EXACT: f64 = 9_007_199_254_740_992.0;

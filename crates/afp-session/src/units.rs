@@ -1,4 +1,4 @@
-//! The units that helps name of those that fit.
+//! Which of the units that fit an error names.
 
 /// What people write most, first what is most usual.
 const USUAL: [&str; 20] = [
