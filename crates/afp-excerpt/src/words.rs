@@ -16,6 +16,14 @@ pub fn a(name: &str) -> String {
     format!("{article} {name}")
 }
 
+/// What to write instead of a name that nothing has: the one of `known` that was probably meant, or that there are those.
+pub fn instead<'a>(name: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
+    match nearest(name, known.clone()) {
+        Some(meant) => format!("write '{meant}'"),
+        None => format!("it has {}", list(known, "and")),
+    }
+}
+
 /// The candidate that differs least from `name`, when it is near enough to be a slip; of several the first.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     all_nearest(name, candidates).first().copied()
@@ -110,7 +118,7 @@ fn distance(left: &[char], right: &[char], rows: &mut Rows) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Rows, all_nearest, distance, list, nearest};
+    use super::{Rows, all_nearest, distance, instead, list, nearest};
 
     #[test]
     fn slips_find_the_name_that_was_meant() {
@@ -123,6 +131,12 @@ mod tests {
         assert_eq!(nearest("ba", ["ab", "cd"]), Some("ab"));
         assert_eq!(nearest("WÄNDE", ["Turn", "wände"]), Some("wände"));
         assert_eq!(all_nearest("roundd", ["way", "rounds", "round"]), ["rounds", "round"]);
+    }
+
+    #[test]
+    fn what_is_not_meant_is_told_what_there_is() {
+        assert_eq!(instead("wordl", ["world", "measures"]), "write 'world'");
+        assert_eq!(instead("speed", ["world", "measures"]), "it has 'world' and 'measures'");
     }
 
     #[test]

@@ -1,7 +1,5 @@
 //! What can stand in a project file, table by table: what readers allow, editors offer and explain.
 
-use afp_excerpt::words::list;
-
 /// A key of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
@@ -124,9 +122,10 @@ pub fn keys(table: &[&str]) -> Vec<Key> {
     lists.concat()
 }
 
-/// `it has 'world' and 'measures'`
-pub(crate) fn it_has(keys: &[Key]) -> String {
-    format!("it has {}", list(keys.iter().map(|key| key.name), "and"))
+/// The table with a key of that name, of those that stand in a file once.
+pub(crate) fn table_of(name: &str) -> Option<&'static str> {
+    let has = |table: &&str| keys(&[*table]).iter().any(|key| key.name == name);
+    ["run", "robot", "afp"].into_iter().find(has)
 }
 
 #[cfg(test)]
@@ -152,7 +151,6 @@ mod tests {
                 // Others may be missing, or name what is not there.
                 let unknown = mistakes.iter().find(|it| {
                     it.message.ends_with(&format!("has no '{}'", key.name))
-                        && it.help.starts_with("it has")
                         || it.message.contains("cannot have this value")
                 });
                 assert_eq!(unknown, None, "{head}: {}", key.example);

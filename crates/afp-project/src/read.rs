@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use afp_excerpt::words::instead;
 use toml_edit::{Document, Item, TableLike, Value};
 
-use crate::keys::{self, Key, it_has};
+use crate::keys::{self, Key};
 use crate::project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
 use crate::time::duration;
 
@@ -47,11 +48,13 @@ impl Reader {
                 "robot" => robot = Some(pair),
                 "toolboxes" => project.toolboxes = self.each(&pair, Reader::toolbox),
                 "target" => project.targets = self.each(&pair, Reader::target),
-                _ => {
-                    // In a file they are headings.
-                    let heads = keys::PROJECT.iter().map(|key| Key { name: key.example, ..*key });
-                    self.unknown(&pair, "a project", &it_has(&heads.collect::<Vec<_>>()));
-                }
+                key => match keys::table_of(key) {
+                    None => self.unknown(&pair, "a project", keys::PROJECT),
+                    Some(table) => {
+                        let message = format!("'{key}' stands above the tables");
+                        self.wrong(pair.span, message, &format!("write it below '[{table}]'"));
+                    }
+                },
             }
         }
         // It names a toolbox, which may stand below it.
@@ -66,7 +69,7 @@ impl Reader {
                     project.world = self.text(&pair, what);
                 }
                 "measures" => project.measures = self.texts(&pair, "names in a list, [\"wall\"]"),
-                _ => self.unknown(&pair, "'[run]'", &it_has(keys::RUN)),
+                _ => self.unknown(&pair, "'[run]'", keys::RUN),
             }
         }
     }
@@ -77,7 +80,7 @@ impl Reader {
         for pair in self.table(afp, help) {
             match self.origin(&pair) {
                 Some(origin) => origins.extend(origin),
-                None => self.unknown(&pair, "'[afp]'", "it has 'path', 'git' or 'version'"),
+                None => self.unknown(&pair, "'[afp]'", keys::ORIGIN),
             }
         }
         self.single(afp, origins, help)
@@ -112,7 +115,7 @@ impl Reader {
             match pair.key {
                 "path" => path = self.text(&pair, "the toolbox file, such as \"gripper.afp\""),
                 "crate" => krate = self.krate(&pair),
-                _ => self.unknown(&pair, "a toolbox", &it_has(keys::TOOLBOX)),
+                _ => self.unknown(&pair, "a toolbox", keys::TOOLBOX),
             }
         }
         if path.is_none() && self.mistakes.len() == before {
@@ -131,7 +134,7 @@ impl Reader {
                 "sim" => sim = self.type_path(&pair),
                 "crate" => krate = Some(self.krate(&pair)),
                 "hardware" => hardware = self.hardware(&pair),
-                _ => self.unknown(&pair, "'[robot]'", &it_has(keys::ROBOT)),
+                _ => self.unknown(&pair, "'[robot]'", keys::ROBOT),
             }
         }
         if sim.is_none() && self.mistakes.len() == before {
@@ -150,7 +153,7 @@ impl Reader {
                 "type" => ty = self.type_path(&pair),
                 "crate" => krate = Some(self.krate(&pair)),
                 "settings" => settings = self.settings(&pair),
-                _ => self.unknown(&pair, "'hardware'", &it_has(keys::HARDWARE)),
+                _ => self.unknown(&pair, "'hardware'", keys::HARDWARE),
             }
         }
         if ty.is_none() && self.mistakes.len() == before {
@@ -220,11 +223,7 @@ impl Reader {
                 (_, Some(origin)) => origins.extend(origin),
                 ("package", _) => read.package = self.text(&pair, "the package's name in quotes"),
                 ("module", _) => read.module = self.text(&pair, "a path such as \"gripper::fast\""),
-                _ => self.unknown(
-                    &pair,
-                    "a crate",
-                    "it has 'path', 'git' or 'version', and 'package' and 'module'",
-                ),
+                _ => self.unknown(&pair, "a crate", &[keys::ORIGIN, keys::CRATE].concat()),
             }
         }
         let help = "'path' names the folder of its Cargo.toml";
@@ -243,7 +242,7 @@ impl Reader {
                     read.slowdown = self.number(&pair, f64::MAX, "above 0, such as 20");
                 }
                 "budgets" => read.budgets = self.budgets(&pair),
-                _ => self.unknown(&pair, "a target", &it_has(keys::TARGET)),
+                _ => self.unknown(&pair, "a target", keys::TARGET),
             }
         }
         Some(read)
@@ -323,8 +322,9 @@ impl Reader {
         self.wrong(value_span(pair), message, &format!("write {what}"));
     }
 
-    fn unknown(&mut self, pair: &Pair<'_>, whose: &str, help: &str) {
-        self.wrong(pair.span.clone(), format!("{whose} has no '{}'", pair.key), help);
+    fn unknown(&mut self, pair: &Pair<'_>, whose: &str, keys: &[Key]) {
+        let help = instead(pair.key, keys.iter().map(|key| key.name));
+        self.wrong(pair.span.clone(), format!("{whose} has no '{}'", pair.key), &help);
     }
 
     fn wrong(&mut self, span: Range<usize>, message: String, help: &str) {

@@ -33,9 +33,19 @@ fn mistakes_are_shown_at_their_lines() {
     let folder = project(&[("afp.toml", "[run]\nwordl = 'a'\n[afp]\npath = 3\n")]);
     let text = ProjectFile::find(folder.path()).unwrap_err().to_string();
     assert!(text.contains("error: '[run]' has no 'wordl'\n"), "{text}");
-    assert!(text.contains("afp.toml:2:1\n  |\n2 | wordl = 'a'\n  | ^^^^^ help: it has 'world'"));
+    assert!(text.contains("afp.toml:2:1\n  |\n2 | wordl = 'a'\n  | ^^^^^ help: write 'world'"));
     assert!(text.contains("\n\nerror: 'path' cannot have this value\n"), "{text}");
     assert!(text.contains("afp.toml:4:8\n"), "{text}");
+}
+
+#[test]
+fn a_key_above_its_table_is_told_where_it_belongs() {
+    let folder = project(&[("afp.toml", "world = 'a'\nruns = 3\n")]);
+    let text = ProjectFile::find(folder.path()).unwrap_err().to_string();
+    assert!(text.contains("error: 'world' stands above the tables\n"), "{text}");
+    assert!(text.contains("help: write it below '[run]'"), "{text}");
+    assert!(text.contains("error: a project has no 'runs'\n"), "{text}");
+    assert!(text.contains("help: write 'run'"), "{text}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use afp_excerpt::words::{list, nearest};
+use afp_excerpt::words::instead;
 use toml_edit::{Item, TableLike, Value};
 
 use crate::world::WorldError;
@@ -159,12 +159,9 @@ impl Head<'_> {
         keys: &[Key],
         own: &[&str],
     ) -> WorldError {
-        let known = || keys.iter().map(|key| key.name).chain(own.iter().copied());
-        let help = match nearest(name, known()) {
-            Some(meant) => format!("write '{meant}'"),
-            None => format!("it has {}", list(known(), "and")),
-        };
-        WorldError::new(at, format!("{} has no '{name}'", self.name)).with_help(help)
+        let known = keys.iter().map(|key| key.name).chain(own.iter().copied());
+        let message = format!("{} has no '{name}'", self.name);
+        WorldError::new(at, message).with_help(instead(name, known))
     }
 }
 
