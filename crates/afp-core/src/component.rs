@@ -12,8 +12,8 @@ pub trait Environment {
     /// Gives the stop command to everything that moves and returns at once.
     fn stop(&mut self, now: Instant);
 
-    /// Stops by the strongest means there is; called when the run cannot be trusted any more.
-    /// May be called several times and without a clock.
+    /// Stops by the strongest means there is that a next run can begin after: called when the run cannot be trusted any
+    /// more, and, by whoever drives a scheduler, at the end of every run. May be called several times and without a clock.
     fn emergency_stop(&mut self);
 }
 

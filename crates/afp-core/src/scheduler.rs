@@ -236,7 +236,9 @@ impl<P: PlanState> Scheduler<P> {
             return self.not_running(env, sink);
         }
         if now < self.last {
-            sink.record(self.last, &Record::ClockWentBack { asked: now });
+            guarded(&mut self.state, (&mut *sink, clock), |sink, _| {
+                sink.record(self.last, &Record::ClockWentBack { asked: now });
+            });
         }
         self.last = self.last.max(now);
         self.prepare(clock, self.last);
@@ -320,9 +322,10 @@ impl<P: PlanState> Scheduler<P> {
         if self.step.failure.is_none_or(|known| known.fault != fault) {
             self.step.failure = Some(Failure { component, fault, detail: None });
         }
+        // First: whatever the sink does, nothing is called any more.
+        self.state = State::Ended(ending);
         sink.record(self.last, &Record::Faulted { component, fault, detail: None });
         sink.record(self.last, &Record::Ended { plan, ending });
-        self.state = State::Ended(ending);
         Wake::Ended(ending)
     }
 

@@ -121,7 +121,7 @@ impl ValueRef<'_> {
         }
     }
 
-    /// The same value, owning its text, which is cut at [`TEXT_CAPACITY`] (no text is longer).
+    /// The same value, owning its text; one longer than [`TEXT_CAPACITY`], which no plan has, is empty.
     pub fn to_owned(self) -> Value {
         match self {
             ValueRef::Unset => Value::Unset,

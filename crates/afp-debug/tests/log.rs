@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use afp_core::{Duration, Instant};
 use afp_debug::{Host, Launch, LogTarget, Target};
-use afp_log::{About, LogData, OwnedNames, SessionLog};
+use afp_log::{About, LogData, OwnedNames, SessionLog, WhenFull};
 use afp_session::{EventKind, Miss, Open, Request, RunEvent};
 use common::{Clients, Texted, compiled, session};
 
@@ -30,8 +30,15 @@ fn recorded(text: &str, name: &str, seconds: u64, press: Option<Duration>) -> Lo
     let mut session = session(&graph, &Launch::default()).expect("a session");
     let path = tempfile::tempdir().expect("a folder").keep().join("run.mcap");
     let names = OwnedNames::new(session.names());
-    let log =
-        SessionLog::create(&path, &About::default(), names, session.devices(), Vec::new(), false);
+    let log = SessionLog::create(
+        &path,
+        &About::default(),
+        names,
+        session.devices(),
+        Vec::new(),
+        false,
+        WhenFull::Wait,
+    );
     let mut log = log.expect("a log");
     if let Some(after) = press {
         let button = afp_core::devices::find_control(session.devices(), "touch.touch");

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::net::TcpStream;
+use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant as Wall};
 
@@ -10,7 +11,7 @@ use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_live::Live;
-use afp_log::{About, OwnedNames, SessionLog};
+use afp_log::{About, OwnedNames, SessionLog, WhenFull};
 use afp_session::{AnySession, Go, Loader};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};
@@ -130,6 +131,18 @@ fn service(client: &mut Client, name: &str) -> u32 {
     found.unwrap_or_else(|| panic!("no {name} in {said}"))["id"].as_u64().expect("a number") as u32
 }
 
+/// The messages of each topic of a log, with their times.
+fn logged(path: &Path) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
+    let file = std::fs::read(path).expect("the log");
+    let mut logged = BTreeMap::<String, Vec<_>>::new();
+    for message in mcap::MessageStream::new(&file).expect("a log") {
+        let message = message.expect("a message");
+        let of_topic = logged.entry(message.channel.topic.clone()).or_default();
+        of_topic.push((message.log_time, message.data.to_vec()));
+    }
+    logged
+}
+
 #[test]
 fn clients_see_what_the_log_holds() {
     let mut session = session();
@@ -137,8 +150,15 @@ fn clients_see_what_the_log_holds() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
     let names = || OwnedNames::new(session.names());
-    let log =
-        SessionLog::create(&path, &About::default(), names(), session.devices(), Vec::new(), false);
+    let log = SessionLog::create(
+        &path,
+        &About::default(),
+        names(),
+        session.devices(),
+        Vec::new(),
+        false,
+        WhenFull::Wait,
+    );
     let mut log = log.expect("a log");
     let sent = SessionLog::stream(live.messages(), names(), session.devices(), Vec::new(), false);
     let mut sent = sent.expect("a stream");
@@ -177,13 +197,7 @@ fn clients_see_what_the_log_holds() {
     assert!(changed.first().is_some_and(|text| text.contains(r#""value":"250 ms""#)), "{said:?}");
     assert!(changed.last().is_some_and(|text| text.contains(r#""name":"left""#)), "{said:?}");
 
-    let file = std::fs::read(&path).expect("the log");
-    let mut logged = BTreeMap::<String, Vec<_>>::new();
-    for message in mcap::MessageStream::new(&file).expect("a log") {
-        let message = message.expect("a message");
-        let of_topic = logged.entry(message.channel.topic.clone()).or_default();
-        of_topic.push((message.log_time, message.data.to_vec()));
-    }
+    let logged = logged(&path);
     for (number, topic) in (100..).zip(topics) {
         assert_eq!(seen.get(&number), logged.get(topic), "{topic}");
     }

@@ -47,7 +47,8 @@ pub struct SessionLog {
 
 impl SessionLog {
     /// Begins a log of a session about to start, of a robot with those devices in that scene. With `camera` it gets
-    /// what the camera sees, twice a second.
+    /// what the camera sees, twice a second. A session in virtual time waits where the disk is slow; a robot that is there
+    /// must not.
     ///
     /// # Errors
     /// [`LogError::Create`] when the file cannot be made.
@@ -58,8 +59,9 @@ impl SessionLog {
         devices: &'static [DeviceRow],
         scene: Vec<Shape>,
         camera: bool,
+        when_full: WhenFull,
     ) -> Result<Self, LogError> {
-        let recorder = Recorder::create(path, about, names, WhenFull::Wait)?;
+        let recorder = Recorder::create(path, about, names, when_full)?;
         Ok(SessionLog::begin(recorder, devices, scene, camera, Instant::MAX))
     }
 

@@ -57,9 +57,15 @@ mod terminal {
                 }
                 suspend();
             }
-            // A longer text that begins with Escape is an arrow or function key.
-            typed == [ESCAPE]
+            has_escape(typed, !self.suspends)
         }
+    }
+
+    /// Whether Escape is among what was typed. A byte behind it that is no Escape makes an arrow, a function key or a key
+    /// held with Alt of it; with `anyhow` those count as well: what stops a robot may not be missed.
+    fn has_escape(typed: &[u8], anyhow: bool) -> bool {
+        let alone = |at: usize| typed.get(at + 1).is_none_or(|next| *next == ESCAPE);
+        (0..typed.len()).any(|at| typed[at] == ESCAPE && (anyhow || alone(at)))
     }
 
     impl Drop for Keys {
@@ -117,6 +123,22 @@ mod terminal {
         // The signal goes to the pipeline that the process is part of, too.
         let _ = kill_current_process_group(Signal::TSTP);
         thread::sleep(FALLING_ASLEEP);
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::has_escape;
+
+        #[test]
+        fn escape_counts_beside_other_keys_and_arrows_do_not() {
+            for typed in [&b"\x1b"[..], b"\x1b\x1b", b"x\x1b", b"\x1b\x1b\x1b"] {
+                assert!(has_escape(typed, false), "{typed:?}");
+            }
+            for typed in [&b""[..], b"x", b"\x1b[A", b"\x1bOP", b"\x1b[15~", b"\x1bx"] {
+                assert!(!has_escape(typed, false), "{typed:?}");
+                assert_eq!(has_escape(typed, true), typed.contains(&0x1b), "{typed:?}");
+            }
+        }
     }
 }
 

@@ -15,6 +15,7 @@ use afp_session::{DEFAULT_UNTIL, Pose2};
 use clap::{Args, ValueEnum};
 
 use crate::error::RunError;
+use crate::world::change;
 
 pub(crate) use help::words;
 pub use help::{for_devices, for_robot};
@@ -194,6 +195,7 @@ impl RunOptions {
             ("--press", !self.press.is_empty()),
             ("--fail", !self.fail.is_empty()),
             ("--measure", !self.measure.is_empty()),
+            ("--set world.*", self.set.iter().any(|(name, _)| change::key(name).is_some())),
         ];
         match of_simulation.iter().find(|(_, given)| *given) {
             None => Ok(()),

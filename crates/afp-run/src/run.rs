@@ -11,7 +11,7 @@ use std::path::Path;
 
 use afp_core::trace::Names;
 use afp_core::{Ending, Instant};
-use afp_log::{About, LogError, OwnedNames, SessionLog, Written};
+use afp_log::{About, LogError, OwnedNames, SessionLog, WhenFull, Written};
 use afp_project::ProjectFile;
 use afp_session::{
     AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
@@ -184,7 +184,13 @@ fn drive(
         Some(path) => {
             let (about, names) = (about(setting), OwnedNames::new(session.names()));
             let (devices, scene) = (session.devices(), world.world.scene());
-            let log = SessionLog::create(path, &about, names, devices, scene, options.camera)?;
+            // What is there goes on meanwhile.
+            let when_full = match options.time_keeper() {
+                TimeKeeper::Robot => WhenFull::Drop,
+                TimeKeeper::Nobody | TimeKeeper::Gate(_) => WhenFull::Wait,
+            };
+            let log =
+                SessionLog::create(path, &about, names, devices, scene, options.camera, when_full)?;
             if let Some(kept) = log.kept() {
                 let kept = kept.display();
                 warn(&format!(

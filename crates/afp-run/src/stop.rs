@@ -149,6 +149,9 @@ mod signals {
         for signal in signals.forever() {
             let sleeps = signal == SIGTSTP && !flag.0.awake.load(Ordering::Relaxed);
             if signal == SIGQUIT || sleeps {
+                if signal == SIGQUIT {
+                    flag.resort();
+                }
                 // There is no other end, and no other sleep, than this one; nothing is to be done about a failure.
                 keys::without_terminal(|| drop(low_level::emulate_default_handler(signal)));
                 continue;

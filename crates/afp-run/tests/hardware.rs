@@ -6,14 +6,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration as Span, Instant as Wall};
 
 use afp_carbot::table::Carbot;
-use afp_core::{Clock, Environment, Instant, Platform, rt::Registry as _};
+use afp_core::devices::{Devices, controls, find_signal};
+use afp_core::trace::Ending;
+use afp_core::{Clock, Duration, Environment, Instant, Platform, rt::Registry as _};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_run::options::RunOptions;
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, Program, RunError, run, run_on_hardware};
 use afp_session::{
-    Hardware, Loader, Opened, Opener, Robot, Samples, SessionError, Settings, hardware, simulated,
+    Hardware, Loader, Open, Opened, Opener, Request, RequestError, Robot, Samples, SessionError,
+    Settings, hardware, simulated,
 };
 use afp_sim::Simulation;
 use afp_syntax::source::Source;
@@ -29,6 +32,8 @@ mod templates {
 struct Seen {
     stops: AtomicU64,
     polls: AtomicU64,
+    /// How often it was asked where it is.
+    samples: AtomicU64,
 }
 
 /// A robot that moves whenever it is not told to stand.
@@ -81,7 +86,12 @@ impl Platform for Board {
 impl Robot for Board {
     type Devices = Carbot;
 
-    fn sample(&self, _: &mut Samples<'_, '_>) {}
+    fn sample(&self, to: &mut Samples<'_, '_>) {
+        let pose = find_signal(Carbot::TABLE, "robot", "pose").expect("a Carbot has a pose");
+        if to.wants(pose) {
+            self.seen.samples.fetch_add(1, Ordering::Relaxed);
+        }
+    }
 }
 
 impl Hardware for Board {
@@ -170,7 +180,7 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
         registry.actor::<templates::Work, Work>("board", "Work");
         let plan = afp::load::LoadedPlan::new(&graph, &registry).map_err(SessionError::Load)?;
         let robot = Board { seen: seen.clone(), ..robot };
-        let session = Box::new(afp_session::Session::new(plan, robot));
+        let session = Box::new(afp_session::Session::on_hardware(plan, robot));
         Ok(Opened { session, last_resort: None })
     };
     let texts = [("plan.afp", text)];
@@ -247,6 +257,34 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
 }
 
 #[test]
+fn a_robot_that_is_there_is_sampled_although_its_time_hits_no_grid() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("a.mcap");
+    let (ran, _, seen) = on_board(WAITS, &["--until", "200ms", "--log", log.to_str().unwrap()]);
+    assert_eq!(ran.unwrap(), EXIT_OK);
+    // Every 20 ms, as in the simulator; a machine that is busy leaves some out.
+    let samples = seen.samples.load(Ordering::Relaxed);
+    assert!((4..=25).contains(&samples), "{samples}");
+}
+
+#[test]
+fn a_stop_is_taken_however_late_it_comes_and_nobody_presses_what_is_there() {
+    let graph = plan(WAITS);
+    let board = hardware::<Simulation, Board, _>(standard);
+    let settings = Settings::new([("port", "ttyUSB0")]);
+    let Opened { mut session, .. } = board.open(&graph, &settings).unwrap();
+    let soon = session.now() + Duration::from_millis(5);
+    session.tick(soon, &mut Open, &mut []).unwrap();
+    session.tick(soon, &mut Open, &mut []).unwrap();
+    let (touch, ..) = controls(Carbot::TABLE).next().unwrap();
+    let pressed = session.at(session.now(), Request::Press(touch, true));
+    assert_eq!(pressed, Err(RequestError::Refused));
+    session.at(Instant::ZERO, Request::Stop).unwrap();
+    session.tick(session.now() + Duration::from_millis(5), &mut Open, &mut []).unwrap();
+    assert_eq!(session.ending(), Some(Ending::Interrupted));
+}
+
+#[test]
 fn settings_go_to_the_robot_and_what_is_of_the_simulation_is_refused() {
     let (ran, _, seen) = on_board(WAITS, &["--set", "robot.port=none"]);
     let why = message(ran);
@@ -260,6 +298,7 @@ fn settings_go_to_the_robot_and_what_is_of_the_simulation_is_refused() {
         ["--press", "touch@1s"],
         ["--fail", "touch.lost@1s"],
         ["--start", "1m,1m,0deg"],
+        ["--set", "world.name=hall"],
     ] {
         let why = message(on_board(WAITS, &option).0);
         assert!(why.contains(option[0]) && why.contains("simulation"), "{why}");

@@ -7,7 +7,7 @@ use afp_core::{Duration, Instant};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
-use afp_log::{About, OwnedNames, SessionLog};
+use afp_log::{About, OwnedNames, SessionLog, WhenFull};
 use afp_session::{
     AnySession, Counts, Go, Observer, Open, Request, Robot, SampleRef, Session, Simulated, Track,
 };
@@ -85,7 +85,8 @@ fn looking_judging_logging_and_pausing_do_not_change_the_run() {
     let (about, names) = (About::default(), OwnedNames::new(parts.names()));
     let path = folder.path().join("a.mcap");
     let mut log =
-        SessionLog::create(&path, &about, names, parts.devices(), Vec::new(), true).unwrap();
+        SessionLog::create(&path, &about, names, parts.devices(), Vec::new(), true, WhenFull::Wait)
+            .unwrap();
     let (mut counts, mut track) = (Counts::new(parts.names()), Track::new(parts.devices()));
     let mut observers: [&mut dyn Observer; 3] = [&mut counts, &mut track, &mut log];
     let mut gate = |target: Instant, _: Instant| if target > at(7) { Go::Stop } else { Go::On };

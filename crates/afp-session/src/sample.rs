@@ -8,6 +8,7 @@ use afp_core::devices::{SignalId, SignalType};
 use crate::event::Datum;
 use crate::observer::{Observer, Sampling};
 use crate::robot::Robot;
+use crate::session::grid::Stretch;
 
 /// A place and a heading in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -163,11 +164,13 @@ pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(Sam
 /// Whose turn it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// Those on whose grid the instant is; those that sample at each step have their turn after it, where
+    /// Those of whose grid an instant has come; those that sample at each step have their turn after it, where
     /// there is one.
     Grid {
         /// Whether a step is about to be made.
         before_step: bool,
+        /// What has come since the last time.
+        stretch: Stretch,
     },
     /// A step is over: those that sample at each step.
     Step,
@@ -189,9 +192,9 @@ impl<'a, 'o> Samples<'a, 'o> {
     /// Whether anybody wants a signal: to be asked before what is dear to compute.
     pub fn wants(&self, signal: SignalId) -> bool {
         match &self.to {
-            To::Observers(all, turn) => all
-                .iter()
-                .any(|each| turn.includes(self.at, each.sampling()) && each.wants(self.at, signal)),
+            To::Observers(all, turn) => {
+                all.iter().any(|each| turn.includes(each.sampling()) && each.wants(self.at, signal))
+            }
             To::One(wanted, _) => *wanted == signal,
         }
     }
@@ -201,7 +204,7 @@ impl<'a, 'o> Samples<'a, 'o> {
         match &mut self.to {
             To::Observers(all, turn) => {
                 for each in all.iter_mut() {
-                    if turn.includes(self.at, each.sampling()) && each.wants(self.at, signal) {
+                    if turn.includes(each.sampling()) && each.wants(self.at, signal) {
                         each.on_sample(self.at, signal, value);
                     }
                 }
@@ -215,7 +218,7 @@ impl<'a, 'o> Samples<'a, 'o> {
     pub(crate) fn finish(self) {
         if let To::Observers(all, turn) = self.to {
             for each in all.iter_mut() {
-                if turn.includes(self.at, each.sampling()) {
+                if turn.includes(each.sampling()) {
                     each.after_samples(self.at);
                 }
             }
@@ -225,17 +228,14 @@ impl<'a, 'o> Samples<'a, 'o> {
 
 impl Turn {
     /// Whether it is the turn of an observer of that sampling.
-    fn includes(self, at: Instant, sampling: Sampling) -> bool {
+    fn includes(self, sampling: Sampling) -> bool {
         match (self, sampling) {
             (_, Sampling::Never) | (Turn::Step, Sampling::Every(_)) => false,
-            (Turn::Grid { .. }, Sampling::Every(every)) => is_on_grid(at, every),
-            (Turn::Grid { before_step }, Sampling::Following(_)) => !before_step,
+            (Turn::Grid { stretch, .. }, Sampling::Every(every)) => stretch.has_multiple_of(every),
+            (Turn::Grid { before_step, stretch }, Sampling::Following(every)) => {
+                !before_step && stretch.has_multiple_of(every)
+            }
             (Turn::Step, Sampling::Following(_)) => true,
         }
     }
-}
-
-/// Whether an instant is a multiple of a period.
-pub(crate) fn is_on_grid(at: Instant, every: afp_core::Duration) -> bool {
-    at.as_nanos().is_multiple_of(every.as_nanos().max(1))
 }

@@ -2,6 +2,7 @@
 
 mod any;
 mod asked;
+pub(crate) mod grid;
 mod report;
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -13,6 +14,7 @@ use afp_core::{Duration, Fault, Instant, Scheduler, StartError, Wake};
 
 use crate::faults::Faults;
 use crate::figures::Figures;
+use crate::hardware::Hardware;
 use crate::holds::Holds;
 use crate::observer::{Gate, Go, Observer, Open};
 use crate::record::{Keep, Kept};
@@ -21,6 +23,7 @@ use crate::robot::{FaultOf, Measure, Robot};
 use crate::sample::Turn;
 
 use asked::Testing;
+use grid::SampleGrid;
 
 /// How often measures look at the robot.
 pub const SAMPLE: Duration = Duration::from_millis(20);
@@ -34,6 +37,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     names: P::Names,
     clock: R::Clock,
     sink: S,
+    /// Whether the robot is there, so that nobody can press or break anything of it from here.
+    is_there: bool,
     /// Whether the plan has started.
     started: bool,
     /// Whether a step is under way: a panic is the plan's then.
@@ -60,15 +65,6 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     testing: Option<Testing<P>>,
 }
 
-/// When samples are taken.
-#[derive(Clone, Copy, Debug)]
-struct SampleGrid {
-    /// The finest of those that want any.
-    every: Duration,
-    /// The next instant on it.
-    next: Instant,
-}
-
 impl<P, R> Session<P, R, Kept>
 where
     P: NamedPlan + Plan<R>,
@@ -77,6 +73,16 @@ where
     /// A plan that has not started, its inputs set or still to be, on a robot that has not moved.
     pub fn new(plan: P, robot: R) -> Self {
         Session::with_sink(plan, robot, Kept::default())
+    }
+
+    /// The same on a robot that is there.
+    pub fn on_hardware(plan: P, robot: R) -> Self
+    where
+        R: Hardware,
+    {
+        let mut session = Session::new(plan, robot);
+        session.is_there = true;
+        session
     }
 }
 
@@ -92,8 +98,9 @@ where
             names: plan.names(),
             scheduler: Scheduler::new(plan),
             clock: robot.clock(),
-            samples: SampleGrid { every: Duration::ZERO, next: Instant::MAX },
+            samples: SampleGrid::NONE,
             sink,
+            is_there: false,
             started: false,
             stepping: false,
             stepped: None,
@@ -142,6 +149,7 @@ where
             faults: self.faults.clone(),
             holds: self.holds.clone(),
             line: String::new(),
+            is_there: self.is_there,
             started: self.started,
             stepping: self.stepping,
             stepped: self.stepped,
@@ -391,34 +399,18 @@ where
     #[inline]
     fn fit(&mut self, to: &[&mut dyn Observer]) {
         self.sink.keep_clear_polls(to.iter().any(|each| each.wants_clear_polls()));
-        let measures = (!self.measures.is_empty()).then_some(SAMPLE);
-        let observers = to.iter().filter_map(|each| each.sampling().grid());
-        let every = observers.chain(measures).min().unwrap_or(Duration::ZERO);
-        if every != self.samples.every {
-            self.samples = SampleGrid { every, next: self.first_on_grid(every) };
-        }
-    }
-
-    /// The first instant of a grid on which no samples have been taken: now, before the start, later a multiple of
-    /// the period.
-    #[cold]
-    fn first_on_grid(&self, every: Duration) -> Instant {
-        let now = self.robot.now();
-        match (every, self.started) {
-            (Duration::ZERO, _) => Instant::MAX,
-            (_, false) => now,
-            (every, true) => after(now, every),
-        }
+        let periods = periods(!self.measures.is_empty(), to);
+        self.samples.fit(periods, self.robot.now(), self.started);
     }
 
     fn sample_on_grid(&mut self, now: Instant, before_step: bool, to: &mut [&mut dyn Observer]) {
-        self.samples.next = after(now, self.samples.every);
-        if crate::sample::is_on_grid(now, SAMPLE) {
+        let stretch = self.samples.take(periods(!self.measures.is_empty(), to), now);
+        if stretch.has_multiple_of(SAMPLE) {
             for measure in &mut self.measures {
                 measure.on_sample(now, &self.robot);
             }
         }
-        self.take_samples(now, Turn::Grid { before_step }, to);
+        self.take_samples(now, Turn::Grid { before_step, stretch }, to);
     }
 
     /// The devices of the robot.
@@ -427,10 +419,14 @@ where
     }
 }
 
-/// The first instant of a grid after `now`.
-fn after(now: Instant, every: Duration) -> Instant {
-    let every = every.as_nanos().max(1);
-    Instant::from_nanos((now.as_nanos() / every).saturating_add(1).saturating_mul(every))
+/// How often anybody wants samples.
+#[inline]
+fn periods<'a>(
+    measured: bool,
+    to: &'a [&mut dyn Observer],
+) -> impl Iterator<Item = Duration> + Clone + 'a {
+    let observers = to.iter().filter_map(|each| each.sampling().grid());
+    observers.chain(measured.then_some(SAMPLE))
 }
 
 impl<P: NamedPlan, R: Robot, S> Drop for Session<P, R, S> {

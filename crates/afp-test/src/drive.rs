@@ -9,7 +9,7 @@ use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, Instant, StartError};
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
-use afp_log::{About, OwnedNames, SessionLog};
+use afp_log::{About, OwnedNames, SessionLog, WhenFull};
 use afp_resolve::own_toolbox_texts;
 use afp_run::RunError;
 use afp_session::{
@@ -133,7 +133,7 @@ fn log(
     let about = about(scenario, setting, to.compiled);
     let names = OwnedNames::new(session.names());
     let (devices, scene) = (session.devices(), setting.world.world.scene());
-    Ok(SessionLog::create(to.path, &about, names, devices, scene, false)?)
+    Ok(SessionLog::create(to.path, &about, names, devices, scene, false, WhenFull::Wait)?)
 }
 
 impl Observer for Judge<'_> {

@@ -14,9 +14,9 @@ fn current<T: Copy>(reading: Reading<T>, now: Instant) -> Result<T, Fault> {
     reading.fresh(now, MAX_AGE).ok_or(SILENT)
 }
 
-/// Implements a supervisor that keeps nothing: the event of what is sensed and of the live inputs.
+/// Implements a supervisor that keeps nothing: its events, the first one before others, and whether each holds now.
 macro_rules! supervisor {
-    ($name:ident, $module:ident, |$live:ident, $env:ident, $now:ident| $event:expr) => {
+    ($name:ident, $module:ident, |$live:ident, $env:ident, $now:ident| $events:expr) => {
         #[doc = concat!("See `", stringify!($name), "` in `vacuum.afp`.")]
         #[derive(Clone, Debug)]
         pub struct $name;
@@ -37,24 +37,26 @@ macro_rules! supervisor {
                 $env: &mut E,
                 $now: Instant,
             ) -> Result<Option<$module::Event>, Fault> {
-                let event: Option<$module::Event> = $event;
-                Ok(event.filter(|event| wanted.contains(*event as u16)))
+                // One that is ignored now hides no other.
+                let said = $events.into_iter().find(|(event, holds): &($module::Event, bool)| {
+                    *holds && wanted.contains(*event as u16)
+                });
+                Ok(said.map(|(event, _)| event))
             }
         }
     };
 }
 
-supervisor!(CheckBumper, check_bumper, |_live, env, now| match current(env.bumper(), now)? {
-    [true, _] => Some(check_bumper::Event::Left),
-    [_, true] => Some(check_bumper::Event::Right),
-    _ => None,
+supervisor!(CheckBumper, check_bumper, |_live, env, now| {
+    let [left, right] = current(env.bumper(), now)?;
+    [(check_bumper::Event::Left, left), (check_bumper::Event::Right, right)]
 });
 supervisor!(CheckCliff, check_cliff, |_live, env, now| {
-    current(env.drop(), now)?.then_some(check_cliff::Event::Drop)
+    [(check_cliff::Event::Drop, current(env.drop(), now)?)]
 });
 supervisor!(CheckDirt, check_dirt, |live, env, now| {
-    (current(env.dirt(), now)? > live.limit).then_some(check_dirt::Event::Dirty)
+    [(check_dirt::Event::Dirty, current(env.dirt(), now)? > live.limit)]
 });
 supervisor!(CheckButton, check_button, |_live, env, now| {
-    current(env.button(), now)?.then_some(check_button::Event::Pressed)
+    [(check_button::Event::Pressed, current(env.button(), now)?)]
 });

@@ -12,7 +12,7 @@ use afp_core::devices::find_signal;
 use afp_core::trace::{ComponentKind, Ending, Names, Record, TraceEntryId};
 use afp_core::{Fault, Instant, StartError, Value};
 use afp_dsl::graph::Graph;
-use afp_log::{OwnedNames, SessionLog};
+use afp_log::{OwnedNames, SessionLog, WhenFull};
 use afp_run::RunError;
 use afp_run::inputs::missing;
 use afp_session::{AnySession, Go, Observer, Pose2, Request, SampleRef, Track, refusal};
@@ -85,6 +85,7 @@ impl Run {
                 session.devices(),
                 world.scene(),
                 setting.camera,
+                WhenFull::Wait,
             )
         });
         let log = log.transpose().map_err(|why| log_error(&why))?;

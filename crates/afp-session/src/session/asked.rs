@@ -67,15 +67,16 @@ where
     S: Keep,
 {
     /// Asks for something at an instant. It is checked now and done then; what cannot be done then is reported to
-    /// observers.
+    /// observers. Of a robot that is there an instant that has just passed is now.
     ///
     /// # Errors
     /// It can never be done.
     pub fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError> {
         let now = self.robot.now();
-        if at < now {
+        if at < now && !self.is_there {
             return Err(RequestError::Over { at, now });
         }
+        let at = at.max(now);
         self.check(&request, at == now)?;
         let at = self.after_step_at(at);
         self.asked.push((at, request.clone()));
@@ -112,6 +113,9 @@ where
             return Err(RequestError::Ended);
         }
         match request {
+            Request::Press(..) | Request::Hold(..) | Request::Break(..) if self.is_there => {
+                Err(RequestError::Refused)
+            }
             Request::Write(entry, value) => {
                 self.scheduler.plan().accepts(*entry, value).map_err(RequestError::Write)
             }

@@ -8,7 +8,6 @@ use std::time::{Duration, Instant};
 use std::{fs, thread};
 
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
-use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 
 /// What the board says and hears.
 pub struct Firmware {
@@ -18,7 +17,7 @@ pub struct Firmware {
     motion: [f64; 2],
     suction: bool,
     way: [f64; 2],
-    /// Told to stop for good.
+    /// Told to stop, and not yet to start again.
     stopped: bool,
     told: Instant,
 }
@@ -31,21 +30,15 @@ const PATIENCE: Duration = Duration::from_millis(200);
 impl Firmware {
     /// A board, and the path of its port.
     pub fn new() -> io::Result<(Firmware, String)> {
-        let port = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
-        grantpt(&port)?;
-        unlockpt(&port)?;
-        let path = ptsname(&port, Vec::new())?.to_string_lossy().into_owned();
-        // As a serial line: nothing is sent back, nothing is edited.
-        let end = fs::File::options().read(true).write(true).open(&path)?;
-        let mut modes = tcgetattr(&end)?;
-        modes.make_raw();
-        tcsetattr(&end, OptionalActions::Now, &modes)?;
-        let port = File::from(port);
+        let (port, end, path) = Firmware::port()?;
         let (lines, (tell, heard)) = (BufReader::new(port.try_clone()?), channel());
         thread::spawn(move || {
             // The port stays while somebody holds this end of it.
             let _end = end;
-            lines.lines().map_while(Result::ok).for_each(|line| drop(tell.send(line)));
+            // What is no text is noise; what ends the line ends this.
+            lines.split(b'\n').map_while(Result::ok).for_each(|line| {
+                drop(tell.send(String::from_utf8_lossy(&line).into_owned()));
+            });
         });
         let (motion, way) = ([0.0; 2], [0.0; 2]);
         let told = Instant::now();
@@ -53,7 +46,17 @@ impl Firmware {
         Ok((firmware, path))
     }
 
-    /// Whether it was told to stop for good.
+    /// A port, what holds its other end open, and the path of that.
+    pub fn port() -> io::Result<(File, File, String)> {
+        let port = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
+        grantpt(&port)?;
+        unlockpt(&port)?;
+        let path = ptsname(&port, Vec::new())?.to_string_lossy().into_owned();
+        let end = fs::File::options().read(true).write(true).open(&path)?;
+        Ok((File::from(port), end, path))
+    }
+
+    /// Whether it was told to stop, and not yet to start again.
     pub fn is_stopped(&self) -> bool {
         self.stopped
     }
@@ -69,8 +72,10 @@ impl Firmware {
         let before = (self.motion, self.suction, self.stopped);
         let mut new = Vec::new();
         while let Ok(line) = self.heard.try_recv() {
+            if !self.hear(&line) {
+                continue;
+            }
             self.told = Instant::now();
-            self.hear(&line);
             if before != (self.motion, self.suction, self.stopped) {
                 new.push(line);
             }
@@ -86,15 +91,18 @@ impl Firmware {
         Ok(new)
     }
 
-    fn hear(&mut self, line: &str) {
+    /// Whether it was a word for the board: noise keeps no motor going.
+    fn hear(&mut self, line: &str) -> bool {
         let words: Vec<_> = line.split_whitespace().collect();
         let number = |word: &str| word.parse().unwrap_or(0.0);
         match words.as_slice() {
             ["drive", speed, turn] => self.motion = [number(speed), number(turn)],
             ["suck", on] => self.suction = *on == "1",
             ["stop"] => self.stopped = true,
-            _ => {}
+            ["start"] => self.stopped = false,
+            _ => return false,
         }
+        true
     }
 }
 

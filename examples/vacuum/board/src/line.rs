@@ -1,12 +1,29 @@
 //! The serial line, and what is said on it.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
 
 use afp_hardware::LastResort;
+use rustix::fs::OFlags;
+use rustix::termios::{OptionalActions, QueueSelector, isatty, tcflush, tcgetattr, tcsetattr};
 
-/// The way to the board.
-pub struct Line(File);
+/// No line of the board's is longer, bytes.
+const LONGEST: u64 = 200;
+
+/// The way to the board. Saying something never waits: what the line does not take at once is lost.
+pub struct Line {
+    port: File,
+    /// Whether the last thing was said to its end.
+    whole: bool,
+}
+
+/// The way from the board.
+pub struct Ear {
+    lines: BufReader<File>,
+    /// Whether what comes next begins a line.
+    at_beginning: bool,
+}
 
 /// What the board says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,33 +35,81 @@ pub struct Said {
     pub button: bool,
 }
 
+/// Opens a port for both ways. A serial line gets that speed in baud, and nothing on it is edited or sent back.
+pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
+    let end = |flags: OFlags| {
+        // It must not become the terminal that this process belongs to.
+        let flags = (flags | OFlags::NOCTTY).bits() as i32;
+        File::options().read(true).write(true).custom_flags(flags).open(port)
+    };
+    let (to, from) = (end(OFlags::NONBLOCK)?, end(OFlags::empty())?);
+    if isatty(&to) {
+        let mut modes = tcgetattr(&to)?;
+        modes.make_raw();
+        modes.set_speed(baud)?;
+        tcsetattr(&to, OptionalActions::Now, &modes)?;
+    }
+    let ear = Ear { lines: BufReader::new(from), at_beginning: false };
+    Ok((Line { port: to, whole: false }, ear))
+}
+
 impl Line {
-    pub fn new(file: File) -> Self {
-        Line(file)
+    /// Says lines. Where the line is broken or full, nothing can be said: the board stops, and what it does not say is
+    /// noticed.
+    pub fn say(&mut self, lines: &str) {
+        // What was cut must not run into this.
+        let text = if self.whole { lines.to_owned() } else { format!("\n{lines}") };
+        self.whole = matches!(self.port.write(text.as_bytes()), Ok(written) if written == text.len());
     }
 
-    /// Says lines. Where the line is broken, nothing can be said: the board stops, and what it does not say is noticed.
-    pub fn say(&mut self, lines: &str) {
-        let _ = self.0.write_all(lines.as_bytes());
+    /// Says what must not wait behind anything that was said before.
+    pub fn say_at_once(&mut self, lines: &str) {
+        // Of a line that has no queue nothing waits.
+        let _ = tcflush(&self.port, QueueSelector::OFlush);
+        self.whole = false;
+        self.say(lines);
     }
 
     /// Stops the board while whoever says lines may hang in the middle of one.
     pub fn last_resort(&self) -> Option<LastResort> {
-        let mut file = self.0.try_clone().ok()?;
-        Some(Box::new(move || drop(file.write_all(b"\nstop\n"))))
+        let mut line = Line { port: self.port.try_clone().ok()?, whole: false };
+        Some(Box::new(move || line.say_at_once("stop\n")))
+    }
+}
+
+impl Ear {
+    /// What the board says next; what is cut or disturbed is passed over. None where the line ends.
+    pub fn hear(&mut self) -> Option<Said> {
+        let mut line = Vec::new();
+        loop {
+            line.clear();
+            if let Ok(0) | Err(_) = (&mut self.lines).take(LONGEST).read_until(b'\n', &mut line) {
+                return None;
+            }
+            let (begins, ends) = (self.at_beginning, line.ends_with(b"\n"));
+            self.at_beginning = ends;
+            let text = std::str::from_utf8(&line).ok().filter(|_| begins && ends);
+            if let Some(said) = text.and_then(Said::read) {
+                return Some(said);
+            }
+        }
     }
 }
 
 impl Said {
     /// What a line says; nothing where it is cut or disturbed.
     pub fn read(line: &str) -> Option<Said> {
-        let words = line.split_whitespace().map(|word| word.parse::<f64>().ok());
-        let words: Vec<_> = words.collect::<Option<_>>()?;
+        let words: Vec<_> = line.split_whitespace().collect();
         let [ahead, turned, left, right, drop, dirt, button] = words.try_into().ok()?;
-        let sound = [ahead, turned, dirt].into_iter().all(f64::is_finite);
-        let [left, right, drop, button] = [left, right, drop, button].map(|switch| switch > 0.5);
-        let said = Said { way: [ahead, turned], bumper: [left, right], drop, dirt, button };
-        sound.then_some(said)
+        let number = |word: &str| word.parse::<f64>().ok().filter(|number| number.is_finite());
+        let switch = |word: &str| ["0", "1"].iter().position(|known| *known == word).map(|at| at == 1);
+        Some(Said {
+            way: [number(ahead)?, number(turned)?],
+            bumper: [switch(left)?, switch(right)?],
+            drop: switch(drop)?,
+            dirt: number(dirt).filter(|share| (0.0..=1.0).contains(share))?,
+            button: switch(button)?,
+        })
     }
 }
 
@@ -63,8 +128,34 @@ mod tests {
             "0.25 -1.5 1 0 0 0.3 1 1",
             "a b c d e f g",
             "nan 0 0 0 0 0 0",
+            // A switch that is neither is not open.
+            "0 0 nan nan nan 0 nan",
+            "0 0 -1 0 0 0 0",
+            "0 0 0 0 0.4 0 0",
+            "0 0 0 0 0 1.5 0",
         ] {
             assert_eq!(Said::read(line), None, "{line}");
         }
+    }
+
+    #[test]
+    fn noise_costs_its_line_alone() {
+        let folder = std::env::temp_dir().join(format!("vacuum-board-{}", std::process::id()));
+        let noise = [b'7'; 3 * LONGEST as usize];
+        let parts: [&[u8]; 7] = [
+            // What was on its way when the port was opened.
+            b"5 0 0 0 0 0 0\n",
+            b"1 0 0 0 0 0 0\n",
+            b"\xff 0 0 0 0 0 0\n",
+            &noise,
+            b" 0 0 0 0 0 0\n",
+            b"2 0 0 0 0 0 0\n",
+            b"3 0 0 0",
+        ];
+        std::fs::write(&folder, parts.concat()).unwrap();
+        let (_, mut ear) = open(folder.to_str().unwrap(), 115_200).unwrap();
+        let heard: Vec<_> = std::iter::from_fn(|| ear.hear()).map(|said| said.way[0]).collect();
+        std::fs::remove_file(&folder).unwrap();
+        assert_eq!(heard, [1.0, 2.0]);
     }
 }

@@ -1,5 +1,6 @@
 //! The robot over its serial line, with a stand-in at the other end.
 
+use std::io::{Read, Write};
 use std::thread;
 
 use afp::core::Platform;
@@ -48,6 +49,52 @@ fn commands_go_there_and_sensors_come_back() {
     board.emergency_stop();
     let far = far.join().unwrap();
     assert!(far.is_stopped());
+}
+
+#[test]
+fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
+    let (mut port, _end, path) = Firmware::port().unwrap();
+    let mut says = port.try_clone().unwrap();
+    let says = thread::spawn(move || {
+        for _ in 0..20 {
+            thread::sleep(std::time::Duration::from_millis(10));
+            says.write_all(b"0 0 0 0 0 0.0 0\n").unwrap();
+        }
+    });
+    let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    says.join().unwrap();
+    let began = std::time::Instant::now();
+    for speed in 0..20_000 {
+        board.drive(Speed::from_si(f64::from(speed)), AngularSpeed::from_si(0.0));
+    }
+    board.emergency_stop();
+    assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
+    let mut told = [0; 1 << 16];
+    let read = port.read(&mut told).unwrap();
+    let told = String::from_utf8_lossy(&told[..read]);
+    assert!(told.ends_with("\nstop\n"), "{}", told.len());
+}
+
+#[test]
+fn after_a_stop_another_run_begins_with_start() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    let far = thread::spawn(move || {
+        let mut stops = 0;
+        for _ in 0..60 {
+            let told = firmware.step().unwrap();
+            stops += told.iter().filter(|line| *line == "stop").count();
+        }
+        stops
+    });
+    let settings = Settings::new([("port", &*path)]);
+    let mut board = Board::open(&settings).unwrap();
+    board.emergency_stop();
+    drop(board);
+    let mut board = Board::open(&settings).unwrap();
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    pass(&mut board, 200);
+    assert!(board.way().ahead.si() > 0.005, "{:?}", board.way());
+    assert_eq!(far.join().unwrap(), 1);
 }
 
 #[test]

@@ -1,34 +1,78 @@
-//! Macros and programs share the compiler, which is built once and not twice.
+//! What is built once serves all: macros and programs, the tests, the command line, the Python package.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 use afp_workspace::{built_from, cargo, output, packages};
 use serde_json::Value;
 
-/// How often each package of the workspace is built as a library where `afpc` is built with some features.
-fn builds(features: &str) -> BTreeMap<String, usize> {
-    let mut plan = cargo("build");
-    plan.args(["--package", "afpc", "--features", features, "--unit-graph"]);
+/// What the tests of the workspace are built with.
+const TESTS: &str = "test --workspace --features afpc/full --exclude afp-bench --exclude afp-py \
+                     --exclude afp-py-wheel --exclude afp-language-server --exclude afp-wasm --exclude xtask";
+
+/// A library as it is built in one way.
+struct Unit {
+    name: String,
+    /// Stands for the way in which it is built, with all that is below it.
+    way: u64,
+}
+
+/// What cargo would build of libraries.
+fn libraries(command: &str) -> Vec<Unit> {
+    let (command, options) = command.split_once(' ').unwrap();
+    let mut plan = cargo(command);
+    plan.args(options.split_whitespace()).arg("--unit-graph");
     // What cargo would do is told by an option that has no promise yet.
     plan.args(["-Z", "unstable-options"]).env("RUSTC_BOOTSTRAP", "1");
-    let graph: Value = serde_json::from_str(&output(&mut plan)).unwrap();
-    let libraries = graph["units"].as_array().unwrap().iter().filter(|unit| {
-        let kinds = unit["target"]["kind"].as_array();
-        unit["mode"] == "build" && kinds.is_some_and(|kinds| kinds.iter().any(|kind| kind == "lib"))
-    });
-    let mut builds = BTreeMap::new();
-    for unit in libraries {
-        let name = unit["target"]["name"].as_str().unwrap().replace('_', "-");
-        *builds.entry(name).or_insert(0) += 1;
+    // As Cargo.toml says it, whatever is wished here.
+    for wish in ["CARGO_PROFILE_DEV_DEBUG", "CARGO_PROFILE_DEV_BUILD_OVERRIDE_DEBUG"] {
+        plan.env_remove(wish);
     }
-    builds
+    let graph: Value = serde_json::from_str(&output(&mut plan)).unwrap();
+    let units = graph["units"].as_array().unwrap();
+    let mut ways = vec![None; units.len()];
+    let is_library = |unit: &Value| {
+        let kinds = unit["target"]["kind"].as_array();
+        unit["mode"] == "build"
+            && kinds.is_some_and(|all| all.iter().any(|kind| kind == "lib" || kind == "proc-macro"))
+    };
+    let all = (0..units.len()).map(|index| {
+        let name = units[index]["target"]["name"].as_str().unwrap().replace('_', "-");
+        (index, Unit { name, way: way(units, index, &mut ways) })
+    });
+    all.filter(|(index, _)| is_library(&units[*index])).map(|(_, unit)| unit).collect()
+}
+
+/// In which way a unit is built.
+fn way(units: &[Value], index: usize, known: &mut [Option<u64>]) -> u64 {
+    if let Some(way) = known[index] {
+        return way;
+    }
+    let unit = &units[index];
+    let mut hasher = DefaultHasher::new();
+    for part in ["pkg_id", "target", "features", "mode", "platform"] {
+        unit[part].to_string().hash(&mut hasher);
+    }
+    // The name of the profile is no part of it.
+    for part in ["opt_level", "lto", "debuginfo", "debug_assertions", "overflow_checks", "panic"] {
+        unit["profile"][part].to_string().hash(&mut hasher);
+    }
+    let below = unit["dependencies"].as_array().unwrap().iter();
+    let below: BTreeSet<_> = below
+        .map(|dependency| way(units, dependency["index"].as_u64().unwrap() as usize, known))
+        .collect();
+    below.hash(&mut hasher);
+    *known[index].insert(hasher.finish())
 }
 
 #[test]
 fn what_macros_and_programs_share_is_built_once() {
     let shared = built_from(&packages(), "afp-codegen");
-    for features in ["", "full"] {
-        let builds = builds(features);
+    for features in ["default", "full"] {
+        let mut builds = BTreeMap::new();
+        for unit in libraries(&format!("build --package afpc --features {features}")) {
+            *builds.entry(unit.name).or_insert(0) += 1;
+        }
         for name in shared.iter().map(String::as_str).chain(["prettyplease", "toml-edit"]) {
             assert_eq!(
                 builds.get(name),
@@ -37,5 +81,44 @@ fn what_macros_and_programs_share_is_built_once() {
                  macros than for programs; give afp-codegen those"
             );
         }
+    }
+}
+
+#[test]
+fn what_the_tests_are_built_from_is_not_built_again_for_others() {
+    let tests: BTreeSet<_> = libraries(TESTS).into_iter().map(|unit| unit.way).collect();
+    // What has less than tests have, and all above it.
+    let of_first = ["afp-run", "afp-sweep", "afp-test", "afp-build", "itertools"];
+    // That, and what the Python package has alone.
+    let of_python = [
+        "afp-run",
+        "afp-sweep",
+        "afp-test",
+        "afp-build",
+        "afp-py",
+        "ndarray",
+        "numpy",
+        "target-lexicon",
+    ];
+    for (command, apart) in [
+        ("build --package afpc", &of_first[..]),
+        ("build --package afpc --features full", &[]),
+        ("build --package afp-tests --bin state_charts", &[]),
+        ("build --package afp-py-wheel", &of_python),
+    ] {
+        let again: BTreeSet<_> = libraries(command)
+            .into_iter()
+            .filter(|unit| {
+                !tests.contains(&unit.way)
+                    && !apart.contains(&&*unit.name)
+                    && !unit.name.starts_with("pyo3")
+            })
+            .map(|unit| unit.name)
+            .collect();
+        assert!(
+            again.is_empty(),
+            "'cargo {command}' builds {again:?} anew: somewhere below them a crate has other features than in tests; \
+             name it with the same ones, as Cargo.toml does"
+        );
     }
 }
