@@ -44,7 +44,7 @@ impl Appearance {
     /// Of what a picture shows in its middle, over a `share` of its width and of its height; none if nothing
     /// tells that from what is around it.
     pub fn learnt(frame: &Frame<'_>, share: f64) -> Option<Self> {
-        let (mut inside, mut around) = ([[0_u16; STEPS]; STEPS], [[0_u16; STEPS]; STEPS]);
+        let (mut inside, mut around) = ([[0_u32; STEPS]; STEPS], [[0_u32; STEPS]; STEPS]);
         let (mut ins, mut outs) = (0_u32, 0_u32);
         for y in 0..frame.height {
             for x in 0..frame.width {
@@ -52,7 +52,7 @@ impl Appearance {
                 let is_in = middle(x, frame.width, share) && middle(y, frame.height, share);
                 let (counts, sum) =
                     if is_in { (&mut inside, &mut ins) } else { (&mut around, &mut outs) };
-                counts[r][g] = counts[r][g].saturating_add(1);
+                counts[r][g] += 1;
                 *sum += 1;
             }
         }
@@ -103,15 +103,21 @@ mod tests {
 
     #[test]
     fn what_is_learnt_is_what_the_middle_alone_shows() {
-        let picture = |middle: [u8; 3], around: [u8; 3]| -> Vec<u8> {
-            let is_in = |n: usize| (4..12).contains(&(n % 16)) && (4..12).contains(&(n / 16));
-            (0..256).flat_map(|n| if is_in(n) { middle } else { around }).collect()
-        };
-        let learn =
-            |rgb: &[u8]| Appearance::learnt(&Frame { width: 16, height: 16, rgb, number: 1 }, 0.5);
-        let look = learn(&picture([20, 160, 40], [120, 110, 100])).unwrap();
-        assert!(look.has([20, 160, 40]) && look.has([30, 240, 60]) && !look.has([120, 110, 100]));
-        assert_eq!(learn(&picture([120, 110, 100], [120, 110, 100])), None);
-        assert_eq!(learn(&picture([0, 0, 0], [120, 110, 100])), None);
+        for (width, height, share) in [(16, 16, 0.5), (640, 480, 0.2)] {
+            let picture = |inside: [u8; 3], around: [u8; 3]| -> Vec<u8> {
+                let is_in =
+                    |n: usize| middle(n % width, width, share) && middle(n / width, height, share);
+                (0..width * height).flat_map(|n| if is_in(n) { inside } else { around }).collect()
+            };
+            let learn = |inside, around| {
+                let rgb = &picture(inside, around);
+                Appearance::learnt(&Frame { width, height, rgb, number: 1 }, share)
+            };
+            let look = learn([20, 160, 40], [120, 110, 100]).unwrap();
+            assert!(look.has([20, 160, 40]) && look.has([30, 240, 60]));
+            assert!(!look.has([120, 110, 100]));
+            assert_eq!(learn([120, 110, 100], [120, 110, 100]), None);
+            assert_eq!(learn([0, 0, 0], [120, 110, 100]), None);
+        }
     }
 }

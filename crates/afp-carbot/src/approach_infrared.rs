@@ -2,7 +2,8 @@
 
 use crate::approaching::{Approached, Approaching, Sight};
 use crate::devices::{Glow, InfraredSensor, Navigator, Odometry, Reading};
-use crate::guard::NO_INFRARED;
+use crate::guard::{FROZEN_INFRARED, NO_INFRARED};
+use crate::repeats::Repeats;
 use crate::templates;
 use crate::templates::approach_infrared::{Inputs, Live, State};
 use afp_core::{Actor, Fault, Instant, Poll};
@@ -11,6 +12,7 @@ use afp_core::{Actor, Fault, Instant, Poll};
 #[derive(Clone, Debug)]
 pub struct ApproachInfrared {
     strength: f64,
+    repeats: Repeats<Glow>,
     approaching: Approaching,
 }
 
@@ -20,11 +22,14 @@ where
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         let approaching = Approaching::new(inputs.speed, NO_INFRARED, env, now);
-        Ok(ApproachInfrared { strength: inputs.strength, approaching })
+        let repeats = Repeats::new(FROZEN_INFRARED, now);
+        Ok(ApproachInfrared { strength: inputs.strength, repeats, approaching })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        let Reading { time, value } = env.glow();
+        let glow = env.glow();
+        self.repeats.check(glow, env.motion())?;
+        let Reading { time, value } = glow;
         let sight = |glow: Glow| Sight {
             bearing: glow.bearing.si(),
             distance: self.distance(glow.strength),
@@ -85,8 +90,24 @@ mod tests {
     #[test]
     fn a_dead_sensor_is_a_fault_and_not_darkness() {
         let mut robot = Fake::new(&[]);
-        robot.dead_infrared = true;
+        robot.infrared_dies = 0;
         assert_eq!(approach(&mut robot), Err(NO_INFRARED));
         assert_eq!(robot.motion.x.si(), 0.0);
+    }
+
+    #[test]
+    fn a_sensor_that_dies_or_freezes_on_the_way_stops_the_robot() {
+        let way = |break_it: fn(&mut Fake)| {
+            let mut robot = Fake::new(&[]);
+            robot.light = Some((5.0, 0.0));
+            break_it(&mut robot);
+            let fault = approach(&mut robot).map(|_| ());
+            // Without a fault it is 58 cm from its start after three seconds.
+            (fault, robot.motion.x.si() - 0.56)
+        };
+        let (fault, way_on) = way(|robot| robot.infrared_dies = 3000);
+        assert!(fault == Err(NO_INFRARED) && (0.0..0.05).contains(&way_on), "{fault:?} {way_on}");
+        let (fault, way_on) = way(|robot| robot.infrared_freezes = 3000);
+        assert!(fault == Err(FROZEN_INFRARED) && way_on < 0.23, "{fault:?} {way_on}");
     }
 }

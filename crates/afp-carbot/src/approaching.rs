@@ -3,13 +3,11 @@
 use crate::devices::{Navigator, Odometry, Reading};
 use crate::guard::{Guard, NO_ODOMETRY, PATIENCE};
 use crate::history::{History, Pose};
-use crate::motion::{Ramp, wrap};
+use crate::motion::wrap;
 use crate::tracking::Tracking;
 use afp_core::quantity::Speed;
 use afp_core::{Fault, Instant};
 
-/// Speed is gained and lost at this many metres a second squared.
-const ACCELERATION: f64 = 0.5;
 /// It counts as reached when the distance left is less than this, metres.
 const CLOSE: f64 = 0.005;
 /// How sharply to steer: turn rate per radian off.
@@ -23,7 +21,6 @@ const NEWS: f64 = 0.4;
 #[derive(Clone, Debug)]
 pub(crate) struct Approaching {
     speed: f64,
-    ramp: Ramp,
     tracking: Tracking,
     sensor: Guard,
     odometry: Guard,
@@ -73,8 +70,7 @@ impl Approaching {
         history.note(env.motion());
         Approaching {
             speed: speed.si(),
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
             sensor: Guard::new(silent, now),
             odometry: Guard::new(NO_ODOMETRY, now),
             history,
@@ -109,15 +105,15 @@ impl Approaching {
             return Ok(self.ending.filter(|_| motion.is_some_and(|motion| motion.stands())));
         }
         // Out of sight of it the robot waits: what was ahead may have gone anywhere.
-        let sighted = target.filter(|_| self.seen == self.last_look).zip(motion);
+        let in_sight = self.seen == self.last_look && !self.sensor.is_late(now);
+        let sighted = target.filter(|_| in_sight).zip(motion);
         let Some(((target, here), motion)) = sighted else {
             self.tracking.halt(env, now);
-            self.ramp = Ramp::new(ACCELERATION, now);
             return Ok(None);
         };
         let bearing = wrap(target.heading - here.heading);
         let cruise = self.speed * libm::cos(bearing).max(0.0);
-        let speed = self.ramp.rate(target.distance_from(here), cruise, now);
+        let speed = self.tracking.speed(target.distance_from(here), cruise, now);
         self.tracking.drive(env, &motion, (speed, STEER * bearing), now)?;
         Ok(None)
     }

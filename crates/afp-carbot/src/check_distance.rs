@@ -1,7 +1,8 @@
 //! Watch how far it is in one direction.
 
-use crate::devices::{Body, Echo, Navigator, Rotator, Ultrasonic};
+use crate::devices::{Body, Echo, Navigator, Odometry, Rotator, Ultrasonic};
 use crate::guard::{Arrival, Guard};
+use crate::repeats::Repeats;
 use crate::templates;
 use crate::templates::check_distance::{Event, Inputs, Live};
 use afp_core::quantity::{Angle, Length};
@@ -19,12 +20,14 @@ pub struct CheckDistance {
     last_ping: Instant,
     guard: Guard,
     arrival: Arrival,
+    repeats: Repeats<Length>,
     /// Pings in a row that heard nothing nearer.
     farther: u32,
 }
 
-impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDistance, E>
-    for CheckDistance
+impl<E> Supervisor<templates::CheckDistance, E> for CheckDistance
+where
+    E: Navigator + Odometry + Ultrasonic + Rotator + ?Sized,
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         env.point(inputs.bearing, now);
@@ -33,6 +36,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDi
             last_ping: now,
             guard: Guard::of_echoes(now),
             arrival: Arrival::new(now),
+            repeats: Repeats::of_echoes(now),
             farther: 0,
         })
     }
@@ -45,6 +49,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDi
         now: Instant,
     ) -> Result<Option<Event>, Fault> {
         let reading = env.echo();
+        self.repeats.check_echo(reading, env.motion())?;
         let Some(echo) = self.guard.next(reading, self.last_ping, now)? else { return Ok(None) };
         self.last_ping = reading.time;
         if (echo.bearing.si() - self.bearing.si()).abs() > ARRIVED {
@@ -125,6 +130,9 @@ mod tests {
         let mut robot = Fake::new(&[plane(0.0, 2.0)]);
         robot.range_freezes = 0;
         assert_eq!(watch(&mut robot, 60.0, 0b11), Err(FROZEN_RANGE));
+        let mut robot = Fake::new(&[plane(0.0, 2.0)]);
+        (robot.range_freezes, robot.drifts) = (500, 1.0);
+        assert_eq!(watch(&mut robot, 0.0, 0b01), Err(FROZEN_RANGE), "it looks where it should");
         let mut robot = Fake::new(&[]);
         robot.stuck_rotator = true;
         assert_eq!(watch(&mut robot, 60.0, 0b11), Err(STUCK_ROTATOR));

@@ -1,10 +1,11 @@
 //! Watch the lane ahead.
 
-use crate::devices::{Echo, Navigator, Rotator, Ultrasonic};
+use crate::devices::{Echo, Navigator, Odometry, Rotator, Ultrasonic};
 use crate::guard::{Arrival, Guard};
+use crate::repeats::Repeats;
 use crate::templates;
 use crate::templates::check_driving_lane::{Event, Inputs, Live};
-use afp_core::quantity::Angle;
+use afp_core::quantity::{Angle, Length};
 use afp_core::{Events, Fault, Instant, Supervisor};
 
 /// The rotator has arrived when it is nearer than this to where it should be, radians.
@@ -27,13 +28,15 @@ pub struct CheckDrivingLane {
     last_ping: Instant,
     guard: Guard,
     arrival: Arrival,
+    repeats: Repeats<Length>,
 }
 
 /// The places that are looked at in turn, as shares of the largest bearing.
 const SWING: [f64; 3] = [0.0, 1.0, -1.0];
 
-impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDrivingLane, E>
-    for CheckDrivingLane
+impl<E> Supervisor<templates::CheckDrivingLane, E> for CheckDrivingLane
+where
+    E: Navigator + Odometry + Ultrasonic + Rotator + ?Sized,
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         env.point(Angle::from_si(0.0), now);
@@ -45,6 +48,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
             last_ping: now,
             guard: Guard::of_echoes(now),
             arrival: Arrival::new(now),
+            repeats: Repeats::of_echoes(now),
         })
     }
 
@@ -56,6 +60,7 @@ impl<E: Navigator + Ultrasonic + Rotator + ?Sized> Supervisor<templates::CheckDr
         now: Instant,
     ) -> Result<Option<Event>, Fault> {
         let reading = env.echo();
+        self.repeats.check_echo(reading, env.motion())?;
         let Some(echo) = self.guard.next(reading, self.last_ping, now)? else {
             return Ok(None);
         };
@@ -90,17 +95,18 @@ mod tests {
     use super::*;
     use crate::fake::{Fake, Plane, plane};
     use crate::guard::{FROZEN_RANGE, NO_RANGE, STUCK_ROTATOR};
-    use afp_core::quantity::Length;
 
     type Template = templates::CheckDrivingLane;
 
     /// Watches for two seconds a lane that must be free for 30 + 10 cm, 35 cm to either side.
     fn watch(robot: &mut Fake, wanted: u64) -> Result<Option<Event>, Fault> {
-        let inputs = Inputs {
-            clearance: Length::from_si(0.1),
-            margin: Length::from_si(0.1),
-            halfwidth: Length::from_si(0.25),
-        };
+        watch_width(robot, wanted, [0.1, 0.25])
+    }
+
+    /// The same of a lane of another width: a margin and half of it.
+    fn watch_width(robot: &mut Fake, wanted: u64, width: [f64; 2]) -> Result<Option<Event>, Fault> {
+        let [margin, halfwidth] = width.map(Length::from_si);
+        let inputs = Inputs { clearance: Length::from_si(0.1), margin, halfwidth };
         let (now, wanted) = (robot.now, Events::from_bits(wanted));
         let mut lane: CheckDrivingLane = Supervisor::<Template, Fake>::start(inputs, robot, now)?;
         for _ in 0..200 {
@@ -156,6 +162,10 @@ mod tests {
         let mut robot = Fake::new(&[plane(0.0, 2.0)]);
         robot.range_freezes = 0;
         assert_eq!(watch(&mut robot, 1), Err(FROZEN_RANGE));
+        // In a lane so narrow the rotator hardly turns: what the robot's own motion changes tells.
+        let mut robot = Fake::new(&[plane(0.0, 2.0)]);
+        (robot.range_freezes, robot.drifts) = (500, 1.0);
+        assert_eq!(watch_width(&mut robot, 1, [0.0, 0.01]), Err(FROZEN_RANGE));
         let mut robot = Fake::new(&[]);
         robot.rotator = 0.5;
         robot.stuck_rotator = true;

@@ -1,9 +1,10 @@
 //! Watch for infrared light.
 
-use crate::devices::{InfraredSensor, Odometry};
-use crate::guard::{Guard, NO_INFRARED, NO_ODOMETRY, PATIENCE};
+use crate::devices::{Glow, InfraredSensor, Odometry};
+use crate::guard::{FROZEN_INFRARED, Guard, NO_INFRARED, NO_ODOMETRY, PATIENCE};
 use crate::history::History;
 use crate::motion::wrap;
+use crate::repeats::Repeats;
 use crate::templates;
 use crate::templates::check_infrared::{Event, Inputs, Live};
 use afp_core::quantity::Angle;
@@ -16,6 +17,7 @@ use afp_core::{Events, Fault, Instant, Supervisor};
 pub struct CheckInfrared {
     guard: Guard,
     odometry: Guard,
+    repeats: Repeats<Glow>,
     history: History,
     last_look: Instant,
     /// When there was light last; the beginning counts.
@@ -31,6 +33,7 @@ impl<E: InfraredSensor + Odometry + ?Sized> Supervisor<templates::CheckInfrared,
         Ok(CheckInfrared {
             guard: Guard::new(NO_INFRARED, now),
             odometry: Guard::new(NO_ODOMETRY, now),
+            repeats: Repeats::new(FROZEN_INFRARED, now),
             history,
             last_look: now,
             seen: now,
@@ -47,7 +50,9 @@ impl<E: InfraredSensor + Odometry + ?Sized> Supervisor<templates::CheckInfrared,
         let counted = env.motion();
         self.history.note(counted);
         let Some(motion) = self.odometry.current(counted, now)? else { return Ok(None) };
-        let reading = self.history.placed(env.glow());
+        let glow = env.glow();
+        self.repeats.check(glow, counted)?;
+        let reading = self.history.placed(glow);
         let Some((glow, then)) = self.guard.next(reading, self.last_look, now)? else {
             return Ok(None);
         };
@@ -102,7 +107,17 @@ mod tests {
     #[test]
     fn a_dead_sensor_is_a_fault_and_not_darkness() {
         let mut robot = Fake::new(&[]);
-        robot.dead_infrared = true;
+        robot.infrared_dies = 0;
         assert_eq!(watch(&mut robot, 3, 1000), Err(NO_INFRARED));
+    }
+
+    #[test]
+    fn a_sensor_that_repeats_itself_is_a_fault_where_the_robot_moves() {
+        for (drifts, seen) in [(0.0, Ok(None)), (1.0, Err(FROZEN_INFRARED))] {
+            let mut robot = Fake::new(&[]);
+            robot.light = Some((1.0, 0.5));
+            (robot.infrared_freezes, robot.drifts) = (300, drifts);
+            assert_eq!(watch(&mut robot, 2, 2000), seen);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Watch for motion in the camera's picture.
 
 use crate::devices::{Flow, FlowCamera, Invalid, Odometry};
-use crate::guard::{Guard, NO_FLOW};
+use crate::guard::{Guard, NO_FLOW, NO_ODOMETRY};
 use crate::history::History;
 use crate::own_motion::Step;
 use crate::templates;
@@ -28,6 +28,7 @@ pub struct CheckMotion {
     /// Radians a second.
     speed: f64,
     history: History,
+    odometry: Guard,
     guard: Guard,
     last: Instant,
     /// What moved in the last picture, and in how many before without a break.
@@ -42,6 +43,7 @@ impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> fo
         Ok(CheckMotion {
             speed: inputs.speed.si(),
             history,
+            odometry: Guard::new(NO_ODOMETRY, now),
             guard: Guard::new(NO_FLOW, now),
             last: now,
             before: None,
@@ -55,23 +57,26 @@ impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> fo
         env: &mut E,
         now: Instant,
     ) -> Result<Option<Event>, Fault> {
-        self.history.note(env.motion());
+        let counted = env.motion();
+        self.history.note(counted);
+        self.odometry.current(counted, now)?;
         let lens = env.lens();
         let mut reading = env.flow(now)?;
-        let step = reading.value.ok().and_then(|flow| {
-            let before = reading.time.as_nanos().saturating_sub(flow.span.as_nanos());
-            Step::between(&self.history, &lens, Instant::from_nanos(before), reading.time)
-        });
         let shows = |flow: &Flow<'_>| flow.shifts.iter().flatten().take(SEEN).count() == SEEN;
-        if step.is_none() || !reading.value.is_ok_and(|flow| shows(&flow)) {
+        if !reading.value.is_ok_and(|flow| shows(&flow)) {
             reading.value = reading.value.and(Err(Invalid::NoAnswer));
         }
-        let Some((flow, step)) = self.guard.next(reading, self.last, now)?.zip(step) else {
-            return Ok(None);
-        };
+        let Some(flow) = self.guard.next(reading, self.last, now)? else { return Ok(None) };
         self.last = reading.time;
-        let view = View { lens, step, flow, speed: self.speed };
-        let something = view.largest();
+        // Of a picture in which the robot moved nobody knows how, nothing is said.
+        let before = reading.time.as_nanos().saturating_sub(flow.span.as_nanos());
+        let before = Instant::from_nanos(before);
+        let step = Step::between(&self.history, &lens, before, reading.time);
+        let view = step.map(|step| View { lens, step, flow, speed: self.speed });
+        let something = match view {
+            Some(view) => view.largest()?,
+            None => None,
+        };
         self.before = something.map(|it| match self.before {
             Some((bearing, times)) if (it.bearing - bearing).abs() < SAME => {
                 (it.bearing, times + 1)

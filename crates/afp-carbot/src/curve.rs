@@ -1,15 +1,12 @@
 //! Drive along an arc.
 
 use crate::devices::{Motion, Navigator, Odometry};
-use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::curve::{Inputs, Live, State};
 use crate::tracking::{DRIVE_STALLED, Tracking};
 use crate::turning::{Progress, Turning};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Speed is gained and lost at this many metres a second squared.
-const ACCELERATION: f64 = 0.5;
 /// The way may be off the arc's length by this share of it, and by so many metres while the wheels are being steered.
 const OFF_ARC: f64 = 0.25;
 const STEERED: f64 = 0.1;
@@ -21,7 +18,6 @@ pub struct Curve {
     angle: f64,
     radius: f64,
     speed: f64,
-    ramp: Ramp,
     tracking: Tracking,
     /// The distance driven so far, metres, and where that was.
     driven: f64,
@@ -35,8 +31,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
             angle: inputs.angle.si(),
             radius: inputs.radius.si(),
             speed: inputs.speed.si(),
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
             driven: 0.0,
             last: None,
         })
@@ -47,7 +42,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
             Progress::Unknown => self.tracking.halt(env, now),
             Progress::Left(left, motion) => {
                 self.check_arc(self.angle - left, motion)?;
-                let speed = self.ramp.rate(left.abs() * self.radius, self.speed, now);
+                let speed = self.tracking.speed(left.abs() * self.radius, self.speed, now);
                 let rate = speed.copysign(left) / self.radius;
                 self.tracking.drive(env, &motion, (speed, rate), now)?;
             }

@@ -1,19 +1,11 @@
 //! Drive to a pose on the map, straight on.
 
 use crate::devices::{Localisation, Navigator, Odometry};
-use crate::motion::{Ramp, wrap};
 use crate::path::Path;
-use crate::pursuit::{Here, Pursued, Pursuit};
+use crate::pursuit::{Pursued, Pursuit};
 use crate::templates;
 use crate::templates::drive_to::{Inputs, Live, State};
-use crate::tracking::Tracking;
 use afp_core::{Actor, Fault, Instant, Poll};
-
-/// Turn rate is gained and lost at this many radians a second squared, up to so many a second.
-const ACCELERATION: f64 = 3.0;
-const TURN: f64 = 0.8;
-/// The heading is right within this, radians.
-const STRAIGHT: f64 = 0.03;
 
 /// Drives a straight line from where the robot takes itself to be, then turns to the heading.
 #[derive(Clone, Debug)]
@@ -23,8 +15,8 @@ pub struct DriveTo {
     heading: f64,
     /// The line; none until the robot knows where it is.
     path: Option<Path>,
-    /// The turn at the place.
-    turn: Option<(Ramp, Tracking)>,
+    /// Whether the robot has been at the place: there it turns.
+    arrived: bool,
 }
 
 impl<E: Navigator + Odometry + Localisation + ?Sized> Actor<templates::DriveTo, E> for DriveTo {
@@ -35,28 +27,31 @@ impl<E: Navigator + Odometry + Localisation + ?Sized> Actor<templates::DriveTo, 
             place: [inputs.x.si(), inputs.y.si()],
             heading: inputs.heading.si(),
             path: None,
-            turn: None,
+            arrived: false,
         })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
         let Some(here) = self.pursuit.locate(env, now)? else { return Ok(Poll::Pending) };
-        if self.turn.is_some() {
-            return self.turn(&here, env, now);
-        }
         let from = [here.belief.x.si(), here.belief.y.si()];
         let path = match &mut self.path {
             Some(path) => path,
             none => none.insert(Path::new([from, self.place])?),
         };
-        match self.pursuit.poll(path, &here, env, now)? {
-            None => {}
-            Some(Pursued::Lost) => return Ok(Poll::Ready(State::PathLost)),
+        let pursued = if self.arrived {
+            self.pursuit.face(self.heading, (path, &here), env, now)?
+        } else {
+            self.pursuit.poll(path, &here, env, now)?
+        };
+        Ok(match pursued {
+            None => Poll::Pending,
+            Some(Pursued::Lost) => Poll::Ready(State::PathLost),
+            Some(Pursued::Arrived) if self.arrived => Poll::Ready(State::Arrived),
             Some(Pursued::Arrived) => {
-                self.turn = Some((Ramp::new(ACCELERATION, now), Tracking::new()));
+                self.arrived = true;
+                Poll::Pending
             }
-        }
-        Ok(Poll::Pending)
+        })
     }
 
     fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
@@ -65,30 +60,12 @@ impl<E: Navigator + Odometry + Localisation + ?Sized> Actor<templates::DriveTo, 
     }
 }
 
-impl DriveTo {
-    fn turn<E>(&mut self, here: &Here, env: &mut E, now: Instant) -> Result<Poll<State>, Fault>
-    where
-        E: Navigator + ?Sized,
-    {
-        let Some((ramp, tracking)) = &mut self.turn else { return Ok(Poll::Pending) };
-        let left = wrap(self.heading - here.belief.heading.si());
-        if left.abs() < STRAIGHT {
-            tracking.halt(env, now);
-            *ramp = Ramp::new(ACCELERATION, now);
-            let stands = here.motion.stands();
-            return Ok(if stands { Poll::Ready(State::Arrived) } else { Poll::Pending });
-        }
-        let rate = ramp.rate(left.abs(), TURN, now).copysign(left);
-        tracking.drive(env, &here.motion, (0.0, rate), now)?;
-        Ok(Poll::Pending)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fake::Fake;
     use crate::guard::{NO_ODOMETRY, NO_POSITION};
+    use crate::motion::wrap;
     use crate::tracking::DRIVE_BLOCKED;
     use afp_core::quantity::{Angle, Length, Speed};
 
@@ -133,6 +110,12 @@ mod tests {
         robot.spread = 1.5;
         let state = drive(&mut robot, [5.0, 0.0, 0.0], 3);
         assert_eq!((state, robot.motion.x.si()), (Ok(Some(State::PathLost)), 0.0));
+        // The same where it only turns.
+        let mut robot = Fake::new(&[]);
+        robot.lost_from = 1500;
+        assert_eq!(drive(&mut robot, [0.0, 0.0, 180.0], 5), Ok(Some(State::PathLost)));
+        let turned = robot.motion.heading.si().abs();
+        assert!((0.5..1.5).contains(&turned) && robot.millis() < 2700, "{turned}");
     }
 
     #[test]

@@ -12,6 +12,7 @@ use afp_core::{
     Actor, ActorTemplate, Duration, Environment, Events, Fault, Instant, Poll, Supervisor,
     SupervisorTemplate,
 };
+use core::mem::replace;
 use picture::Picture;
 use std::collections::VecDeque;
 use std::vec::Vec;
@@ -45,6 +46,10 @@ pub(crate) struct Fake {
     trail: Trail,
     pub(crate) escape: bool,
     pub(crate) dead_odometry: bool,
+    /// From this many milliseconds on until that many the odometry says nothing.
+    pub(crate) odometry_gap: (u64, u64),
+    /// By how much the commanded speed and turn rate grew at most from one tick to the next.
+    pub(crate) gains: (f64, f64),
     /// From this many milliseconds on the range sensor sends no ping.
     pub(crate) range_dies: u64,
     pub(crate) dead_switches: bool,
@@ -53,7 +58,9 @@ pub(crate) struct Fake {
     pub(crate) light: Option<(f64, f64)>,
     /// From this many milliseconds on it is dark.
     pub(crate) light_goes_out: u64,
-    pub(crate) dead_infrared: bool,
+    /// From this many milliseconds on the infrared sensor does not answer, or says what it said before.
+    pub(crate) infrared_dies: u64,
+    pub(crate) infrared_freezes: u64,
     /// A red post of 30 cm by 30 cm on a grey floor, and where it is.
     pub(crate) post: Option<(f64, f64)>,
     /// From this many milliseconds on the post is gone.
@@ -83,6 +90,8 @@ pub(crate) struct Fake {
     pub(crate) map_offset: [f64; 2],
     /// How far from where it takes itself to be it may be, metres.
     pub(crate) spread: f64,
+    /// From this many milliseconds on it may be anywhere.
+    pub(crate) lost_from: u64,
     pub(crate) dead_localisation: bool,
     /// No way leads anywhere.
     pub(crate) no_way: bool,
@@ -94,6 +103,8 @@ pub(crate) struct Fake {
     target: f64,
     pub(crate) command: (f64, f64),
     commanded: Instant,
+    before: (f64, f64),
+    glow: Option<Glow>,
     echo: Reading<Echo>,
     /// Those that are not told yet.
     heard: VecDeque<Reading<Echo>>,
@@ -115,12 +126,15 @@ impl Fake {
             trail: Trail::new(),
             escape: false,
             dead_odometry: false,
+            odometry_gap: (0, 0),
+            gains: (0.0, 0.0),
             range_dies: u64::MAX,
             dead_switches: false,
             stuck_rotator: false,
             light: None,
             light_goes_out: u64::MAX,
-            dead_infrared: false,
+            infrared_dies: u64::MAX,
+            infrared_freezes: u64::MAX,
             post: None,
             post_goes: u64::MAX,
             camera_freezes: u64::MAX,
@@ -138,6 +152,7 @@ impl Fake {
             top_speed: f64::INFINITY,
             map_offset: [0.0, 0.0],
             spread: 0.05,
+            lost_from: u64::MAX,
             dead_localisation: false,
             no_way: false,
             search: None,
@@ -146,6 +161,8 @@ impl Fake {
             target: 0.0,
             command: (0.0, 0.0),
             commanded: Instant::ZERO,
+            before: (0.0, 0.0),
+            glow: None,
             echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
             heard: VecDeque::new(),
             picture: Picture::default(),
@@ -167,7 +184,9 @@ impl Fake {
         if self.now.since(self.commanded) > Duration::from_millis(200) {
             self.command = (0.0, 0.0);
         }
-        let (speed, turn) = self.command;
+        let ((speed, turn), before) = (self.command, replace(&mut self.before, self.command));
+        self.gains.0 = self.gains.0.max(speed.abs() - before.0.abs());
+        self.gains.1 = self.gains.1.max(turn.abs() - before.1.abs());
         let speed = speed.clamp(-self.top_speed, self.top_speed) * self.follows.0;
         let turn = turn * self.follows.1 + self.drifts;
         let heading = self.motion.heading.si() + turn * 0.01;
@@ -191,6 +210,9 @@ impl Fake {
             let echo = frozen.unwrap_or(now);
             self.heard.push_back(Reading::valid(echo, self.now));
         }
+        if self.millis() < self.infrared_freezes {
+            self.glow = self.brightest();
+        }
         if self.millis().is_multiple_of(50) && self.millis() < self.camera_freezes {
             let post = self.post.filter(|_| self.millis() < self.post_goes);
             self.picture.take(post, &self.motion);
@@ -199,6 +221,15 @@ impl Fake {
         while let Some(echo) = self.heard.pop_front_if(|echo| self.now.since(echo.time) >= late) {
             self.echo = echo;
         }
+    }
+
+    fn brightest(&self) -> Option<Glow> {
+        let (x, y) = self.light.filter(|_| self.millis() < self.light_goes_out)?;
+        let (ahead, aside) = (x - self.motion.x.si(), y - self.motion.y.si());
+        let bearing = wrap(aside.atan2(ahead) - self.motion.heading.si());
+        let strength = 1.0 / (ahead * ahead + aside * aside).max(0.01);
+        let seen = bearing.abs() <= self.field_of_view().si() / 2.0;
+        seen.then_some(Glow { bearing: Angle::from_si(bearing), strength })
     }
 
     fn nearest(&self) -> Option<Length> {
@@ -335,7 +366,9 @@ impl Camera for Fake {
 
 impl Odometry for Fake {
     fn motion(&self) -> Reading<Motion> {
-        reading(self.dead_odometry, self.motion, self.now)
+        let (from, to) = self.odometry_gap;
+        let silent = self.dead_odometry || (from..to).contains(&self.millis());
+        reading(silent, self.motion, self.now)
     }
 
     fn last_bump(&self) -> Option<Bump> {
@@ -382,15 +415,7 @@ impl TouchSensor for Fake {
 
 impl InfraredSensor for Fake {
     fn glow(&self) -> Reading<Option<Glow>> {
-        let light = self.light.filter(|_| self.millis() < self.light_goes_out);
-        let glow = light.and_then(|(x, y)| {
-            let (ahead, aside) = (x - self.motion.x.si(), y - self.motion.y.si());
-            let bearing = wrap(aside.atan2(ahead) - self.motion.heading.si());
-            let strength = 1.0 / (ahead * ahead + aside * aside).max(0.01);
-            let seen = bearing.abs() <= self.field_of_view().si() / 2.0;
-            seen.then_some(Glow { bearing: Angle::from_si(bearing), strength })
-        });
-        reading(self.dead_infrared, glow, self.now)
+        reading(self.millis() >= self.infrared_dies, self.glow, self.now)
     }
 
     fn field_of_view(&self) -> Angle {

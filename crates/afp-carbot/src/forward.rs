@@ -2,15 +2,12 @@
 
 use crate::devices::{Motion, Navigator, Odometry};
 use crate::guard::{Guard, NO_ODOMETRY};
-use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::forward::{Inputs, Live, State};
 use crate::tracking::Tracking;
 use afp_core::quantity::Length;
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Speed is gained and lost at this many metres a second squared.
-const ACCELERATION: f64 = 0.5;
 /// The way counts as driven when less than this is left.
 const CLOSE: f64 = 0.004;
 /// How sharply the heading is held: turn rate per radian off.
@@ -21,7 +18,6 @@ const HOLD: f64 = 2.5;
 pub struct Forward {
     distance: f64,
     speed: f64,
-    ramp: Ramp,
     tracking: Tracking,
     odometry: Guard,
     /// Where the drive began; none until the first reading.
@@ -35,8 +31,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
         Ok(Forward {
             distance: inputs.distance.si(),
             speed: inputs.speed.si(),
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
             odometry,
             from,
         })
@@ -59,7 +54,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
                 Poll::Pending
             });
         }
-        let rate = self.ramp.rate(rest, self.speed, now);
+        let rate = self.tracking.speed(rest, self.speed, now);
         let turn = HOLD * (from.heading - motion.heading).si();
         self.tracking.drive(env, &motion, (ahead * rate, turn), now)?;
         Ok(Poll::Pending)

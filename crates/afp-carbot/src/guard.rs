@@ -55,7 +55,12 @@ pub const NO_POSITION: Fault = Fault::new(&Reason {
 /// The range sensor repeats itself.
 pub const FROZEN_RANGE: Fault = Fault::new(&Reason {
     code: "frozen-range",
-    text: "the range sensor gave exactly the same echo for 1 s while it was to be turned",
+    text: "the range sensor gave exactly the same echo for 1 s while it was to be turned, or while the robot moved by 20 cm",
+});
+/// The infrared sensor repeats itself.
+pub const FROZEN_INFRARED: Fault = Fault::new(&Reason {
+    code: "frozen-infrared",
+    text: "the infrared sensor gave exactly the same reading while the robot moved by 20 cm",
 });
 /// The rotator does not get where it should.
 pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
@@ -63,8 +68,9 @@ pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
     text: "pings did not come from where the rotator was sent within 1 s: it is stuck, or the range sensor repeats itself",
 });
 
-/// The age up to which an echo tells a robot that drives what is ahead: 6 cm at full speed.
-pub const LATE_ECHO: Duration = Duration::from_millis(200);
+/// A robot that drives waits when it has heard nothing new of what is ahead for so long: 6 cm at full speed. An echo that
+/// is older when it comes tells it nothing.
+pub const LATE: Duration = Duration::from_millis(200);
 
 /// The age up to which the continuous sensors (odometry, bumper, buttons, rotator) are current.
 const CURRENT: Duration = Duration::from_millis(100);
@@ -86,7 +92,7 @@ impl Guard {
 
     /// Patience with the range sensor of a robot that drives.
     pub(crate) fn of_echoes(now: Instant) -> Self {
-        Guard { oldest: LATE_ECHO, ..Guard::new(NO_RANGE, now) }
+        Guard { oldest: LATE, ..Guard::new(NO_RANGE, now) }
     }
 
     /// The current value, none while the sensor is silent but not yet for too long.
@@ -122,6 +128,11 @@ impl Guard {
         }
         self.patient(now)?;
         Ok(value)
+    }
+
+    /// Whether nothing usable has come for so long that a robot that drives waits.
+    pub(crate) fn is_late(&self, now: Instant) -> bool {
+        now.since(self.usable) > LATE
     }
 
     fn patient(&self, now: Instant) -> Result<(), Fault> {

@@ -55,6 +55,7 @@ mod path;
 mod plan_path;
 mod press;
 mod pursuit;
+mod repeats;
 mod retrace;
 mod search_wall;
 mod seeking;

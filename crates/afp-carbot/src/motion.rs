@@ -2,6 +2,11 @@
 
 use afp_core::{Duration, Instant};
 
+/// Speed is gained and lost at this many metres a second squared.
+pub(crate) const ACCELERATION: f64 = 0.5;
+/// Turn rate is gained and lost at this many radians a second squared.
+pub(crate) const TURN_ACCELERATION: f64 = 3.0;
+
 /// A speed that ramps up, holds, and ramps down before the end of a known distance.
 ///
 /// Works alike for lengths and angles: the unit is that of the distance.

@@ -2,16 +2,13 @@
 
 use crate::devices::{Belief, Localisation, Motion, Navigator, Odometry};
 use crate::guard::{Guard, NO_ODOMETRY, NO_POSITION};
-use crate::motion::{Ramp, wrap};
-use crate::path::Path;
+use crate::motion::wrap;
+use crate::path::{Nearest, Path};
 use crate::tracking::Tracking;
 use afp_core::quantity::{Length, Speed};
 use afp_core::{Duration, Fault, Instant};
 use core::mem;
 
-/// Speed is gained and lost at this many metres a second squared, and turn rate at so many radians.
-const ACCELERATION: f64 = 0.5;
-const TURN_ACCELERATION: f64 = 3.0;
 /// How far ahead on the path the robot looks, metres.
 const LOOK_AHEAD: f64 = 0.35;
 /// Turned farther away from there than this the robot turns in place, until it is within the other one, radians.
@@ -19,6 +16,8 @@ const ASIDE: f64 = 0.9;
 const ALONG: f64 = 0.15;
 /// How fast it turns in place, radians a second.
 const TURN: f64 = 0.8;
+/// The heading at the end is right within this, radians.
+const STRAIGHT: f64 = 0.03;
 /// The end is reached when less of the way is left than this, metres.
 const CLOSE: f64 = 0.01;
 /// Farther from the path than this, or less certain of its place, the robot is not on it, metres.
@@ -33,7 +32,6 @@ const DOUBT: Duration = Duration::from_secs(1);
 pub(crate) struct Pursuit {
     speed: f64,
     tolerance: f64,
-    ramp: Ramp,
     turning: Turning,
     tracking: Tracking,
     odometry: Guard,
@@ -56,12 +54,12 @@ pub(crate) enum Pursued {
 }
 
 /// Whether the robot turns in place.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Turning {
     No,
     /// It comes to a standstill first.
     Braking,
-    Yes(Ramp),
+    Yes,
 }
 
 /// Where the robot is, by all that tells.
@@ -77,9 +75,8 @@ impl Pursuit {
         Pursuit {
             speed: speed.si(),
             tolerance: tolerance.si(),
-            ramp: Ramp::new(ACCELERATION, now),
             turning: Turning::No,
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
             odometry: Guard::new(NO_ODOMETRY, now),
             position: Guard::new(NO_POSITION, now),
             doubt: None,
@@ -100,7 +97,7 @@ impl Pursuit {
         let belief = env.belief(now)?;
         let here = motion.zip(self.position.current(belief, now)?);
         if here.is_none() {
-            self.halt(env, now);
+            self.tracking.halt(env, now);
         }
         Ok(here.map(|(motion, belief)| Here { motion, belief }))
     }
@@ -121,42 +118,56 @@ impl Pursuit {
     {
         let steer = self.steer(path, here, now);
         let Some((aside, rest)) = steer.filter(|_| self.ending.is_none()) else {
-            self.halt(env, now);
+            self.tracking.halt(env, now);
             return Ok(self.ending.filter(|_| here.motion.stands()));
         };
-        self.turning = self.turning.next(aside, here, now);
-        let command = match &mut self.turning {
-            Turning::Braking => {
-                self.halt(env, now);
-                return Ok(None);
-            }
-            Turning::Yes(ramp) => {
-                (0.0, ramp.rate((aside.abs() - ALONG / 2.0).max(0.0), TURN, now).copysign(aside))
-            }
-            Turning::No => {
-                let speed = self.ramp.rate(rest, self.speed * libm::cos(aside), now);
-                (speed, 2.0 * speed * libm::sin(aside) / LOOK_AHEAD)
-            }
+        let turning = self.turning.next(aside, here);
+        if [mem::replace(&mut self.turning, turning), turning].contains(&Turning::Braking) {
+            self.tracking.halt(env, now);
+            return Ok(None);
+        }
+        let command = if turning == Turning::Yes {
+            let rest = (aside.abs() - ALONG / 2.0).max(0.0).copysign(aside);
+            (0.0, self.tracking.turn(rest, TURN, now))
+        } else {
+            let speed = self.tracking.speed(rest, self.speed * libm::cos(aside), now);
+            (speed, 2.0 * speed * libm::sin(aside) / LOOK_AHEAD)
         };
         self.tracking.drive(env, &here.motion, command, now)?;
         Ok(None)
     }
 
+    /// Turns in place at the end of the path to a heading on the map, radians.
+    ///
+    /// # Errors
+    /// The drive does not do what it is told.
+    pub(crate) fn face<E>(
+        &mut self,
+        heading: f64,
+        (path, here): (&Path, &Here),
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Pursued>, Fault>
+    where
+        E: Navigator + ?Sized,
+    {
+        let left = wrap(heading - here.belief.heading.si());
+        let is_on = self.on_path(path, here, now).is_some();
+        let is_lost = self.ending == Some(Pursued::Lost);
+        if is_on && !is_lost && left.abs() >= STRAIGHT {
+            let rate = self.tracking.turn(left, TURN, now);
+            self.tracking.drive(env, &here.motion, (0.0, rate), now)?;
+            return Ok(None);
+        }
+        self.tracking.halt(env, now);
+        Ok(self.ending.filter(|_| (is_on || is_lost) && here.motion.stands()))
+    }
+
     /// Where to steer, radians against the heading, and the way left; none where the robot has to stand.
     fn steer(&mut self, path: &Path, here: &Here, now: Instant) -> Option<(f64, f64)> {
-        let at = [here.belief.x.si(), here.belief.y.si()];
-        let end = path.end().map(|end| libm::hypot(end[0] - at[0], end[1] - at[1]));
-        let known = here.belief.spread.si() <= UNCERTAIN;
-        let Some((near, end)) =
-            path.nearest(at).zip(end).filter(|(near, _)| known && near.off <= OFF)
-        else {
-            let since = *self.doubt.get_or_insert(now);
-            if now.since(since) >= DOUBT {
-                self.ending = self.ending.or(Some(Pursued::Lost));
-            }
-            return None;
-        };
-        self.doubt = None;
+        let at = here.place();
+        let near = self.on_path(path, here, now)?;
+        let end = path.end().map(|end| libm::hypot(end[0] - at[0], end[1] - at[1]))?;
         // Who begins so near to the end is there; who comes from farther away drives on to the end itself.
         let begun = mem::replace(&mut self.underway, true);
         if !begun && near.rest.max(end) <= self.tolerance {
@@ -176,21 +187,32 @@ impl Pursuit {
         Some((wrap(towards - here.belief.heading.si()), rest))
     }
 
-    /// Commands a standstill; whoever drives on begins anew.
-    pub(crate) fn halt<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
-        self.tracking.halt(env, now);
-        self.ramp = Ramp::new(ACCELERATION, now);
+    /// Where on the path the robot is; none where it is not on it, or does not know its place. After [`DOUBT`] of that it
+    /// is lost.
+    fn on_path(&mut self, path: &Path, here: &Here, now: Instant) -> Option<Nearest> {
+        let known = here.belief.spread.si() <= UNCERTAIN;
+        let near = path.nearest(here.place()).filter(|near| known && near.off <= OFF);
+        if near.is_some() {
+            self.doubt = None;
+        } else if now.since(*self.doubt.get_or_insert(now)) >= DOUBT {
+            self.ending = Some(Pursued::Lost);
+        }
+        near
+    }
+}
+
+impl Here {
+    fn place(&self) -> [f64; 2] {
+        [self.belief.x.si(), self.belief.y.si()]
     }
 }
 
 impl Turning {
-    fn next(self, aside: f64, here: &Here, now: Instant) -> Turning {
+    fn next(self, aside: f64, here: &Here) -> Turning {
         match self {
             Turning::No if aside.abs() > ASIDE => Turning::Braking,
-            Turning::Braking if here.motion.stands() => {
-                Turning::Yes(Ramp::new(TURN_ACCELERATION, now))
-            }
-            Turning::Yes(_) if aside.abs() < ALONG => Turning::No,
+            Turning::Braking if here.motion.stands() => Turning::Yes,
+            Turning::Yes if aside.abs() < ALONG => Turning::No,
             other => other,
         }
     }

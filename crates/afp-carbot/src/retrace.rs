@@ -3,15 +3,12 @@
 use crate::devices::{Motion, Navigator, Odometry};
 use crate::guard::{Guard, NO_ODOMETRY};
 use crate::history::Pose;
-use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::retrace::{Inputs, Live, State};
 use crate::tracking::Tracking;
 use crate::trail::{LEVER, Trail};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Speed is gained and lost at this many metres a second squared.
-const ACCELERATION: f64 = 0.5;
 /// A place counts as reached within this, metres.
 const CLOSE: f64 = 0.004;
 
@@ -21,7 +18,6 @@ pub struct Retrace {
     /// How far back, metres.
     distance: f64,
     speed: f64,
-    ramp: Ramp,
     tracking: Tracking,
     odometry: Guard,
     /// The path; none until the first reading.
@@ -93,8 +89,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
         let mut retrace = Retrace {
             distance: inputs.distance.si(),
             speed: inputs.speed.si(),
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
             odometry: Guard::new(NO_ODOMETRY, now),
             path: None,
         };
@@ -112,7 +107,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
             self.tracking.halt(env, now);
             return Ok(if motion.stands() { Poll::Ready(State::Retraced) } else { Poll::Pending });
         };
-        let rate = self.ramp.rate(rest, self.speed, now);
+        let rate = self.tracking.speed(rest, self.speed, now);
         let share = rate / libm::hypot(ahead, LEVER * turn).max(CLOSE);
         self.tracking.drive(env, &motion, (share * ahead, share * turn), now)?;
         Ok(Poll::Pending)

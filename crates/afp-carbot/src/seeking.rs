@@ -3,13 +3,10 @@
 use crate::devices::{Navigator, Odometry, Reading};
 use crate::guard::{Guard, NO_ODOMETRY, PATIENCE};
 use crate::history::History;
-use crate::motion::Ramp;
 use crate::tracking::Tracking;
 use afp_core::quantity::{Angle, AngularSpeed};
 use afp_core::{Fault, Instant};
 
-/// Turn rate is gained and lost at this many radians a second squared.
-const ACCELERATION: f64 = 3.0;
 /// So many readings in a row must say that it is ahead.
 const SURE: u8 = 3;
 /// Without a sight of it the robot turns a little more than once around, radians.
@@ -25,7 +22,6 @@ const CLOSE: f64 = 0.005;
 pub(crate) struct Seeking {
     tolerance: f64,
     speed: f64,
-    ramp: Ramp,
     tracking: Tracking,
     sensor: Guard,
     odometry: Guard,
@@ -66,8 +62,7 @@ impl Seeking {
         Seeking {
             tolerance: tolerance.si(),
             speed: speed.si(),
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
             sensor: Guard::new(silent, now),
             odometry: Guard::new(NO_ODOMETRY, now),
             history,
@@ -104,7 +99,11 @@ impl Seeking {
             self.tracking.halt(env, now);
             return Ok(ending.filter(|_| motion.stands()));
         }
-        let rate = self.ramp.rate(rest.abs(), self.speed, now).copysign(rest);
+        if self.sensor.is_late(now) {
+            self.tracking.halt(env, now);
+            return Ok(None);
+        }
+        let rate = self.tracking.turn(rest, self.speed, now);
         self.tracking.drive(env, &motion, (0.0, rate), now)?;
         Ok(None)
     }

@@ -1,6 +1,7 @@
-//! Whether the robot does what it is told: the tracking error of its drive.
+//! What the drive is told, and whether the robot does that: the tracking error of its drive.
 
 use crate::devices::{Motion, Navigator};
+use crate::motion::{ACCELERATION, Ramp, TURN_ACCELERATION};
 use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Duration, Fault, Instant, Reason};
 
@@ -40,8 +41,12 @@ const JUDGED: f64 = 0.1;
 const LONGEST_GAP: Duration = Duration::from_millis(100);
 
 /// Commands a drive and compares what the odometry says with what was commanded.
+///
+/// The speed profiles are here, too, so that whoever drives on after a halt begins from a standstill.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracking {
+    speed: Ramp,
+    turn: Ramp,
     last: Option<(Instant, Motion)>,
     command: (f64, f64),
     /// What the command lets expect by now: metres and radians a second.
@@ -54,15 +59,27 @@ pub(crate) struct Tracking {
 }
 
 impl Tracking {
-    /// Of a drive that stands.
-    pub(crate) fn new() -> Self {
+    /// Of a drive that stands at `now`.
+    pub(crate) fn new(now: Instant) -> Self {
         Tracking {
+            speed: Ramp::new(ACCELERATION, now),
+            turn: Ramp::new(TURN_ACCELERATION, now),
             last: None,
             command: (0.0, 0.0),
             expected: (0.0, 0.0),
             astray: 0.0,
             distances: (0.0, 0.0),
         }
+    }
+
+    /// The speed to command now with `rest` metres to go, at most `cruise`.
+    pub(crate) fn speed(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
+        self.speed.rate(rest, cruise, now)
+    }
+
+    /// The turn rate to command now with `rest` radians to go, negative to the right, at most `cruise` to either side.
+    pub(crate) fn turn(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
+        self.turn.rate(rest.abs(), cruise, now).copysign(rest)
     }
 
     /// Commands a motion: metres a second ahead, radians a second to the left; `motion` is the odometry's latest.
@@ -92,7 +109,7 @@ impl Tracking {
 
     /// Commands a standstill, which is not judged: only what stops is safe to wait for.
     pub(crate) fn halt<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
-        *self = Tracking::new();
+        *self = Tracking::new(now);
         env.halt(now);
     }
 
@@ -156,104 +173,4 @@ fn rim(ahead: f64, turn: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::devices::Odometry;
-    use crate::fake::Fake;
-
-    /// Commands the same for some seconds; the time in milliseconds of the fault that ends it.
-    fn drive(robot: &mut Fake, command: (f64, f64), seconds: u64) -> Result<(), (u64, Fault)> {
-        let mut tracking = Tracking::new();
-        for _ in 0..seconds * 100 {
-            robot.tick();
-            let (now, motion) = (robot.now, robot.motion().value.expect("it is alive"));
-            tracking
-                .drive(robot, &motion, command, now)
-                .map_err(|fault| (robot.millis(), fault))?;
-        }
-        Ok(())
-    }
-
-    #[test]
-    fn a_robot_that_obeys_is_let_go_on() {
-        for command in [(0.3, 0.0), (-0.05, 0.0), (0.0, 1.5), (0.2, -0.7), (0.01, 0.0)] {
-            assert_eq!(drive(&mut Fake::new(&[]), command, 5), Ok(()), "{command:?}");
-        }
-    }
-
-    #[test]
-    fn wheels_that_stand_are_noticed_within_half_a_second() {
-        for command in [(0.3, 0.0), (-0.05, 0.0), (0.0, 1.5), (0.01, 0.0)] {
-            let mut robot = Fake::new(&[]);
-            robot.follows = (0.0, 0.0);
-            let (millis, fault) = drive(&mut robot, command, 5).expect_err("it stands");
-            assert_eq!(fault, DRIVE_BLOCKED);
-            assert!(millis < 650, "{command:?}: {millis}");
-        }
-    }
-
-    #[test]
-    fn the_platform_is_told_of_what_stands_ahead_and_of_nothing_else() {
-        for (command, told) in
-            [((0.3, 0.0), 1), ((0.2, 0.5), 1), ((-0.05, 0.0), 0), ((0.0, 1.5), 0)]
-        {
-            let mut robot = Fake::new(&[]);
-            robot.follows = (0.0, 0.0);
-            assert!(drive(&mut robot, command, 5).is_err());
-            assert_eq!(robot.blocked, told, "{command:?}");
-        }
-    }
-
-    #[test]
-    fn a_robot_that_turns_instead_of_driving_is_noticed() {
-        let mut robot = Fake::new(&[]);
-        robot.follows = (0.5, 1.0);
-        robot.drifts = 0.5;
-        let (millis, fault) = drive(&mut robot, (0.2, 0.0), 5).expect_err("it turns");
-        assert_eq!(fault, DRIVE_STALLED);
-        assert!(millis < 650, "{millis}");
-    }
-
-    #[test]
-    fn wheels_that_slip_through_now_and_then_are_noticed_and_a_weak_drive_is_let_go_on() {
-        let command = (0.0, 0.8);
-        let mut robot = Fake::new(&[]);
-        let mut tracking = Tracking::new();
-        let fault = (0..200).find_map(|tick| {
-            // 200 ms held, 60 ms free: never held for as long as is tolerated.
-            robot.follows = if tick % 26 < 20 { (0.0, 0.0) } else { (1.0, 1.0) };
-            robot.tick();
-            let (now, motion) = (robot.now, robot.motion().value.expect("it is alive"));
-            tracking.drive(&mut robot, &motion, command, now).err()
-        });
-        assert!(fault.is_some() && robot.millis() < 1000, "{fault:?} {}", robot.millis());
-        let mut robot = Fake::new(&[]);
-        robot.follows = (0.8, 0.8);
-        assert_eq!(drive(&mut robot, command, 5), Ok(()));
-    }
-
-    #[test]
-    fn an_odometry_that_repeats_itself_is_noticed_after_ten_centimetres() {
-        let mut robot = Fake::new(&[]);
-        assert_eq!(drive(&mut robot, (0.2, 0.0), 1), Ok(()));
-        let (mut tracking, frozen) = (Tracking::new(), robot.motion);
-        let mut driven = 0.0;
-        let fault = loop {
-            robot.tick();
-            driven += 0.002;
-            let now = robot.now;
-            if let Err(fault) = tracking.drive(&mut robot, &frozen, (0.2, 0.0), now) {
-                break fault;
-            }
-        };
-        assert_eq!(fault, NO_PROGRESS);
-        assert!(driven < 0.12, "{driven}");
-    }
-
-    #[test]
-    fn what_a_robot_cannot_do_is_not_expected_of_it() {
-        let mut robot = Fake::new(&[]);
-        robot.top_speed = 0.1;
-        assert_eq!(drive(&mut robot, (0.4, 0.0), 5), Ok(()));
-    }
-}
+mod tests;

@@ -1,22 +1,17 @@
 //! Turn in place.
 
 use crate::devices::{Navigator, Odometry};
-use crate::motion::Ramp;
 use crate::templates;
 use crate::templates::turn::{Inputs, Live, State};
 use crate::tracking::Tracking;
 use crate::turning::{Progress, Turning};
 use afp_core::{Actor, Fault, Instant, Poll};
 
-/// Turn rate is gained and lost at this many radians a second squared.
-const ACCELERATION: f64 = 3.0;
-
 /// Turns by an angle against the heading it starts with, by odometry.
 #[derive(Clone, Debug)]
 pub struct Turn {
     turning: Turning,
     speed: f64,
-    ramp: Ramp,
     tracking: Tracking,
 }
 
@@ -25,8 +20,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
         Ok(Turn {
             turning: Turning::new(inputs.angle, env, now)?,
             speed: inputs.speed.si(),
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
         })
     }
 
@@ -34,7 +28,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
         match self.turning.progress(env, now)? {
             Progress::Unknown => self.tracking.halt(env, now),
             Progress::Left(left, motion) => {
-                let rate = self.ramp.rate(left.abs(), self.speed, now).copysign(left);
+                let rate = self.tracking.turn(left, self.speed, now);
                 self.tracking.drive(env, &motion, (0.0, rate), now)?;
             }
             Progress::Turned { by, stands } => {

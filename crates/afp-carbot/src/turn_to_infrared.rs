@@ -1,7 +1,8 @@
 //! Turn in place towards infrared light.
 
-use crate::devices::{InfraredSensor, Navigator, Odometry, Reading};
-use crate::guard::NO_INFRARED;
+use crate::devices::{Glow, InfraredSensor, Navigator, Odometry, Reading};
+use crate::guard::{FROZEN_INFRARED, NO_INFRARED};
+use crate::repeats::Repeats;
 use crate::seeking::{Seeking, Sought};
 use crate::templates;
 use crate::templates::turn_to_infrared::{Inputs, Live, State};
@@ -9,7 +10,10 @@ use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Turns left until it sees light, then towards it.
 #[derive(Clone, Debug)]
-pub struct TurnToInfrared(Seeking);
+pub struct TurnToInfrared {
+    seeking: Seeking,
+    repeats: Repeats<Glow>,
+}
 
 impl<E> Actor<templates::TurnToInfrared, E> for TurnToInfrared
 where
@@ -17,13 +21,16 @@ where
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         let aim = (inputs.tolerance, inputs.speed);
-        Ok(TurnToInfrared(Seeking::new(aim, NO_INFRARED, env, now)))
+        let repeats = Repeats::new(FROZEN_INFRARED, now);
+        Ok(TurnToInfrared { seeking: Seeking::new(aim, NO_INFRARED, env, now), repeats })
     }
 
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
-        let Reading { time, value } = env.glow();
+        let glow = env.glow();
+        self.repeats.check(glow, env.motion())?;
+        let Reading { time, value } = glow;
         let light = Reading { time, value: value.map(|glow| glow.map(|glow| glow.bearing)) };
-        Ok(match self.0.poll(light, env, now)? {
+        Ok(match self.seeking.poll(light, env, now)? {
             Some(Sought::Facing) => Poll::Ready(State::FacingInfrared),
             Some(Sought::Missing) => Poll::Ready(State::NoInfraredFound),
             None => Poll::Pending,
@@ -78,7 +85,20 @@ mod tests {
     #[test]
     fn a_dead_sensor_is_a_fault_and_not_darkness() {
         let mut robot = Fake::new(&[]);
-        robot.dead_infrared = true;
+        robot.infrared_dies = 0;
         assert_eq!(turn(&mut robot), Err(NO_INFRARED));
+    }
+
+    #[test]
+    fn a_sensor_that_dies_or_freezes_on_the_way_stops_the_robot() {
+        for (dies, freezes, fault) in
+            [(700, u64::MAX, NO_INFRARED), (u64::MAX, 700, FROZEN_INFRARED)]
+        {
+            let mut robot = Fake::new(&[]);
+            robot.light = Some((0.6, 1.0));
+            (robot.infrared_dies, robot.infrared_freezes) = (dies, freezes);
+            assert_eq!(turn(&mut robot), Err(fault));
+            assert!(robot.motion.heading.si() < 1.6, "{fault:?} {:?}", robot.motion);
+        }
     }
 }

@@ -12,8 +12,8 @@ mod track;
 mod tests;
 
 use crate::devices::{Echo, Motion, Navigator, Odometry, Rotator, Ultrasonic};
-use crate::guard::{Arrival, Guard, LATE_ECHO, NO_ODOMETRY};
-use crate::motion::{Ramp, wrap};
+use crate::guard::{Arrival, Guard, LATE, NO_ODOMETRY};
+use crate::motion::wrap;
 use crate::templates;
 use crate::templates::wall_forward::{Inputs, Live, State};
 use crate::tracking::Tracking;
@@ -22,8 +22,6 @@ use afp_core::{Actor, Fault, Instant, Poll};
 use glance::Glance;
 use track::Track;
 
-/// Speed is gained and lost at this many metres a second squared.
-const ACCELERATION: f64 = 0.5;
 /// Heading against the wall per metre of deviation, at gain 1, radians.
 const APPROACH: f64 = 4.0;
 /// The steepest heading against the wall, radians.
@@ -47,7 +45,6 @@ const CLOSE: f64 = 0.004;
 #[derive(Clone, Debug)]
 pub struct WallForward {
     inputs: Inputs,
-    ramp: Ramp,
     tracking: Tracking,
     odometry: Guard,
     range: Guard,
@@ -80,8 +77,7 @@ where
         env.point(Angle::from_si(0.0), now);
         Ok(WallForward {
             inputs,
-            ramp: Ramp::new(ACCELERATION, now),
-            tracking: Tracking::new(),
+            tracking: Tracking::new(now),
             odometry: Guard::new(NO_ODOMETRY, now),
             range: Guard::of_echoes(now),
             arrival: Arrival::new(now),
@@ -100,7 +96,8 @@ where
             self.tracking.halt(env, now);
             return Ok(if motion.stands() { Poll::Ready(ending) } else { Poll::Pending });
         }
-        let course = self.course.get_or_insert_with(|| Course::new(motion));
+        let heard = (env.beam().max + env.beam().forward - env.body().front).si();
+        let course = self.course.get_or_insert_with(|| Course::new(motion, &self.inputs, heard));
         course.advance(motion);
         let reading = env.echo();
         if let Some(echo) = self.range.next(reading, self.last_ping, now)? {
@@ -130,8 +127,7 @@ impl WallForward {
     /// Points the sensor at the wall or ahead.
     fn aim<E: Rotator + ?Sized>(&mut self, env: &mut E, now: Instant) {
         let Some(course) = &mut self.course else { return };
-        let speed = self.inputs.speed.si();
-        if course.glance.turns(course.driven, speed, self.inputs.lanedist.si()) {
+        if course.glance.turns(course.driven) {
             self.arrival = Arrival::new(now);
         }
         env.point(Angle::from_si(course.bearing()), now);
@@ -144,9 +140,8 @@ impl WallForward {
     fn steer<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
         let Some(course) = &self.course else { return Ok(()) };
         // Nothing moves before the first glance ahead, nor blindly, long before the guard's patience ends.
-        if course.glance.free(course.driven).is_none() || now.since(self.last_ping) > LATE_ECHO {
+        if course.glance.free(course.driven).is_none() || now.since(self.last_ping) > LATE {
             self.tracking.halt(env, now);
-            self.ramp = Ramp::new(ACCELERATION, now);
             return Ok(());
         }
         let side = env.body().half_width.si();
@@ -158,20 +153,21 @@ impl WallForward {
         let turn = (STEERING * off).clamp(-FASTEST_TURN, FASTEST_TURN);
         let rest = self.inputs.step.si() - course.driven;
         let slowed = self.inputs.speed.si() / (1.0 + (off / SLOWING) * (off / SLOWING));
-        let speed = self.ramp.rate(rest, slowed, now);
+        let speed = self.tracking.speed(rest, slowed, now);
         self.tracking.drive(env, &course.last, (speed, turn), now)
     }
 }
 
 impl Course {
-    fn new(motion: Motion) -> Self {
+    /// `heard` is how far before the front the sensor hears something, metres.
+    fn new(motion: Motion, inputs: &Inputs, heard: f64) -> Self {
         Course {
             last: motion,
             driven: 0.0,
             heard: 0.0,
             looks: 0,
             track: Track::new(motion.heading.si()),
-            glance: Glance::new(),
+            glance: Glance::new(inputs.lanedist.si(), inputs.speed.si(), heard),
         }
     }
 
@@ -218,7 +214,7 @@ impl Course {
 
     /// How the drive ends, if it does now.
     fn ending(&self, inputs: &Inputs) -> Option<State> {
-        if self.glance.blocked(self.driven, inputs.lanedist.si(), self.last.speed.si()) {
+        if self.glance.blocked(self.driven, self.last.speed.si()) {
             return Some(State::LaneNotFree);
         }
         let absent = self.looks >= LOOKS && self.track.distance(&self.last).is_none();

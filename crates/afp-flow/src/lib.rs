@@ -72,10 +72,35 @@ const RETURN: f32 = 0.5;
 /// At most so many steps towards the best match on each size of the picture.
 const STEPS: usize = 20;
 
-/// Places every so many pixels.
+/// Places every so many pixels at least.
 const STRIDE: usize = 8;
 
-/// The grid on which the flow of a picture of this size is computed.
+/// The grid on which the flow of a picture of this size is computed: every 8 pixels, in a larger picture as near together as
+/// [`Grid::MOST`] allows.
 pub const fn grid(width: usize, height: usize) -> Grid {
-    Grid::new(width, height, STRIDE, WINDOW / 2 + 2)
+    let mut stride = STRIDE;
+    loop {
+        let grid = Grid::new(width, height, stride, WINDOW / 2 + 2);
+        if grid.len() <= Grid::MOST {
+            return grid;
+        }
+        stride += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_covers_every_picture_from_edge_to_edge_with_no_more_places_than_there_is_room_for() {
+        for (width, height) in [(160, 120), (320, 240), (640, 480), (1920, 1080), (4000, 30)] {
+            let grid = grid(width, height);
+            assert!(grid.len() > 200 && grid.len() <= Grid::MOST, "{width} {height}: {grid:?}");
+            let (x, y) = grid.pixel(grid.len() - 1);
+            assert!(x + grid.first.0 + 1 >= width - 1, "{width} {height}: {grid:?}");
+            assert!(y + grid.first.1 + 1 >= height - 1, "{width} {height}: {grid:?}");
+        }
+        assert_eq!(grid(160, 120).step, STRIDE);
+    }
 }

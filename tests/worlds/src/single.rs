@@ -100,6 +100,7 @@ impl Single {
             ("odometry" | "controller", _) => "no-odometry",
             ("touch", _) => "no-touch",
             ("buttons", _) => "no-button",
+            ("infrared", "frozen") => "frozen-infrared",
             ("infrared", _) => "no-infrared",
             ("color", _) => "no-color",
             ("battery", _) => "no-battery",

@@ -1,6 +1,6 @@
 //! What must hold in any world, watched while a plan runs.
 
-use afp_carbot::guard::{LATE_ECHO, PATIENCE};
+use afp_carbot::guard::{LATE, PATIENCE};
 use afp_core::trace::{ComponentKind, Names, Record};
 use afp_core::{Duration, Instant};
 use afp_sim::{Fault, Simulation};
@@ -96,7 +96,7 @@ impl Watch {
     pub(crate) fn told(&mut self, sensor: Sensor, valid: bool, time: Instant, now: Instant) {
         let known = &mut self.sensors[sensor as usize];
         let usable = match sensor {
-            Sensor::Ultrasonic => time > known.measured && now.since(time) <= LATE_ECHO,
+            Sensor::Ultrasonic => time > known.measured && now.since(time) <= LATE,
             Sensor::Infrared | Sensor::Camera => {
                 time > known.measured && now.since(time) <= PATIENCE
             }

@@ -1,7 +1,8 @@
 //! What moves by itself in one flow.
 
-use crate::devices::{Flow, Lens};
+use crate::devices::{Flow, Grid, Lens};
 use crate::own_motion::Step;
+use afp_core::{Fault, Reason};
 
 /// This many places that move side by side are something.
 const SOMETHING: usize = 4;
@@ -9,8 +10,11 @@ const SOMETHING: usize = 4;
 const DOUBT: f64 = 0.1;
 /// What the flow may be wrong by at any place, pixels.
 const BLUR: f64 = 0.25;
-/// Places of a grid beyond this are not looked at.
-const PLACES: usize = 512;
+/// The grid has more places than there is room for.
+pub(super) const TOO_MANY_PLACES: Fault = Fault::new(&Reason {
+    code: "too-many-places",
+    text: "the flow has more than 512 places: the camera's driver measures it at fewer",
+});
 
 /// A flow and what the robot did meanwhile.
 pub(super) struct View<'a> {
@@ -32,13 +36,20 @@ pub(super) struct Something {
 
 impl View<'_> {
     /// The largest of the things that move, none if there is none.
-    pub(super) fn largest(&self) -> Option<Something> {
-        let mut open = [false; PLACES];
-        for (place, open) in open.iter_mut().enumerate().take(self.flow.grid.len()) {
+    ///
+    /// # Errors
+    /// [`TOO_MANY_PLACES`] if the grid has more than [`Grid::MOST`].
+    pub(super) fn largest(&self) -> Result<Option<Something>, Fault> {
+        let places = self.flow.grid.len();
+        if places > Grid::MOST {
+            return Err(TOO_MANY_PLACES);
+        }
+        let mut open = [false; Grid::MOST];
+        for (place, open) in open.iter_mut().enumerate().take(places) {
             *open = self.moves(place);
         }
         let (mut most, mut largest) = (SOMETHING - 1, None);
-        for place in 0..PLACES {
+        for place in 0..places {
             if open[place] {
                 let (size, columns) = self.gather(place, &mut open);
                 if size > most {
@@ -46,10 +57,10 @@ impl View<'_> {
                 }
             }
         }
-        largest.map(|column| Something {
+        Ok(largest.map(|column| Something {
             bearing: libm::atan2(-column, self.lens.focus()),
-            strength: most as f64 / self.flow.grid.len().clamp(1, PLACES) as f64,
-        })
+            strength: most as f64 / places as f64,
+        }))
     }
 
     /// Where the `n`-th place is against the middle of the picture, pixels to the right and down.
@@ -73,9 +84,9 @@ impl View<'_> {
 
     /// Takes the open places that hang together with `first`: how many, and the sum of their columns
     /// against the middle.
-    fn gather(&self, first: usize, open: &mut [bool; PLACES]) -> (usize, f64) {
+    fn gather(&self, first: usize, open: &mut [bool; Grid::MOST]) -> (usize, f64) {
         let columns = self.flow.grid.columns.max(1);
-        let (mut todo, mut left) = ([0_u16; PLACES], 1);
+        let (mut todo, mut left) = ([0_u16; Grid::MOST], 1);
         todo[0] = first as u16;
         open[first] = false;
         let (mut size, mut sum) = (0, 0.0);

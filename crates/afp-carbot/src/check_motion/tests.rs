@@ -18,13 +18,22 @@ struct Eyes {
     taken: Instant,
     frozen: bool,
     heading: f64,
+    /// From this many milliseconds on the odometry says nothing.
+    odometry_dies: u64,
 }
 
 impl Eyes {
     /// Everything is seen to stand still.
     fn new() -> Self {
         let shifts = std::vec![Some(Shift::default()); GRID.len()];
-        Eyes { now: Instant::ZERO, shifts, taken: Instant::ZERO, frozen: false, heading: 0.0 }
+        Eyes {
+            now: Instant::ZERO,
+            shifts,
+            taken: Instant::ZERO,
+            frozen: false,
+            heading: 0.0,
+            odometry_dies: u64::MAX,
+        }
     }
 
     /// Everything in these columns and rows of places moves.
@@ -83,6 +92,9 @@ impl FlowCamera for Eyes {
 
 impl Odometry for Eyes {
     fn motion(&self) -> Reading<Motion> {
+        if self.now.as_nanos() / 1_000_000 >= self.odometry_dies {
+            return Reading::invalid(Invalid::NoAnswer, self.now);
+        }
         Reading::valid(
             Motion { heading: Angle::from_si(self.heading), ..Motion::default() },
             self.now,
@@ -121,6 +133,23 @@ fn of_two_things_the_larger_counts() {
     eyes.move_places(&[12, 13, 14], &[4, 5], -3.0);
     let Ok((_, Some(Event::MotionSeen { bearing, .. }))) = eyes.watch(200) else { panic!() };
     assert!(bearing.si() < 0.0, "on the right: {bearing:?}");
+}
+
+#[test]
+fn a_dead_odometry_is_called_so_and_a_larger_grid_than_there_is_room_for_is_refused() {
+    let mut eyes = Eyes::new();
+    eyes.odometry_dies = 500;
+    assert_eq!(eyes.watch(950), Ok((0, None)), "it is patient");
+    assert_eq!(eyes.watch(1200), Err(NO_ODOMETRY));
+    let grid = Grid::new(320, 240, 8, 9);
+    let shifts = std::vec![Some(Shift::default()); grid.len()];
+    let flow = Flow { grid, shifts: &shifts, span: Duration::from_millis(50) };
+    let mut history = History::new();
+    history.note(Eyes::new().motion());
+    let lens = Eyes::new().lens();
+    let step = Step::between(&history, &lens, Instant::ZERO, Instant::ZERO).unwrap();
+    let view = View { lens, step, flow, speed: 0.1 };
+    assert_eq!(view.largest(), Err(moving::TOO_MANY_PLACES));
 }
 
 #[test]

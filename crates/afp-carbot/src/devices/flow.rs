@@ -17,6 +17,9 @@ pub struct Grid {
 }
 
 impl Grid {
+    /// A grid has at most so many places: templates have room for them.
+    pub const MOST: usize = 512;
+
     /// Places every `step` pixels, centred, none of them nearer than `margin` to the edge of a picture
     /// of this size. A `step` of 0 counts as 1.
     pub const fn new(width: usize, height: usize, step: usize, margin: usize) -> Self {

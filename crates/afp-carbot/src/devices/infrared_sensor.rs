@@ -14,7 +14,8 @@ pub struct Glow {
 
 /// A direction sensor for infrared light at the front of the robot.
 pub trait InfraredSensor {
-    /// The brightest source within the field of view, or none where all is dark.
+    /// The brightest source within the field of view, or none where all is dark. Told as finely as it is measured: a sensor
+    /// that says exactly the same again and again while the robot moves is taken for a frozen one.
     fn glow(&self) -> Reading<Option<Glow>>;
 
     /// The whole angle of the field of view, its middle ahead.

@@ -46,7 +46,8 @@ impl Beam {
 
 /// A range sensor that pings by itself, many times a second.
 pub trait Ultrasonic {
-    /// The latest completed ping; its time is when the sound was sent.
+    /// The latest completed ping; its time is when the sound was sent. Distances come as fine as they are measured: a sensor
+    /// that tells exactly the same one again and again while the robot moves is taken for a frozen one.
     fn echo(&self) -> Reading<Echo>;
 
     /// How the sensor is mounted and what it covers.

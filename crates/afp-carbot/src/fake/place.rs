@@ -13,11 +13,12 @@ const SEARCH: Duration = Duration::from_millis(50);
 impl Localisation for Fake {
     fn belief(&mut self, now: Instant) -> Result<Reading<Belief>, Fault> {
         let [x, y] = self.map_offset;
+        let spread = if self.millis() < self.lost_from { self.spread } else { 5.0 };
         let belief = self.motion().value.map(|motion| Belief {
             x: motion.x + Length::from_si(x),
             y: motion.y + Length::from_si(y),
             heading: Angle::from_si(wrap(motion.heading.si())),
-            spread: Length::from_si(self.spread),
+            spread: Length::from_si(spread),
             heading_spread: Angle::from_si(self.spread),
         });
         let dead = reading(self.dead_localisation, (), now).value;

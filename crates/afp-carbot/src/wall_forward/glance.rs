@@ -10,7 +10,7 @@ const TURN: f64 = 0.5;
 const ASIDE: f64 = 20.0 / 180.0 * core::f64::consts::PI;
 /// The rotator has arrived when it is nearer than this to where it should be, radians.
 const ARRIVED: f64 = 4.0 / 180.0 * core::f64::consts::PI;
-/// Nothing farther than this is remembered, metres; silence counts as this.
+/// Nothing farther than this is remembered, metres, if that is far enough for the lane to be free until the next look.
 const FAR: f64 = 1.0;
 /// So many pings in a row must find silence before it is believed: one may just be lost.
 const SILENCES: u8 = 3;
@@ -21,6 +21,12 @@ const LAG: f64 = 0.08;
 /// When to look ahead, and what is known of the lane there.
 #[derive(Clone, Debug)]
 pub(super) struct Glance {
+    /// What must be free before the front, metres.
+    lanedist: f64,
+    /// Where less is free the sensor keeps looking ahead; what is free beyond `far` is not remembered, and silence counts
+    /// as `far`; metres.
+    near: f64,
+    far: f64,
     looking: bool,
     /// What is known of the right and of the left half of the lane.
     halves: [Half; 2],
@@ -52,10 +58,19 @@ impl Half {
 }
 
 impl Glance {
-    /// Begins with a look to the left, then one to the right.
-    pub(super) fn new() -> Self {
-        let half = |bearing| Half { bearing, seen: None };
-        Glance { looking: true, halves: [half(-ASIDE), half(ASIDE)], side: 1, silences: 0 }
+    /// Begins with a look to the left, then one to the right. A robot of this speed needs `lanedist` free; its sensor
+    /// hears no farther than `heard` before the front.
+    pub(super) fn new(lanedist: f64, speed: f64, heard: f64) -> Self {
+        let near = lanedist + STARE + speed * TURN;
+        Glance {
+            lanedist,
+            near,
+            far: FAR.max(near + OFTEN + speed * TURN).min(heard),
+            looking: true,
+            halves: [-ASIDE, ASIDE].map(|bearing| Half { bearing, seen: None }),
+            side: 1,
+            silences: 0,
+        }
     }
 
     pub(super) fn looking(&self) -> bool {
@@ -74,13 +89,12 @@ impl Glance {
     }
 
     /// Begins a glance if it is time; says whether it began now.
-    pub(super) fn turns(&mut self, driven: f64, speed: f64, lanedist: f64) -> bool {
+    pub(super) fn turns(&mut self, driven: f64) -> bool {
         if self.looking {
             return false;
         }
-        let near = lanedist + STARE + speed * TURN;
         let due = |half: &Half| {
-            half.unseen(driven) > OFTEN || half.free(driven).is_none_or(|free| free < near)
+            half.unseen(driven) > OFTEN || half.free(driven).is_none_or(|free| free < self.near)
         };
         // The half that was looked at last has its turn after the other one.
         let next = 1 - self.side;
@@ -101,15 +115,16 @@ impl Glance {
         if free.is_none() && self.silences < SILENCES {
             return;
         }
-        half.seen = Some((free.map_or(FAR, |free| free.min(FAR)), driven));
+        half.seen = Some((free.map_or(self.far, |free| free.min(self.far)), driven));
         self.silences = 0;
         self.looking = false;
     }
 
-    /// Whether braking must begin now to stand before `lanedist`.
-    pub(super) fn blocked(&self, driven: f64, lanedist: f64, speed: f64) -> bool {
+    /// Whether braking must begin now for the lane's length to stay free.
+    pub(super) fn blocked(&self, driven: f64, speed: f64) -> bool {
         let braking = speed * LAG + speed * speed / (2.0 * BRAKING);
-        let near = |half: &Half| half.free(driven).is_some_and(|free| free <= lanedist + braking);
+        let near =
+            |half: &Half| half.free(driven).is_some_and(|free| free <= self.lanedist + braking);
         self.halves.iter().any(near)
     }
 }
@@ -126,25 +141,25 @@ mod tests {
 
     #[test]
     fn nothing_is_free_before_both_halves_were_seen() {
-        let mut glance = Glance::new();
+        let mut glance = Glance::new(0.3, 0.2, 3.9);
         look(&mut glance, 1.0, 0.0);
         assert_eq!(glance.free(0.0), None);
-        assert!(glance.turns(0.0, 0.2, 0.3));
+        assert!(glance.turns(0.0));
         look(&mut glance, 1.0, 0.0);
         assert_eq!(glance.free(0.1), Some(0.9));
     }
 
     #[test]
     fn what_stands_on_one_side_is_not_forgotten_when_the_other_is_free() {
-        let mut glance = Glance::new();
+        let mut glance = Glance::new(0.3, 0.2, 3.9);
         look(&mut glance, 1.0, 0.0);
-        assert!(glance.turns(0.0, 0.2, 0.3));
+        assert!(glance.turns(0.0));
         look(&mut glance, 0.7, 0.0);
         // The left half is looked at again, and is free; the right one is as near as it was.
-        assert!(glance.turns(0.26, 0.2, 0.3));
+        assert!(glance.turns(0.26));
         assert_eq!(glance.bearing(), Some(ASIDE));
         look(&mut glance, 1.0, 0.26);
         assert!((glance.free(0.26).expect("both were seen") - 0.44).abs() < 1e-9);
-        assert!(glance.blocked(0.38, 0.3, 0.2));
+        assert!(glance.blocked(0.38, 0.2));
     }
 }

@@ -78,6 +78,29 @@ fn lost_pings_do_not_open_the_lane() {
 }
 
 #[test]
+fn a_lane_of_any_length_that_a_plan_may_ask_for_is_driven_while_it_is_free() {
+    for lanedist in [0.05, 0.3, 0.9, 1.2, 2.0] {
+        let inputs = |speed| Inputs {
+            lanedist: Length::from_si(lanedist),
+            speed: Speed::from_si(speed),
+            ..inputs(2.0)
+        };
+        for speed in [0.01, 0.2, 0.31] {
+            let mut robot = Fake::new(&[beside(0.475)]);
+            let state =
+                robot.run::<templates::WallForward, WallForward>(inputs(speed), || Live {}, 210);
+            assert_eq!(state, Ok(Some(State::ForwardSuccessful)), "{lanedist} m at {speed} m/s");
+        }
+        let mut robot = Fake::new(&[beside(0.475), plane(0.0, 3.5)]);
+        let inputs = Inputs { step: Length::from_si(5.0), ..inputs(0.2) };
+        let state = robot.run::<templates::WallForward, WallForward>(inputs, || Live {}, 60);
+        assert_eq!(state, Ok(Some(State::LaneNotFree)), "{lanedist} m");
+        let front = 3.5 - robot.motion.x.si() - 0.2;
+        assert!((lanedist - 0.03..lanedist + 0.12).contains(&front), "{lanedist} m: {front}");
+    }
+}
+
+#[test]
 fn does_not_drive_into_what_stands_there_from_the_beginning() {
     let mut robot = Fake::new(&[beside(0.475), plane(0.0, 0.45)]);
     assert_eq!(follow(&mut robot, 5.0), Ok(Some(State::LaneNotFree)));

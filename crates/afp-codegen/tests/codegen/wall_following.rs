@@ -780,7 +780,7 @@ pub static NAMES: NameTable = NameTable {
                 PortRow::new("distance", "m")
                     .within(-1000.0, 1000.0)
                     .at("wall_following.afp", 15, 47),
-                PortRow::new("speed", "m/s").within(0.0, 0.31),
+                PortRow::new("speed", "m/s").within(0.01, 0.31),
             ],
         ),
         ComponentRow::new(
@@ -793,7 +793,7 @@ pub static NAMES: NameTable = NameTable {
                 PortRow::new("distance", "m")
                     .within(-1000.0, 1000.0)
                     .at("wall_following.afp", 25, 47),
-                PortRow::new("speed", "m/s").within(0.0, 0.31),
+                PortRow::new("speed", "m/s").within(0.01, 0.31),
             ],
         ),
         ComponentRow::new(
@@ -825,7 +825,7 @@ pub static NAMES: NameTable = NameTable {
                 PortRow::new("angle", "rad")
                     .within(-62.83185307179586, 62.83185307179586)
                     .at("wall_following.afp", 34, 40),
-                PortRow::new("speed", "rad/s").within(0.0, 1.5707963267948966),
+                PortRow::new("speed", "rad/s").within(0.017453292519943295, 1.5707963267948966),
             ],
         ),
         ComponentRow::new(
@@ -868,7 +868,7 @@ pub static NAMES: NameTable = NameTable {
                 PortRow::new("angle", "rad")
                     .within(-62.83185307179586, 62.83185307179586)
                     .at("wall_following.afp", 45, 43),
-                PortRow::new("speed", "rad/s").within(0.0, 1.5707963267948966),
+                PortRow::new("speed", "rad/s").within(0.017453292519943295, 1.5707963267948966),
             ],
         ),
         ComponentRow::new(
