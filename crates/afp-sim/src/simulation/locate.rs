@@ -9,6 +9,7 @@ use super::robot::{WORLD, frame};
 use crate::devices::sonar;
 use crate::truth::Pose;
 use crate::world::isometry;
+use afp_carbot::devices::Navigator;
 use afp_carbot::table::signal;
 use afp_core::Instant;
 use afp_maps::{Filter, LocateJob, Locator, Planner, SearchJob};
@@ -42,10 +43,11 @@ impl Simulation {
 
     /// What searches for ways; it is made for whoever asks first, of the same map.
     pub(super) fn planner(&mut self) -> &mut SimulatedPlanner {
+        let body = self.body();
         let Simulation { planner, audible, stage, .. } = self;
         planner.get_or_insert_with(|| {
             let field = audible.field(&stage.obstacles);
-            Box::new(Planner::new(field, sonar::beam().forward, VirtualWorker::new))
+            Box::new(Planner::new(field, &body, sonar::beam().forward, VirtualWorker::new))
         })
     }
 
