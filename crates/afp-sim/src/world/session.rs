@@ -54,11 +54,8 @@ impl World {
         if ![start.x, start.y, start.heading.to_degrees()].into_iter().all(near) {
             return Err(format!("the start is not within {FARTHEST} m and {FARTHEST} deg of zero"));
         }
-        match self.obstacle_in_way_of(robot, start) {
-            Some(obstacle) => Err(format!("the robot starts inside of '{}'", obstacle.name)),
-            None if self.is_beyond([start.x, start.y]) => {
-                Err("the robot starts beyond the edge of the map".to_owned())
-            }
+        match self.no_start(robot, start) {
+            Some(why) => Err(why),
             None => Ok(World { start, ..self.clone() }),
         }
     }
