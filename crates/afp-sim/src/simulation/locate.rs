@@ -35,7 +35,7 @@ impl Simulation {
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
         let Simulation { locator, audible, stage, start, seed, .. } = self;
         locator.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles);
+            let field = audible.field(&stage.obstacles, &stage.chassis);
             let filter = Filter::new(field, &sonar::beam(), *start, *seed);
             Box::new(Locator::new(VirtualWorker::new([LocateJob::new(filter)]), *start))
         })
@@ -46,7 +46,7 @@ impl Simulation {
         let body = self.body();
         let Simulation { planner, audible, stage, .. } = self;
         planner.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles);
+            let field = audible.field(&stage.obstacles, &stage.chassis);
             Box::new(Planner::new(field, &body, sonar::beam().forward, VirtualWorker::new))
         })
     }

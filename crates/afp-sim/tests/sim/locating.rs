@@ -7,6 +7,7 @@ use afp_carbot::devices::{
 use afp_core::quantity::Length;
 use afp_core::{Duration, Instant, Poll};
 use afp_maps::{EchoField, Filter, LocateJob, Locator, Planner, SearchJob};
+use afp_sim::parts::Chassis;
 use afp_sim::{Pose, Simulation, World};
 use afp_worker::VirtualWorker;
 
@@ -76,7 +77,12 @@ fn the_belief_comes_from_map_and_readings_alone() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
     let beam = robot.robot.beam();
-    let filter = Filter::new(EchoField::new(world.audible_map(), &beam), &beam, world.start, 5);
+    let filter = Filter::new(
+        EchoField::new(world.audible_map(&Chassis::CARBOT), &beam),
+        &beam,
+        world.start,
+        5,
+    );
     let mut alone = Locator::new(VirtualWorker::new([LocateJob::new(filter)]), world.start);
     for tick in 1..=1500_u64 {
         robot.tick();
@@ -96,7 +102,7 @@ fn ways_come_from_map_and_readings_alone() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
     let (beam, body) = (robot.robot.beam(), robot.robot.body());
-    let field = || EchoField::new(world.audible_map(), &beam);
+    let field = || EchoField::new(world.audible_map(&Chassis::CARBOT), &beam);
     let filter = Filter::new(field(), &beam, world.start, 5);
     let mut locator = Locator::new(VirtualWorker::new([LocateJob::new(filter)]), world.start);
     let mut alone: Planner<VirtualWorker<SearchJob>> =
