@@ -104,6 +104,17 @@ def test_the_way_ahead_is_rewarded_and_a_crash_costs() -> None:
     assert total == pytest.approx(went - 10.0, abs=0.05)
 
 
+def test_an_action_is_what_the_constants_say() -> None:
+    env = afp.gym.CarbotEnv("random:1", observe=["motion", "fan"], fan=[0.0])
+    env.reset(seed=0)
+    for share in (0.2, 0.4):
+        for _ in range(8):
+            seen, _, _, _, info = env.step(np.array([0.0, share]))
+        assert seen[1] == pytest.approx(share * afp.gym.TURN, rel=0.05)
+    assert info["time"] == pytest.approx(16 * afp.gym.STEP)
+    assert env.observation_space.high[2] == afp.gym.RANGE
+
+
 def test_an_episode_is_cut_off() -> None:
     env = afp.gym.CarbotEnv("random:1", time_limit=0.3)
     env.reset(seed=0)

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 import afp
+from afp.sweeps import Spec
 from conftest import interrupted
 
 GO = "use carbot\nplan Go { in way: length = 20 cm start go actor go: Forward(distance = way) { ForwardSuccessful -> terminate } }"
@@ -115,6 +116,25 @@ def test_a_sweep_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
     with pytest.raises(afp.AfpError, match="of another sweep"):
         afp.sweep(plan, seeds=65, until=5.0, progress=False, out=out)
     assert len(afp.sweep(plan, seeds=2, until=5.0, progress=False, out=out, restart=True)) == 2
+
+
+def test_outcomes_of_other_processes_count_once() -> None:
+    sweeper = Spec([None], (0, 6), [], 5.0, {}).sweeper(afp.Plan(GO))
+    lines = sweeper.lines([0, 1, 2])
+    beyond = json.dumps({**json.loads(lines[0]), "run": 6})
+    assert sweeper.accept([*lines, lines[0], beyond]) == 3
+    assert sweeper.accept(lines) == 0 and sweeper.left() == [3, 4, 5]
+    sweeper.run([3])
+    assert sweeper.accept(sweeper.lines([3, 4])) == 1 and sweeper.left() == [5]
+    assert len(sweeper.columns()["run"][0]) == 5
+
+
+def test_what_makes_a_sweep_is_short_however_many_seeds_it_names() -> None:
+    def identity(last: int) -> str:
+        return Spec([None], [*range(0, 30_000, 3), last], [], 5.0, {}).sweeper(afp.Plan(GO)).identity
+
+    assert identity(30_001) == identity(30_001) != identity(30_002)
+    assert len(identity(30_001)) < 300
 
 
 def test_the_command_line_goes_on_with_it(tmp_path: Path, afpc: str) -> None:

@@ -197,7 +197,7 @@ impl Fake {
             speed: Speed::from_si(speed),
             turn: AngularSpeed::from_si(turn),
         };
-        self.trail.note(self.motion);
+        self.trail.note(self.motion, &self.body());
         if !self.stuck_rotator {
             self.rotator += (self.target - self.rotator).clamp(-0.05, 0.05);
         }

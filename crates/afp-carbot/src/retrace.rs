@@ -6,7 +6,8 @@ use crate::history::Pose;
 use crate::templates;
 use crate::templates::retrace::{Inputs, Live, State};
 use crate::tracking::Tracking;
-use crate::trail::{LEVER, Trail};
+use crate::trail::Trail;
+use afp_core::quantity::Length;
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// A place counts as reached within this, metres.
@@ -33,11 +34,14 @@ struct PathBack {
     to: Pose,
     /// From there on, metres.
     rest: f64,
+    /// What a turn counts.
+    lever: Length,
 }
 
 impl PathBack {
-    fn new(trail: Trail, here: Pose, rest: f64) -> Self {
-        let mut path = PathBack { trail: trail.back_from(&here), from: here, to: here, rest };
+    fn new(trail: Trail, here: Pose, rest: f64, lever: Length) -> Self {
+        let trail = trail.back_from(&here, lever);
+        let mut path = PathBack { trail, from: here, to: here, rest, lever };
         path.next();
         path
     }
@@ -48,7 +52,7 @@ impl PathBack {
         let before = self.trail.place(1);
         self.trail.drop_newest();
         let to = before.unwrap_or_else(|| self.from.behind(self.rest));
-        let leg = self.from.distance_to(&to);
+        let leg = self.from.distance_to(&to, self.lever);
         let share = (self.rest / leg.max(CLOSE)).min(1.0);
         let mix = |from: f64, to: f64| from + (to - from) * share;
         self.to = Pose {
@@ -61,12 +65,13 @@ impl PathBack {
 
     /// How far the robot is from where it goes, along the leg; negative beyond it.
     fn left(&self, here: &Pose) -> f64 {
+        let lever = self.lever.si();
         let part = |from: &Pose, to: &Pose| {
-            [to.x - from.x, to.y - from.y, LEVER * (to.heading - from.heading)]
+            [to.x - from.x, to.y - from.y, lever * (to.heading - from.heading)]
         };
         let (leg, rest) = (part(&self.from, &self.to), part(here, &self.to));
         let along: f64 = leg.iter().zip(rest).map(|(leg, rest)| leg * rest).sum();
-        along / self.from.distance_to(&self.to).max(CLOSE)
+        along / self.from.distance_to(&self.to, self.lever).max(CLOSE)
     }
 
     /// Where to, once all that is reached already is behind: ahead in metres and to the left in radians, and how far it is
@@ -108,7 +113,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace 
             return Ok(if motion.stands() { Poll::Ready(State::Retraced) } else { Poll::Pending });
         };
         let rate = self.tracking.speed(rest, self.speed, now);
-        let share = rate / libm::hypot(ahead, LEVER * turn).max(CLOSE);
+        let share = rate / libm::hypot(ahead, env.body().lever().si() * turn).max(CLOSE);
         self.tracking.drive(env, &motion, (share * ahead, share * turn), now)?;
         Ok(Poll::Pending)
     }
@@ -123,11 +128,12 @@ impl Retrace {
     /// What the odometry says; takes the path that it lies at the end of.
     fn look<E>(&mut self, env: &E, now: Instant) -> Result<Option<Motion>, Fault>
     where
-        E: Odometry + ?Sized,
+        E: Navigator + Odometry + ?Sized,
     {
         let motion = self.odometry.current(env.motion(), now)?;
         if let (Some(motion), None) = (motion, &self.path) {
-            self.path = Some(PathBack::new(env.trail(), motion.into(), self.distance));
+            self.path =
+                Some(PathBack::new(env.trail(), motion.into(), self.distance, env.body().lever()));
         }
         Ok(motion)
     }
@@ -165,7 +171,7 @@ mod tests {
             let mut robot = Fake::new(&[]);
             forward(&mut robot, 0.3);
             turn(&mut robot, degrees);
-            let turned = LEVER * 40_f64.to_radians();
+            let turned = robot.body().lever().si() * 40_f64.to_radians();
             assert_eq!(back(&mut robot, turned + 0.1), Ok(Some(State::Retraced)));
             let at = robot.motion;
             assert!((at.x.si() - 0.2).abs() < 0.02 && at.y.si().abs() < 0.01, "{at:?}");

@@ -26,16 +26,14 @@ pub const TOLERATED: Duration = Duration::from_millis(300);
 
 /// The drive follows its commands with about this time constant, seconds.
 const LAG: f64 = 0.15;
-/// How far a turn carries the wheels: metres a radian.
-const LEVER: f64 = 0.19;
-/// Commands below this are not judged: metres a second at the wheels.
+/// Commands below this are not judged: metres a second at the body's side.
 const SLOWEST: f64 = 0.008;
 /// An error of this share of what is expected is one, as is none below the other; what lies between counts in part.
 const ERROR: f64 = 0.4;
 const SLACK: f64 = 0.2;
 /// Less than this share of what is expected is a standstill.
 const STANDSTILL: f64 = 0.25;
-/// After so much was commanded, metres at the wheels, the odometry must have counted some.
+/// After so much was commanded, metres at the body's side, the odometry must have counted some.
 const JUDGED: f64 = 0.1;
 /// After a longer gap between polls nothing is known of what the drive did.
 const LONGEST_GAP: Duration = Duration::from_millis(100);
@@ -54,7 +52,7 @@ pub(crate) struct Tracking {
     /// For how long the robot has moved otherwise than expected, seconds; what it moved as expected since is taken off, so
     /// that wheels which slip through now and then do not hide what holds the robot.
     astray: f64,
-    /// The distances expected and counted since the last comparison, metres at the wheels.
+    /// The distances expected and counted since the last comparison, metres at the body's side.
     distances: (f64, f64),
 }
 
@@ -94,7 +92,7 @@ impl Tracking {
         (speed, turn): (f64, f64),
         now: Instant,
     ) -> Result<(), Fault> {
-        if let Err(fault) = self.compare(motion, now) {
+        if let Err(fault) = self.compare(motion, env.body().lever().si(), now) {
             if self.command.0 > 0.0 {
                 env.note_blocked(now);
             }
@@ -113,7 +111,7 @@ impl Tracking {
         env.halt(now);
     }
 
-    fn compare(&mut self, motion: &Motion, now: Instant) -> Result<(), Fault> {
+    fn compare(&mut self, motion: &Motion, lever: f64, now: Instant) -> Result<(), Fault> {
         let before = self.last.replace((now, *motion));
         let Some((last, before)) = before.filter(|(at, _)| now.since(*at) <= LONGEST_GAP) else {
             (self.astray, self.distances) = (0.0, (0.0, 0.0));
@@ -124,40 +122,46 @@ impl Tracking {
         let share = (gap / LAG).min(1.0);
         self.expected.0 += share * (self.command.0 - self.expected.0);
         self.expected.1 += share * (self.command.1 - self.expected.1);
-        self.check_speed(motion, gap)?;
-        self.check_distance(&before, motion, gap)
+        self.check_speed(motion, gap, lever)?;
+        self.check_distance([&before, motion], gap, lever)
     }
 
-    fn check_speed(&mut self, motion: &Motion, gap: f64) -> Result<(), Fault> {
+    fn check_speed(&mut self, motion: &Motion, gap: f64, lever: f64) -> Result<(), Fault> {
         let (speed, turn) = (motion.speed.si(), motion.turn.si());
-        let expected = rim(self.expected.0, self.expected.1);
-        let share = if expected < SLOWEST { 0.0 } else { self.error(speed, turn) / expected };
+        let expected = rim(self.expected, lever);
+        let error = self.error((speed, turn), lever);
+        let share = if expected < SLOWEST { 0.0 } else { error / expected };
         let counts = ((share - SLACK) / (ERROR - SLACK)).clamp(-1.0, 1.0);
         self.astray = (self.astray + gap * counts).max(0.0);
         if self.astray <= TOLERATED.as_secs_f64() {
             return Ok(());
         }
-        let stands = rim(speed, turn) < STANDSTILL * expected;
+        let stands = rim((speed, turn), lever) < STANDSTILL * expected;
         Err(if stands { DRIVE_BLOCKED } else { DRIVE_STALLED })
     }
 
     /// How far a motion is off everything between what a slow drive does by now and what it was told, metres a
-    /// second at the wheels: a drive without any lag errs as little.
-    fn error(&self, speed: f64, turn: f64) -> f64 {
+    /// second at the body's side: a drive without any lag errs as little.
+    fn error(&self, (speed, turn): (f64, f64), lever: f64) -> f64 {
         let (slow, command) = (self.expected, self.command);
-        let (along, across) = (command.0 - slow.0, (command.1 - slow.1) * LEVER);
+        let (along, across) = (command.0 - slow.0, (command.1 - slow.1) * lever);
         let length = along * along + across * across;
-        let (ahead, aside) = (speed - slow.0, (turn - slow.1) * LEVER);
+        let (ahead, aside) = (speed - slow.0, (turn - slow.1) * lever);
         let share = if length > 0.0 { (ahead * along + aside * across) / length } else { 0.0 };
         let share = share.clamp(0.0, 1.0);
         libm::hypot(ahead - share * along, aside - share * across)
     }
 
-    fn check_distance(&mut self, before: &Motion, motion: &Motion, gap: f64) -> Result<(), Fault> {
+    fn check_distance(
+        &mut self,
+        [before, motion]: [&Motion; 2],
+        gap: f64,
+        lever: f64,
+    ) -> Result<(), Fault> {
         let length = libm::hypot((motion.x - before.x).si(), (motion.y - before.y).si());
         let (expected, counted) = &mut self.distances;
-        *expected += gap * rim(self.expected.0, self.expected.1);
-        *counted += rim(length, (motion.heading - before.heading).si());
+        *expected += gap * rim(self.expected, lever);
+        *counted += rim((length, (motion.heading - before.heading).si()), lever);
         if *expected < JUDGED {
             return Ok(());
         }
@@ -167,9 +171,9 @@ impl Tracking {
     }
 }
 
-/// How fast, or how far, a motion carries the wheels.
-fn rim(ahead: f64, turn: f64) -> f64 {
-    libm::hypot(ahead, turn * LEVER)
+/// How fast, or how far, a motion carries a side of a body, by its [`Body::lever`](crate::devices::Body::lever).
+fn rim((ahead, turn): (f64, f64), lever: f64) -> f64 {
+    libm::hypot(ahead, turn * lever)
 }
 
 #[cfg(test)]

@@ -1,11 +1,8 @@
 //! The path on which the robot came: where nothing stood a moment ago.
 
-use crate::devices::Motion;
+use crate::devices::{Body, Motion};
 use crate::history::Pose;
 use afp_core::quantity::{Angle, Length};
-
-/// A turn by a radian counts as so many metres driven: it carries the robot's corners about so far.
-pub(crate) const LEVER: f64 = 0.2;
 
 /// So many places are remembered, no closer than this, metres: 60 cm driven, or half a turn in place.
 const KEPT: usize = 40;
@@ -35,10 +32,11 @@ impl Trail {
         Trail { places: [Pose { x: 0.0, y: 0.0, heading: 0.0 }; KEPT], next: 0, known: 0 }
     }
 
-    /// Remembers where the robot is, if that is far enough from where it was. To be called for every reading.
-    pub fn note(&mut self, motion: Motion) {
+    /// Remembers where a robot with this body is, if that is far enough from where it was. To be called for every reading.
+    pub fn note(&mut self, motion: Motion, body: &Body) {
         let here = motion.into();
-        let far = |newest: Pose, distance| newest.distance_to(&here) > distance;
+        let lever = body.lever();
+        let far = |newest: Pose, distance| newest.distance_to(&here, lever) > distance;
         if self.place(1).is_some_and(|newest| far(newest, JUMP)) {
             self.known = 0;
         }
@@ -47,7 +45,9 @@ impl Trail {
                 return;
             }
             // Nearer to the place before the newest than that one is, it went back.
-            let went_back = |before: Pose| before.distance_to(&here) < before.distance_to(&newest);
+            let went_back = |before: Pose| {
+                before.distance_to(&here, lever) < before.distance_to(&newest, lever)
+            };
             if !self.place(2).is_some_and(went_back) {
                 break;
             }
@@ -59,8 +59,8 @@ impl Trail {
     }
 
     /// Where it leads back to from a place: the newest that is not about there.
-    pub(crate) fn back_from(mut self, here: &Pose) -> Self {
-        if self.place(1).is_some_and(|newest| newest.distance_to(here) <= APART) {
+    pub(crate) fn back_from(mut self, here: &Pose, lever: Length) -> Self {
+        if self.place(1).is_some_and(|newest| newest.distance_to(here, lever) <= APART) {
             self.drop_newest();
         }
         self
@@ -79,9 +79,9 @@ impl Trail {
 }
 
 impl Pose {
-    /// How far it is to another place, metres; a turn counts by [`LEVER`].
-    pub(crate) fn distance_to(&self, other: &Pose) -> f64 {
-        let turn = LEVER * (other.heading - self.heading);
+    /// How far it is to another place, metres; a turn counts by a body's lever.
+    pub(crate) fn distance_to(&self, other: &Pose, lever: Length) -> f64 {
+        let turn = lever.si() * (other.heading - self.heading);
         let (x, y) = (other.x - self.x, other.y - self.y);
         libm::sqrt(x * x + y * y + turn * turn)
     }
@@ -108,12 +108,19 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
-    fn noted(places: &[(f64, f64)]) -> Trail {
+    /// Of a robot whose farthest side is so far from its turning centre, metres.
+    fn noted_by(side: f64, places: &[(f64, f64)]) -> Trail {
+        let [front, rear, half_width] = [0.1, side, 0.1].map(Length::from_si);
         let mut trail = Trail::new();
         for &(x, heading) in places {
-            trail.note(Pose { x, y: 0.0, heading }.standing());
+            let motion = Pose { x, y: 0.0, heading }.standing();
+            trail.note(motion, &Body { front, rear, half_width });
         }
         trail
+    }
+
+    fn noted(places: &[(f64, f64)]) -> Trail {
+        noted_by(0.2, places)
     }
 
     fn known(trail: &Trail) -> Vec<(f64, f64)> {
@@ -124,6 +131,13 @@ mod tests {
     fn remembers_places_apart_newest_first() {
         let trail = noted(&[(0.0, 0.0), (0.01, 0.0), (0.02, 0.0), (0.02, 0.05), (0.02, 0.1)]);
         assert_eq!(known(&trail), [(0.02, 0.1), (0.02, 0.0), (0.0, 0.0)]);
+    }
+
+    #[test]
+    fn a_turn_carries_a_larger_robot_farther() {
+        let turn: Vec<_> = (0..20).map(|n| (0.0, 0.02 * f64::from(n))).collect();
+        let places = |side| known(&noted_by(side, &turn)).len();
+        assert_eq!((places(0.2), places(0.4), places(0.8)), (5, 10, 20));
     }
 
     #[test]

@@ -8,7 +8,7 @@ mod cone;
 
 use crate::map::Map;
 use afp_carbot::devices::Beam;
-use cone::Heard;
+use cone::{Cone, Heard};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -26,9 +26,8 @@ const STEP: f64 = TAU / DIRECTIONS as f64;
 const UNKNOWN: u16 = u16::MAX;
 const SILENCE: u16 = u16::MAX - 1;
 const SOLID: u16 = u16::MAX - 2;
-/// Millimetres in the low bits, the ray that is heard in the high ones.
-const MILLIMETRES: u16 = 0x0fff;
-const RAY_SHIFT: u32 = 12;
+/// Parts of a metre in which distances are kept, if so many fit beside the rays.
+const PARTS: f64 = 1000.0;
 
 /// What the sensor should hear.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,8 +52,36 @@ pub struct EchoField {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Where a room's rays may end, metres, and the cone they make.
-    range: f64,
+    cone: Cone,
+    coding: Coding,
+}
+
+/// How an echo is kept: its ray in the high bits, its distance in the low ones, in parts of a metre.
+#[derive(Clone, Copy, Debug)]
+struct Coding {
+    shift: u32,
+    /// So many make a metre.
+    parts: f64,
+}
+
+impl Coding {
+    /// Of echoes within a cone. What is kept of one is none of the values for what is no echo: these have all bits of a ray
+    /// set, and the number of rays, of which the last one is less, fits into them.
+    fn new(cone: Cone) -> Self {
+        let rays = 2 * cone.side + 1;
+        let bits = usize::BITS - rays.leading_zeros();
+        let most = f64::from(u16::MAX >> bits);
+        Coding { shift: u16::BITS - bits, parts: PARTS.min(most / cone.range) }
+    }
+
+    fn encode(self, heard: Heard) -> u16 {
+        libm::round(heard.range * self.parts) as u16 | (heard.ray << self.shift)
+    }
+
+    fn decode(self, entry: u16) -> Heard {
+        let ray = entry >> self.shift;
+        Heard { range: f64::from(entry ^ (ray << self.shift)) / self.parts, ray }
+    }
 }
 
 impl EchoField {
@@ -71,6 +98,7 @@ impl EchoField {
             Vector2::new(cos, sin)
         };
         let directions = (0..DIRECTIONS).map(direction).collect();
+        let cone = Cone::new(beam, libm::hypot(columns as f64, rows as f64) * cell);
         EchoField {
             map: Arc::new(map),
             cells,
@@ -79,7 +107,8 @@ impl EchoField {
             cell,
             columns,
             rows,
-            range: beam.max.si(),
+            cone,
+            coding: Coding::new(cone),
         }
     }
 
@@ -116,11 +145,12 @@ impl EchoField {
             SOLID | UNKNOWN => Expected::Solid,
             SILENCE => Expected::Silence,
             echo => {
-                let ray = usize::from(echo >> RAY_SHIFT) + DIRECTIONS - cone::SIDE;
+                let Heard { range, ray } = self.coding.decode(echo);
+                let ray = usize::from(ray) + DIRECTIONS - self.cone.side;
                 let along = self.directions.get((towards + ray) % DIRECTIONS);
                 let off = Vector2::new(x, y) - self.middle(column, row);
                 let nearer = along.map_or(0.0, |along| along.dot(&off));
-                Expected::Echo(f64::from(echo & MILLIMETRES) / 1000.0 - nearer)
+                Expected::Echo(range - nearer)
             }
         }
     }
@@ -137,15 +167,12 @@ impl EchoField {
     fn compute(&self, room: usize, middle: Vector2<f64>) {
         let Some(entries) = self.cells.get(room..room + DIRECTIONS) else { return };
         let solid = self.map.is_solid(middle.into());
-        let heard = cone::echoes(self.map.faces(), &self.directions, middle, self.range);
+        let heard = self.cone.echoes(self.map.faces(), &self.directions, middle);
         for (entry, heard) in entries.iter().zip(heard) {
             let value = match heard {
                 _ if solid => SOLID,
                 None => SILENCE,
-                Some(Heard { range, ray }) => {
-                    let millimetres = libm::round(range * 1000.0) as u16;
-                    millimetres.min(MILLIMETRES) | (ray << RAY_SHIFT)
-                }
+                Some(heard) => self.coding.encode(heard),
             };
             entry.store(value, Ordering::Relaxed);
         }
@@ -157,13 +184,14 @@ mod tests {
     use super::*;
     use afp_core::quantity::{Angle, Length};
 
-    pub(super) fn beam() -> Beam {
-        Beam {
-            forward: Length::from_si(0.1),
-            opening: Angle::from_deg(30.0),
-            min: Length::from_si(0.03),
-            max: Length::from_si(4.0),
-        }
+    /// A sensor that hears so many degrees, and metres far.
+    fn beam_of(opening: f64, max: f64) -> Beam {
+        let [forward, min, max] = [0.1, 0.03, max].map(Length::from_si);
+        Beam { forward, opening: Angle::from_deg(opening), min, max }
+    }
+
+    fn beam() -> Beam {
+        beam_of(30.0, 4.0)
     }
 
     fn wall(x: [f64; 2], y: [f64; 2]) -> Vec<[f64; 2]> {
@@ -186,6 +214,59 @@ mod tests {
         assert_eq!(field.expected([2.05, 0.0], 0.0), Expected::Solid);
         assert_eq!(field.expected([2.5, 0.0], 0.0), Expected::Solid);
         assert_eq!(field.expected([f64::NAN, 0.0], 0.0), Expected::Solid);
+    }
+
+    #[test]
+    fn each_sensor_hears_its_own_cone_as_far_as_it_hears() {
+        // A post that one ray meets, a wall behind it, and something aside, so that the map begins at the left.
+        let post = wall([8.0, 8.1], [-0.4, 0.4]);
+        let far = wall([12.0, 12.1], [-4.0, 4.0]);
+        let map = Map::new([post, far, wall([-0.1, 0.0], [-4.0, -3.9])]);
+        // Opening and range of a sensor; how far aside it may look and still hears the post.
+        for (opening, max, aside) in [
+            (30.0, 4.0, None),
+            (30.0, 9.0, Some(15)),
+            (30.0, 30.0, Some(15)),
+            (10.0, 30.0, Some(5)),
+            (60.0, 30.0, Some(30)),
+            (0.0, 30.0, Some(0)),
+            (340.0, f64::INFINITY, Some(35)),
+        ] {
+            let field = EchoField::new(map.clone(), &beam_of(opening, max));
+            let hears = |degrees: &i32| {
+                let direction = f64::from(*degrees).to_radians();
+                match field.expected([0.5, 0.0], direction) {
+                    Expected::Echo(range) => (range - 7.5).abs() < 0.05,
+                    _ => false,
+                }
+            };
+            let heard = (0..40).step_by(5).rfind(hears);
+            assert_eq!(heard, aside, "{opening} deg, {max} m");
+        }
+    }
+
+    #[test]
+    fn what_is_kept_of_an_echo_is_told_again() {
+        for side in 0..DIRECTIONS / 2 {
+            for range in [0.5, 4.0, 100.0] {
+                let cone = Cone::new(&beam_of(10.0 * side as f64, range), 1000.0);
+                assert_eq!((cone.side, cone.range), (side, range));
+                let coding = Coding::new(cone);
+                for ray in 0..=2 * side as u16 {
+                    for range in [0.0, range / 3.0, range] {
+                        let entry = coding.encode(Heard { range, ray });
+                        let told = coding.decode(entry);
+                        assert!(
+                            ![UNKNOWN, SILENCE, SOLID].contains(&entry),
+                            "{side} {ray} {range}"
+                        );
+                        assert!(
+                            (told.range - range).abs() <= 0.5 / coding.parts && told.ray == ray
+                        );
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What the sensors have found where the map shows nothing.
 
 use crate::field::{EchoField, Expected};
+use afp_carbot::devices::Body;
 use afp_core::{Duration, Instant};
 use afp_session::Pose2;
 
@@ -23,9 +24,9 @@ const BEHIND: f64 = 0.3;
 const THROUGH: f64 = 0.12;
 /// So long is remembered what nobody has heard again.
 const REMEMBERED: Duration = Duration::from_secs(60);
-/// The bumper is so far before the middle of the robot and so wide, metres.
-const BUMPER: f64 = 0.24;
-const HALF_BUMPER: f64 = 0.15;
+/// What presses the bumper stands so far before the robot's front, and so far inside of its sides, metres.
+const AHEAD: f64 = 0.04;
+const INSIDE: f64 = 0.025;
 
 /// A place where something is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +42,8 @@ struct Found {
 #[derive(Clone, Debug)]
 pub(crate) struct Finds {
     found: Vec<Found>,
+    /// What presses the bumper stands so far before the robot's middle, and so far aside at most, metres.
+    bumper: [f64; 2],
 }
 
 /// A ping in the frame of the map.
@@ -55,8 +58,10 @@ pub(crate) struct Heard {
 }
 
 impl Finds {
-    pub(crate) fn new() -> Self {
-        Finds { found: Vec::with_capacity(MOST) }
+    /// Nothing, by a robot with this body.
+    pub(crate) fn new(body: &Body) -> Self {
+        let bumper = [body.front.si() + AHEAD, body.half_width.si() - INSIDE];
+        Finds { found: Vec::with_capacity(MOST), bumper }
     }
 
     /// Where something is.
@@ -88,9 +93,10 @@ impl Finds {
 
     /// The bumper of a robot that is there is pressed.
     pub(crate) fn on_bump(&mut self, robot: Pose2, now: Instant) {
+        let [ahead, aside] = self.bumper;
         for n in -PLACES..=PLACES {
-            let y = HALF_BUMPER * f64::from(n) / f64::from(PLACES);
-            let Pose2 { x, y, .. } = robot.beyond(Pose2 { x: BUMPER, y, heading: 0.0 });
+            let y = aside * f64::from(n) / f64::from(PLACES);
+            let Pose2 { x, y, .. } = robot.beyond(Pose2 { x: ahead, y, heading: 0.0 });
             self.note(Found { place: [x, y], count: SURE, felt: true, last: now });
         }
     }
@@ -130,6 +136,7 @@ fn is_explained(heard: &Heard, field: &EchoField) -> bool {
 mod tests {
     use super::*;
     use crate::map::Map;
+    use crate::room::tests::{body, carbot};
     use afp_carbot::devices::Beam;
     use afp_core::quantity::{Angle, Length};
 
@@ -167,7 +174,7 @@ mod tests {
 
     #[test]
     fn what_is_heard_twice_where_the_map_shows_nothing_is_there() {
-        let (mut finds, field) = (Finds::new(), field());
+        let (mut finds, field) = (Finds::new(&carbot()), field());
         finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
         assert_eq!(places(&finds), [] as [[f64; 2]; 0]);
         finds.on_echo(&ahead(1.0), &field, ping(1));
@@ -178,7 +185,7 @@ mod tests {
 
     #[test]
     fn what_the_map_shows_and_what_is_far_away_is_no_news() {
-        let (mut finds, field) = (Finds::new(), field());
+        let (mut finds, field) = (Finds::new(&carbot()), field());
         let wall = Heard { sensor: [3.0, 2.0], direction: 0.0, distance: 0.85 };
         for heard in [wall, ahead(1.8)] {
             finds.on_echo(&heard, &field, ping(0));
@@ -189,7 +196,7 @@ mod tests {
 
     #[test]
     fn what_is_heard_through_has_gone_but_for_what_was_felt() {
-        let (mut finds, field) = (Finds::new(), field());
+        let (mut finds, field) = (Finds::new(&carbot()), field());
         for n in 0..3 {
             finds.on_echo(&ahead(1.0), &field, ping(n));
         }
@@ -203,8 +210,19 @@ mod tests {
     }
 
     #[test]
+    fn what_presses_the_bumper_stands_before_the_front() {
+        let mut finds = Finds::new(&body(1.0, 0.8));
+        finds.on_bump(Pose2 { x: 1.0, y: 2.0, heading: 0.0 }, ping(0));
+        let found = places(&finds);
+        assert!(found.iter().all(|[x, _]| (x - 1.54).abs() < 1e-9), "{found:?}");
+        let aside = |place: &[f64; 2]| place[1] - 2.0;
+        let most = found.iter().map(aside).fold(0.0, f64::max);
+        assert!((most - 0.375).abs() < 1e-9, "{found:?}");
+    }
+
+    #[test]
     fn after_a_minute_it_is_forgotten() {
-        let (mut finds, field) = (Finds::new(), field());
+        let (mut finds, field) = (Finds::new(&carbot()), field());
         finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
         finds.on_echo(&ahead(1.0), &field, ping(1));
         let later = |secs| ping(1) + Duration::from_secs(secs);

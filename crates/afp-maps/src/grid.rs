@@ -1,18 +1,20 @@
 //! A map in cells, and how far from obstacles each is.
 
 use crate::map::Map;
+use crate::room::Room;
 use nalgebra::Vector2;
 
 /// The side of a cell, metres; larger where a map has too many.
 const CELL: f64 = 0.05;
 /// At most so many cells.
 const MOST: f64 = 500_000.0;
-/// More clearance than this makes no difference, metres.
-pub(crate) const MAX_CLEARANCE: f32 = 0.6;
 
-/// An occupancy grid that knows for each cell how far away the nearest thing is, up to [`MAX_CLEARANCE`].
+/// An occupancy grid for a robot, that knows for each cell how far away the nearest thing is, up to where it makes no
+/// difference to the robot.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
+    /// What the robot needs.
+    pub(crate) room: Room,
     low: Vector2<f64>,
     pub(crate) cell: f64,
     pub(crate) columns: usize,
@@ -22,13 +24,13 @@ pub(crate) struct Grid {
 
 impl Grid {
     /// Of all that a map shows.
-    pub(crate) fn new(map: &Map) -> Self {
+    pub(crate) fn new(map: &Map, room: Room) -> Self {
         let [low, high] = map.bounds().map(Vector2::from);
         let size = high - low;
         let cell = CELL.max(libm::sqrt(size.x * size.y / MOST));
         let [columns, rows] = [size.x, size.y].map(|side| libm::ceil(side / cell) as usize);
-        let clearance = vec![MAX_CLEARANCE; columns * rows];
-        let mut grid = Grid { low, cell, columns, rows, clearance };
+        let clearance = vec![room.most; columns * rows];
+        let mut grid = Grid { room, low, cell, columns, rows, clearance };
         for outline in map.outlines() {
             grid.stamp(outline);
         }
@@ -74,7 +76,7 @@ impl Grid {
 
     /// Takes something small at a place into account, as if it were so much farther away, metres.
     pub(crate) fn add(&mut self, place: [f64; 2], farther: f64) {
-        for index in self.around(place, place, f64::from(MAX_CLEARANCE)) {
+        for index in self.around(place, place, f64::from(self.room.most)) {
             let [x, y] = self.place(index);
             self.limit(index, libm::hypot(x - place[0], y - place[1]) + farther);
         }
@@ -88,7 +90,7 @@ impl Grid {
     fn stamp(&mut self, outline: &[Vector2<f64>]) {
         let low = outline.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
         let high = outline.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
-        for index in self.around(low.into(), high.into(), f64::from(MAX_CLEARANCE)) {
+        for index in self.around(low.into(), high.into(), f64::from(self.room.most)) {
             let off = distance(outline, self.place(index).into());
             self.limit(index, off);
         }
@@ -120,12 +122,16 @@ fn distance(outline: &[Vector2<f64>], place: Vector2<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::room::tests::carbot;
+
+    const MOST: f32 = 0.6;
 
     fn grid() -> Grid {
-        Grid::new(&Map::new([
+        let map = Map::new([
             vec![[0.0, 0.0], [2.0, 0.0], [2.0, 0.1], [0.0, 0.1]],
             vec![[0.0, 1.9], [2.0, 1.9], [2.0, 2.0], [0.0, 2.0]],
-        ]))
+        ]);
+        Grid::new(&map, Room::of(&carbot()))
     }
 
     #[test]
@@ -133,7 +139,7 @@ mod tests {
         let grid = grid();
         let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
         assert_eq!((grid.columns, grid.rows), (40, 40));
-        assert_eq!((clearance(1.0, 0.05), clearance(1.0, 1.0)), (0.0, MAX_CLEARANCE));
+        assert_eq!((clearance(1.0, 0.05), clearance(1.0, 1.0)), (0.0, MOST));
         assert!((clearance(1.0, 0.324) - 0.225).abs() < 0.001);
         assert_eq!((grid.index([-0.1, 0.0]), grid.index([0.0, 2.1])), (None, None));
     }
@@ -144,6 +150,6 @@ mod tests {
         grid.add([1.0, 1.0], 0.0);
         let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
         assert!(clearance(1.0, 1.0) < 0.04 && (clearance(1.324, 1.0) - 0.325).abs() < 0.03);
-        assert_eq!(clearance(0.2, 1.0), MAX_CLEARANCE);
+        assert_eq!(clearance(0.2, 1.0), MOST);
     }
 }

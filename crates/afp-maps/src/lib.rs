@@ -31,6 +31,7 @@ mod grid;
 mod locator;
 mod map;
 mod planner;
+mod room;
 mod search;
 
 pub use field::{EchoField, Expected};

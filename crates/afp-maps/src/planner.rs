@@ -7,9 +7,10 @@
 use crate::field::EchoField;
 use crate::found::{Finds, Heard};
 use crate::grid::Grid;
+use crate::room::Room;
 use crate::search;
 use afp_carbot::Path;
-use afp_carbot::devices::{Belief, Echo, Trip};
+use afp_carbot::devices::{Belief, Body, Echo, Trip};
 use afp_core::quantity::Length;
 use afp_core::{Duration, Fault, Instant, Job, Poll, Ticket, Worker};
 use afp_session::Pose2;
@@ -95,17 +96,19 @@ pub struct Planner<W> {
 }
 
 impl<W: Worker<SearchJob>> Planner<W> {
-    /// On the map of a field, with a worker that `make_worker` makes of its jobs.
+    /// For a robot with this body, its range sensor so far before its middle, on the map of a field, with a worker that
+    /// `make_worker` makes of its jobs.
     pub fn new(
         field: EchoField,
+        body: &Body,
         forward: Length,
         make_worker: impl FnOnce(Vec<SearchJob>) -> W,
     ) -> Self {
         /// Two elements of a plan may search at a time.
         const SLOTS: usize = 2;
-        let job = SearchJob::new(Arc::new(Grid::new(field.map())));
+        let job = SearchJob::new(Arc::new(Grid::new(field.map(), Room::of(body))));
         let worker = make_worker(vec![job; SLOTS]);
-        Planner { worker, field, finds: Finds::new(), forward: forward.si() }
+        Planner { worker, field, finds: Finds::new(body), forward: forward.si() }
     }
 
     /// Takes in an echo that was sent where the robot takes itself to have been.
@@ -169,13 +172,14 @@ fn pose(belief: &Belief) -> Pose2 {
 mod tests {
     use super::*;
     use crate::map::Map;
+    use crate::room::tests::carbot;
 
     /// Whether a search leads past things found at these places, in a hall of four metres by two, from its left to its right.
     fn leads_past(found: &[[f64; 2]]) -> bool {
         let wall =
             |x: [f64; 2], y: [f64; 2]| vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
         let map = Map::new([wall([0.0, 4.0], [0.0, 0.1]), wall([0.0, 4.0], [1.9, 2.0])]);
-        let mut job = SearchJob::new(Arc::new(Grid::new(&map)));
+        let mut job = SearchJob::new(Arc::new(Grid::new(&map, Room::of(&carbot()))));
         job.from = [0.6, 1.0];
         job.quest = Quest { found: found.to_vec(), to: [3.4, 1.0], near: 0.0 };
         job.run().expect("the path has few corners");
@@ -196,7 +200,8 @@ mod tests {
     #[test]
     fn a_path_is_kept_for_as_long_as_nothing_else_is_found_and_the_robot_is_on_it() {
         let wall = |y: f64| vec![[0.0, y], [4.0, y], [4.0, y + 0.1], [0.0, y + 0.1]];
-        let mut job = SearchJob::new(Arc::new(Grid::new(&Map::new([wall(0.0), wall(1.9)]))));
+        let map = Map::new([wall(0.0), wall(1.9)]);
+        let mut job = SearchJob::new(Arc::new(Grid::new(&map, Room::of(&carbot()))));
         let mut ask = |from: [f64; 2], found: &[[f64; 2]]| {
             job.from = from;
             job.quest = Quest { found: found.to_vec(), to: [3.4, 1.0], near: 0.0 };

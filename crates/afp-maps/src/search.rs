@@ -1,14 +1,12 @@
 //! The search for a path through a grid.
 
-use crate::grid::{Grid, MAX_CLEARANCE};
+use crate::grid::Grid;
+use crate::room::Room;
 use afp_carbot::Path;
 use afp_core::Fault;
 use pathfinding::prelude::astar;
 
-/// The robot turns in place wherever nothing is within so much of its middle, metres: half its diagonal.
-const FITS: f32 = 0.28;
-/// Where it stands it may be closer to things, within so many metres, with so much clearance at least.
-const LEAVING: f64 = 0.45;
+/// Where the robot stands it may be closer to things than elsewhere, with so much clearance at least, metres.
 const TIGHT: f32 = 0.05;
 /// How much farther than through a roomy cell it counts through one in which the robot just fits, and through a tight one.
 const NARROW: f32 = 4.0;
@@ -19,8 +17,6 @@ const ACROSS: u32 = 141;
 /// A piece of the path spans so many cells at most, and may have so much less clearance than the cells that it leaves out, metres.
 const PIECE: usize = 80;
 const LESS: f32 = 0.03;
-/// A piece with so much clearance is as good as any, metres.
-const COMFORT: f32 = 0.45;
 
 /// The path from one place to another, or as near to it as `near`; none where there is none. By A* (Hart, Nilsson and
 /// Raphael, 1968) on the eight neighbours of each cell, keeping to the middle of what is narrow; its corners are then drawn
@@ -52,7 +48,7 @@ pub(crate) fn path(
 
 /// The cell where the path ends: that of the place if the robot fits there, else the nearest.
 fn goal(grid: &Grid, to: [f64; 2], near: f64) -> Option<usize> {
-    let fits = |index: &usize| grid.clearance(*index) >= FITS;
+    let fits = |index: &usize| grid.clearance(*index) >= grid.room.fits;
     if let Some(exact) = grid.index(to).filter(fits) {
         return Some(exact);
     }
@@ -67,14 +63,13 @@ fn goal(grid: &Grid, to: [f64; 2], near: f64) -> Option<usize> {
 /// How much farther than it is a path through a cell counts; none where the robot does not fit.
 fn weight(grid: &Grid, index: usize, from: [f64; 2]) -> Option<f32> {
     let clearance = grid.clearance(index);
-    if clearance >= FITS {
-        return Some(
-            1.0 + (NARROW - 1.0) * (MAX_CLEARANCE - clearance).max(0.0) / (MAX_CLEARANCE - FITS),
-        );
+    let Room { fits, leaving, most, .. } = grid.room;
+    if clearance >= fits {
+        return Some(1.0 + (NARROW - 1.0) * (most - clearance).max(0.0) / (most - fits));
     }
     let [x, y] = grid.place(index);
-    let leaving = libm::hypot(x - from[0], y - from[1]) <= LEAVING && clearance >= TIGHT;
-    leaving.then_some(SQUEEZE)
+    let leaves = libm::hypot(x - from[0], y - from[1]) <= leaving && clearance >= TIGHT;
+    leaves.then_some(SQUEEZE)
 }
 
 fn neighbours(
@@ -114,7 +109,7 @@ fn pulled_tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> V
     while at + 1 < places.len() {
         let far = (at + PIECE).min(places.len() - 1);
         let straight = |to: &usize| {
-            let least = clearances[at..=*to].iter().copied().fold(COMFORT, f32::min);
+            let least = clearances[at..=*to].iter().copied().fold(grid.room.comfort, f32::min);
             is_clear(grid, places[at], places[*to], least - LESS)
         };
         at = (at + 2..=far).rev().find(straight).unwrap_or(at + 1);
@@ -125,7 +120,7 @@ fn pulled_tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> V
 
 /// Whether the robot fits all along a straight piece.
 pub(crate) fn is_free(grid: &Grid, from: [f64; 2], to: [f64; 2]) -> bool {
-    is_clear(grid, from, to, FITS - LESS)
+    is_clear(grid, from, to, grid.room.fits - LESS)
 }
 
 /// Whether there is so much clearance all along a straight piece.
@@ -146,22 +141,30 @@ fn clearance_at(grid: &Grid, place: [f64; 2]) -> f32 {
 mod tests {
     use super::*;
     use crate::map::Map;
+    use crate::room::tests::{body, carbot};
+    use afp_carbot::devices::Body;
 
     fn wall(x: [f64; 2], y: [f64; 2]) -> Vec<[f64; 2]> {
         vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
     }
 
     /// Two rooms of three metres by four beside each other, with a door of `width` in the middle of the wall.
-    fn rooms(width: f64) -> Grid {
+    fn rooms_of(body: &Body, width: f64) -> Grid {
         let half = width / 2.0;
-        Grid::new(&Map::new([
+        let map = Map::new([
             wall([0.0, 6.0], [0.0, 0.1]),
             wall([0.0, 6.0], [3.9, 4.0]),
             wall([0.0, 0.1], [0.0, 4.0]),
             wall([5.9, 6.0], [0.0, 4.0]),
             wall([2.95, 3.05], [0.0, 2.0 - half]),
             wall([2.95, 3.05], [2.0 + half, 4.0]),
-        ]))
+        ]);
+        Grid::new(&map, Room::of(body))
+    }
+
+    /// As the Carbot sees them.
+    fn rooms(width: f64) -> Grid {
+        rooms_of(&carbot(), width)
     }
 
     fn places(grid: &Grid, from: [f64; 2], to: [f64; 2]) -> Option<Vec<[f64; 2]>> {
@@ -180,7 +183,7 @@ mod tests {
         let clearances = pieces
             .clone()
             .flat_map(|ends| (0..=20).map(move |n| clearance_at(grid, along(ends, n))));
-        (pieces.map(length).sum(), clearances.fold(MAX_CLEARANCE, f32::min))
+        (pieces.map(length).sum(), clearances.fold(grid.room.most, f32::min))
     }
 
     #[test]
@@ -198,7 +201,7 @@ mod tests {
         let path = places(&grid, [1.0, 0.7], [5.0, 0.7]).unwrap();
         let (length, clearance) = measure(&grid, &path);
         assert!(
-            (4.5..6.0).contains(&length) && clearance >= FITS - LESS,
+            (4.5..6.0).contains(&length) && clearance >= grid.room.fits - LESS,
             "{length} {clearance} {path:?}"
         );
         assert!(path.len() < 12, "{path:?}");
@@ -211,6 +214,21 @@ mod tests {
     }
 
     #[test]
+    fn through_no_door_that_is_too_narrow_for_the_body() {
+        // Sides of the body, and the widest door of these that it does not fit through: it turns in place everywhere.
+        let doors = [0.3, 0.5, 0.75, 1.1, 1.5, 1.8];
+        for (length, width, closed) in
+            [(0.2, 0.15, 0.3), (0.4, 0.35, 0.5), (0.7, 0.6, 0.75), (1.2, 0.9, 1.5)]
+        {
+            let leads = |door| {
+                places(&rooms_of(&body(length, width), door), [1.5, 2.0], [4.5, 2.0]).is_some()
+            };
+            let shut = doors.into_iter().rfind(|door| !leads(*door));
+            assert_eq!(shut, Some(closed), "{length} by {width}");
+        }
+    }
+
+    #[test]
     fn round_what_was_found() {
         let mut grid = rooms(2.5);
         for n in 0..10 {
@@ -218,7 +236,7 @@ mod tests {
         }
         let path = places(&grid, [1.0, 2.0], [5.0, 2.0]).unwrap();
         assert!(path.iter().any(|[_, y]| (y - 2.0).abs() > 0.25), "{path:?}");
-        assert!(measure(&grid, &path).1 >= FITS - LESS, "{path:?}");
+        assert!(measure(&grid, &path).1 >= grid.room.fits - LESS, "{path:?}");
     }
 
     #[test]

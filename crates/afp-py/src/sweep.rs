@@ -9,6 +9,7 @@ mod rows;
 mod watch;
 mod work;
 
+use std::collections::HashSet;
 use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
@@ -56,6 +57,8 @@ pub struct Sweeper {
 #[derive(Default)]
 struct Done {
     outcomes: Vec<Outcome>,
+    /// The numbers of their runs.
+    runs: HashSet<u64>,
     journal: Option<Journal>,
     output: Option<OutputFiles>,
 }
@@ -125,14 +128,14 @@ impl Sweeper {
         self.toolboxes.is_empty()
     }
 
-    /// What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal. What that
-    /// reads is left out: where runs are done by other processes it goes along.
+    /// What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal, all but the
+    /// first by its hash. What Python reads is left out: where runs are done by other processes it goes along.
     #[getter]
     fn identity(&self) -> String {
         let Header { program, plan, worlds, grid, parts, .. } = &self.header;
         let parts: String =
             parts.iter().map(|(name, (does, _))| format!(", {name} {does}")).collect();
-        format!("{program} {plan} {worlds} {grid}{parts}")
+        format!("{program} {plan} {worlds} {}{parts}", hash(grid))
     }
 
     /// Keeps outcomes in a journal beside the table `out`, and takes up those that are there.
@@ -142,16 +145,15 @@ impl Sweeper {
         let journal = Journal::open(&output.journal, &self.header, restart);
         let (journal, outcomes) = journal.map_err(|why| no_journal(&why))?;
         let done = &mut *self.lock()?;
-        *done = Done { outcomes, journal: Some(journal), output: Some(output) };
+        let runs = outcomes.iter().map(|outcome| outcome.run).collect();
+        *done = Done { outcomes, runs, journal: Some(journal), output: Some(output) };
         Ok(())
     }
 
     /// The numbers of the runs that are not done.
     fn left(&self) -> PyResult<Vec<u64>> {
         let done = self.lock()?;
-        let mut there: Vec<u64> = done.outcomes.iter().map(|outcome| outcome.run).collect();
-        there.sort_unstable();
-        Ok((0..self.sweep.len()).filter(|run| there.binary_search(run).is_err()).collect())
+        Ok((0..self.sweep.len()).filter(|run| !done.runs.contains(run)).collect())
     }
 
     /// Does runs and keeps their outcomes; tells `progress` how many of this call are done, and `on_run` the row of
@@ -208,11 +210,11 @@ impl Sweeper {
         on_run: Option<Py<PyAny>>,
     ) -> PyResult<usize> {
         let mut done = self.lock()?;
-        let mut new: Vec<Outcome> = Vec::new();
+        let (mut new, mut runs) = (Vec::new(), HashSet::new());
         for line in &lines {
             let outcome: Outcome = serde_json::from_str(line).map_err(error)?;
-            let known = done.outcomes.iter().chain(&new).any(|other| other.run == outcome.run);
-            if !known && outcome.run < self.sweep.len() {
+            let run = outcome.run;
+            if run < self.sweep.len() && !done.runs.contains(&run) && runs.insert(run) {
                 new.push(outcome);
             }
         }
@@ -259,9 +261,10 @@ impl Sweeper {
     /// Writes the table, if it is written anywhere, and closes the journal; its paths.
     fn write(&self) -> PyResult<Vec<PathBuf>> {
         let mut done = self.lock()?;
-        done.journal = None;
+        let kept = done.journal.take().map_or(Ok(()), Journal::close);
         let Some(output) = &done.output else { return Ok(Vec::new()) };
-        output.write(&self.sweep, &done.sorted()).map_err(|why| run_error(&why))?;
+        let written = output.write(&self.sweep, &done.sorted());
+        written.and(kept).map_err(|why| run_error(&why))?;
         Ok(output.tables.iter().map(|(path, _)| path.clone()).collect())
     }
 
@@ -318,6 +321,7 @@ impl Done {
             if let Some(journal) = &mut self.journal {
                 journal.keep(&outcome).map_err(|why| run_error(&why))?;
             }
+            self.runs.insert(outcome.run);
             self.outcomes.push(outcome);
         }
         Ok(())

@@ -78,6 +78,8 @@ pub enum RequestError {
     NoThing(String),
     /// There is nothing of that shape to put somewhere.
     NoShape(String),
+    /// So many things were dropped already, as many as can be.
+    Full(usize),
     /// There is no room at that place: what stands there.
     Occupied(String),
     /// That place is none.
@@ -171,6 +173,9 @@ impl fmt::Display for RequestError {
             RequestError::Refused => f.write_str("the robot does not do that"),
             RequestError::NoThing(name) => write!(f, "nothing called '{name}' can be moved"),
             RequestError::NoShape(shape) => write!(f, "nothing has the shape '{shape}'"),
+            RequestError::Full(most) => {
+                write!(f, "{most} things were dropped, and no more can be; move one of them here")
+            }
             RequestError::Occupied(by) => write!(f, "'{by}' stands there"),
             RequestError::Nowhere => f.write_str("that place is not in the world"),
             RequestError::Write(why) => why.fmt(f),

@@ -38,6 +38,11 @@ impl Chassis {
         ranging_height: 0.15,
     };
 
+    /// Whether the range sensor hears what is so high, metres.
+    pub fn hears(&self, height: f64) -> bool {
+        height >= self.ranging_height
+    }
+
     /// Inertia about the turning centre, kilogram square metres.
     pub fn inertia(&self) -> f64 {
         match self.shape {

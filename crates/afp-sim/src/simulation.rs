@@ -111,6 +111,8 @@ pub struct Simulation {
     map: Vec<[f64; 2]>,
     /// When the robot first was beyond it.
     left_map: Option<Instant>,
+    /// How many things somebody has dropped.
+    dropped: usize,
 }
 
 impl Simulation {
@@ -165,6 +167,7 @@ impl Simulation {
             clock: VirtualClock::default(),
             map: world.map.clone(),
             left_map: None,
+            dropped: 0,
         })
     }
 

@@ -3,7 +3,6 @@
 //! Nothing here is reachable through a device trait, so no template can use it.
 
 use crate::devices::camera::{self, Exposure};
-use crate::devices::sonar;
 use crate::simulation::STEP;
 use crate::stage::Stage;
 use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
@@ -126,7 +125,7 @@ impl<'a> Truth<'a> {
             Segment::new(Vector::new(-HALF_LENGTH as f32, y), Vector::new(HALF_LENGTH as f32, y));
         let gaps = self.stage.obstacles.iter().zip(&self.stage.shapes).filter_map(
             |(obstacle, (at, shape))| {
-                let high = obstacle.height >= sonar::HEIGHT;
+                let high = self.stage.chassis.hears(obstacle.height);
                 high.then(|| query::distance(self.stage.position(), &side, at, &**shape).ok())
                     .flatten()
             },

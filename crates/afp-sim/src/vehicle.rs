@@ -18,5 +18,3 @@ pub const HALF_LENGTH: f64 = 0.20;
 pub const HALF_WIDTH: f64 = 0.175;
 /// Mass, kilograms.
 pub(crate) const MASS: f64 = 4.7;
-/// Inertia about the centre, kilogram square metres; the mass is spread evenly.
-pub(crate) const INERTIA: f64 = MASS * (HALF_LENGTH * HALF_LENGTH + HALF_WIDTH * HALF_WIDTH) / 3.0;

@@ -32,6 +32,9 @@ use rapier2d::parry::query;
 
 /// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
 pub(crate) const FARTHEST: f64 = 1000.0;
+/// Nothing is smaller, lighter or slower than this, metres, kilograms and metres a second: in single precision what is much less
+/// is nothing, or pushed by nothing.
+const SMALLEST: f64 = 0.001;
 
 /// A world as read from its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,7 +125,7 @@ impl World {
     ///
     /// # Errors
     /// The first thing that is wrong, with its place: not TOML, an unknown or a missing key, a
-    /// value that makes no sense, a robot that starts inside of something.
+    /// value that makes no sense, a robot that starts inside of something or beyond the map.
     pub fn parse(text: &str) -> Result<World, WorldError> {
         World::parse_for(&Chassis::CARBOT, text)
     }
@@ -138,16 +141,22 @@ impl World {
     /// The same where files have tables for that robot alone.
     fn parse_with<O: OwnTables>(robot: &Chassis, text: &str) -> Result<(World, O), WorldError> {
         let (world, own) = file::read(text)?;
-        match world.obstacle_in_way_of(robot, world.start) {
-            Some(obstacle) => Err(at_key(
-                text,
-                &["robot", "pose_m_deg"],
-                format!("the robot starts inside of '{}'", obstacle.name),
-            )
-            .with_help(
+        match world.no_start(robot, world.start) {
+            Some(why) => Err(at_key(text, &["robot", "pose_m_deg"], why).with_help(
                 "choose another place for it, metres and degrees: 'pose_m_deg = [1.0, 2.0, 90]'",
             )),
             None => Ok((world, own)),
+        }
+    }
+
+    /// Why a robot cannot start somewhere; nothing where it can.
+    fn no_start(&self, robot: &Chassis, start: Pose) -> Option<String> {
+        match self.obstacle_in_way_of(robot, start) {
+            Some(obstacle) => Some(format!("the robot starts inside of '{}'", obstacle.name)),
+            None if self.is_beyond([start.x, start.y]) => {
+                Some("the robot starts beyond the edge of the map".to_owned())
+            }
+            None => None,
         }
     }
 

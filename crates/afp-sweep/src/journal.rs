@@ -17,7 +17,8 @@ use serde::de::DeserializeOwned;
 use crate::header::Header;
 use crate::outcome::Outcome;
 
-/// What was written reaches the disk this often at least, should the machine fail and not the process.
+/// Should the machine fail and not the process, what has reached the disk counts: a line that comes so long after the last that
+/// did takes along all before it, and [`Journal::close`] the rest.
 const SYNC: Duration = Duration::from_secs(1);
 
 /// Why a journal cannot be used.
@@ -118,6 +119,14 @@ impl Journal {
         self.line(outcome).map_err(RunError::file("cannot write the journal", &path))
     }
 
+    /// Lets go of it, once all of it has reached the disk.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn close(self) -> Result<(), RunError> {
+        self.file.sync_data().map_err(RunError::file("cannot write the journal", &self.path))
+    }
+
     /// Drops what is behind the last whole line.
     fn cut(&mut self, whole: usize) -> io::Result<()> {
         self.file.set_len(whole as u64)?;
@@ -194,7 +203,7 @@ mod tests {
         assert!(none.is_empty());
         let kept = [outcome(4), outcome(1)];
         kept.iter().for_each(|outcome| journal.keep(outcome).unwrap());
-        drop(journal);
+        journal.close().unwrap();
         let whole = fs::read(&path).unwrap();
         let third = serde_json::to_vec(&outcome(2)).unwrap();
         for torn in [1, 10, third.len()] {

@@ -49,7 +49,7 @@ class Robot:
     def camera(self) -> NDArray[np.uint8] | None:
         """The latest picture, rows x columns x 3, a copy; `None` before the first one."""
     def drive(self, speed: float, turn: float = 0.0) -> None:
-        """Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for half a second at most: ask again."""
+        """Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for a fifth of a second at most: ask again."""
     def stop(self) -> None:
         """Asks for a standstill."""
     def point(self, bearing: float) -> None:
@@ -286,6 +286,10 @@ class Carbot:
 class Courses:
     """Some episodes side by side."""
 
+    speed: float
+    turn: float
+    range: float
+    step_time: float
     def __new__(
         cls,
         count: int,
@@ -361,8 +365,8 @@ class Sweeper:
         """Whether its runs call nothing that is written in Python."""
     @property
     def identity(self) -> str:
-        """What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal. What that
-        reads is left out: where runs are done by other processes it goes along."""
+        """What makes it this sweep: program, plan, worlds, grid and what is written in Python, as in its journal, all but the
+        first by its hash. What Python reads is left out: where runs are done by other processes it goes along."""
     def open(self, out: str, restart: bool) -> None:
         """Keeps outcomes in a journal beside the table `out`, and takes up those that are there."""
     def left(self) -> list[int]:

@@ -78,14 +78,14 @@ def run(
     cpus = int(ray.cluster_resources().get("CPU", 1))
     size = chunk or max(1, min(100, len(runs) // (4 * max(cpus, 1))))
     chunks = [list(runs[first : first + size]) for first in range(0, len(runs), size)]
-    packed = ray.put(sent.packed())
+    packed, identity = ray.put(sent.packed()), sweeper.identity
     task = ray.remote(num_cpus=1, max_retries=RETRIES)(work)
     done = sweeper.total - len(runs)
     waiting: list[Any] = []
     try:
         while chunks or waiting:
             while chunks and len(waiting) < max(WAITING, 2 * cpus):
-                waiting.append(task.remote(packed, sweeper.identity, chunks.pop(0)))
+                waiting.append(task.remote(packed, identity, chunks.pop(0)))
             # With a limit, so that Ctrl-C is seen.
             ready, waiting = ray.wait(waiting, timeout=0.5)
             for each in ready:

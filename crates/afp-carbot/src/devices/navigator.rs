@@ -14,6 +14,20 @@ pub struct Body {
     pub half_width: Length,
 }
 
+impl Body {
+    /// How far its farthest corner is from the turning centre: it turns in place wherever nothing is nearer than this.
+    pub fn radius(&self) -> Length {
+        let length = self.front.si().max(self.rear.si());
+        Length::from_si(libm::hypot(length, self.half_width.si()))
+    }
+
+    /// What a turn by a radian counts as, beside what is driven: so far it carries the farthest of the body's sides.
+    pub fn lever(&self) -> Length {
+        let length = self.front.si().max(self.rear.si());
+        Length::from_si(length.max(self.half_width.si()))
+    }
+}
+
 /// The drive controller.
 ///
 /// It keeps a commanded motion only for its dead-man time: a driver that stops sending commands

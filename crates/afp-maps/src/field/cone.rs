@@ -6,15 +6,27 @@
 
 use super::{DIRECTIONS, STEP};
 use crate::map::Face;
+use afp_carbot::devices::Beam;
 use nalgebra::Vector2;
 
-/// The cone's rays to either side of its axis, a direction apart: 30 degrees in all.
-pub(super) const SIDE: usize = 3;
-/// A wall is heard up to this slant from close by, and up to so much less for each metre, radians.
+/// A wall is heard up to this slant from close by, and up to so much less for each metre by a sensor that hears so many
+/// metres far, radians; one that hears farther loses less.
 const SLANT: f64 = 0.72;
 const SLANT_LOST: f64 = 0.09;
+const HEARS: f64 = 4.0;
 /// A ray at the cone's edge is fainter: heard up to so much less.
 const SLANT_LOST_AT_EDGE: f64 = 0.1;
+
+/// What a sensor listens to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cone {
+    /// Rays to either side of its axis, a direction apart.
+    pub(super) side: usize,
+    /// Where they end, metres.
+    pub(super) range: f64,
+    /// A wall is heard up to so much less slant for each metre, radians.
+    slant_lost: f64,
+}
 
 /// What a ray meets.
 #[derive(Clone, Copy, Debug)]
@@ -32,20 +44,46 @@ pub(super) struct Heard {
     pub(super) ray: u16,
 }
 
-/// What a sensor at a place hears, direction by direction.
-pub(super) fn echoes(
-    faces: &[Face],
-    directions: &[Vector2<f64>],
-    from: Vector2<f64>,
-    range: f64,
-) -> [Option<Heard>; DIRECTIONS] {
-    let mut met = [None; DIRECTIONS];
-    for face in faces {
-        cast(face, directions, from, range, &mut met);
+impl Cone {
+    /// Of a sensor, where nothing is farther away than `farthest`, metres.
+    pub(super) fn new(beam: &Beam, farthest: f64) -> Self {
+        let side = libm::round(beam.opening.si() / 2.0 / STEP) as usize;
+        let most = beam.max.si();
+        Cone {
+            side: side.min(DIRECTIONS / 2 - 1),
+            range: most.min(farthest),
+            slant_lost: SLANT_LOST * (HEARS / most),
+        }
     }
-    // Slant by ray: each is heard by several directions.
-    let met = met.map(|met| met.map(|Met { range, cos }| (range, libm::acos(cos.min(1.0)))));
-    std::array::from_fn(|direction| listen(&met, direction))
+
+    /// What a sensor at a place hears, direction by direction.
+    pub(super) fn echoes(
+        self,
+        faces: &[Face],
+        directions: &[Vector2<f64>],
+        from: Vector2<f64>,
+    ) -> [Option<Heard>; DIRECTIONS] {
+        let mut met = [None; DIRECTIONS];
+        for face in faces {
+            cast(face, directions, from, self.range, &mut met);
+        }
+        // Slant by ray: each is heard by several directions.
+        let met = met.map(|met| met.map(|Met { range, cos }| (range, libm::acos(cos.min(1.0)))));
+        std::array::from_fn(|direction| self.listen(&met, direction))
+    }
+
+    /// The nearest ray that is heard.
+    fn listen(self, met: &[Option<(f64, f64)>; DIRECTIONS], direction: usize) -> Option<Heard> {
+        let side = self.side;
+        let rays = (0..=2 * side).filter_map(|ray| {
+            let (range, slant) = (*met.get((direction + DIRECTIONS + ray - side) % DIRECTIONS)?)?;
+            let edge = ray.abs_diff(side) as f64 / side.max(1) as f64;
+            let far = (range - 1.0).max(0.0);
+            let heard = SLANT - self.slant_lost * far - SLANT_LOST_AT_EDGE * edge * edge;
+            (slant <= heard).then_some(Heard { range, ray: ray as u16 })
+        });
+        rays.min_by(|a, b| a.range.total_cmp(&b.range))
+    }
 }
 
 /// Lets a face be met by the rays that reach it, where nothing nearer is.
@@ -79,15 +117,4 @@ fn cast(
             *nearest = Some(Met { range: far, cos });
         }
     }
-}
-
-/// The nearest ray of the cone that is heard.
-fn listen(met: &[Option<(f64, f64)>; DIRECTIONS], direction: usize) -> Option<Heard> {
-    let rays = (0..=2 * SIDE).filter_map(|ray| {
-        let (range, slant) = (*met.get((direction + DIRECTIONS + ray - SIDE) % DIRECTIONS)?)?;
-        let edge = ray.abs_diff(SIDE) as f64 / SIDE as f64;
-        let heard = SLANT - SLANT_LOST * (range - 1.0).max(0.0) - SLANT_LOST_AT_EDGE * edge * edge;
-        (slant <= heard).then_some(Heard { range, ray: ray as u16 })
-    });
-    rays.min_by(|a, b| a.range.total_cmp(&b.range))
 }

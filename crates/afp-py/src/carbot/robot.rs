@@ -38,7 +38,7 @@ fn sensed<'py>(robot: &Bound<'py, CarbotRobot>, name: &str) -> PyResult<Bound<'p
 
 #[pymethods]
 impl CarbotRobot {
-    /// Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for half a second at most: ask again.
+    /// Asks for a speed ahead (m/s) and a turn rate (rad/s, to the left), for a fifth of a second at most: ask again.
     #[pyo3(signature = (speed, turn=None), text_signature = "($self, speed, turn=0.0)")]
     fn drive(
         slf: &Bound<'_, Self>,

@@ -12,8 +12,6 @@ use afp_core::quantity::{Angle, Length};
 
 /// The rotator's axis is this far before the turning centre, metres.
 pub(crate) const FORWARD: f64 = 0.10;
-/// The sensor looks over anything that is lower than this, metres.
-pub(crate) const HEIGHT: f64 = 0.15;
 /// A ping is sent every so often.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
 /// How many rays stand for the cone.

@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::vehicle::HALF_LENGTH;
 use crate::world::is_beyond;
-use afp_carbot::devices::Bump;
+use afp_carbot::devices::{Bump, Navigator};
 use afp_core::Instant;
 
 /// The bumper covers the front face and this much of the sides, metres.
@@ -25,7 +25,7 @@ impl Simulation {
     /// Remembers by what way the robot came and where the bumper is pressed, as far as it can tell.
     pub(super) fn note_motion(&mut self, now: Instant) {
         let Ok(at) = self.lines.odometry.read(self.raw_motion()).value else { return };
-        self.trail.note(at);
+        self.trail.note(at, &self.body());
         if self.lines.touch.read(self.raw_touched()).value == Ok(true) {
             self.bump = Some(Bump { at, time: now });
         }

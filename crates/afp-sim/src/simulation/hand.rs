@@ -28,7 +28,7 @@ pub(super) const SHAPES: [Droppable; 3] = [
 /// Their heights, metres, and masses, kilograms.
 const BODIES: [(f64, f64); SHAPES.len()] = [(0.3, 2.0), (0.12, 0.3), (0.4, 30.0)];
 
-/// Things that were dropped are no more than this: each costs time in every step.
+/// Things that were dropped, of all shapes, are no more than this: each costs time in every step.
 const MOST: usize = 64;
 
 /// Something at a place where there is room for it.
@@ -109,11 +109,13 @@ impl Simulation {
             .find(|(known, _)| known.shape == shape)
             .ok_or_else(unknown)?;
         let half = known.outline.first().copied().ok_or_else(unknown)?;
-        let mut names = (1..=MOST).map(|number| format!("{shape} {number}"));
-        let name = names.find(|name| self.stage.obstacles.iter().all(|it| it.name != *name));
+        if self.dropped >= MOST {
+            return Err(RequestError::Full(MOST));
+        }
+        let is_new = |name: &String| self.stage.obstacles.iter().all(|it| it.name != *name);
+        let name = (1_usize..).map(|number| format!("{shape} {number}")).find(is_new);
         let obstacle = Obstacle {
-            name: name
-                .ok_or_else(|| RequestError::NoShape(format!("{shape}: {MOST} are enough")))?,
+            name: name.ok_or_else(unknown)?,
             outline: Outline::Box { pose: at, half },
             height,
             mobility: Mobility::Movable { mass },
@@ -145,6 +147,7 @@ impl Simulation {
         self.scene.add(&obstacle);
         self.stage.shapes.push((start, body));
         self.stage.obstacles.push(obstacle);
+        self.dropped += 1;
         Ok(())
     }
 

@@ -45,6 +45,7 @@ impl Simulation {
             clock: self.clock.split(),
             map: self.map.clone(),
             left_map: self.left_map,
+            dropped: self.dropped,
         }
     }
 }

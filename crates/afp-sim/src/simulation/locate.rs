@@ -9,6 +9,7 @@ use super::robot::{WORLD, frame};
 use crate::devices::sonar;
 use crate::truth::Pose;
 use crate::world::isometry;
+use afp_carbot::devices::Navigator;
 use afp_carbot::table::signal;
 use afp_core::Instant;
 use afp_maps::{Filter, LocateJob, Locator, Planner, SearchJob};
@@ -34,7 +35,7 @@ impl Simulation {
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
         let Simulation { locator, audible, stage, start, seed, .. } = self;
         locator.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles);
+            let field = audible.field(&stage.obstacles, &stage.chassis);
             let filter = Filter::new(field, &sonar::beam(), *start, *seed);
             Box::new(Locator::new(VirtualWorker::new([LocateJob::new(filter)]), *start))
         })
@@ -42,10 +43,11 @@ impl Simulation {
 
     /// What searches for ways; it is made for whoever asks first, of the same map.
     pub(super) fn planner(&mut self) -> &mut SimulatedPlanner {
+        let body = self.body();
         let Simulation { planner, audible, stage, .. } = self;
         planner.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles);
-            Box::new(Planner::new(field, sonar::beam().forward, VirtualWorker::new))
+            let field = audible.field(&stage.obstacles, &stage.chassis);
+            Box::new(Planner::new(field, &body, sonar::beam().forward, VirtualWorker::new))
         })
     }
 

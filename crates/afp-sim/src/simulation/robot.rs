@@ -21,9 +21,6 @@ const BELIEVED: &str = "base_link_by_odometry";
 const SONAR: &str = "sonar";
 const CAMERA: &str = "camera";
 
-/// How high the range sensor is, metres.
-const SONAR_HEIGHT: f64 = 0.15;
-
 impl Platform for Simulation {
     type Clock = VirtualClock;
 
@@ -165,8 +162,9 @@ impl Simulation {
             return;
         }
         let (beam, Snapshot { rotator, sonar, .. }) = (self.beam(), self.snapshot());
+        let height = self.stage.chassis.ranging_height;
         let sensor = Pose2 { x: beam.forward.si(), y: 0.0, heading: rotator };
-        to.put(signal::ULTRASONIC_FRAME, frame(BASE, SONAR, sensor, SONAR_HEIGHT));
+        to.put(signal::ULTRASONIC_FRAME, frame(BASE, SONAR, sensor, height));
         if let Some(sonar) = sonar {
             let pose = Pose2 { heading: sonar.bearing, ..sensor };
             let (half_angle, range) = (beam.opening.si() / 2.0, sonar.distance);

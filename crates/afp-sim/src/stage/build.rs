@@ -63,7 +63,7 @@ pub(crate) fn collider(
     i: usize,
     chassis: &Chassis,
 ) -> ColliderBuilder {
-    let group = if obstacle.height >= chassis.ranging_height { HIGH } else { LOW };
+    let group = if chassis.hears(obstacle.height) { HIGH } else { LOW };
     let builder = match obstacle.mobility {
         Mobility::Movable { mass } => ColliderBuilder::new(shape).mass(mass as f32),
         Mobility::Fixed | Mobility::Scripted(_) => ColliderBuilder::new(shape),

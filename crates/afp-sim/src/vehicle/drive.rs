@@ -4,10 +4,11 @@
 //! controller turns a command (speed, turn rate) into the direction and speed of each wheel, and
 //! stops by itself when commands cease.
 
+use super::MASS;
 use super::floor::{Demand, Footing};
 use super::wheel::{WHEEL_X, WHEEL_Y, Wheel};
-use super::{INERTIA, MASS};
 use super::{Push, Twist};
+use crate::chassis::Chassis;
 use afp_core::{Duration, Instant};
 
 /// Without a new command for so long the controller stops the robot.
@@ -53,7 +54,7 @@ impl Drive {
             wheels: [Wheel::new(WHEEL_Y), Wheel::new(-WHEEL_Y)],
             footing: Footing::new(
                 MASS,
-                INERTIA,
+                Chassis::CARBOT.inertia(),
                 [
                     (WHEEL_X, WHEEL_Y),
                     (WHEEL_X, -WHEEL_Y),

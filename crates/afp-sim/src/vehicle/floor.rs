@@ -205,15 +205,21 @@ fn limited((x, y): (f64, f64), most: f64) -> ((f64, f64), bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vehicle::{INERTIA, MASS};
+    use crate::chassis::Chassis;
 
     const DT: f64 = 0.005;
+
+    const MASS: f64 = Chassis::CARBOT.mass;
+
+    fn inertia() -> f64 {
+        Chassis::CARBOT.inertia()
+    }
 
     const CORNERS: [(f64, f64); 4] = [(0.13, 0.14), (0.13, -0.14), (-0.13, 0.14), (-0.13, -0.14)];
 
     /// What the floor does in a step to a body that moved like this before, too.
     fn push(body: Twist, demand: Demand) -> Push {
-        let mut footing = Footing::new(MASS, INERTIA, CORNERS);
+        let mut footing = Footing::new(MASS, inertia(), CORNERS);
         footing.expected = body;
         footing.push([demand; 4], body, DT)
     }
@@ -223,7 +229,7 @@ mod tests {
         Twist {
             x: body.x + push.x * DT / MASS,
             y: body.y + push.y * DT / MASS,
-            turn: body.turn + push.turn * DT / INERTIA,
+            turn: body.turn + push.turn * DT / inertia(),
         }
     }
 
@@ -261,7 +267,7 @@ mod tests {
             most: 50.0,
             motor: None,
         });
-        let mut footing = Footing::new(MASS, INERTIA, CORNERS);
+        let mut footing = Footing::new(MASS, inertia(), CORNERS);
         let mut body = Twist::default();
         for _ in 0..4 {
             body = after(body, footing.push(demands, body, DT));
@@ -273,7 +279,7 @@ mod tests {
     #[test]
     fn wheels_that_hold_do_not_give_way_to_a_steady_push() {
         let hold = Demand { rim: (0.0, 0.0), most: 5.0, motor: None };
-        let mut footing = Footing::new(MASS, INERTIA, CORNERS);
+        let mut footing = Footing::new(MASS, inertia(), CORNERS);
         let (mut body, mut aside) = (Twist::default(), 0.0);
         for _ in 0..200 {
             body = after(body, footing.push([hold; 4], body, DT));

@@ -1,15 +1,16 @@
 //! What the range sensor should hear on the map of a world: computed once for all simulations of that world.
 
 use super::{Obstacle, World};
+use crate::chassis::Chassis;
 use crate::devices::sonar;
 use afp_maps::{EchoField, Map};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 impl World {
-    /// The map that the robot has: what it shows and what is high enough for the range sensor.
-    pub fn audible_map(&self) -> Map {
-        map(&self.obstacles)
+    /// The map that a robot has: what it shows and what is high enough for the robot's range sensor.
+    pub fn audible_map(&self, robot: &Chassis) -> Map {
+        map(&self.obstacles, robot)
     }
 }
 
@@ -18,9 +19,9 @@ impl World {
 pub(crate) struct Audible(Arc<OnceLock<EchoField>>);
 
 impl Audible {
-    /// What should be heard where these obstacles stand.
-    pub(crate) fn field(&self, obstacles: &[Obstacle]) -> EchoField {
-        let map = map(obstacles);
+    /// What the Carbot's sensor should hear on such a chassis where these obstacles stand.
+    pub(crate) fn field(&self, obstacles: &[Obstacle], robot: &Chassis) -> EchoField {
+        let map = map(obstacles, robot);
         let made = |map| EchoField::new(map, &sonar::beam());
         let known = self.0.get_or_init(|| made(map.clone()));
         // Whoever changed a copy of a world has obstacles of another one.
@@ -40,8 +41,8 @@ impl PartialEq for Audible {
     }
 }
 
-fn map(obstacles: &[Obstacle]) -> Map {
-    let heard = obstacles.iter().filter(|it| it.mapped && it.height >= sonar::HEIGHT);
+fn map(obstacles: &[Obstacle], robot: &Chassis) -> Map {
+    let heard = obstacles.iter().filter(|it| it.mapped && robot.hears(it.height));
     Map::new(heard.map(|it| it.outline.corners()))
 }
 
@@ -52,12 +53,20 @@ mod tests {
     #[test]
     fn copies_share_what_is_heard_until_their_obstacles_differ() {
         let world = World::random(3);
-        let of = |world: &World| world.audible.field(&world.obstacles);
+        let of = |world: &World| world.audible.field(&world.obstacles, &Chassis::CARBOT);
         let (one, other) = (of(&world), of(&world.clone()));
         assert!(one.shares_with(&other));
         let mut emptier = world.clone();
         emptier.obstacles.truncate(1);
         assert!(!one.shares_with(&of(&emptier)));
-        assert_eq!(*of(&emptier).map(), emptier.audible_map());
+        assert_eq!(*of(&emptier).map(), emptier.audible_map(&Chassis::CARBOT));
+    }
+
+    #[test]
+    fn a_robot_has_on_its_map_what_its_own_sensor_does_not_look_over() {
+        let world = World::random(3);
+        let of = |ranging_height| world.audible_map(&Chassis { ranging_height, ..Chassis::CARBOT });
+        assert_ne!(of(0.1), of(2.0));
+        assert_eq!(of(100.0), Map::new([]));
     }
 }

@@ -16,7 +16,7 @@ use serde::de::DeserializeOwned;
 use toml_edit::Document;
 use toml_edit::de::{Deserializer, Error};
 
-use check::{Check, Key};
+use check::{Check, Key, number};
 use tables::File;
 
 /// A wall is this thick where the file does not say, metres.
@@ -207,7 +207,7 @@ impl Check<'_> {
         self.near(&key.at("by_m"), path.by_m.as_flattened())?;
         self.positive(&key.at("speed_m_s"), &[path.speed_m_s])?;
         if path.speed_m_s > FASTEST {
-            let message = format!("{} is more than {FASTEST}", path.speed_m_s);
+            let message = format!("{} is more than {FASTEST}", number(path.speed_m_s));
             let help = format!("write at most {FASTEST}");
             return Err(self.error(&key.at("speed_m_s"), &message, help));
         }

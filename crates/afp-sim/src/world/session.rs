@@ -54,11 +54,8 @@ impl World {
         if ![start.x, start.y, start.heading.to_degrees()].into_iter().all(near) {
             return Err(format!("the start is not within {FARTHEST} m and {FARTHEST} deg of zero"));
         }
-        match self.obstacle_in_way_of(robot, start) {
-            Some(obstacle) => Err(format!("the robot starts inside of '{}'", obstacle.name)),
-            None if self.is_beyond([start.x, start.y]) => {
-                Err("the robot starts beyond the edge of the map".to_owned())
-            }
+        match self.no_start(robot, start) {
+            Some(why) => Err(why),
             None => Ok(World { start, ..self.clone() }),
         }
     }
@@ -80,12 +77,11 @@ impl World {
     pub(super) fn drawing_with(&self, robot: &Chassis) -> Drawing {
         let patch =
             |patch: &super::Patch| Patch { corners: patch.corners.clone(), color: patch.color };
-        let low = robot.ranging_height;
         let things = self.obstacles.iter().enumerate();
         Drawing {
             start: self.start,
             body: robot.outline(Pose::default()),
-            things: things.map(|(index, it)| thing(index, it, low)).collect(),
+            things: things.map(|(index, it)| thing(index, it, robot)).collect(),
             patches: self.patches.iter().map(patch).collect(),
             lights: self.lights.iter().map(|light| light.position).collect(),
         }
@@ -104,8 +100,8 @@ pub(crate) fn shape(index: usize, obstacle: &Obstacle) -> Shape {
     }
 }
 
-/// What of an obstacle a picture shows; range sensors look over what is lower than `low`.
-fn thing(index: usize, obstacle: &Obstacle, low: f64) -> Thing {
+/// What of an obstacle a picture shows, beside a robot.
+fn thing(index: usize, obstacle: &Obstacle, robot: &Chassis) -> Thing {
     let Shape { id, outline, .. } = shape(index, obstacle);
     let count = outline.len() as f64;
     let sum = outline.iter().fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
@@ -125,7 +121,7 @@ fn thing(index: usize, obstacle: &Obstacle, low: f64) -> Thing {
         name: obstacle.name.clone(),
         outline,
         end: None,
-        low: obstacle.height < low,
+        low: !robot.hears(obstacle.height),
         movable: matches!(obstacle.mobility, Mobility::Movable { .. }),
         labelled: least > ROOM_FOR_NAME,
         path,

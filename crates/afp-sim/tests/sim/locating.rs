@@ -1,10 +1,13 @@
 //! The robot finds itself on its map.
 
 use crate::wanderer::Wanderer;
-use afp_carbot::devices::{Localisation, Odometry, PathPlanner, TouchSensor, Trip, Ultrasonic};
+use afp_carbot::devices::{
+    Localisation, Navigator, Odometry, PathPlanner, TouchSensor, Trip, Ultrasonic,
+};
 use afp_core::quantity::Length;
 use afp_core::{Duration, Instant, Poll};
 use afp_maps::{EchoField, Filter, LocateJob, Locator, Planner, SearchJob};
+use afp_sim::parts::Chassis;
 use afp_sim::{Pose, Simulation, World};
 use afp_worker::VirtualWorker;
 
@@ -74,7 +77,12 @@ fn the_belief_comes_from_map_and_readings_alone() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
     let beam = robot.robot.beam();
-    let filter = Filter::new(EchoField::new(world.audible_map(), &beam), &beam, world.start, 5);
+    let filter = Filter::new(
+        EchoField::new(world.audible_map(&Chassis::CARBOT), &beam),
+        &beam,
+        world.start,
+        5,
+    );
     let mut alone = Locator::new(VirtualWorker::new([LocateJob::new(filter)]), world.start);
     for tick in 1..=1500_u64 {
         robot.tick();
@@ -93,12 +101,12 @@ fn the_belief_comes_from_map_and_readings_alone() {
 fn ways_come_from_map_and_readings_alone() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
-    let beam = robot.robot.beam();
-    let field = || EchoField::new(world.audible_map(), &beam);
+    let (beam, body) = (robot.robot.beam(), robot.robot.body());
+    let field = || EchoField::new(world.audible_map(&Chassis::CARBOT), &beam);
     let filter = Filter::new(field(), &beam, world.start, 5);
     let mut locator = Locator::new(VirtualWorker::new([LocateJob::new(filter)]), world.start);
     let mut alone: Planner<VirtualWorker<SearchJob>> =
-        Planner::new(field(), beam.forward, VirtualWorker::new);
+        Planner::new(field(), &body, beam.forward, VirtualWorker::new);
     let metres = |place: [f64; 2]| (Length::from_si(place[0]), Length::from_si(place[1]));
     let there = metres([world.start.x, world.start.y]);
     // Both hear from the first search on.

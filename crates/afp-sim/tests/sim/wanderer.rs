@@ -5,6 +5,7 @@ use afp_carbot::devices::{
 };
 use afp_core::quantity::{Angle, AngularSpeed, Speed};
 use afp_core::{Duration, Instant};
+use afp_sim::parts::Chassis;
 use afp_sim::{Pose, Simulation, World};
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
@@ -61,7 +62,7 @@ impl Wanderer {
 
     /// A place somewhere in the room where the robot fits.
     pub(crate) fn free_place(&mut self, world: &World) -> Pose {
-        let [low, high] = world.audible_map().bounds();
+        let [low, high] = world.audible_map(&Chassis::CARBOT).bounds();
         let mut unit = || f64::from(self.random.next_u32()) / f64::from(u32::MAX);
         loop {
             let [x, y] = [0, 1].map(|i| low[i] + 0.3 + (high[i] - low[i] - 0.6) * unit());

@@ -105,7 +105,27 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "[1.0, 0.5]",
         "[1.0, 0.0]",
-        "line 14, column 10: size_m: 0 is not above 0; write a number above 0",
+        "line 14, column 10: size_m: 0 is less than 0.001; write 0.001 or more",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = 0.7\nmass_kg = 1e-40",
+        "line 16, column 11: mass_kg: 1e-40 is less than 0.001; write 0.001 or more",
+    ),
+    (
+        "closed = true",
+        "closed = true\nthickness_m = -0.1",
+        "line 10, column 15: thickness_m: -0.1 is less than 0.001; write 0.001 or more",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = 0.7\npath = { by_m = [[1, 0]], speed_m_s = 1e-50 }",
+        "line 16, column 39: speed_m_s: 1e-50 is less than 0.001",
+    ),
+    (
+        "[2.0, 0.5], [2.0, 0.9], [2.5, 0.5]",
+        "[900.0, 0.0], [900.00001, 0.0], [900.0, 0.001]",
+        "line 18, column 12: points_m: the corner [900.00001, 0] lies in a line with those beside it; leave it out",
     ),
     (
         "[1.0, 0.5]",
@@ -167,6 +187,21 @@ const MISTAKES: &[(&str, &str, &str)] = &[
         "[1.0, 1.0, 90.0]",
         "[3.2, 2.0, 0]",
         "line 5, column 14: the robot starts inside of 'table'; choose another place",
+    ),
+    (
+        "height_m = 0.7",
+        "height_m = 1e300",
+        "line 15, column 12: height_m: 1e300 is not within 1000 of zero; write a number from -1000",
+    ),
+    (
+        "[2.0, 0.5], [2.0, 0.9], [2.5, 0.5]",
+        "[900.0, 900.0], [901.0, 900.00001], [902.0, 900.0]",
+        "points_m: the corner [901, 900.00001] lies in a line with those beside it; leave it out",
+    ),
+    (
+        "[robot]",
+        "[map]\ncorners_m = [[2, 0], [4, 0], [4, 3], [2, 3]]\n\n[robot]",
+        "line 8, column 14: the robot starts beyond the edge of the map; choose another place",
     ),
 ];
 

@@ -127,12 +127,13 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let reporter = Reporter::new(&sweep, arguments.json);
     reporter.head(&output, outcomes.len());
     go_on(&engine, &reporter, &mut journal, &mut outcomes)?;
+    let kept = journal.close();
     outcomes.sort_by_key(|outcome| outcome.run);
     // What the runs came to is seen, too, where no table of it can be written.
     let written = output.write(&sweep, &outcomes);
     let findings = Findings::new(&outcomes);
     reporter.end(&outcomes, &findings, written.is_ok().then_some(&output))?;
-    written?;
+    written.and(kept)?;
     Ok(match (outcomes.len() as u64 == sweep.len(), findings.has_failures()) {
         (false, _) => EXIT_STOPPED,
         (true, true) => EXIT_PLAN_ERROR,

@@ -20,13 +20,13 @@ gymnasium = need("gymnasium")
 
 __all__ = ["PIXELS", "RANGE", "SPEED", "STEP", "TURN", "Faults", "Setting"]
 
-SPEED = 0.5
+SPEED: float = Courses.speed
 """The speed of a full action, m/s."""
-TURN = 2.0
+TURN: float = Courses.turn
 """The turn rate of a full action, rad/s."""
-RANGE = 2.5
+RANGE: float = Courses.range
 """What silence of the range sensor is observed as, metres."""
-STEP = 0.1
+STEP: float = Courses.step_time
 """How long an action lasts, seconds."""
 PIXELS = 256
 """The edge of the picture from above."""

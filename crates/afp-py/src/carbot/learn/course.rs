@@ -17,9 +17,11 @@ pub const SPEED: f64 = 0.5;
 pub const TURN: f64 = 2.0;
 /// Where a full action points the range sensor, radians.
 pub const BEARING: f64 = core::f64::consts::FRAC_PI_2;
-/// How long an action lasts: so many pieces of this. Between two pieces the range sensor has sent a ping.
+/// An action lasts so many pieces of this. Between two pieces the range sensor has sent a ping.
 const PIECE: Duration = Duration::from_millis(50);
-const PIECES: u32 = 2;
+const PIECES: u64 = 2;
+/// How long an action lasts.
+pub const STEP: Duration = Duration::from_nanos(PIECES * PIECE.as_nanos());
 
 /// What all episodes of a task have in common.
 #[derive(Debug)]

@@ -11,9 +11,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::batch::{Batch, Place, Round, Task};
-use super::course::{Brief, Course, Start};
+use super::course::{Brief, Course, SPEED, STEP, Start, TURN};
 use super::judge::kind;
-use super::part::Part;
+use super::part::{Part, RANGE};
 use super::pool;
 use super::score::{NOTHING_TO_REACH, Weights};
 use super::start::{GivenStart, start};
@@ -74,6 +74,30 @@ impl Courses {
         let weights = weights.map_err(PyValueError::new_err)?;
         let brief = Brief { parts, fan, points, weights, target, steps };
         Ok(Courses { batch: Arc::new(Batch::new(brief, count)), use_of: Mutex::new(()) })
+    }
+
+    /// The speed of a full action, metres a second.
+    #[classattr]
+    fn speed() -> f64 {
+        SPEED
+    }
+
+    /// The turn rate of a full action, radians a second.
+    #[classattr]
+    fn turn() -> f64 {
+        TURN
+    }
+
+    /// What silence of the range sensor is observed as, metres.
+    #[classattr]
+    fn range() -> f64 {
+        RANGE
+    }
+
+    /// How long an action lasts, seconds.
+    #[classattr]
+    fn step_time() -> f64 {
+        STEP.as_secs_f64()
     }
 
     /// The least and the greatest of what is observed.

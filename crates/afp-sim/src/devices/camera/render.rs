@@ -4,7 +4,7 @@
 //! crosses shows a piece of one side and, if it is lower than the camera, of its top. What is far
 //! is drawn first and what is near over it.
 
-use super::{COLUMNS, FORWARD, HEIGHT, OPENING, ROWS};
+use super::{COLUMNS, FORWARD, HEIGHT, ROWS, lens};
 use crate::noise::{Noise, Source};
 use crate::scene::{Crossing, Scene, Solid};
 use crate::vehicle::Place;
@@ -23,7 +23,7 @@ const GRAIN: u32 = 3;
 /// The picture seen from a robot at this place, with its own grain.
 pub(super) fn render(scene: &Scene, robot: Place, seed: u64) -> Vec<u8> {
     let mut picture = Picture { rgb: vec![0; COLUMNS * ROWS * 3], grain: Source::Camera.of(seed) };
-    let focus = focus();
+    let focus = lens().focus();
     let eye = robot.beyond(FORWARD, 0.0);
     let mut met: Vec<(&Solid, Crossing)> = Vec::new();
     for x in 0..COLUMNS {
@@ -41,11 +41,6 @@ pub(super) fn render(scene: &Scene, robot: Place, seed: u64) -> Vec<u8> {
     }
     picture.grain();
     picture.rgb
-}
-
-/// The lens's focal length in pixels.
-pub(super) fn focus() -> f64 {
-    COLUMNS as f64 / 2.0 / libm::tan(OPENING / 2.0)
 }
 
 struct Picture {

@@ -1,6 +1,6 @@
 //! Where what a pixel shows is in the next picture: the truth by which optical flow is judged.
 
-use super::{COLUMNS, Exposure, FORWARD, HEIGHT, ROWS, render};
+use super::{COLUMNS, Exposure, FORWARD, HEIGHT, ROWS, lens, render};
 use crate::scene::Scene;
 use crate::vehicle::Place;
 
@@ -29,7 +29,7 @@ pub(crate) fn track(before: &Exposure, after: &Exposure, x: f64, y: f64) -> Opti
     };
     let eye = after.robot.beyond(FORWARD, 0.0);
     let [depth, left] = after.robot.towards([0, 1].map(|i| moved[i] - eye[i]));
-    let focus = render::focus();
+    let focus = lens().focus();
     let column = middle(COLUMNS) - left / depth * focus;
     let row = middle(ROWS) - up * spot.depth / depth * focus;
     let inside = |at: f64, size: usize| at >= 0.0 && at <= size as f64 - 1.0;
@@ -40,7 +40,7 @@ pub(crate) fn track(before: &Exposure, after: &Exposure, x: f64, y: f64) -> Opti
 
 /// How far to the left and up a pixel looks, for each metre ahead.
 fn slopes(x: f64, y: f64) -> (f64, f64) {
-    let focus = render::focus();
+    let focus = lens().focus();
     ((middle(COLUMNS) - x) / focus, (middle(ROWS) - y) / focus)
 }
 

@@ -56,6 +56,25 @@ fn nothing_is_put_into_something() {
 }
 
 #[test]
+fn so_many_things_are_dropped_and_no_more_whatever_their_shape_and_what_the_file_has() {
+    let named = ROOM.replace("\"post\"", "\"can 1\"");
+    let mut room = Simulation::new(&World::parse(&named).unwrap(), 1).unwrap();
+    let put = |room: &mut Simulation, n: usize| {
+        let shape = if n.is_multiple_of(2) { "can" } else { "wall" };
+        room.put(&Put::New(shape.to_owned()), at(5.0 + n as f64, 5.0))
+    };
+    for n in 0..MOST {
+        assert_eq!(put(&mut room, n), Ok(()), "{n}");
+    }
+    assert_eq!(room.stage.obstacles[2].name, "can 2");
+    let mut copy = room.keyframe().unwrap();
+    for each in [&mut room, &mut copy] {
+        assert_eq!(put(each, MOST), Err(RequestError::Full(MOST)));
+        assert!(each.put(&Put::Thing("can 2".to_owned()), at(3.0, 3.0)).is_ok());
+    }
+}
+
+#[test]
 fn what_is_dropped_is_felt_heard_and_copied() {
     let mut room = room();
     room.put(&Put::New("crate".to_owned()), at(0.6, 0.0)).unwrap();

@@ -2,7 +2,11 @@
 
 use crate::truth::Pose;
 use crate::world::error::at_key;
-use crate::world::{FARTHEST, WorldError};
+use crate::world::{FARTHEST, SMALLEST, WorldError};
+
+/// Corners nearer to each other than this are one, metres; and the edges of one turn by so much at least, square metres.
+const SAME: f64 = 1e-6;
+const FLAT: f64 = 1e-9;
 
 /// The way to a key of the file.
 #[derive(Clone)]
@@ -50,12 +54,12 @@ impl<'a> Check<'a> {
         }
         Err(self.error(
             key,
-            &format!("{share} is not above 0 and at most 1"),
+            &format!("{} is not above 0 and at most 1", number(share)),
             "write a share, such as 0.5",
         ))
     }
 
-    /// The corners of a convex polygon, counter-clockwise.
+    /// The corners of a convex polygon, counter-clockwise; they make one in single precision, too.
     pub(super) fn convex(
         &self,
         key: &Key,
@@ -66,11 +70,16 @@ impl<'a> Check<'a> {
             let message = format!("a polygon has three corners or more, not {}", points.len());
             return Err(self.error(key, &message, "add the others"));
         }
-        if let Some([x, y]) = straight(&points) {
+        let single = points.iter().map(|corner| corner.map(|at| f64::from(at as f32)));
+        let single: Vec<_> = single.collect();
+        let flat = straight(&points).or_else(|| straight(&single));
+        if let Some([x, y]) = flat.map(|at| points[at]) {
+            let [x, y] = [x, y].map(number);
             let message = format!("the corner [{x}, {y}] lies in a line with those beside it");
             return Err(self.error(key, &message, "leave it out"));
         }
-        match turning(&points) {
+        let turning = turning(&points).filter(|_| turning(&single).is_some());
+        match turning {
             Some(true) => {}
             Some(false) => points.reverse(),
             None => {
@@ -80,11 +89,13 @@ impl<'a> Check<'a> {
         Ok(points)
     }
 
+    /// Sizes, masses and the like, which are no less than [`SMALLEST`].
     pub(super) fn positive(&self, key: &Key, values: &[f64]) -> Result<(), WorldError> {
         self.near(key, values)?;
-        match values.iter().find(|value| **value <= 0.0) {
+        match values.iter().find(|value| **value < SMALLEST) {
             Some(value) => {
-                Err(self.error(key, &format!("{value} is not above 0"), "write a number above 0"))
+                let help = format!("write {SMALLEST} or more");
+                Err(self.error(key, &format!("{} is less than {SMALLEST}", number(*value)), help))
             }
             None => Ok(()),
         }
@@ -93,7 +104,9 @@ impl<'a> Check<'a> {
     pub(super) fn not_negative(&self, key: &Key, value: f64) -> Result<(), WorldError> {
         self.near(key, &[value])?;
         match value < 0.0 {
-            true => Err(self.error(key, &format!("{value} is negative"), "write 0 or more")),
+            true => {
+                Err(self.error(key, &format!("{} is negative", number(value)), "write 0 or more"))
+            }
             false => Ok(()),
         }
     }
@@ -102,7 +115,8 @@ impl<'a> Check<'a> {
         match values.iter().find(|value| !value.is_finite() || value.abs() > FARTHEST) {
             Some(value) => {
                 let help = format!("write a number from -{FARTHEST} to {FARTHEST}");
-                Err(self.error(key, &format!("{value} is not within {FARTHEST} of zero"), help))
+                let message = format!("{} is not within {FARTHEST} of zero", number(*value));
+                Err(self.error(key, &message, help))
             }
             None => Ok(()),
         }
@@ -116,19 +130,31 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Each corner, and how the edges there turn: the cross and the dot product.
-fn corners(points: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], f64, f64)> {
+/// A number as people write it, also where it is very small or large.
+pub(super) fn number(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
+/// Each corner by its place, with the edges to it and from it.
+fn corners(points: &[[f64; 2]]) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
     let n = points.len();
-    (0..n).map(move |i| {
-        let [a, b, c] = [points[i], points[(i + 1) % n], points[(i + 2) % n]];
-        let (ux, uy, vx, vy) = (b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]);
-        (b, ux * vy - uy * vx, ux * vx + uy * vy)
+    (1..=n).map(move |i| {
+        let [a, b, c] = [points[i - 1], points[i % n], points[(i + 1) % n]];
+        (i % n, [b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]])
     })
 }
 
-/// A corner that is none: the edges there go on in one line, or back.
-fn straight(points: &[[f64; 2]]) -> Option<[f64; 2]> {
-    corners(points).find(|(_, cross, _)| cross.abs() < 1e-9).map(|(corner, ..)| corner)
+fn cross([ux, uy]: [f64; 2], [vx, vy]: [f64; 2]) -> f64 {
+    ux * vy - uy * vx
+}
+
+/// A corner that is none: the edges there go on in one line, or back, or it is that before.
+fn straight(points: &[[f64; 2]]) -> Option<usize> {
+    let none = |edge: [f64; 2], next| {
+        cross(edge, next).abs() < FLAT || libm::hypot(edge[0], edge[1]) < SAME
+    };
+    corners(points).find(|(_, edge, next)| none(*edge, *next)).map(|(corner, ..)| corner)
 }
 
 /// Whether a convex polygon's corners go counter-clockwise; none if it is not convex.
@@ -136,11 +162,12 @@ fn turning(points: &[[f64; 2]]) -> Option<bool> {
     let mut left = None;
     // The edges of a convex polygon turn by one full turn in all; a star by more.
     let mut turned = 0.0;
-    for (_, cross, along) in corners(points) {
-        if *left.get_or_insert(cross > 0.0) != (cross > 0.0) {
+    for (_, edge, next) in corners(points) {
+        let (across, along) = (cross(edge, next), edge[0] * next[0] + edge[1] * next[1]);
+        if *left.get_or_insert(across > 0.0) != (across > 0.0) {
             return None;
         }
-        turned += libm::atan2(cross, along);
+        turned += libm::atan2(across, along);
     }
     left.filter(|_| turned.abs() < 7.0)
 }

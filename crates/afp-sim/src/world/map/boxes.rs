@@ -1,6 +1,7 @@
 //! Occupied cells gathered into boxes.
 
 use super::picture::Grey;
+use std::ops::Range;
 
 /// Which cells are occupied; row 0 is the uppermost.
 pub(super) struct Cells {
@@ -55,25 +56,42 @@ impl Cells {
 
     /// Which cells can be reached from beyond the map, row by row.
     pub(super) fn outside(&self) -> Vec<bool> {
-        let (width, height) = (self.width, self.height);
-        let mut outside = vec![false; self.occupied.len()];
-        let on_border = |at: usize| {
-            let (row, column) = (at / width, at % width);
-            row == 0 || column == 0 || row + 1 == height || column + 1 == width
-        };
-        let free = |at: &usize| self.occupied.get(*at) == Some(&false);
-        let mut next: Vec<usize> =
-            (0..self.occupied.len()).filter(|at| on_border(*at)).filter(free).collect();
-        while let Some(at) = next.pop() {
-            let Some(known) = outside.get_mut(at).filter(|known| !**known) else { continue };
-            *known = true;
-            let column = at % width;
-            let left = (column > 0).then(|| at - 1);
-            let right = (column + 1 < width).then_some(at + 1);
-            let beside = [left, right, at.checked_sub(width), Some(at + width)];
-            next.extend(beside.into_iter().flatten().filter(free));
+        self.flood().reached
+    }
+
+    fn flood(&self) -> Flood<'_> {
+        let (width, cells) = (self.width, self.occupied.len());
+        let mut flood = Flood { cells: self, reached: vec![false; cells], waiting: Vec::new() };
+        for row in 0..self.height {
+            let (first, next) = (row * width, (row + 1) * width);
+            if row == 0 || row + 1 == self.height {
+                flood.reach(first..next);
+            } else {
+                flood.reach(first..first + 1);
+                flood.reach(next - 1..next);
+            }
         }
-        outside
+        while let Some(run) = flood.waiting.pop() {
+            if run.start >= width {
+                flood.reach(run.start - width..run.end - width);
+            }
+            if run.end + width <= cells {
+                flood.reach(run.start + width..run.end + width);
+            }
+        }
+        flood
+    }
+
+    fn is_free(&self, at: usize) -> bool {
+        self.occupied.get(at) == Some(&false)
+    }
+
+    /// The run of free cells of a row that a free cell belongs to.
+    fn free_run(&self, at: usize) -> Range<usize> {
+        let first = at / self.width * self.width;
+        let start = (first..at).rev().take_while(|at| self.is_free(*at)).last().unwrap_or(at);
+        let end = (at + 1..first + self.width).find(|at| !self.is_free(*at));
+        start..end.unwrap_or(first + self.width)
     }
 
     /// The occupied cells as boxes: each as wide as can be, then as high.
@@ -106,6 +124,33 @@ impl Cells {
             bottom += 1;
         }
         Rectangle { left, right, top, bottom }
+    }
+}
+
+/// Cells that are reached, run by run: each waits once, so that an open map takes no more memory than a narrow one.
+struct Flood<'a> {
+    cells: &'a Cells,
+    reached: Vec<bool>,
+    /// Runs whose neighbours have not been looked at.
+    waiting: Vec<Range<usize>>,
+}
+
+impl Flood<'_> {
+    /// Reaches the runs that have free cells among these, all of one row.
+    fn reach(&mut self, among: Range<usize>) {
+        let mut at = among.start;
+        while at < among.end {
+            if self.reached.get(at) != Some(&false) || !self.cells.is_free(at) {
+                at += 1;
+                continue;
+            }
+            let run = self.cells.free_run(at);
+            at = run.end;
+            if let Some(reached) = self.reached.get_mut(run.clone()) {
+                reached.fill(true);
+            }
+            self.waiting.push(run);
+        }
     }
 }
 
@@ -142,5 +187,50 @@ mod tests {
         assert!(!cells.free_around(0, 1, 1));
         assert!(!cells.free_around(3, 1, 1));
         assert!(cells.free_around(3, 4, 0) && !cells.free_around(2, 4, 0));
+    }
+
+    /// A picture of which a share, in tenths, is occupied.
+    fn sprinkled(tenths: u64, seed: u64) -> Cells {
+        let mut state = seed;
+        let mut occupied = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) % 10 < tenths
+        };
+        let values = (0..23 * 17).map(|_| if occupied() { b'#' } else { b'.' }).collect();
+        Cells::new(&Grey { width: 23, height: 17, values }, |v| v == b'#')
+    }
+
+    #[test]
+    fn outside_is_what_can_be_reached_step_by_step_from_beyond() {
+        for seed in 0..100 {
+            let cells = sprinkled(2 + seed % 4, seed);
+            let (width, height) = (cells.width, cells.height);
+            let mut outside = vec![false; width * height];
+            loop {
+                let before = outside.clone();
+                for at in 0..width * height {
+                    let (row, column) = (at / width, at % width);
+                    let border =
+                        row == 0 || column == 0 || row + 1 == height || column + 1 == width;
+                    let beside = || {
+                        before[at - 1] || before[at + 1] || before[at - width] || before[at + width]
+                    };
+                    outside[at] = cells.is_free(at) && (border || beside());
+                }
+                if outside == before {
+                    break;
+                }
+            }
+            assert_eq!(cells.outside(), outside, "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn an_open_map_keeps_few_runs_waiting() {
+        let values = vec![b'.'; 1000 * 1000];
+        let cells = Cells::new(&Grey { width: 1000, height: 1000, values }, |v| v == b'#');
+        let flood = cells.flood();
+        assert!(flood.reached.iter().all(|reached| *reached));
+        assert!(flood.waiting.capacity() <= 2048, "{}", flood.waiting.capacity());
     }
 }
