@@ -15,6 +15,7 @@ use afp_session::{DEFAULT_UNTIL, Pose2};
 use clap::{Args, ValueEnum};
 
 use crate::error::RunError;
+use crate::world::change;
 
 pub(crate) use help::words;
 pub use help::{for_devices, for_robot};
@@ -195,9 +196,12 @@ impl RunOptions {
             ("--fail", !self.fail.is_empty()),
             ("--measure", !self.measure.is_empty()),
         ];
-        match of_simulation.iter().find(|(_, given)| *given) {
+        let option =
+            of_simulation.iter().find(|(_, given)| *given).map(|(name, _)| name.to_string());
+        let of_world = self.set.iter().find(|(name, _)| change::key(name).is_some());
+        match option.or(of_world.map(|(name, _)| format!("--set {name}"))) {
             None => Ok(()),
-            Some((option, _)) => Err(RunError::usage(
+            Some(option) => Err(RunError::usage(
                 format!("'{option}' is of the simulation: the robot itself cannot do that"),
                 format!("leave '{option}' out, or '--robot hardware'"),
             )),

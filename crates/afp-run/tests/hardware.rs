@@ -170,7 +170,7 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
         registry.actor::<templates::Work, Work>("board", "Work");
         let plan = afp::load::LoadedPlan::new(&graph, &registry).map_err(SessionError::Load)?;
         let robot = Board { seen: seen.clone(), ..robot };
-        let session = Box::new(afp_session::Session::new(plan, robot));
+        let session = Box::new(afp_session::Session::on_hardware(plan, robot));
         Ok(Opened { session, last_resort: None })
     };
     let texts = [("plan.afp", text)];
@@ -259,6 +259,7 @@ fn settings_go_to_the_robot_and_what_is_of_the_simulation_is_refused() {
         ["--speed", "max"],
         ["--press", "touch@1s"],
         ["--fail", "touch.lost@1s"],
+        ["--set", "world.robot.charge=0.5"],
         ["--start", "1m,1m,0deg"],
     ] {
         let why = message(on_board(WAITS, &option).0);

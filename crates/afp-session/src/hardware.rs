@@ -83,7 +83,7 @@ impl Opened {
     {
         let robot = H::open(settings).map_err(SessionError::Hardware)?;
         let last_resort = robot.last_resort();
-        Ok(Opened { session: Box::new(Session::new(plan, robot)), last_resort })
+        Ok(Opened { session: Box::new(Session::on_hardware(plan, robot)), last_resort })
     }
 }
 

@@ -13,6 +13,7 @@ use afp_core::{Duration, Fault, Instant, Scheduler, StartError, Wake};
 
 use crate::faults::Faults;
 use crate::figures::Figures;
+use crate::hardware::Hardware;
 use crate::holds::Holds;
 use crate::observer::{Gate, Go, Observer, Open};
 use crate::record::{Keep, Kept};
@@ -34,6 +35,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     names: P::Names,
     clock: R::Clock,
     sink: S,
+    /// Whether the robot is there, so that nobody can press or break anything of it from here.
+    is_there: bool,
     /// Whether the plan has started.
     started: bool,
     /// Whether a step is under way: a panic is the plan's then.
@@ -78,6 +81,16 @@ where
     pub fn new(plan: P, robot: R) -> Self {
         Session::with_sink(plan, robot, Kept::default())
     }
+
+    /// The same on a robot that is there.
+    pub fn on_hardware(plan: P, robot: R) -> Self
+    where
+        R: Hardware,
+    {
+        let mut session = Session::new(plan, robot);
+        session.is_there = true;
+        session
+    }
 }
 
 impl<P, R, S> Session<P, R, S>
@@ -94,6 +107,7 @@ where
             clock: robot.clock(),
             samples: SampleGrid { every: Duration::ZERO, next: Instant::MAX },
             sink,
+            is_there: false,
             started: false,
             stepping: false,
             stepped: None,
@@ -142,6 +156,7 @@ where
             faults: self.faults.clone(),
             holds: self.holds.clone(),
             line: String::new(),
+            is_there: self.is_there,
             started: self.started,
             stepping: self.stepping,
             stepped: self.stepped,

@@ -102,6 +102,14 @@ where
         &self.asked
     }
 
+    /// Whether something could be asked for at any instant.
+    ///
+    /// # Errors
+    /// It can never be done.
+    pub fn can(&self, request: &Request) -> Result<(), RequestError> {
+        self.check(request, false)
+    }
+
     /// Whether a request can be met: at all, or where it is one for now.
     fn check(&self, request: &Request, is_now: bool) -> Result<(), RequestError> {
         let of_plan = !matches!(
@@ -112,6 +120,9 @@ where
             return Err(RequestError::Ended);
         }
         match request {
+            Request::Press(..) | Request::Hold(..) | Request::Break(..) if self.is_there => {
+                Err(RequestError::Refused)
+            }
             Request::Write(entry, value) => {
                 self.scheduler.plan().accepts(*entry, value).map_err(RequestError::Write)
             }
