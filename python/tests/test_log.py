@@ -31,7 +31,7 @@ def test_a_log_holds_the_run(wall_following: afp.Plan, tmp_path: Path) -> None:
     assert times[0] == 0.0 and values[0] == 0.35
     assert log.channels["/plan/events"][1] == len(log.events)
     assert log.path.shape[1] == 4 and log.cut_short is None
-    assert afp.World.parse(log.attachments["world.toml"]).name == "Furnished room"
+    assert afp.World.parse(log.attachments["world"]).name == "Furnished room"
     with pytest.raises(KeyError, match="there are:"):
         log.entry("nothing")
 

@@ -1,89 +1,46 @@
 //! One client: what it says, and what it is sent.
 
 use std::io::ErrorKind;
+use std::iter::repeat;
 use std::net::TcpStream;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant as Wall};
 
 use serde_json::Value;
-use tungstenite::handshake::server::{ErrorResponse, Request, Response};
-use tungstenite::http::HeaderValue;
-use tungstenite::protocol::WebSocketConfig;
-use tungstenite::{Error, Message, WebSocket, accept_hdr_with_config};
+use tungstenite::{Error, Message, WebSocket};
 
-use crate::admission::{Refusal, Role, Tokens};
-use crate::hub::{Asked, Hub, Question, Service};
-use crate::protocol::{self, Call, ClientMessage, NAMES, Parameter};
+use crate::admission::{Role, Tokens};
+use crate::handshake::{Admitted, handshake};
+use crate::hub::{Asked, Hub, Question, Service, Written};
+use crate::protocol::{self, Call, ClientMessage, Parameter};
 use crate::queue::Queue;
 
-/// The longest message of a client, in bytes.
-const LONGEST: usize = 1 << 20;
-/// How long a handshake may rest.
-const HANDSHAKE: Duration = Duration::from_secs(5);
 /// How long what a client says is waited for, before what it is sent is looked after.
 const LISTEN: Duration = Duration::from_millis(10);
-/// How long a write may rest before what the client says is looked after.
-const WRITE: Duration = Duration::from_millis(100);
 /// How long a client may read nothing at all.
 const STALLED: Duration = Duration::from_secs(3);
 /// How long a client may take for the rest when the run is over.
 const GOODBYE: Duration = Duration::from_secs(1);
 
-/// Talks with a client until one of the two has had enough.
-pub(crate) fn serve(stream: TcpStream, hub: &Hub, tokens: &Tokens) {
-    let Some((socket, role)) = handshake(stream, tokens) else { return };
+/// Talks with a client until one of the two has had enough; `admitted` is told once it is let in.
+pub(crate) fn serve(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens, admitted: &AtomicBool) {
+    let Some(Admitted { socket, role, place: _place }) = handshake(stream, hub, tokens) else {
+        return;
+    };
+    admitted.store(true, Ordering::Release);
+    if socket.get_ref().set_read_timeout(Some(LISTEN)).is_err() {
+        return;
+    }
     let queue = Arc::new(Queue::default());
     hub.join(&queue);
     let _ = Client { socket, hub, queue: &queue, role, stalled: None }.talk();
     hub.leave(&queue);
 }
 
-#[allow(clippy::result_large_err)] // The type is that of the library.
-fn handshake(stream: TcpStream, tokens: &Tokens) -> Option<(WebSocket<TcpStream>, Role)> {
-    // What was accepted by a listener that does not wait may not wait either.
-    stream.set_nonblocking(false).ok()?;
-    stream.set_nodelay(true).ok()?;
-    stream.set_read_timeout(Some(HANDSHAKE)).ok()?;
-    stream.set_write_timeout(Some(WRITE)).ok()?;
-    let at = stream.local_addr().ok()?;
-    let mut role = None;
-    let admit = |request: &Request, mut response: Response| {
-        let admitted = tokens.admit(request, at).and_then(|role| Ok((role, name(request)?)));
-        match admitted {
-            Ok((admitted, name)) => {
-                role = Some(admitted);
-                let header = HeaderValue::from_static(name);
-                response.headers_mut().insert("sec-websocket-protocol", header);
-                Ok(response)
-            }
-            Err((code, why)) => Err(refused(code, why)),
-        }
-    };
-    let limits =
-        WebSocketConfig::default().max_message_size(Some(LONGEST)).max_frame_size(Some(LONGEST));
-    let socket = accept_hdr_with_config(stream, admit, Some(limits)).ok()?;
-    socket.get_ref().set_read_timeout(Some(LISTEN)).ok()?;
-    Some((socket, role?))
-}
-
-/// The name of the protocol that both speak.
-fn name(request: &Request) -> Result<&'static str, Refusal> {
-    let offered = request.headers().get_all("sec-websocket-protocol");
-    let offered = offered.iter().filter_map(|value| value.to_str().ok());
-    let offered: Vec<_> = offered.flat_map(|all| all.split(',')).map(str::trim).collect();
-    let known = NAMES.into_iter().find(|name| offered.contains(name));
-    known.ok_or((400, "this server speaks 'foxglove.sdk.v1', which was not asked for\n"))
-}
-
-fn refused(code: u16, why: &str) -> ErrorResponse {
-    let mut response = ErrorResponse::new(Some(why.to_owned()));
-    *response.status_mut() = code.try_into().unwrap_or_default();
-    response
-}
-
 struct Client<'a> {
     socket: WebSocket<TcpStream>,
-    hub: &'a Hub,
+    hub: &'a Arc<Hub>,
     queue: &'a Arc<Queue>,
     role: Role,
     /// Since when nothing can be written.
@@ -170,7 +127,7 @@ impl Client<'_> {
             }
             ClientMessage::SetParameters { parameters, id } => self.set(parameters, id),
             ClientMessage::SubscribeParameterUpdates { parameter_names } => {
-                queue.watch(parameter_names)
+                self.hub.watch(queue, &parameter_names)
             }
             ClientMessage::UnsubscribeParameterUpdates { parameter_names } => {
                 queue.unwatch(&parameter_names)
@@ -179,31 +136,25 @@ impl Client<'_> {
         }
     }
 
-    /// Writes entries; the client is told their values where it wants an answer, and what cannot be written.
+    /// Writes entries; the client is told what cannot be written and, where it wants an answer, their values then.
     fn set(&mut self, parameters: Vec<Parameter>, id: Option<String>) {
-        if self.role == Role::Watcher {
-            let text = "this address is for watching: open the other one to write";
-            self.queue.answer(protocol::status(2, text));
-        } else {
-            for Parameter { name, value } in &parameters {
-                let text = match value {
-                    Value::String(text) => text.clone(),
-                    other => other.to_string(),
-                };
-                let queue = Arc::clone(self.queue);
-                let what = Asked::Set { entry: name.clone(), text };
-                let answer = Box::new(move |done: Result<(), String>| {
-                    if let Err(why) = done {
-                        queue.answer(protocol::status(2, &why));
-                    }
-                });
-                self.hub.ask(Question { what, answer });
+        let (queue, hub) = (Arc::clone(self.queue), Arc::clone(self.hub));
+        let entries: Vec<_> = parameters.into_iter().map(Parameter::into_text).collect();
+        let names: Vec<_> = entries.iter().map(|(name, _)| name.clone()).collect();
+        let answer = move |written: Vec<Written>| {
+            let refused = written.iter().filter_map(|done| done.as_ref().err());
+            refused.for_each(|why| queue.answer(protocol::status(2, why)));
+            if let Some(id) = id {
+                let written = written.into_iter().map(Result::ok).chain(repeat(None));
+                queue.answer(hub.values_after(names.into_iter().zip(written).collect(), &id));
             }
+        };
+        if self.role == Role::Watcher {
+            let why = "this address is for watching: open the other one to write".to_owned();
+            return answer(vec![Err(why)]);
         }
-        if let Some(id) = id {
-            let names: Vec<_> = parameters.into_iter().map(|it| it.name).collect();
-            self.queue.answer(self.hub.values(&names, Some(&id)));
-        }
+        let answer = Box::new(answer);
+        self.hub.ask(Question::Write { entries, answer });
     }
 
     fn call(&mut self, call: &Call<'_>) {
@@ -213,7 +164,7 @@ impl Client<'_> {
             Err(why) => queue.answer(protocol::call_failed(service, number, &why)),
         });
         match self.asked(call) {
-            Ok(what) => self.hub.ask(Question { what, answer }),
+            Ok(what) => self.hub.ask(Question::Do { what, answer }),
             Err(why) => answer(Err(why)),
         }
     }

@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use afp_core::Instant;
 use afp_core::devices::{DeviceRow, controls, faults};
 use afp_core::trace::{Names, TraceEntryId};
+use afp_core::{Duration, Instant};
 use afp_log::{LogError, Messages};
-use afp_session::Datum;
+use afp_session::{AnySession, Datum, Request};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -21,11 +21,9 @@ use crate::queue::{Queue, Sent};
 /// The channel that tells of all entries.
 const CONFIGURATION: &str = "/plan/configuration";
 
-/// What a client asks of the run.
+/// What is to happen.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Asked {
-    /// An entry is written, as people write it.
-    Set { entry: String, text: String },
     /// A control is held down or let go; pressed for a moment where that is not said.
     Press { control: String, held: Option<bool> },
     /// Something breaks, by so much, for so many seconds.
@@ -34,11 +32,16 @@ pub(crate) enum Asked {
     Stop,
 }
 
-/// Something asked, and who is told what became of it.
-pub(crate) struct Question {
-    pub what: Asked,
-    pub answer: Box<dyn FnOnce(Result<(), String>) + Send>,
+/// What a client asks of the run, and who is told what became of it.
+pub(crate) enum Question {
+    /// Something happens to the robot or the plan.
+    Do { what: Asked, answer: Box<dyn FnOnce(Result<(), String>) + Send> },
+    /// Entries are written, as people write them: names and texts. Of each the answer gets its new value, or why it has none.
+    Write { entries: Vec<(String, String)>, answer: Box<dyn FnOnce(Vec<Written>) + Send> },
 }
+
+/// The value of an entry that was written, or why it was not.
+pub(crate) type Written = Result<Datum, String>;
 
 /// A service of the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +51,18 @@ pub(crate) enum Service {
     Stop,
 }
 
+/// So many clients at most.
+const CLIENTS: usize = 8;
+
+/// The place of a client, which is free again when this is dropped.
+pub(crate) struct Place(Arc<Hub>);
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        self.0.taken.fetch_sub(1, Ordering::AcqRel);
+    }
+}
+
 pub(crate) struct Hub {
     name: String,
     services: Vec<Service>,
@@ -55,6 +70,8 @@ pub(crate) struct Hub {
     inbox: Sender<Question>,
     /// Questions that the run has not answered.
     open: AtomicUsize,
+    /// How many clients have a place.
+    taken: AtomicUsize,
     over: AtomicBool,
 }
 
@@ -77,28 +94,33 @@ impl Hub {
     pub fn new(
         name: &str,
         names: &dyn Names,
-        devices: &[DeviceRow],
+        services: Vec<Service>,
         inbox: Sender<Question>,
     ) -> Hub {
         let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
         let units: BTreeMap<_, _> =
             entries.map(|entry| (entry.path.to_owned(), entry.unit.to_owned())).collect();
         let parameters = units.keys().map(|path| (path.clone(), Value::Null)).collect();
-        let dotted = |device: &DeviceRow, name: &str| format!("{}.{name}", device.name);
-        let presses = controls(devices).map(|(_, at, row)| Service::Press(dotted(at, row.name)));
-        let fails = faults(devices).map(|(_, at, row)| Service::Fail(dotted(at, row.name)));
         Hub {
             name: name.to_owned(),
-            services: presses.chain(fails).chain([Service::Stop]).collect(),
+            services,
             shared: Mutex::new(Shared { units, parameters, ..Shared::default() }),
             inbox,
             open: AtomicUsize::new(0),
+            taken: AtomicUsize::new(0),
             over: AtomicBool::new(false),
         }
     }
 
     fn shared(&self) -> MutexGuard<'_, Shared> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A place for a client; none where all are taken.
+    pub fn take_place(hub: &Arc<Hub>) -> Option<Place> {
+        let more = |taken| (taken < CLIENTS).then_some(taken + 1);
+        hub.taken.fetch_update(Ordering::AcqRel, Ordering::Acquire, more).ok()?;
+        Some(Place(Arc::clone(hub)))
     }
 
     /// Lets a client in: it is told what there is.
@@ -141,10 +163,32 @@ impl Hub {
     /// The values of parameters, of all where there is no name, as a message.
     pub fn values(&self, names: &[String], id: Option<&str>) -> String {
         let shared = self.shared();
-        let asked = |name: &String| names.is_empty() || names.contains(name);
-        let known = shared.parameters.iter().filter(|(name, _)| asked(name));
-        let known: Vec<_> = known.map(|(name, value)| (&**name, value)).collect();
-        protocol::values(&known, id)
+        match names {
+            [] => protocol::values(&shared.parameters, id),
+            names => protocol::values(&shared.known(names), id),
+        }
+    }
+
+    /// The values of parameters that were just written, or could not be, as a message: the run tells of them later.
+    pub fn values_after(&self, written: Vec<(String, Option<Datum>)>, id: &str) -> String {
+        let shared = self.shared();
+        let (names, written): (Vec<_>, Vec<_>) = written.into_iter().unzip();
+        let mut values = shared.known(&names);
+        for (name, datum) in names.iter().zip(written) {
+            if let (Some(value), Some(datum)) = (values.get_mut(name), datum) {
+                *value = shared.shown(name, &datum);
+            }
+        }
+        protocol::values(&values, Some(id))
+    }
+
+    /// A client wants to be told of parameters when they change, of all where it names none.
+    pub fn watch(&self, queue: &Queue, names: &[String]) {
+        let shared = self.shared();
+        match names {
+            [] => queue.watch(shared.parameters.keys().cloned()),
+            names => queue.watch(shared.known(names).into_keys()),
+        }
     }
 
     /// The service of a number.
@@ -183,8 +227,7 @@ impl Hub {
     fn configure(shared: &mut Shared, entries: Vec<(String, Datum)>) {
         let mut changed = Vec::new();
         for (path, datum) in entries {
-            let unit = shared.units.get(&path).map_or("", String::as_str);
-            let value = shown(&datum, unit);
+            let value = shared.shown(&path, &datum);
             if shared.parameters.get(&path) != Some(&value) {
                 changed.push((path.clone(), value.clone()));
                 shared.parameters.insert(path, value);
@@ -192,11 +235,24 @@ impl Hub {
         }
         for client in &shared.clients {
             let watched = changed.iter().filter(|(name, _)| client.watches(name));
-            let watched: Vec<_> = watched.map(|(name, value)| (&**name, value)).collect();
+            let watched: BTreeMap<_, _> = watched.cloned().collect();
             if !watched.is_empty() {
                 client.answer(protocol::values(&watched, None));
             }
         }
+    }
+}
+
+impl Shared {
+    /// Those parameters among these names that there are, with their values.
+    fn known(&self, names: &[String]) -> BTreeMap<String, Value> {
+        let known = names.iter().filter_map(|name| self.parameters.get_key_value(name));
+        known.map(|(name, value)| (name.clone(), value.clone())).collect()
+    }
+
+    /// The value of an entry as its parameter has it.
+    fn shown(&self, entry: &str, datum: &Datum) -> Value {
+        shown(datum, self.units.get(entry).map_or("", String::as_str))
     }
 }
 
@@ -213,6 +269,22 @@ fn shown(datum: &Datum, unit: &str) -> Value {
 }
 
 impl Service {
+    /// What can be asked of the robot of a session, and that its plan ends.
+    pub fn all(session: &dyn AnySession) -> Vec<Service> {
+        let devices = session.devices();
+        let dotted = |device: &DeviceRow, name: &str| format!("{}.{name}", device.name);
+        let presses = controls(devices).filter_map(|(id, at, row)| {
+            session.can(&Request::Press(id, true)).ok()?;
+            Some(Service::Press(dotted(at, row.name)))
+        });
+        let fails = faults(devices).filter_map(|(id, at, row)| {
+            let amount = row.amount.map(|amount| amount.default);
+            session.can(&Request::Break(id, amount, Duration::MAX)).ok()?;
+            Some(Service::Fail(dotted(at, row.name)))
+        });
+        presses.chain(fails).chain([Service::Stop]).collect()
+    }
+
     fn advertised(&self, id: u32) -> Value {
         let number = json!({"type": "number"});
         let (name, ty, properties) = match self {
@@ -275,5 +347,20 @@ impl Messages for Stream {
 
     fn finish(self: Box<Self>, _: bool) -> Result<(PathBuf, u64), LogError> {
         Ok((PathBuf::new(), 0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_there_is_not_is_not_kept_for_anybody() {
+        let (ask, _inbox) = std::sync::mpsc::channel();
+        let hub = Hub::new("P", &afp_log::OwnedNames::default(), Vec::new(), ask);
+        let queue = Queue::default();
+        hub.watch(&queue, &["x".repeat(1 << 20)]);
+        hub.watch(&queue, &[]);
+        assert!(!queue.watches(&"x".repeat(1 << 20)));
     }
 }

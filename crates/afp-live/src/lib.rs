@@ -8,13 +8,15 @@
 //! slowly loses the oldest ones and is told how many; one that does not read at all loses its connection.
 //!
 //! Whoever can reach the port, other users of the machine and pages in a browser among them, is admitted by a token
-//! alone, that of watching or that of steering; names of hosts and of pages are checked before.
+//! alone, that of watching or that of steering; names of hosts and of pages are checked before. Whoever has none takes no
+//! place of a client, and is gone after a moment.
 //!
 //! [WebSocket protocol]: https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md
 #![forbid(unsafe_code)]
 
 mod admission;
 mod client;
+mod handshake;
 mod hub;
 mod live;
 mod protocol;

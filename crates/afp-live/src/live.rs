@@ -7,12 +7,13 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::JoinHandle;
 
+use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, Instant};
 use afp_log::Messages;
-use afp_session::{AnySession, HOLD, Request, Stimulus};
+use afp_session::{AnySession, Datum, HOLD, Holder, Request, Stimulus};
 
 use crate::admission::Tokens;
-use crate::hub::{Asked, Hub, Question, Stream};
+use crate::hub::{Asked, Hub, Question, Service, Stream, Written};
 use crate::server;
 
 /// A run that others watch.
@@ -31,7 +32,7 @@ impl Live {
     /// The address is taken or none of this machine.
     pub fn start(at: SocketAddr, name: &str, session: &dyn AnySession) -> io::Result<Live> {
         let (ask, inbox) = channel();
-        let hub = Arc::new(Hub::new(name, session.names(), session.devices(), ask));
+        let hub = Arc::new(Hub::new(name, session.names(), Service::all(session), ask));
         let tokens = Tokens::new()?;
         let (at, thread) = server::start(at, Arc::clone(&hub), tokens.clone())?;
         Ok(Live { hub, inbox, thread: Some(thread), at, tokens })
@@ -69,8 +70,14 @@ impl Live {
 
     /// Does what was asked for, at an instant that is not over.
     pub fn serve(&self, session: &mut dyn AnySession, at: Instant) {
-        while let Ok(Question { what, answer }) = self.inbox.try_recv() {
-            answer(done(session, at, what));
+        while let Ok(question) = self.inbox.try_recv() {
+            match question {
+                Question::Do { what, answer } => answer(done(session, at, what)),
+                Question::Write { entries, answer } => {
+                    let written = entries.iter().map(|(name, text)| write(session, name, text));
+                    answer(written.collect());
+                }
+            }
             self.hub.answered();
         }
     }
@@ -101,14 +108,23 @@ impl fmt::Debug for Live {
     }
 }
 
+/// Writes an entry; gives its new value.
+fn write(session: &mut dyn AnySession, entry: &str, text: &str) -> Written {
+    let text = text.trim();
+    match session.set(entry, text) {
+        Ok(value) => {
+            let names = session.names();
+            let mut ids = (0..names.entries()).map(TraceEntryId);
+            let id = ids.find(|id| names.entry(*id).path == entry);
+            Ok(Datum::new(names, id.map_or(Holder::Unknown, Holder::Entry), value.borrow()))
+        }
+        Err(why) => Err(why.explained(session, entry, text).to_string()),
+    }
+}
+
 /// Does something that was asked for.
 fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), String> {
     match what {
-        Asked::Set { entry, text } => {
-            let text = text.trim();
-            let set = session.set(&entry, text);
-            set.map(|_| ()).map_err(|why| why.explained(session, &entry, text).to_string())
-        }
         Asked::Press { control, held } => {
             let what = match held {
                 Some(held) => Stimulus::Press { control, held },

@@ -1,5 +1,7 @@
 //! The messages of the protocol, as far as this server speaks it.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -48,6 +50,16 @@ pub(crate) struct Parameter {
     pub name: String,
     #[serde(default)]
     pub value: Value,
+}
+
+impl Parameter {
+    /// Its name, and its value as people write it.
+    pub fn into_text(self) -> (String, String) {
+        match self.value {
+            Value::String(text) => (self.name, text),
+            other => (self.name, other.to_string()),
+        }
+    }
 }
 
 /// A call of a service.
@@ -113,7 +125,7 @@ pub(crate) fn status(level: u8, text: &str) -> String {
 }
 
 /// Values of parameters, as an answer to the request of that name.
-pub(crate) fn values(parameters: &[(&str, &Value)], id: Option<&str>) -> String {
+pub(crate) fn values(parameters: &BTreeMap<String, Value>, id: Option<&str>) -> String {
     let shown = parameters.iter().map(|(name, value)| match value {
         Value::Null => json!({"name": name}),
         value => json!({"name": name, "value": value}),

@@ -10,8 +10,10 @@ use crate::protocol;
 /// So many messages of channels, and so many bytes of them, wait at most; then the oldest are dropped.
 const MESSAGES: usize = 1024;
 const BYTES: usize = 8 << 20;
-/// So many answers wait at most; a client that leaves more unread has lost its connection.
+/// So many answers, and so many bytes of them beside the first one, wait at most; a client that leaves more unread has lost
+/// its connection.
 const ANSWERS: usize = 1024;
+const ANSWER_BYTES: usize = 4 << 20;
 
 /// A message of a channel, shared by all who wait for it.
 #[derive(Clone, Debug)]
@@ -27,6 +29,7 @@ pub(crate) struct Queue(Mutex<Waiting>);
 #[derive(Debug, Default)]
 struct Waiting {
     answers: VecDeque<Message>,
+    answer_bytes: usize,
     messages: VecDeque<(u32, Sent)>,
     bytes: usize,
     dropped: u64,
@@ -34,8 +37,8 @@ struct Waiting {
     overflown: bool,
     /// The client's number of each channel that it wants.
     wanted: BTreeMap<u32, u32>,
-    /// The parameters that it wants to be told of; all where that is said by no name.
-    parameters: Option<BTreeSet<String>>,
+    /// The parameters that it wants to be told of.
+    parameters: BTreeSet<String>,
 }
 
 impl Queue {
@@ -45,10 +48,13 @@ impl Queue {
 
     /// An answer, or something else that must not get lost.
     pub fn answer(&self, message: impl Into<Message>) {
-        let mut waiting = self.get();
-        waiting.overflown |= waiting.answers.len() >= ANSWERS;
+        let (mut waiting, message) = (self.get(), message.into());
+        let bytes = waiting.answer_bytes + message.len();
+        let is_long = bytes > ANSWER_BYTES && !waiting.answers.is_empty();
+        waiting.overflown |= is_long || waiting.answers.len() >= ANSWERS;
         if !waiting.overflown {
-            waiting.answers.push_back(message.into());
+            waiting.answer_bytes = bytes;
+            waiting.answers.push_back(message);
         }
     }
 
@@ -69,6 +75,7 @@ impl Queue {
     pub fn next(&self) -> Option<Message> {
         let mut waiting = self.get();
         if let Some(answer) = waiting.answers.pop_front() {
+            waiting.answer_bytes -= answer.len();
             return Some(answer);
         }
         if waiting.dropped > 0 {
@@ -96,25 +103,23 @@ impl Queue {
         self.get().wanted.retain(|_, known| *known != subscription);
     }
 
-    /// The client wants to be told of parameters when they change, of all where it names none.
-    pub fn watch(&self, names: Vec<String>) {
-        self.get().parameters.get_or_insert_default().extend(names);
+    /// The client wants to be told of these parameters when they change.
+    pub fn watch(&self, names: impl Iterator<Item = String>) {
+        self.get().parameters.extend(names);
     }
 
     /// The client does not want to be told of these any more, of none where it names none.
     pub fn unwatch(&self, names: &[String]) {
-        let mut waiting = self.get();
-        match &mut waiting.parameters {
-            Some(known) if !names.is_empty() => known.retain(|name| !names.contains(name)),
-            all => *all = None,
+        let known = &mut self.get().parameters;
+        match names {
+            [] => known.clear(),
+            names => names.iter().for_each(|name| _ = known.remove(name)),
         }
     }
 
     /// Whether the client wants to be told of a parameter.
     pub fn watches(&self, name: &str) -> bool {
-        let waiting = self.get();
-        let watched = waiting.parameters.as_ref();
-        watched.is_some_and(|names| names.is_empty() || names.contains(name))
+        self.get().parameters.contains(name)
     }
 }
 
@@ -149,8 +154,16 @@ mod tests {
 
     #[test]
     fn who_leaves_answers_unread_is_known() {
-        let queue = Queue::default();
-        (0..=ANSWERS).for_each(|_| queue.answer("x"));
-        assert!(queue.is_overflown());
+        for (length, kept) in [(1, ANSWERS), (ANSWER_BYTES / 4, 4), (ANSWER_BYTES * 2, 1)] {
+            let queue = Queue::default();
+            let answer = || queue.answer("x".repeat(length));
+            (0..kept).for_each(|_| answer());
+            assert!(!queue.is_overflown(), "{kept} of {length} bytes");
+            assert!(queue.next().is_some());
+            answer();
+            assert!(!queue.is_overflown(), "one was read");
+            answer();
+            assert!(queue.is_overflown(), "{kept} of {length} bytes");
+        }
     }
 }

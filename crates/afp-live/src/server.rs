@@ -1,8 +1,9 @@
 //! The port: a thread that waits for clients, and one for each client.
 
-use std::io::{self, ErrorKind, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::io;
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant as Wall};
 
@@ -10,8 +11,10 @@ use crate::admission::Tokens;
 use crate::client;
 use crate::hub::Hub;
 
-/// So many clients at most.
-const CLIENTS: usize = 8;
+/// So many who have not been let in at most; then the one that has waited longest is sent away.
+const STRANGERS: usize = 16;
+/// How long a handshake may take.
+const HANDSHAKE: Duration = Duration::from_secs(5);
 /// How long clients may take for the rest when the run is over.
 const GOODBYE: Duration = Duration::from_secs(2);
 /// How often a client that wants in is looked for.
@@ -35,39 +38,64 @@ pub(crate) fn start(
     Ok((at, thread))
 }
 
+/// Somebody who came to the port.
+struct Visitor {
+    stream: TcpStream,
+    since: Wall,
+    /// Whether it is a client.
+    admitted: Arc<AtomicBool>,
+    thread: JoinHandle<()>,
+}
+
+impl Visitor {
+    /// Begins to talk with whoever came; nobody where there is no thread for it.
+    fn new(stream: TcpStream, hub: &Arc<Hub>, tokens: &Arc<Tokens>) -> Option<Visitor> {
+        let (hub, tokens) = (Arc::clone(hub), Arc::clone(tokens));
+        let (admitted, since) = (Arc::<AtomicBool>::default(), Wall::now());
+        let (told, own) = (Arc::clone(&admitted), stream.try_clone().ok()?);
+        let named = thread::Builder::new().name("afp-live-client".into());
+        let thread = named.spawn(move || client::serve(own, &hub, &tokens, &told)).ok()?;
+        Some(Visitor { stream, since, admitted, thread })
+    }
+
+    fn is_stranger(&self) -> bool {
+        !self.admitted.load(Ordering::Acquire)
+    }
+
+    fn is_gone(&self) -> bool {
+        self.thread.is_finished()
+    }
+
+    /// Ends the connection, at whatever its thread is.
+    fn send_away(&self) {
+        // One that is gone already does not mind.
+        let _ = self.stream.shutdown(Shutdown::Both);
+    }
+}
+
 /// Lets clients in until nothing comes any more, then waits for those who still read.
 fn listen(listener: &TcpListener, hub: &Arc<Hub>, tokens: &Arc<Tokens>) {
-    let mut clients: Vec<JoinHandle<()>> = Vec::new();
+    let mut visitors: Vec<Visitor> = Vec::new();
     while !hub.is_over() {
+        visitors.retain(|visitor| !visitor.is_gone());
+        // In the order in which they came.
+        let strangers = visitors.iter().filter(|visitor| visitor.is_stranger());
+        strangers.filter(|it| it.since.elapsed() > HANDSHAKE).for_each(Visitor::send_away);
         match listener.accept() {
             Ok((stream, _)) => {
-                clients.retain(|client| !client.is_finished());
-                match clients.len() < CLIENTS {
-                    true => clients.extend(let_in(stream, hub, tokens)),
-                    false => send_away(stream),
+                let strangers = || visitors.iter().filter(|visitor| visitor.is_stranger());
+                if strangers().count() >= STRANGERS {
+                    strangers().take(1).for_each(Visitor::send_away);
                 }
+                visitors.extend(Visitor::new(stream, hub, tokens));
             }
-            Err(why) if why.kind() == ErrorKind::WouldBlock => thread::sleep(LOOK),
-            // A client that was gone before it was let in.
+            // Nobody came, or somebody who is gone already.
             Err(_) => thread::sleep(LOOK),
         }
     }
-    // One that is still at its handshake, however slowly, is not waited for.
+    visitors.iter().filter(|visitor| visitor.is_stranger()).for_each(Visitor::send_away);
     let since = Wall::now();
-    while since.elapsed() < GOODBYE && !clients.iter().all(JoinHandle::is_finished) {
+    while since.elapsed() < GOODBYE && !visitors.iter().all(Visitor::is_gone) {
         thread::sleep(LOOK);
     }
-}
-
-fn let_in(stream: TcpStream, hub: &Arc<Hub>, tokens: &Arc<Tokens>) -> Option<JoinHandle<()>> {
-    let (hub, tokens) = (Arc::clone(hub), Arc::clone(tokens));
-    let name = "afp-live-client".into();
-    thread::Builder::new().name(name).spawn(move || client::serve(stream, &hub, &tokens)).ok()
-}
-
-fn send_away(mut stream: TcpStream) {
-    let text = "too many clients watch already\n";
-    let length = text.len();
-    // Who does not read it is sent away all the same.
-    let _ = write!(stream, "HTTP/1.1 503 Busy\r\nContent-Length: {length}\r\n\r\n{text}");
 }

@@ -1,18 +1,22 @@
 //! Clients over a socket: they see what the log holds, ask for things, and are dropped when they do not read.
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::net::TcpStream;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant as Wall};
 
-use afp_core::Instant;
+use afp::load::{LoadedPlan, Registry};
+use afp_carbot::table::Carbot;
+use afp_core::{Environment, Instant, Platform, StillClock};
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
+use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
 use afp_live::Live;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
-use afp_session::{AnySession, Go, Loader};
+use afp_session::{AnySession, Go, Hardware, Loader, Opened, Robot, Samples, Settings};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
@@ -33,11 +37,15 @@ plan Blink {
 }
 ";
 
-fn session() -> Box<dyn AnySession> {
+fn graph() -> Graph {
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled =
         compile_plan(&Source::new("plan.afp", PLAN), &toolboxes, &Texts::default(), None);
-    let graph = compiled.graph.expect("the plan is sound");
+    compiled.graph.expect("the plan is sound")
+}
+
+fn session() -> Box<dyn AnySession> {
+    let graph = graph();
     let robot = afp_sim::carbot(|_| {});
     let world = robot.kind().world(robot.kind().default_world()).expect("a world");
     robot.session(&graph, &*world, 0, &[]).expect("a session")
@@ -47,6 +55,7 @@ fn live(session: &dyn AnySession) -> Live {
     Live::start(([127, 0, 0, 1], 0).into(), "Blink", session).expect("a port is free")
 }
 
+#[derive(Debug)]
 struct Client {
     socket: WebSocket<MaybeTlsStream<TcpStream>>,
     /// Messages of channels that came before something else that was waited for.
@@ -232,10 +241,13 @@ fn entries_are_written_and_services_called_between_two_steps() {
 
     client.say(&set("pause", json!("1 s")));
     run(&mut *session, 100);
+    let written = json!([{"name": "pause", "value": "1 s"}]);
+    assert_eq!(client.hear("parameterValues")["parameters"], written, "as it is from now on");
     client.say(&set("pause", json!(3)));
     run(&mut *session, 200);
     let why = client.hear("status")["message"].to_string();
     assert!(why.contains("'pause=3': not a duration (help: write the unit: 'pause=3s')"), "{why}");
+    assert_eq!(client.hear("parameterValues")["parameters"][0]["name"], "pause");
     client.say(&set("nobody", json!(3)));
     run(&mut *session, 300);
     let why = client.hear("status")["message"].to_string();
@@ -255,6 +267,55 @@ fn entries_are_written_and_services_called_between_two_steps() {
     let millis = |at: Instant| at.as_nanos() / 1_000_000;
     let asked: Vec<_> = session.requests().iter().map(|(at, _)| millis(*at)).collect();
     assert_eq!(asked, [0, 300, 400], "written, pressed for a while, stopped");
+    live.finish();
+}
+
+/// A robot that is there, as far as anybody can tell from here.
+struct Board;
+
+impl Environment for Board {
+    fn stop(&mut self, _: Instant) {}
+
+    fn emergency_stop(&mut self) {}
+}
+
+impl Platform for Board {
+    type Clock = StillClock;
+
+    fn clock(&self) -> StillClock {
+        StillClock
+    }
+
+    fn now(&self) -> Instant {
+        Instant::ZERO
+    }
+
+    fn advance(&mut self, _: Instant) {}
+}
+
+impl Robot for Board {
+    type Devices = Carbot;
+
+    fn sample(&self, _: &mut Samples<'_, '_>) {}
+}
+
+impl Hardware for Board {
+    fn open(_: &Settings) -> Result<Board, String> {
+        Ok(Board)
+    }
+}
+
+#[test]
+fn nobody_presses_or_breaks_a_robot_that_is_there() {
+    let mut registry = Registry::new();
+    afp_std::templates::register(&mut registry);
+    let plan = LoadedPlan::new(&graph(), &registry).expect("it needs no devices");
+    let opened = Opened::new::<_, Board>(plan, &Settings::default()).expect("it is there");
+    let live = live(&*opened.session);
+    let mut client = Client::new(&live.addresses()[0]).expect("it is let in");
+    let services = client.hear("advertiseServices")["services"].take();
+    let names: Vec<_> = services.as_array().expect("a list").iter().map(|it| &it["name"]).collect();
+    assert_eq!(names, ["stop"]);
     live.finish();
 }
 
@@ -279,8 +340,81 @@ fn strangers_are_not_let_in() {
     assert_eq!(refused(&operator, "chat", None), 400);
     assert!(Client::with(&operator, name, Some("https://app.foxglove.dev")).is_ok());
     let many: Vec<_> = (0..8).map_while(|_| Client::new(&operator).ok()).collect();
-    assert!(Client::new(&operator).is_err(), "{} were let in", many.len());
+    assert_eq!(refused(&operator, name, None), 503, "{} were let in", many.len());
     live.finish();
+}
+
+#[test]
+fn strangers_take_no_place() {
+    let session = session();
+    let live = live(&*session);
+    let [operator, watcher] = live.addresses();
+    let port: u16 = operator
+        .rsplit_once(':')
+        .and_then(|(_, rest)| rest.split_once('/'))
+        .and_then(|(port, _)| port.parse().ok())
+        .expect("a port");
+    let stranger = || TcpStream::connect(("127.0.0.1", port)).expect("the port is open");
+    // One that says something all the time, and never enough.
+    let mut slow = stranger();
+    let begun = Wall::now();
+    let gone = thread::spawn(move || {
+        while begun.elapsed() < Duration::from_secs(15) && slow.write_all(b"G").is_ok() {
+            thread::sleep(Duration::from_millis(200));
+        }
+        begun.elapsed()
+    });
+    let _many: Vec<_> = (0..12).map(|_| stranger()).collect();
+    let clients: Vec<_> = (0..8).map(|n| Client::new([&operator, &watcher][n % 2])).collect();
+    assert!(clients.iter().all(Result::is_ok), "{clients:?}");
+    drop(clients);
+    let took = gone.join().expect("the slow one");
+    assert!(took < Duration::from_secs(8), "it was there for {took:?}");
+    let _more: Vec<_> = (0..60).map(|_| stranger()).collect();
+    assert!(Client::new(&watcher).is_ok(), "who comes last is heard");
+    let begun = Wall::now();
+    live.finish();
+    assert!(begun.elapsed() < Duration::from_secs(1), "nobody is waited for");
+}
+
+#[test]
+fn clients_are_told_of_the_parameters_that_they_want() {
+    let mut session = session();
+    let live = live(&*session);
+    let names = OwnedNames::new(session.names());
+    let sent = SessionLog::stream(live.messages(), names, session.devices(), Vec::new(), false);
+    let mut sent = sent.expect("a stream");
+    // What is said one after the other, beginning with what is wanted, and what is told then.
+    let cases: [(&[&[&str]], &[&str]); 7] = [
+        (&[&["left"], &["left"]], &[]),
+        (&[&["left"], &["pause"]], &["left"]),
+        (&[&["left"], &["left"], &["pause"]], &["pause"]),
+        (&[&["left"], &[], &[]], &["left", "pause"]),
+        (&[&[], &["left"]], &["pause"]),
+        (&[&[], &[]], &[]),
+        (&[&["nobody", "pause"]], &["pause"]),
+    ];
+    let clients = cases.map(|(said, told)| {
+        let mut client = Client::new(&live.addresses()[1]).expect("it is let in");
+        for (turn, names) in said.iter().enumerate() {
+            let op = ["subscribeParameterUpdates", "unsubscribeParameterUpdates"][turn % 2];
+            client.say(&json!({"op": op, "parameterNames": names}));
+        }
+        client.say(&json!({"op": "getParameters", "parameterNames": ["nobody"], "id": "there"}));
+        assert_eq!(client.hear("parameterValues")["parameters"], json!([]));
+        (client, said, told)
+    });
+    let end = Instant::ZERO + afp_core::Duration::from_secs(1);
+    session.run(end, &mut afp_session::Open, &mut [&mut sent]).expect("it starts");
+    sent.finish(&*session).expect("it is sent");
+    live.finish();
+    for (mut client, said, told) in clients {
+        let (_, heard) = client.rest();
+        let heard =
+            |name: &str| heard.iter().any(|text| text.contains(&format!("\"name\":\"{name}\"")));
+        let names: Vec<_> = ["left", "pause"].into_iter().filter(|name| heard(name)).collect();
+        assert_eq!(names, told, "{said:?}");
+    }
 }
 
 #[test]

@@ -28,6 +28,7 @@ pub use encode::Messages;
 pub use error::LogError;
 pub use event::{pack, unpack};
 pub use names::OwnedNames;
+pub use picture::pixels;
 pub use read::{Configured, Heard, LogData, TopicInfo, configuration, read, read_any};
 pub use recipe::{WORLD, attached_toolbox, toolbox_attachment};
 pub use recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};

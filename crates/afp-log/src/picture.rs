@@ -19,10 +19,15 @@ pub(crate) fn png(image: &Image) -> Option<Vec<u8>> {
     Some(file)
 }
 
-/// Width, height, and a byte for each of red, green and blue; nothing where the file is none that a log has.
-fn pixels(file: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
+/// Width, height, and a byte for each of red, green and blue of a PNG; nothing where the file is none that a log has, or
+/// larger than the picture of any camera: four thousand by five thousand pixels.
+pub fn pixels(file: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
+    /// Bytes.
+    const MOST: usize = 64 << 20;
     let mut reader = png::Decoder::new(Cursor::new(file)).read_info().ok()?;
-    let mut pixels = vec![0; reader.output_buffer_size()?];
+    // So much is said before any of it is there.
+    let size = reader.output_buffer_size().filter(|size| *size <= MOST)?;
+    let mut pixels = vec![0; size];
     let info = reader.next_frame(&mut pixels).ok()?;
     let plain = info.color_type == png::ColorType::Rgb && info.bit_depth == png::BitDepth::Eight;
     pixels.truncate(info.buffer_size());
@@ -61,5 +66,16 @@ mod tests {
         assert_eq!(red(&log, 500), Some((2, 1, 20, 6)));
         log.images[1].1.truncate(40);
         assert_eq!(red(&log, 500), None, "a file that has been cut off");
+    }
+
+    #[test]
+    fn a_picture_larger_than_that_of_any_camera_is_none() {
+        // Kilobytes in a file.
+        let black = |height: u32| {
+            let rgb = vec![0; 4000 * height as usize * 3].into();
+            png(&Image { time: Instant::ZERO, frame: "camera", width: 4000, height, rgb }).unwrap()
+        };
+        assert!(pixels(&black(5000)).is_some());
+        assert_eq!(pixels(&black(6000)), None);
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use afp_core::Instant;
-use afp_session::{Datum, Outlines, RunEvent};
+use afp_session::{Datum, Outlines, RunEvent, frames};
 use mcap::records::Record;
 use prost::Message;
 use prost_types::Timestamp;
@@ -18,7 +18,7 @@ use crate::proto::foxglove::{
     CompressedImage, FrameTransform, FrameTransforms, LaserScan, Pose, PoseInFrame, Quaternion,
     SceneEntity, SceneUpdate, Vector3,
 };
-use crate::robot::{BELIEVED, Pose2};
+use crate::robot::Pose2;
 use crate::scan::{load, scan};
 
 /// What a log holds, as far as AFP knows it.
@@ -42,7 +42,7 @@ pub struct LogData {
     pub poses: Vec<(Instant, Pose2)>,
     /// Where what stands in the room was last.
     pub things: Outlines,
-    /// Where the robot believed to be.
+    /// Where the odometry of the robot took it to be.
     pub believed: Vec<(Instant, Pose2)>,
     /// What range sensors said.
     pub rangings: Vec<Heard>,
@@ -232,7 +232,7 @@ impl Reader {
             }
             ("/tf", _) => {
                 let message = FrameTransforms::decode(data)?;
-                let believed = |each: &&FrameTransform| each.child_frame_id == BELIEVED;
+                let believed = |each: &&FrameTransform| each.child_frame_id == frames::BY_ODOMETRY;
                 let believed = message.transforms.iter().find(believed).and_then(placed);
                 self.log.believed.extend(believed.map(|pose| (at, pose)));
             }

@@ -6,9 +6,10 @@ use afp_session::{Build, Done, EventKind, Pose2, Recipe, TextFile};
 use crate::read::LogData;
 use crate::recorder::About;
 
-/// The attachment that holds the world.
-pub const WORLD: &str = "world.toml";
-/// What the attachments of toolboxes begin with. Their names have no ending, and the files that plans use have one.
+/// The attachment that holds the world, a text of whatever form the robot's worlds have.
+pub const WORLD: &str = "world";
+/// What the attachments of toolboxes begin with. Their names and that of the world have no ending, and the files that plans
+/// use have one.
 const TOOLBOX: &str = "toolbox/";
 
 /// The name of the attachment that holds a toolbox.
@@ -47,7 +48,7 @@ impl About {
         let texts = recipe.texts.iter().map(|it| (it.name.clone(), TEXT, it.text.clone()));
         let toolboxes =
             recipe.toolboxes.iter().map(|it| (toolbox_attachment(&it.name), TEXT, it.text.clone()));
-        let world = (WORLD.to_owned(), "application/toml", recipe.world.text.clone());
+        let world = (WORLD.to_owned(), TEXT, recipe.world.text.clone());
         About {
             facts: facts.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
             attachments: texts.chain(toolboxes).chain([world]).collect(),

@@ -6,9 +6,6 @@
 use afp_core::Instant;
 pub use afp_session::{Pose2, Ranging, Shape, Transform};
 
-/// The frame of a robot where its own odometry takes it to be.
-pub const BELIEVED: &str = "base_link_by_odometry";
-
 /// A picture of a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {

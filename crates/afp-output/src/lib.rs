@@ -4,16 +4,17 @@
 //! file's place at the end. Whoever reads sees the old file or the new one, also after a power
 //! failure. Links are followed and permissions kept.
 //!
-//! Not everything can be replaced. Devices and pipes are written straight into, and so is a file
-//! in a folder that takes no new ones. A file with several names, or of another owner, would be
-//! cut off from them: it gets the bytes of the whole new file instead.
+//! Not everything can be replaced. Devices and pipes are written straight into. A file with several
+//! names, or of another owner, would be cut off from them: it gets the bytes of the whole new file
+//! instead. So does a file in a folder that takes no new ones, whose new bytes are kept among the
+//! temporary files until then.
 
 mod part;
 mod read;
 mod target;
 
 use std::fs::{self, File};
-use std::io::{self, Seek, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use part::{Part, Taken};
@@ -67,14 +68,12 @@ impl Output {
                 return Ok(Output { file, path: path.to_owned(), becomes: None, kept: None });
             }
         };
-        match Part::create(&target, taken) {
-            Ok(Part { file, path, kept }) => Ok(Output { file, path, becomes: Some(target), kept }),
-            Err(error) if takes_no_files(&error) && target.exists() => {
-                let file = File::options().write(true).truncate(true).open(&target)?;
-                Ok(Output { file, path: target, becomes: None, kept: None })
-            }
-            Err(error) => Err(error),
-        }
+        let part = match Part::create(&target, taken) {
+            Err(error) if takes_no_files(&error) && target.exists() => Part::elsewhere(&target),
+            part => part,
+        };
+        let Part { file, path, kept } = part?;
+        Ok(Output { file, path, becomes: Some(target), kept })
     }
 
     /// Where the bytes are until [`Output::finish`].
@@ -100,7 +99,8 @@ impl Output {
         };
         self.file.sync_all()?;
         part::refuse_taken(target)?;
-        if !target::is_replaceable(target, &self.file)? {
+        let is_beside = self.path.parent() == target.parent();
+        if !is_beside || !target::is_replaceable(target, &self.file)? {
             fill(target, &mut self.file)?;
             return fs::remove_file(&self.path);
         }
@@ -167,14 +167,28 @@ fn takes_no_files(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }
 
-/// Gives a file the bytes of another. It is cut to its length last, so that a full disk is noticed
-/// while the other one is still there.
+/// Gives a file the bytes of another. It takes the space for them first and is cut to its length last: a full disk leaves
+/// it as it was.
 fn fill(target: &Path, from: &mut File) -> io::Result<()> {
+    let length = from.metadata()?.len();
     from.rewind()?;
     let mut file = File::options().write(true).open(target)?;
-    let bytes = io::copy(from, &mut file)?;
-    file.set_len(bytes)?;
+    reserve(&mut file, length)?;
+    io::copy(from, &mut file)?;
+    file.set_len(length)?;
     file.sync_all()
+}
+
+/// Takes the space that a file needs to become so long, without touching what it holds.
+fn reserve(file: &mut File, length: u64) -> io::Result<()> {
+    let old = file.seek(SeekFrom::End(0))?;
+    let mut missing = io::repeat(0).take(length.saturating_sub(old));
+    // Some systems find out that a disk is full when the bytes go there.
+    if let Err(full) = io::copy(&mut missing, file).and_then(|_| file.sync_all()) {
+        file.set_len(old)?;
+        return Err(full);
+    }
+    file.rewind()
 }
 
 /// Makes a new name last through a power failure.

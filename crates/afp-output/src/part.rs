@@ -1,7 +1,7 @@
-//! The file beside an output, under whose name it is written until it is whole.
+//! The file beside an output, or where its folder takes none elsewhere, in which it is written until it is whole.
 
 use std::ffi::OsString;
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -77,6 +77,33 @@ impl Part {
             return Ok(Part { file, path, kept });
         }
     }
+
+    /// Creates an empty part for a file whose folder takes none, among the temporary files.
+    ///
+    /// # Errors
+    /// There is no room for it; another one is at the file as the part of another file.
+    pub(crate) fn elsewhere(target: &Path) -> io::Result<Part> {
+        refuse_taken(target)?;
+        let beside = std::env::temp_dir().join(target.file_name().unwrap_or_default());
+        let mut number = 1;
+        loop {
+            let path = name(&beside, number);
+            match private().open(&path) {
+                Ok(file) => return Ok(Part { file, path, kept: None }),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+/// How to make a file in a folder of everybody: one that was not there, for nobody else.
+fn private() -> OpenOptions {
+    let mut options = File::options();
+    options.read(true).write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options
 }
 
 /// Gives the part of a dead process the next name that is free.

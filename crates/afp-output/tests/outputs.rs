@@ -338,12 +338,53 @@ fn a_folder_that_takes_no_files() {
 
 fn written_by_who_may_not(folder: &Path) {
     check_writable(&folder.join("old")).unwrap();
+    let mut output = Output::create(&folder.join("old")).unwrap();
+    output.write_all(b"half").unwrap();
+    let part = output.path().to_owned();
+    assert_eq!((text(&folder.join("old")).as_str(), mode(&part)), ("older and longer", 0o600));
+    output.discard();
+    assert_eq!(text(&folder.join("old")), "older and longer");
+    assert!(!part.exists());
     write_whole(&folder.join("old"), b"new").unwrap();
     for path in ["fixed", "not_there"].map(|name| folder.join(name)) {
         for done in [check_writable(&path), write_whole(&path, b"new")] {
             assert_eq!(done.unwrap_err().kind(), ErrorKind::PermissionDenied);
         }
     }
+}
+
+/// Set where [`a_disk_that_gets_full_leaves_a_file_with_two_names`] runs its second half.
+#[cfg(target_os = "linux")]
+const FULL: &str = "AFP_OUTPUT_TEST_FULL";
+
+/// A disk is full where files may not grow, which is so for all of a process: another one.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_disk_that_gets_full_leaves_a_file_with_two_names() {
+    if std::env::var_os(FULL).is_some() {
+        return written_where_nothing_grows();
+    }
+    // Otherwise a signal ends who writes too much.
+    let mut again = Command::new("sh");
+    again.args(["-c", "trap '' XFSZ; exec \"$@\"", "sh"]).arg(std::env::current_exe().unwrap());
+    again.args(["--exact", "a_disk_that_gets_full_leaves_a_file_with_two_names"]).env(FULL, "");
+    let done = again.output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stdout));
+}
+
+#[cfg(target_os = "linux")]
+fn written_where_nothing_grows() {
+    let folder = folder();
+    let [path, other] = ["a.afp", "b.afp"].map(|name| folder.path().join(name));
+    fs::write(&path, "old").unwrap();
+    fs::hard_link(&path, &other).unwrap();
+    let mut output = Output::create(&path).unwrap();
+    output.write_all(&[b'n'; 1 << 16]).unwrap();
+    let part = output.path().to_owned();
+    let of_this = format!("--pid={}", std::process::id());
+    assert!(Command::new("prlimit").args([&*of_this, "--fsize=4096"]).status().unwrap().success());
+    assert_eq!(output.finish().unwrap_err().kind(), ErrorKind::FileTooLarge);
+    assert_eq!((text(&path).as_str(), text(&part).len()), ("old", 1 << 16));
 }
 
 #[test]

@@ -197,9 +197,12 @@ impl RunOptions {
             ("--measure", !self.measure.is_empty()),
             ("--set world.*", self.set.iter().any(|(name, _)| change::key(name).is_some())),
         ];
-        match of_simulation.iter().find(|(_, given)| *given) {
+        let option =
+            of_simulation.iter().find(|(_, given)| *given).map(|(name, _)| name.to_string());
+        let of_world = self.set.iter().find(|(name, _)| change::key(name).is_some());
+        match option.or(of_world.map(|(name, _)| format!("--set {name}"))) {
             None => Ok(()),
-            Some((option, _)) => Err(RunError::usage(
+            Some(option) => Err(RunError::usage(
                 format!("'{option}' is of the simulation: the robot itself cannot do that"),
                 format!("leave '{option}' out, or '--robot hardware'"),
             )),

@@ -297,6 +297,7 @@ fn settings_go_to_the_robot_and_what_is_of_the_simulation_is_refused() {
         ["--speed", "max"],
         ["--press", "touch@1s"],
         ["--fail", "touch.lost@1s"],
+        ["--set", "world.robot.charge=0.5"],
         ["--start", "1m,1m,0deg"],
         ["--set", "world.name=hall"],
     ] {

@@ -74,6 +74,39 @@ fn a_distance_needs_no_path() {
 }
 
 #[test]
+fn a_log_tells_of_the_way_as_the_run_does() {
+    let folder = tempfile::tempdir().unwrap();
+    for (plan, seed, broken) in
+        [(PLAN, 3, None), (MOTION, 5, Some("touch")), (PLAN, 7, Some("ultrasonic"))]
+    {
+        let mut session = session_of(plan, seed);
+        if let Some(device) = broken {
+            let lost = find_fault(TABLE, device, "lost").unwrap();
+            session.at(at(3), Request::Break(lost, None, Duration::MAX)).unwrap();
+        }
+        let path = folder.path().join("a.mcap");
+        let names = || OwnedNames::new(session.names());
+        let about = About::default();
+        let log = SessionLog::create(&path, &about, names(), session.devices(), Vec::new(), false);
+        let (mut log, names) = (log.unwrap(), names());
+        let mut track = Track::new(session.devices());
+        session.run(at(26), &mut Open, &mut [&mut track, &mut log]).unwrap();
+        log.finish(&session).unwrap();
+        let read = afp_log::read(&path).unwrap();
+        let (way, marks) = afp_run::follow(&read.events, &read.poses, &names);
+        assert!(!marks.is_empty() && way.len() == track.path.len());
+        for (here, there) in marks.iter().zip(&track.marks) {
+            assert_eq!((here.at, here.supervisor), (there.at, there.supervisor));
+            let off = libm::hypot(here.pose.x - there.pose.x, here.pose.y - there.pose.y);
+            assert!(off < 1e-9, "{here:?} {there:?}");
+        }
+        for (here, there) in way.iter().zip(&track.path) {
+            assert_eq!((here.at, here.actor), (there.at, there.actor));
+        }
+    }
+}
+
+#[test]
 fn looking_judging_logging_and_pausing_do_not_change_the_run() {
     let mut whole = session();
     assert_eq!(whole.run(at(26), &mut Open, &mut []), Ok(Go::On));

@@ -68,6 +68,12 @@ pub trait AnySession: Send {
     /// It can never be done.
     fn at(&mut self, at: Instant, request: Request) -> Result<RequestId, RequestError>;
 
+    /// Whether something could be asked for at any instant.
+    ///
+    /// # Errors
+    /// It can never be done.
+    fn can(&self, request: &Request) -> Result<(), RequestError>;
+
     /// How long a run goes on when the plan has ended, so that the robot comes to rest; zero by default.
     fn set_rest(&mut self, rest: Duration);
 

@@ -65,7 +65,9 @@ pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulate
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
 pub use robots::{Loader, simulated};
-pub use sample::{Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, read_signal};
+pub use sample::{
+    Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, frames, read_signal,
+};
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};

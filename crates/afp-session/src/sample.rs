@@ -10,6 +10,16 @@ use crate::observer::{Observer, Sampling};
 use crate::robot::Robot;
 use crate::session::grid::Stretch;
 
+/// The frames that logs and pictures know of any robot.
+pub mod frames {
+    /// That of its world.
+    pub const WORLD: &str = "world";
+    /// Where it is.
+    pub const BODY: &str = "base_link";
+    /// Where its own odometry takes it to be.
+    pub const BY_ODOMETRY: &str = "base_link_by_odometry";
+}
+
 /// A place and a heading in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose2 {
@@ -29,6 +39,21 @@ impl Pose2 {
             x: self.x + moved.x * cos - moved.y * sin,
             y: self.y + moved.x * sin + moved.y * cos,
             heading: self.heading + moved.heading,
+        }
+    }
+
+    /// Where something was at an instant, seen at one before and one after it; after both where it was seen last.
+    pub fn between(before: (Instant, Pose2), after: (Instant, Pose2), at: Instant) -> Pose2 {
+        let ((from, before), (to, after)) = (before, after);
+        let whole = to.since(from).as_secs_f64();
+        let share = if whole > 0.0 { (at.since(from).as_secs_f64() / whole).min(1.0) } else { 1.0 };
+        // The short way round.
+        let turn = libm::remainder(after.heading - before.heading, std::f64::consts::TAU);
+        let part = |from: f64, to: f64| from + (to - from) * share;
+        Pose2 {
+            x: part(before.x, after.x),
+            y: part(before.y, after.y),
+            heading: before.heading + turn * share,
         }
     }
 }

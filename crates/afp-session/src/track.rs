@@ -2,9 +2,9 @@
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, find_signal, signals};
-use afp_core::trace::{ComponentId, ComponentKind, Record};
+use afp_core::trace::{ComponentId, ComponentKind, Names, Record};
 
-use crate::observer::{NamedRecord, Observer, Sampling, View};
+use crate::observer::{NamedRecord, Observer, Sampling};
 use crate::sample::{Pose2, SampleRef, Shape};
 use crate::session::SAMPLE;
 use crate::world::Outlines;
@@ -25,7 +25,7 @@ pub struct Waypoint {
 pub struct Mark {
     /// When it was taken.
     pub at: Instant,
-    /// Where the robot was then.
+    /// Where the robot was then, between the samples before and after it.
     pub pose: Pose2,
     /// Its supervisor.
     pub supervisor: ComponentId,
@@ -33,7 +33,8 @@ pub struct Mark {
     pub event: u16,
 }
 
-/// Follows the pose of a robot that signals one (`robot.pose`), every [`SAMPLE`].
+/// Follows the pose of a robot that signals one (`robot.pose`), every [`SAMPLE`]; or a run that is over, from what is told of
+/// it.
 #[derive(Clone, Debug)]
 pub struct Track {
     /// Where the robot was.
@@ -46,12 +47,12 @@ pub struct Track {
     pub distance: f64,
     /// Whether path, marks and things are kept.
     keeps: bool,
-    /// Where the robot was last.
-    last: Option<Pose2>,
+    /// When and where the robot was last.
+    last: Option<(Instant, Pose2)>,
     signal: Option<SignalId>,
     outlines: Vec<SignalId>,
     actor: Option<ComponentId>,
-    /// Marks of this step, whose pose is not known yet, are from here on.
+    /// Marks since the robot was seen last are from here on.
     unplaced: usize,
 }
 
@@ -83,6 +84,53 @@ impl Track {
 }
 
 impl Track {
+    /// Something happened, after all that was told before.
+    pub fn note_record(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
+        match *record {
+            Record::Started { component }
+                if names.component(component).kind == ComponentKind::Actor =>
+            {
+                self.note_actor(at, Some(component));
+            }
+            Record::Interrupted { element: left }
+            | Record::Finished { element: left, .. }
+            | Record::Faulted { component: left, .. }
+                if self.actor == Some(left) =>
+            {
+                self.note_actor(at, None);
+            }
+            Record::Event { supervisor, event, .. } if self.keeps => {
+                let pose = self.last.map_or(Pose2::default(), |(_, pose)| pose);
+                self.marks.push(Mark { at, pose, supervisor, event });
+            }
+            _ => {}
+        }
+    }
+
+    /// The robot was seen somewhere, before what happened at the same instant.
+    pub fn note_pose(&mut self, at: Instant, pose: Pose2) {
+        let seen = (at, pose);
+        let before = self.last.replace(seen).unwrap_or(seen);
+        self.distance += libm::hypot(pose.x - before.1.x, pose.y - before.1.y);
+        for mark in self.marks.iter_mut().skip(self.unplaced) {
+            mark.pose = Pose2::between(before, seen, mark.at);
+        }
+        self.unplaced = self.marks.len();
+        if self.keeps {
+            self.path.push(Waypoint { at, pose, actor: self.actor });
+        }
+    }
+
+    fn note_actor(&mut self, at: Instant, actor: Option<ComponentId>) {
+        self.actor = actor;
+        // The path begins with the actor that starts first.
+        if let [only] = &mut self.path[..]
+            && only.at == at
+        {
+            only.actor = actor;
+        }
+    }
+
     fn note_thing(&mut self, shape: &Shape) {
         match self.things.get_mut(&shape.id) {
             Some(outline) => outline.clone_from(&shape.outline),
@@ -95,43 +143,7 @@ impl Track {
 
 impl Observer for Track {
     fn on_record(&mut self, named: &NamedRecord<'_>) {
-        match *named.record {
-            Record::Started { component }
-                if named.names.component(component).kind == ComponentKind::Actor =>
-            {
-                self.actor = Some(component);
-            }
-            Record::Interrupted { element: left }
-            | Record::Finished { element: left, .. }
-            | Record::Faulted { component: left, .. }
-                if self.actor == Some(left) =>
-            {
-                self.actor = None;
-            }
-            Record::Event { supervisor, event, .. } if self.keeps => {
-                let pose = Pose2::default();
-                self.marks.push(Mark { at: named.at, pose, supervisor, event });
-            }
-            _ => {}
-        }
-    }
-
-    fn after_step(&mut self, view: &View<'_>) {
-        // The path begins with the actor that starts first.
-        if let [only] = &mut self.path[..]
-            && only.at == view.now()
-        {
-            only.actor = self.actor;
-        }
-        if let (Some(signal), true) = (self.signal, self.unplaced < self.marks.len()) {
-            let marks = self.marks.get_mut(self.unplaced..).unwrap_or_default();
-            view.read(signal, &mut |value| {
-                if let SampleRef::Pose(frame) = value {
-                    marks.iter_mut().for_each(|mark| mark.pose = frame.pose);
-                }
-            });
-        }
-        self.unplaced = self.marks.len();
+        self.note_record(named.at, named.record, named.names);
     }
 
     fn sampling(&self) -> Sampling {
@@ -146,17 +158,10 @@ impl Observer for Track {
     }
 
     fn on_sample(&mut self, at: Instant, _: SignalId, value: SampleRef<'_>) {
-        let frame = match value {
-            SampleRef::Pose(frame) => frame,
-            SampleRef::Outline(shape) => return self.note_thing(shape),
-            _ => return,
-        };
-        let pose = frame.pose;
-        if let Some(last) = self.last.replace(pose) {
-            self.distance += libm::hypot(pose.x - last.x, pose.y - last.y);
-        }
-        if self.keeps {
-            self.path.push(Waypoint { at, pose, actor: self.actor });
+        match value {
+            SampleRef::Pose(frame) => self.note_pose(at, frame.pose),
+            SampleRef::Outline(shape) => self.note_thing(shape),
+            _ => {}
         }
     }
 }

@@ -157,6 +157,20 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
     ] {
         assert_eq!(session.at(at(10), request), Err(why));
     }
+    // Where nobody can reach it, whatever its devices declare.
+    let mut there = Session::on_hardware(plan(PLAN), Toy::new());
+    for request in [
+        Request::Press(FRONT, true),
+        Request::Hold(FRONT, Duration::from_secs(1)),
+        Request::Break(LOST, None, Duration::MAX),
+    ] {
+        assert_eq!(
+            (session.can(&request), there.can(&request)),
+            (Ok(()), Err(RequestError::Refused))
+        );
+        assert_eq!(there.at(at(10), request), Err(RequestError::Refused));
+    }
+    assert!(there.at(at(10), Request::Stop).is_ok());
     // `rest` does not run yet.
     let injection = afp::load::Injection {
         component: component(&session, "rest"),

@@ -1,11 +1,11 @@
 //! The picture of a run from its log alone, and where the robot was from what is told of a run.
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, ComponentKind, Names};
+use afp_core::trace::Names;
 use afp_log::{LogData, WORLD};
 use std::sync::Arc;
 
-use afp_session::{AnyRobot, AnyWorld, EventKind, Mark, Pose2, RunEvent, Waypoint};
+use afp_session::{AnyRobot, AnyWorld, Mark, Pose2, RunEvent, Track, Waypoint};
 
 use super::{SoFar, draw_run};
 use crate::error::RunError;
@@ -64,37 +64,17 @@ pub fn follow<'a>(
     poses: &[(Instant, Pose2)],
     names: &dyn Names,
 ) -> (Vec<Waypoint>, Vec<Mark>) {
-    let (mut path, mut marks) = (Vec::new(), Vec::new());
-    let (mut actor, mut last) = (None, Pose2::default());
-    let mut events = events.into_iter().peekable();
-    let after = std::iter::once((Instant::MAX, None));
-    for (at, pose) in poses.iter().map(|(at, pose)| (*at, Some(pose))).chain(after) {
-        // At an instant the robot is looked at before the step; only the start comes first.
-        let before = |event: &&RunEvent| event.at < at || event.at == Instant::ZERO;
-        while let Some(event) = events.next_if(before) {
-            if event.kind == EventKind::Event {
-                marks.push(mark(event, last));
-            } else if names.component(event.component_id).kind == ComponentKind::Actor {
-                actor = active(event).unwrap_or(actor);
-            }
+    let mut track = Track::new(&[]);
+    let mut poses = poses.iter().copied().peekable();
+    for event in events {
+        // At an instant the robot is looked at before the step.
+        while let Some((at, pose)) = poses.next_if(|(at, _)| *at <= event.at) {
+            track.note_pose(at, pose);
         }
-        if let Some(pose) = pose {
-            last = *pose;
-            path.push(Waypoint { at, pose: last, actor });
+        if let Some(record) = event.record() {
+            track.note_record(event.at, &record, names);
         }
     }
-    (path, marks)
-}
-
-/// Which actor is active after an actor's event; `None` when it says nothing about that.
-fn active(event: &RunEvent) -> Option<Option<ComponentId>> {
-    match event.kind {
-        EventKind::Started => Some(Some(event.component_id)),
-        EventKind::Interrupted | EventKind::Finished | EventKind::Faulted => Some(None),
-        _ => None,
-    }
-}
-
-fn mark(event: &RunEvent, pose: Pose2) -> Mark {
-    Mark { pose, at: event.at, supervisor: event.component_id, event: event.outcome_id }
+    poses.for_each(|(at, pose)| track.note_pose(at, pose));
+    (track.path, track.marks)
 }

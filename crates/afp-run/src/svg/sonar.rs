@@ -102,17 +102,9 @@ fn echoes<'a>(
 /// The pose at an instant, between the two that were logged around it.
 fn pose_at(poses: &[(Instant, Pose2)], at: Instant) -> Option<Pose2> {
     let behind = poses.partition_point(|(time, _)| *time < at);
-    let (to, after) = *poses.get(behind).or(poses.last())?;
-    let (from, before) = *poses.get(behind.saturating_sub(1))?;
-    let whole = to.since(from).as_secs_f64();
-    let share = if whole > 0.0 { (at.since(from).as_secs_f64() / whole).min(1.0) } else { 1.0 };
-    let between = |from: f64, to: f64| from + (to - from) * share;
-    let turn = libm::remainder(after.heading - before.heading, std::f64::consts::TAU);
-    Some(Pose2 {
-        x: between(before.x, after.x),
-        y: between(before.y, after.y),
-        heading: before.heading + turn * share,
-    })
+    let after = *poses.get(behind).or(poses.last())?;
+    let before = *poses.get(behind.saturating_sub(1))?;
+    Some(Pose2::between(before, after, at))
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@
 use std::f64::consts::TAU;
 
 use crate::parts::Noise;
-use crate::sample::{Pose2, Shape};
+use crate::sample::{Pose2, Shape, frames};
 use crate::world::{Drawing, Patch, Thing, WorldError};
 
 /// The letter of a wall.
@@ -26,6 +26,8 @@ const FLOOR: char = ' ';
 const STARTS: [(char, f64); 4] = [('>', 0.0), ('^', 90.0), ('<', 180.0), ('v', -90.0)];
 /// How high walls are, metres.
 const HEIGHT: f64 = 0.4;
+/// The most cells of a floor, those counted that short rows leave out: two kilometres a side with cells of a metre.
+const MOST: usize = 4 << 20;
 /// A body is drawn with so many corners.
 const CORNERS: u32 = 24;
 
@@ -69,7 +71,7 @@ impl Grid {
             )
         })?;
         let rows: Vec<_> = lines.filter(|(_, row)| !row.trim().is_empty()).collect();
-        let columns = rows.iter().map(|(_, row)| row.chars().count()).max().unwrap_or(0);
+        let columns = columns(&rows)?;
         let (name, start) = (name.trim().to_owned(), Pose2::default());
         let mut grid = Grid { name, start, cell, columns, cells: Vec::new() };
         let mut starts = 0;
@@ -192,10 +194,10 @@ impl Grid {
     pub fn scene(&self, radius: f64, height: f64) -> Vec<Shape> {
         let wall = |(number, outline)| {
             let (id, color) = (format!("wall {number}"), [0.6, 0.6, 0.6, 0.9]);
-            Shape { id, frame: "world", outline, height: HEIGHT, color }
+            Shape { id, frame: frames::WORLD, outline, height: HEIGHT, color }
         };
         let (id, color) = ("robot".to_owned(), [0.15, 0.45, 0.75, 0.9]);
-        let body = Shape { id, frame: "base_link", outline: disc(radius), height, color };
+        let body = Shape { id, frame: frames::BODY, outline: disc(radius), height, color };
         self.outlines(WALL).enumerate().map(wall).chain([body]).collect()
     }
 
@@ -238,6 +240,24 @@ impl Grid {
                 corners.map(|corner| corner.map(|n| n as f64 * self.cell)).to_vec()
             })
         })
+    }
+}
+
+/// How many cells the longest row has.
+///
+/// # Errors
+/// With as many in each row there are too many.
+fn columns(rows: &[(usize, &str)]) -> Result<usize, WorldError> {
+    let longest = rows.iter().map(|(at, row)| (row.chars().count(), *at, row.len())).max();
+    let (columns, at, length) = longest.unwrap_or_default();
+    match columns.saturating_mul(rows.len()) <= MOST {
+        true => Ok(columns),
+        false => {
+            let rows = rows.len();
+            let why =
+                format!("a floor of {columns} by {rows} cells: there may be {MOST} of them in all");
+            Err(wrong(at, length, &why))
+        }
     }
 }
 

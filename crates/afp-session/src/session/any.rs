@@ -78,6 +78,10 @@ where
         self.at(at, request)
     }
 
+    fn can(&self, request: &Request) -> Result<(), RequestError> {
+        self.can(request)
+    }
+
     fn set_rest(&mut self, rest: Duration) {
         self.set_rest(rest);
     }

@@ -103,6 +103,14 @@ where
         &self.asked
     }
 
+    /// Whether something could be asked for at any instant.
+    ///
+    /// # Errors
+    /// It can never be done.
+    pub fn can(&self, request: &Request) -> Result<(), RequestError> {
+        self.check(request, false)
+    }
+
     /// Whether a request can be met: at all, or where it is one for now.
     fn check(&self, request: &Request, is_now: bool) -> Result<(), RequestError> {
         let of_plan = !matches!(

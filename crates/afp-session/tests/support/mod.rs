@@ -15,7 +15,8 @@ use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_session::{
-    Active, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Transform,
+    Active, Figure, FigureValue, Hardware, Pose2, Refused, Robot, SampleRef, Samples, Settings,
+    Transform,
 };
 use afp_syntax::source::Source;
 
@@ -170,6 +171,12 @@ impl Robot for Toy {
     fn figures(&self) -> Vec<Figure> {
         let value = FigureValue::Numbers(vec![("way_m", self.position)]);
         vec![Figure { name: "way", value, text: String::new() }]
+    }
+}
+
+impl Hardware for Toy {
+    fn open(_: &Settings) -> Result<Self, String> {
+        Ok(Toy::new())
     }
 }
 

@@ -5,7 +5,7 @@ mod located;
 pub(super) use located::Located;
 
 use super::Simulation;
-use super::robot::{WORLD, frame};
+use super::robot::frame;
 use crate::devices::sonar;
 use crate::truth::Pose;
 use crate::world::isometry;
@@ -13,6 +13,7 @@ use afp_carbot::devices::Navigator;
 use afp_carbot::table::signal;
 use afp_core::Instant;
 use afp_maps::{Filter, LocateJob, Locator, Planner, SearchJob};
+use afp_session::frames::WORLD;
 use afp_session::{SampleRef, Samples, Shape};
 use afp_worker::VirtualWorker;
 use std::f64::consts::TAU;

@@ -3,6 +3,7 @@
 use afp_carbot::devices::{Color, Ultrasonic};
 use afp_carbot::table::{Carbot, Control, Fault, signal};
 use afp_core::{Instant, Platform};
+use afp_session::frames::{BODY, BY_ODOMETRY, WORLD};
 use afp_session::parts::VirtualClock;
 use afp_session::{
     Active, Droppable, Figure, FigureValue, Image, Measure, Pose2, Put, Ranging, Refused,
@@ -14,10 +15,6 @@ use crate::devices::camera;
 use crate::wall::WallDistance;
 use crate::world::{World, shape};
 
-pub(super) const WORLD: &str = "world";
-const BASE: &str = "base_link";
-/// Where the odometry takes the robot to be.
-const BELIEVED: &str = "base_link_by_odometry";
 const SONAR: &str = "sonar";
 const CAMERA: &str = "camera";
 
@@ -75,7 +72,7 @@ impl Robot for Simulation {
             let moved =
                 Pose2 { x: odometry.x.si(), y: odometry.y.si(), heading: odometry.heading.si() };
             let pose = self.start.beyond(moved);
-            to.put(signal::ODOMETRY_POSE, frame(WORLD, BELIEVED, pose, 0.0));
+            to.put(signal::ODOMETRY_POSE, frame(WORLD, BY_ODOMETRY, pose, 0.0));
         }
         to.put(signal::ROTATOR_BEARING, SampleRef::Float(rotator));
         to.put(signal::TOUCH_TOUCHED, SampleRef::Bool(touched));
@@ -92,7 +89,7 @@ impl Robot for Simulation {
             to.put(signal::SIGNALS_TONE, SampleRef::Float(tone.si()));
         }
         let eye = Pose2 { x: camera::FORWARD, ..Pose2::default() };
-        to.put(signal::CAMERA_FRAME, frame(BASE, CAMERA, eye, camera::HEIGHT));
+        to.put(signal::CAMERA_FRAME, frame(BODY, CAMERA, eye, camera::HEIGHT));
         if to.wants(signal::CAMERA_PICTURE)
             && let Some((time, picture)) = self.view()
         {
@@ -134,7 +131,7 @@ impl Simulation {
     fn sample_truth(&self, to: &mut Samples<'_, '_>) {
         let truth = self.truth();
         if to.wants(signal::POSE) {
-            to.put(signal::POSE, frame(WORLD, BASE, truth.pose(), 0.0));
+            to.put(signal::POSE, frame(WORLD, BODY, truth.pose(), 0.0));
         }
         to.put(signal::HALTED, SampleRef::Bool(truth.is_halted()));
         to.put(signal::STANDING, SampleRef::Bool(truth.is_standing()));
@@ -164,11 +161,11 @@ impl Simulation {
         let (beam, Snapshot { rotator, sonar, .. }) = (self.beam(), self.snapshot());
         let height = self.stage.chassis.ranging_height;
         let sensor = Pose2 { x: beam.forward.si(), y: 0.0, heading: rotator };
-        to.put(signal::ULTRASONIC_FRAME, frame(BASE, SONAR, sensor, height));
+        to.put(signal::ULTRASONIC_FRAME, frame(BODY, SONAR, sensor, height));
         if let Some(sonar) = sonar {
             let pose = Pose2 { heading: sonar.bearing, ..sensor };
             let (half_angle, range) = (beam.opening.si() / 2.0, sonar.distance);
-            let ranging = Ranging { time: sonar.time, frame: BASE, pose, half_angle, range };
+            let ranging = Ranging { time: sonar.time, frame: BODY, pose, half_angle, range };
             to.put(signal::ULTRASONIC_ECHO, SampleRef::Range(ranging));
         }
     }

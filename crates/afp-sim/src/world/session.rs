@@ -3,10 +3,8 @@
 use super::{FARTHEST, Mobility, Obstacle, Outline, World, WorldError};
 use crate::chassis::Chassis;
 use crate::truth::Pose;
+use afp_session::frames::{BODY, WORLD};
 use afp_session::{Drawing, Patch, Shape, Thing};
-
-const WORLD: &str = "world";
-const BASE: &str = "base_link";
 
 /// A box has room for its name from this width on, metres.
 const ROOM_FOR_NAME: f64 = 0.2;
@@ -65,7 +63,7 @@ impl World {
         let obstacles = self.obstacles.iter().enumerate();
         let body = Shape {
             id: "robot".to_owned(),
-            frame: BASE,
+            frame: BODY,
             outline: robot.outline(Pose::default()),
             height: robot.height,
             color: [0.15, 0.45, 0.75, 0.9],

@@ -37,6 +37,13 @@ fn what_is_wrong_is_shown_at_its_place() {
         assert_eq!(&text[wrong.span.clone().unwrap()], at, "{wrong}");
         assert!(wrong.message.contains(why), "{wrong}");
     }
+    let wide = "#".repeat(3 << 20);
+    for rows in [format!(">\n{wide}\n#"), format!("{}>#{wide}", "#\n".repeat(1 << 20))] {
+        let text = format!("Hall\ncell 25 cm\n{rows}");
+        let wrong = Grid::read(&text, "").unwrap_err();
+        assert!(text[wrong.span.clone().unwrap()].ends_with(&wide), "{wrong}");
+        assert!(wrong.message.contains("there may be 4194304 of them"), "{wrong}");
+    }
     for text in ["Hall\ncell 25 cm\n###", "Hall\ncell 25 cm\n#>v#"] {
         assert!(Grid::read(text, "").unwrap_err().message.contains("one of '>^<v'"));
     }
