@@ -5,11 +5,9 @@
 //! that some element replaces (`on`) has a node of its own, which stands for the others. Edges to
 //! `ignore` and `resume` are left out: what goes on is where it was.
 
-use crate::check::constant::evaluate;
 use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{
-    Component, Element, ElementId, EntryKind, Formula, Output, Plan, Supervisor, SupervisorId,
-    Target,
+    Component, Element, ElementId, Formula, Output, Plan, Supervisor, SupervisorId, Target,
 };
 use crate::toolbox::Constant;
 use afp_syntax::source::Span;
@@ -270,7 +268,7 @@ impl<'a> View<'a> {
 
     /// The value of a formula of constants.
     pub fn constant(&self, formula: &Formula) -> Option<Constant> {
-        constant(self.plan, formula)
+        self.plan.constant(formula)
     }
 
     /// What is known of the flow of a sub-plan.
@@ -396,16 +394,6 @@ impl<'a> View<'a> {
         let end = if node == self.end(FAILED) { "fail" } else { "terminate" };
         self.element(node).map_or(end, |element| &element.name)
     }
-}
-
-/// The value of a formula of constants of a plan.
-pub(super) fn constant(plan: &Plan, formula: &Formula) -> Option<Constant> {
-    let known = |entry: u16| {
-        let entry = plan.entries.get(usize::from(entry))?;
-        let init = entry.init.as_ref().filter(|_| entry.kind == EntryKind::Const)?;
-        evaluate(init, &|_| None).ok()?
-    };
-    evaluate(formula, &known).ok()?
 }
 
 /// The events of global supervisors, and missed deadlines, that some element replaces.

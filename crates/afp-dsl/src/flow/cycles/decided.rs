@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::count;
 use super::holding::standard_template;
 use crate::check::constant::{convert, evaluate};
-use crate::flow::view::{Cause, Edge, View, constant, each_entry, takes_time};
+use crate::flow::view::{Cause, Edge, View, each_entry, takes_time};
 use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
 use crate::table::Table;
 use crate::toolbox::Constant;
@@ -64,7 +64,7 @@ fn given(view: &View<'_>, input: usize) -> Option<Constant> {
         // What a plan with errors binds nobody knows.
         let plan = (*plan)?;
         for element in plan.elements.iter().filter(|element| element.component == own) {
-            let value = constant(plan, element.inputs.get(input)?)?;
+            let value = plan.constant(element.inputs.get(input)?)?;
             if all.get_or_insert_with(|| value.clone()) != &value {
                 return None;
             }
