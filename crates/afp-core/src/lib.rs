@@ -22,6 +22,7 @@ mod time;
 pub mod trace;
 mod value;
 
+pub use afp_number::MAX_TRANSITIONS_PER_STEP;
 pub use clock::{Clock, StillClock};
 pub use component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,
@@ -29,7 +30,6 @@ pub use component::{
 };
 pub use fault::{Detail, Failure, Fault, Reason, Subject};
 pub use job::{Job, Ticket, Worker};
-pub use machine::MAX_TRANSITIONS_PER_STEP;
 pub use platform::Platform;
 pub use reading::{Invalid, Reading};
 pub use rt::{NamedPlan, Plan, PlanState, Scale, Unit, WriteError};

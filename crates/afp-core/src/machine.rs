@@ -30,9 +30,6 @@ use crate::trace::{Author, ComponentId, Ending, Record, Sink};
 use at::StepAt;
 use sweep::Seen;
 
-/// Edges that one step may take, all levels together. A plan that needs more lets no time pass.
-pub const MAX_TRANSITIONS_PER_STEP: u32 = 1000;
-
 /// How a level stands after its start or its step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Flow {

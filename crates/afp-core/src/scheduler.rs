@@ -6,12 +6,13 @@ mod outside;
 
 use core::fmt;
 
+use afp_number::MAX_TRANSITIONS_PER_STEP;
 use heapless::Deque;
 
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::{Failure, Fault};
-use crate::machine::{Flow, MAX_TRANSITIONS_PER_STEP, Machine};
+use crate::machine::{Flow, Machine};
 use crate::rt::{Cx, Place, Plan, PlanState, StepState, With};
 use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink, TraceEntryId};

@@ -36,6 +36,7 @@ pub(crate) mod timing;
 pub(crate) mod toolbox;
 mod types;
 pub mod watch;
+mod written;
 
 use std::sync::Arc;
 

@@ -7,11 +7,12 @@
 mod dump;
 mod reactions;
 mod resume;
+mod values;
 
 use std::sync::Arc;
 
 use crate::rows::Rows;
-use crate::toolbox::{Template, Toolbox};
+use crate::toolbox::{Constant, Template, Toolbox};
 use crate::types::{Conversion, Type};
 use afp_syntax::source::{Source, Span};
 
@@ -114,6 +115,8 @@ pub struct Entry {
     pub ty: Type,
     /// Its initial value, of type [`Entry::ty`].
     pub init: Option<Formula>,
+    /// That value, where it is the same in every run; it is of the range.
+    pub value: Option<Constant>,
     /// Least and greatest value, in SI units; both belong to it.
     pub range: Option<(f64, f64)>,
     /// The constants that the range is made of.

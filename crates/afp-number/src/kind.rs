@@ -29,6 +29,10 @@ pub enum EntryKind {
 }
 
 impl EntryKind {
+    /// The kinds in the order in which initial values come to be known: one may use entries of the kinds before its own.
+    pub const BY_VALUE: [&[EntryKind]; 3] =
+        [&[EntryKind::Const], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]];
+
     /// The word that declares such an entry.
     pub const fn word(self) -> &'static str {
         match self {

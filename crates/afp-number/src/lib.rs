@@ -1,5 +1,5 @@
 //! What compiler and run time say alike: the arithmetic of formulas, how texts become numbers and numbers texts, and
-//! what components, entries and parts of rows are, and which number tells texts apart.
+//! what components, entries and parts of rows are, how much one step may do, and which number tells texts apart.
 //!
 //! A formula that is constant is computed by the compiler, any other by the interpreter or by
 //! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
@@ -42,6 +42,9 @@ use core::fmt;
 
 /// Greatest length of a text in bytes of UTF-8.
 pub const MAX_TEXT: usize = 64;
+
+/// Edges that one step may take, all levels together. A plan that needs more lets no time pass.
+pub const MAX_TRANSITIONS_PER_STEP: u32 = 1000;
 
 /// Why a formula has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -222,15 +222,14 @@ fn slots(context: &Context<'_>) -> usize {
 
 /// Initial values, in the order in which they may refer to one another.
 fn initialise(context: &Context<'_>) -> TokenStream {
-    let entries = || (0..).zip(context.plan.entries.iter().zip(&context.entries));
-    let cleared = entries().filter(|(_, (entry, _))| entry.kind != EntryKind::In);
-    let cleared: Vec<_> = cleared.map(|(_, (_, name))| quote!(config.#name.clear();)).collect();
-    let kinds = [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]];
-    let set =
-        kinds.iter().flat_map(|kinds| entries().filter(|(_, (e, _))| kinds.contains(&e.kind)));
-    let set: Vec<_> = set
-        .filter_map(|(number, (entry, name))| {
-            let formula = entry.init.as_ref()?;
+    let entries = context.plan.entries.iter().zip(&context.entries);
+    let cleared = entries.filter(|(entry, _)| entry.kind != EntryKind::In);
+    let cleared: Vec<_> = cleared.map(|(_, name)| quote!(config.#name.clear();)).collect();
+    let set: Vec<_> = context
+        .plan
+        .initial()
+        .map(|(id, entry, formula)| {
+            let (number, name) = (id.0, &context.entries[id.index()]);
             let value = context.with_type_paths(|type_paths| {
                 Formulas::new(type_paths, &context.entries).value(formula)
             });
@@ -248,10 +247,10 @@ fn initialise(context: &Context<'_>) -> TokenStream {
                     }
                 }
             };
-            Some(match entry.kind {
+            match entry.kind {
                 EntryKind::In => quote!(if !config.#name.is_set() { #set }),
                 _ => set,
-            })
+            }
         })
         .collect();
     let config =

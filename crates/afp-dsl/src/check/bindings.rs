@@ -16,6 +16,7 @@ use afp_syntax::ast::{self, Bind, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
+use rustc_hash::FxHashMap;
 
 pub(crate) use alone::meant;
 use generic::{Generic, actual};
@@ -132,19 +133,20 @@ fn find_ports<'a>(
 ) -> Ports<'a> {
     let mut ports =
         Ports { inputs: vec![None; signature.inputs.len()], outputs: Vec::new(), complete: true };
-    for (at, bind) in binds.iter().enumerate() {
+    let mut bound: FxHashMap<&str, &Name> = FxHashMap::default();
+    for bind in binds {
         let (Bind::In { port, sign, .. } | Bind::Out { port, sign, .. }) = bind;
         let alone = bind.is_alone();
         let input = signature.inputs.iter().position(|input| *input.name == *port.text);
         let output = signature.outputs.iter().position(|output| *output.name == *port.text);
         record_port(scope, signature, (port.span, alone), (input, output));
-        let mut before = binds[..at].iter().map(Bind::port);
-        if let Some(first) = before.find(|known| known.text == port.text) {
+        if let Some(first) = bound.get(&*port.text) {
             diags.push(bound_twice(port, first));
             ports.complete = false;
             bound_names(scope, bind);
             continue;
         }
+        bound.insert(&port.text, port);
         match (bind, input, output) {
             (_, None, None) if alone => {
                 bound_names(scope, bind);

@@ -68,7 +68,7 @@ pub(crate) fn read(
         .collect();
     let indices = Indices::of(written.iter().map(|(name, _)| Some(name.text.as_str())));
     let site = Site { indices: &indices, types, text, record };
-    for kinds in [&[EntryKind::Const][..], &[EntryKind::In], &[EntryKind::Var, EntryKind::Out]] {
+    for kinds in EntryKind::BY_VALUE {
         for index in 0..drafts.len() {
             if kinds.contains(&drafts[index].kind) {
                 initialise(index, &written[index].1, &mut drafts, &site, diags);

@@ -411,7 +411,8 @@ impl Typer<'_> {
     }
 }
 
-fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
+/// What is told of a formula or value for which there is none.
+pub(crate) fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
     match error {
         Error::Overflow => Diagnostic::new(Code::E0228, span, "the value does not fit an int")
             .help("use floats, or smaller numbers"),

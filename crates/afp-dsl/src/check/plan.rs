@@ -203,6 +203,7 @@ pub(super) fn entry(draft: &EntryDraft) -> graph::Entry {
         live: draft.live,
         ty: draft.ty.clone().unwrap_or(Type::Bool),
         init: draft.init.clone(),
+        value: draft.value.clone(),
         range: draft.range,
         ranged_by: draft.ranged_by.clone(),
         span: draft.name.span,

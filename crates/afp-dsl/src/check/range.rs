@@ -31,8 +31,12 @@ pub(crate) fn read(
         }
         return None;
     }
-    let (from, to) = (constant(least, Some(ty), diags), constant(greatest, Some(ty), diags));
-    let (from, to) = (number(&from?)?, number(&to?)?);
+    let ends = [
+        (least, constant(least, Some(ty), diags)),
+        (greatest, constant(greatest, Some(ty), diags)),
+    ];
+    let [from, to] = ends.map(|(written, value)| end(written, &value?, diags));
+    let (from, to) = (from?, to?);
     if from > to {
         diags.push(
             Diagnostic::new(Code::E0513, *span, "the range is empty")
@@ -43,11 +47,46 @@ pub(crate) fn read(
     Some((from, to))
 }
 
+/// One end of a range. Ends are floats, so that not every large int can be one.
+fn end(written: &Formula, value: &Constant, diags: &mut Diagnostics) -> Option<f64> {
+    let end = number(value)?;
+    match *value {
+        Constant::Int(whole) if whole != end as i64 => {
+            let message =
+                format!("'{whole}' cannot be the end of a range, which is kept as a float");
+            diags.push(
+                Diagnostic::new(Code::E0513, written.span(), message)
+                    .help(format!("write '{}', the nearest number that can be", end as i64)),
+            );
+            None
+        }
+        _ => Some(end),
+    }
+}
+
 /// The number that a value is.
 pub(crate) fn number(value: &Constant) -> Option<f64> {
     match value {
         Constant::Int(value) => Some(*value as f64),
         Constant::Float(value) => Some(*value),
+        _ => None,
+    }
+}
+
+/// Whether a value lies in a range, ints compared with ints, as when a plan runs.
+fn contains((least, greatest): (f64, f64), value: &Constant) -> bool {
+    match value {
+        Constant::Int(value) => (least as i64..=greatest as i64).contains(value),
+        Constant::Float(value) => (least..=greatest).contains(value),
+        _ => true,
+    }
+}
+
+/// A number as people write it.
+pub(crate) fn shown(value: &Constant, ty: &Type) -> Option<String> {
+    match value {
+        Constant::Int(value) => Some(value.to_string()),
+        Constant::Float(value) => Some(text::value(*value, ty)),
         _ => None,
     }
 }
@@ -61,9 +100,11 @@ pub(crate) fn outside(
     place: Span,
     message: impl FnOnce(String) -> String,
 ) -> Option<Diagnostic> {
-    let (least, greatest) = range;
-    let number = number(value).filter(|number| !(least..=greatest).contains(number))?;
-    let [value, least, greatest] = [number, least, greatest].map(|number| text::value(number, ty));
+    if contains(range, value) {
+        return None;
+    }
+    let value = shown(value, ty)?;
+    let [least, greatest] = [range.0, range.1].map(|end| text::value(end, ty));
     Some(
         Diagnostic::new(Code::E0224, place, message(value))
             .help(format!("use a value from '{least}' to '{greatest}'")),

@@ -6,17 +6,20 @@
 //! step, so at their own level they close no cycle.
 
 mod count;
+mod counters;
 mod decided;
 mod holding;
 mod instant;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, Node, View, takes_time};
 use crate::flow::{INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
 
+pub(crate) use counters::{Counters, components, unwind};
 use decided::Known;
 pub(super) use holding::standard;
 
@@ -28,24 +31,31 @@ const MAX_CONDITIONS: usize = 8;
 /// Reports each cycle once, at the edge that closes it.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let sure = Quick::of(view, |edge| is_sure(view, edge.cause));
+    let constants = decided::for_ever(view);
+    let mut loops = count::Loops::new(view, &constants);
+    let mut reported = BTreeSet::new();
     for (members, inner) in sure.cycles() {
-        match sure.has_exit(&members) {
-            true => count::check(view, &members, inner.len(), diags),
-            false => sure.report_endless(&inner, diags),
+        match sure.has_exit(&members, |_| true) {
+            true => loops.check(&members, &inner, diags),
+            false => {
+                sure.report_endless(&inner, diags);
+                reported.extend(members);
+            }
         }
     }
-    // A counter with a small limit lets a cycle be taken a few times only.
-    let constants = decided::for_ever(view);
     let lasting = Quick::of(view, |edge| {
         let cause = edge.cause;
         is_quick(view, edge)
             && holding::can_hold(view, cause)
-            && !count::is_bounded(view, cause)
             && !decided::excludes(view, cause, &constants)
     });
-    for (_, inner) in lasting.cycles() {
+    let lasting = lasting.unwound();
+    let is_taken = |edge: &Edge| !decided::excludes(view, edge.cause, &constants);
+    for (members, inner) in lasting.cycles() {
         if inner.iter().any(|edge| !is_sure(view, edge.cause)) {
             lasting.report_conditions(&inner, &constants, diags);
+        } else if !reported.contains(&members[0]) && !lasting.has_exit(&members, is_taken) {
+            lasting.report_decided(&inner, diags);
         }
     }
 }
@@ -87,12 +97,6 @@ pub(crate) fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
     }
 }
 
-/// How often a counter lets a cycle be taken, where a node is one with a written limit.
-pub(crate) fn count_limit(view: &View<'_>, node: Node) -> Option<u64> {
-    let limit = count::limit(view, view.element(node)?)?;
-    Some(u64::try_from(limit).unwrap_or(0))
-}
-
 /// The edges that take no time.
 struct Quick<'a, 'b> {
     view: &'a View<'b>,
@@ -107,19 +111,21 @@ struct Quick<'a, 'b> {
 impl<'a, 'b> Quick<'a, 'b> {
     /// The edges that `takes` lets through.
     fn of(view: &'a View<'b>, takes: impl Fn(&Edge) -> bool) -> Self {
-        let mut edges = Vec::new();
-        let mut first = Vec::with_capacity(view.nodes() + 1);
-        for node in 0..view.nodes() {
-            first.push(edges.len() as u32);
-            if view.reached[node] {
-                let quick = view.from(node).iter().filter(|edge| takes(edge));
-                edges.extend(quick.copied());
-            }
-        }
-        first.push(edges.len() as u32);
-        let targets: Vec<u32> = edges.iter().map(|edge| edge.to as u32).collect();
-        let component = strong::components(&first, &targets);
+        let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
+        Quick::new(view, reached.filter(|edge| takes(edge)).copied().collect())
+    }
+
+    fn new(view: &'a View<'b>, edges: Vec<Edge>) -> Self {
+        let first = strong::first(view.nodes(), edges.iter().map(|edge| edge.from));
+        let component = components(view.nodes(), &edges);
         Quick { view, edges, first, component }
+    }
+
+    /// Without the edges by which a counter lets a cycle be taken a few times only.
+    fn unwound(mut self) -> Self {
+        let before = self.edges.len();
+        unwind(self.view, self.component.clone(), &mut self.edges, counters::MOST_ROUNDS);
+        if self.edges.len() == before { self } else { Quick::new(self.view, self.edges) }
     }
 
     /// The components that hold a cycle: their nodes, and the edges between them.
@@ -143,8 +149,8 @@ impl<'a, 'b> Quick<'a, 'b> {
         &self.edges[self.first[node] as usize..self.first[node + 1] as usize]
     }
 
-    /// Whether any edge, quick or not, leads out of a component.
-    fn has_exit(&self, members: &[Node]) -> bool {
+    /// Whether any edge that `is_taken`, quick or not, leads out of a component.
+    fn has_exit(&self, members: &[Node], is_taken: impl Fn(&Edge) -> bool) -> bool {
         let mut edges = members.iter().flat_map(|node| self.view.from(*node));
         let resumes = members.iter().any(|node| self.view.resumes(*node));
         resumes
@@ -153,27 +159,32 @@ impl<'a, 'b> Quick<'a, 'b> {
                     && edge.possible
                     && self.can_be_taken(edge.cause)
                     && self.component[edge.from] != self.component[edge.to]
+                    && is_taken(edge)
             })
     }
 
     /// Whether an edge leads anywhere at all: a fault may be none that can come.
     fn can_be_taken(&self, cause: Cause) -> bool {
         match cause {
-            Cause::Error(id) => holding::can_fail(self.view, &self.view.plan.elements[id.index()]),
+            Cause::Error(id) => {
+                !holding::never_fails(self.view, &self.view.plan.elements[id.index()])
+            }
             _ => true,
         }
     }
 
-    /// The cycle that an edge closes: itself, then a shortest way from its end to its beginning.
-    fn cycle(&self, closing: &Edge) -> Vec<Edge> {
+    /// The cycle that an edge closes: itself, then a shortest way from its end to its beginning. `room` is how many edges
+    /// may be looked at for it, and those are taken from it.
+    fn cycle(&self, closing: &Edge, room: &mut usize) -> Option<Vec<Edge>> {
         let mut came_by: BTreeMap<Node, &Edge> = Default::default();
         let mut open = std::collections::VecDeque::from([closing.to]);
         while let Some(node) = open.pop_front() {
             if node == closing.from {
                 break;
             }
-            let component = self.component[node];
-            for edge in self.from(node).iter().filter(|edge| self.component[edge.to] == component) {
+            let (component, edges) = (self.component[node], self.from(node));
+            *room = room.checked_sub(edges.len())?;
+            for edge in edges.iter().filter(|edge| self.component[edge.to] == component) {
                 if edge.to != closing.to && !came_by.contains_key(&edge.to) {
                     came_by.insert(edge.to, edge);
                     open.push_back(edge.to);
@@ -189,7 +200,8 @@ impl<'a, 'b> Quick<'a, 'b> {
         }
         back.push(*closing);
         back.reverse();
-        back
+        *room = room.checked_sub(back.len())?;
+        Some(back)
     }
 
     fn names(&self, cycle: &[Edge]) -> String {
@@ -203,8 +215,8 @@ impl<'a, 'b> Quick<'a, 'b> {
     }
 
     fn report_endless(&self, inner: &[&Edge], diags: &mut Diagnostics) {
-        let Some(closing) = self.closing(inner.iter().copied()) else { return };
-        let cycle = self.cycle(closing);
+        let Some(closing) = inner.iter().max_by_key(|edge| self.place(edge)) else { return };
+        let Some(cycle) = self.cycle(closing, &mut room(inner)) else { return };
         let message = format!("computations without a way out: {}", self.names(&cycle));
         diags.push(
             Diagnostic::new(Code::E0305, self.view.span(closing.cause), message)
@@ -212,19 +224,31 @@ impl<'a, 'b> Quick<'a, 'b> {
         );
     }
 
+    /// Reports a cycle of computations that what is known never lets out.
+    fn report_decided(&self, inner: &[&Edge], diags: &mut Diagnostics) {
+        let conditions = inner.iter().filter(|edge| self.is_condition(edge));
+        let Some(closing) = conditions.max_by_key(|edge| self.place(edge)) else { return };
+        let Some(cycle) = self.cycle(closing, &mut room(inner)) else { return };
+        self.report_livelock(closing, &cycle, diags);
+    }
+
     fn report_conditions(&self, inner: &[&Edge], constants: &Known, diags: &mut Diagnostics) {
-        let mut unsure: Vec<&Edge> =
-            inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause)).collect();
-        let (closing, cycle) = loop {
-            let Some(closing) = self.closing(unsure.iter().copied()) else { return };
-            let cycle = self.cycle(closing);
-            if !holding::contradict(self.view, &cycle)
-                && !decided::breaks_off(self.view, &cycle, constants)
-            {
-                break (closing, cycle);
+        let unsure = inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause));
+        let mut unsure: Vec<&Edge> = unsure.collect();
+        unsure.sort_by_key(|edge| self.place(edge));
+        let mut room = room(inner);
+        while let Some(closing) = unsure.pop() {
+            let Some(cycle) = self.cycle(closing, &mut room) else { return };
+            let ends = holding::contradict(self.view, &cycle)
+                || decided::breaks_off(self.view, &cycle, constants)
+                || self.view.counters().end(self.view, cycle.iter());
+            if !ends {
+                return self.report_livelock(closing, &cycle, diags);
             }
-            unsure.retain(|edge| edge.cause != closing.cause);
-        };
+        }
+    }
+
+    fn report_livelock(&self, closing: &Edge, cycle: &[Edge], diags: &mut Diagnostics) {
         let conditions: Vec<_> = cycle.iter().filter(|edge| self.is_condition(edge)).collect();
         let labels: Vec<_> =
             conditions.iter().take(MAX_NAMES).map(|edge| self.view.label(edge.cause)).collect();
@@ -241,11 +265,15 @@ impl<'a, 'b> Quick<'a, 'b> {
             let text = format!("this leads on to '{}'", self.view.node_name(edge.to));
             found = found.note(self.view.span(edge.cause), text);
         }
-        let help = match conditions.len() {
-            1 => "lead it to an element that takes time, such as an actor that waits",
-            _ => {
-                "lead one of them to an element that is not left at once, such as one without that supervisor"
+        let counting = cycle.iter().find_map(|edge| counters::forgotten(self.view, edge.cause));
+        let help = match (counting, conditions.len()) {
+            (Some((count, entry)), _) => format!("let '{count}' count: 'next => {entry}'"),
+            (None, 1) => {
+                "lead it to an element that takes time, such as an actor that waits".to_owned()
             }
+            (None, _) => "lead one of them to an element that is not left at once, such as one \
+                          without that supervisor"
+                .to_owned(),
         };
         diags.push(found.help(help));
     }
@@ -259,10 +287,15 @@ impl<'a, 'b> Quick<'a, 'b> {
                 .any(|other| other.to != edge.to)
     }
 
-    /// The edge that closes a cycle for somebody who reads the text from above.
-    fn closing<'e>(&self, edges: impl Iterator<Item = &'e Edge>) -> Option<&'e Edge> {
-        edges.max_by_key(|edge| (edge.to <= edge.from, self.view.span(edge.cause)))
+    /// Orders edges; the last one closes a cycle for somebody who reads the text from above.
+    fn place(&self, edge: &Edge) -> (bool, Span) {
+        (edge.to <= edge.from, self.view.span(edge.cause))
     }
+}
+
+/// How many edges may be looked at for the cycles of a component, so that the effort grows with its size alone.
+fn room(inner: &[&Edge]) -> usize {
+    inner.len().max(1000).saturating_mul(32)
 }
 
 /// What instant endings need to know of the kinds of endings.

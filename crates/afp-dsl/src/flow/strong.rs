@@ -23,6 +23,17 @@ pub(crate) fn components(first: &[u32], edges: &[u32]) -> Vec<u32> {
     search.component
 }
 
+/// For each node where its edges begin in a list that stands in the order of the nodes; behind them its length. `from`
+/// are the nodes at which the edges begin.
+pub(crate) fn first(nodes: usize, from: impl Iterator<Item = usize>) -> Vec<u32> {
+    let mut first = vec![0; nodes + 1];
+    from.for_each(|node| first[node + 1] += 1);
+    for node in 0..nodes {
+        first[node + 1] += first[node];
+    }
+    first
+}
+
 struct Search<'a> {
     first: &'a [u32],
     edges: &'a [u32],

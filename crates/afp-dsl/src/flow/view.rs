@@ -5,11 +5,12 @@
 //! that some element replaces (`on`) has a node of its own, which stands for the others. Edges to
 //! `ignore` and `resume` are left out: what goes on is where it was.
 
-use crate::check::constant::evaluate;
+use std::cell::OnceCell;
+
+use crate::flow::cycles::Counters;
 use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{
-    Component, Element, ElementId, EntryKind, Formula, Output, Plan, Supervisor, SupervisorId,
-    Target,
+    Component, Element, ElementId, Formula, Output, Plan, Supervisor, SupervisorId, Target,
 };
 use crate::toolbox::Constant;
 use afp_syntax::source::Span;
@@ -61,6 +62,7 @@ pub(crate) struct View<'a> {
     replaced: Vec<(SupervisorId, Option<u16>)>,
     summaries: &'a [Option<Summary>],
     first: Vec<u32>,
+    counters: OnceCell<Counters>,
 }
 
 impl<'a> View<'a> {
@@ -76,6 +78,7 @@ impl<'a> View<'a> {
             replaced,
             summaries,
             first: Vec::with_capacity(count + 1),
+            counters: OnceCell::new(),
         };
         for (index, element) in plan.elements.iter().enumerate() {
             view.first.push(view.edges.len() as u32);
@@ -270,7 +273,7 @@ impl<'a> View<'a> {
 
     /// The value of a formula of constants.
     pub fn constant(&self, formula: &Formula) -> Option<Constant> {
-        constant(self.plan, formula)
+        self.plan.constant(formula)
     }
 
     /// What is known of the flow of a sub-plan.
@@ -287,26 +290,33 @@ impl<'a> View<'a> {
         template.outcomes.get(usize::from(event)).is_some_and(|event| event.once)
     }
 
-    /// The outputs that are committed when an edge is taken.
+    /// The outputs that may be committed when an edge is taken.
+    pub fn may_write(&self, cause: Cause) -> &'a [Output] {
+        match cause {
+            Cause::State(id, _) => &self.plan.elements[id.index()].outputs,
+            Cause::Event(id, _) | Cause::On(_, id, Some(_)) => &self.supervisor(id).outputs,
+            Cause::Error(_) | Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => &[],
+        }
+    }
+
+    /// The counters of the plan.
+    pub fn counters(&self) -> &Counters {
+        self.counters.get_or_init(|| Counters::of(self))
+    }
+
+    /// The outputs that surely are committed when an edge is taken.
     pub fn writes(&self, cause: Cause) -> impl Iterator<Item = &'a Output> {
-        let (outputs, carried): (&[Output], _) = match cause {
-            Cause::State(id, state) => {
-                let element = &self.plan.elements[id.index()];
-                (&element.outputs, self.carried(element, state))
-            }
+        let carried = match cause {
+            Cause::State(id, state) => self.carried(&self.plan.elements[id.index()], state),
             Cause::Event(id, event) | Cause::On(_, id, Some(event)) => {
-                let supervisor = self.supervisor(id);
-                let template = self.model.template(supervisor.template);
-                let on = template.outputs.iter().map(|port| port.on.contains(&event));
-                (&supervisor.outputs, on.collect())
+                let template = self.model.template(self.supervisor(id).template);
+                template.outputs.iter().map(|port| port.on.contains(&event)).collect()
             }
-            Cause::Error(_) | Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => {
-                (&[], Vec::new())
-            }
+            Cause::Error(_) | Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => Vec::new(),
         };
-        outputs
-            .iter()
-            .filter(move |output| carried.get(usize::from(output.port)).copied().unwrap_or(true))
+        let is_carried =
+            move |output: &&Output| carried.get(usize::from(output.port)).copied().unwrap_or(true);
+        self.may_write(cause).iter().filter(is_carried)
     }
 
     /// Which output ports of an element surely carry a value in a state.
@@ -396,16 +406,6 @@ impl<'a> View<'a> {
         let end = if node == self.end(FAILED) { "fail" } else { "terminate" };
         self.element(node).map_or(end, |element| &element.name)
     }
-}
-
-/// The value of a formula of constants of a plan.
-pub(super) fn constant(plan: &Plan, formula: &Formula) -> Option<Constant> {
-    let known = |entry: u16| {
-        let entry = plan.entries.get(usize::from(entry))?;
-        let init = entry.init.as_ref().filter(|_| entry.kind == EntryKind::Const)?;
-        evaluate(init, &|_| None).ok()?
-    };
-    evaluate(formula, &known).ok()?
 }
 
 /// The events of global supervisors, and missed deadlines, that some element replaces.

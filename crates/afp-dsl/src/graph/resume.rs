@@ -2,6 +2,7 @@
 //! interrupts nothing until it is known where it ends.
 
 use crate::graph::{Component, Element, ElementId, Target};
+use rustc_hash::FxHashSet;
 
 /// Where the states of an element and its `Error` lead.
 fn targets(element: &Element) -> impl Iterator<Item = Target> {
@@ -43,12 +44,13 @@ pub(crate) fn resuming<'a>(elements: impl IntoIterator<Item = Option<&'a Element
 pub(crate) fn chain(elements: &[Element], first: Target) -> (Vec<ElementId>, bool) {
     // Most edges lead to what takes time, and cost no allocation.
     let (mut run, mut elsewhere, mut open) = (Vec::new(), false, Vec::new());
+    let mut seen = FxHashSet::default();
     let mut next = Some(first);
     while let Some(target) = next {
         match target {
             Target::Element(id) => match elements.get(id.index()) {
                 Some(element) if is_computation(element) => {
-                    if !run.contains(&id) {
+                    if seen.insert(id) {
                         run.push(id);
                         open.extend(targets(element));
                     }

@@ -3,6 +3,7 @@
 //! They are read while their nodes are at hand, so that no node of the tree is kept; [`super::build`] says the rest
 //! once all names have their meanings.
 
+use std::hash::Hash;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ use crate::types::Type;
 use afp_syntax::ast::{self, Bind, Frame, Name};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
+use rustc_hash::FxHashMap;
 
 /// An element without its supervisors, a supervisor, or reactions; `text` is that of the file.
 pub(crate) fn draft(
@@ -66,28 +68,30 @@ fn ports(made: &Made, binds: &[Bind], text: &str) -> (Vec<Input>, Vec<Output>) {
         None => ((Vec::new(), Vec::new()), binds.into()),
     };
     let (mut inputs, mut outputs) = declared;
+    let (known_inputs, known_outputs) = (inputs.len(), outputs.len());
+    let (mut written_inputs, mut written_outputs) = Default::default();
     for bind in &*binds {
         let binding = Some(binding(bind, text));
         let port = bind.port().text.as_str();
         match bind {
             Bind::In { .. } => {
-                let mut same = inputs.iter_mut().filter(|known| *known.name == *port);
-                match same.find(|known| known.binding.is_none()) {
+                let declared = inputs[..known_inputs].iter_mut().find(|it| *it.name == *port);
+                let is_declared = declared.is_some();
+                match declared.filter(|input| input.binding.is_none()) {
                     Some(input) => input.binding = binding,
                     None => {
-                        let known = inputs.iter().filter(|known| *known.name == *port);
-                        let nth = following(known.count());
+                        let nth = following(&mut written_inputs, port, is_declared);
                         inputs.push(Input { nth, binding, ..input(port.into()) });
                     }
                 }
             }
             Bind::Out { .. } => {
-                let mut same = outputs.iter_mut().filter(|known| *known.name == *port);
-                match same.find(|known| known.binding.is_none()) {
+                let declared = outputs[..known_outputs].iter_mut().find(|it| *it.name == *port);
+                let is_declared = declared.is_some();
+                match declared.filter(|output| output.binding.is_none()) {
                     Some(output) => output.binding = binding,
                     None => {
-                        let known = outputs.iter().filter(|known| *known.name == *port);
-                        let nth = following(known.count());
+                        let nth = following(&mut written_outputs, port, is_declared);
                         outputs.push(Output { nth, binding, ..output(port.into()) });
                     }
                 }
@@ -154,16 +158,18 @@ fn exits(kind: ComponentKind, edges: Vec<WrittenEdge>, signature: Option<&Signat
             exits.push(Exit { declared, required, known: true, ..exit(name.clone(), usual) });
         }
     }
-    let mut others = Vec::new();
+    let (mut others, mut written) = (Vec::new(), Default::default());
     for edge in edges {
-        let (name, new) = written(edge);
-        match exits.iter_mut().find(|known| *known.name == *name) {
-            Some(first) if first.edge.is_none() => first.edge = Some(new),
-            _ => {
-                let all = exits.iter().chain(&others);
-                let nth = following(all.filter(|known| *known.name == *name).count());
+        let (name, new) = named(edge);
+        let declared = exits.iter_mut().find(|known| *known.name == *name);
+        let is_declared = declared.is_some();
+        match declared.filter(|known| known.edge.is_none()) {
+            Some(first) => first.edge = Some(new),
+            None => {
                 let kind = if name == special { special_kind } else { usual };
-                others.push(Exit { nth, edge: Some(new), ..exit(name.into(), kind) });
+                let name: Arc<str> = name.into();
+                let nth = following(&mut written, name.clone(), is_declared);
+                others.push(Exit { nth, edge: Some(new), ..exit(name, kind) });
             }
         }
     }
@@ -173,7 +179,7 @@ fn exits(kind: ComponentKind, edges: Vec<WrittenEdge>, signature: Option<&Signat
 }
 
 /// The name of a state or event, and its edge.
-fn written(edge: WrittenEdge) -> (String, Edge) {
+fn named(edge: WrittenEdge) -> (String, Edge) {
     let WrittenEdge { name, target, reason, span } = edge;
     let target = match (target.map(self::target), reason) {
         (Some(Target { text, span, to }), Some(reason)) => {
@@ -185,9 +191,11 @@ fn written(edge: WrittenEdge) -> (String, Edge) {
     (name.text, Edge { span, name_span: name.span, target })
 }
 
-/// The number of one more of a name of which some are there.
-fn following(known: usize) -> u16 {
-    u16::try_from(known + 1).unwrap_or(u16::MAX)
+/// The number of one more of a name; `written` says of how many of each there are already, but the first that is declared.
+fn following<N: Hash + Eq>(written: &mut FxHashMap<N, usize>, name: N, is_declared: bool) -> u16 {
+    let count = written.entry(name).or_insert(usize::from(is_declared));
+    *count += 1;
+    u16::try_from(*count).unwrap_or(u16::MAX)
 }
 
 fn made_from(signature: &Rc<Signature>) -> Option<MadeFrom> {

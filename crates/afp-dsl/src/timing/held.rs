@@ -1,8 +1,10 @@
 //! What a supervisor may cost without interrupting anything: its poll, and the computations between an
 //! event of it and `resume`.
 
+use std::collections::BTreeMap;
+
 use crate::flow;
-use crate::flow::view::View;
+use crate::flow::view::{Edge, View};
 use crate::graph::{Component, ElementId, SupervisorId, Target, chain};
 
 use super::cost::Cost;
@@ -25,26 +27,29 @@ fn held(view: &View<'_>, target: Target) -> Cost {
     if !run.iter().any(|id| view.resumes(id.index())) {
         return Cost::ZERO;
     }
-    let once =
-        run.iter().fold(Cost::ZERO, |sum, id| match view.plan.elements[id.index()].component {
-            Component::Computation(template) => {
-                sum.and(&Cost::budget(view.model.template(template)))
-            }
-            Component::Actor(_) | Component::SubPlan(_) => sum,
-        });
-    if !run.iter().any(|id| comes_again(view, *id)) {
-        return once;
-    }
-    let limits = run.iter().filter_map(|id| flow::count_limit(view, id.index()));
-    match limits.min() {
-        Some(limit) => once.times(limit.saturating_add(1)),
-        None => Cost::unknown("computations may run many times before 'resume'"),
-    }
+    let mut edges = within(view, &run);
+    let times = flow::unwind(view, flow::components(run.len(), &edges), &mut edges, u64::MAX);
+    run.iter().zip(times).fold(Cost::ZERO, |sum, (id, times)| {
+        let Component::Computation(template) = view.plan.elements[id.index()].component else {
+            return sum;
+        };
+        sum.and(&match times {
+            Some(times) => Cost::budget(view.model.template(template)).times(times),
+            None => Cost::unknown("computations may run many times before 'resume'"),
+        })
+    })
 }
 
-/// Whether a computation can lead to itself through computations alone.
-fn comes_again(view: &View<'_>, id: ElementId) -> bool {
-    let element = &view.plan.elements[id.index()];
-    let mut targets = element.states.iter().flatten().chain(&element.on_error);
-    targets.any(|target| chain(&view.plan.elements, *target).0.contains(&id))
+/// The edges between the computations of a chain, which are numbered as they stand there.
+fn within(view: &View<'_>, run: &[ElementId]) -> Vec<Edge> {
+    let places: BTreeMap<ElementId, usize> = run.iter().copied().zip(0..).collect();
+    let mut edges = Vec::new();
+    for (from, id) in run.iter().enumerate() {
+        let edge = |edge: &Edge| {
+            let to = ElementId(u16::try_from(edge.to).ok()?);
+            Some(Edge { from, to: *places.get(&to)?, ..*edge })
+        };
+        edges.extend(view.from(id.index()).iter().filter_map(edge));
+    }
+    edges
 }

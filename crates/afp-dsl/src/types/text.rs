@@ -86,7 +86,12 @@ pub(crate) fn a_dimension(dimension: Dimension) -> String {
 /// A value in SI units as people write it, such as `31 cm/s` or `2 km`: as drawings do where that is
 /// short, otherwise rounded and in the usual unit.
 pub(crate) fn value(value: f64, ty: &Type) -> String {
-    let Type::Quantity(dimension) = ty else { return Rounded(value, DECIMALS).to_string() };
+    let dimension = match ty {
+        Type::Quantity(dimension) => dimension,
+        // What an int begins or ends with is one, too.
+        Type::Int => return (value as i64).to_string(),
+        _ => return Rounded(value, DECIMALS).to_string(),
+    };
     let exact = quantity(value, *dimension);
     // Zero is as short in any unit.
     if exact.len() <= SHORT && value != 0.0 {

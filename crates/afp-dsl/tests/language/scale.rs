@@ -109,6 +109,74 @@ fn ten_times_the_plan_takes_about_ten_times_as_long() {
     takes_at_most(35, "400 and 4000 actors", time(400), time(4000));
 }
 
+/// A chain of elements that conditions lead along and back, none of which hold together.
+fn contradicting(length: usize) -> String {
+    let mut text = String::from("use std\nplan P {\n    in x: float = 0\n    start a0\n");
+    for at in 0..length {
+        let (next, before) = ((at + 1) % length, at.saturating_sub(1));
+        let _ = writeln!(
+            text,
+            "    actor a{at}: Wait {{ supervise s: CheckValue(value = x, limit = 1) {{ Below -> a{next}, Above -> a{before} }} Elapsed -> terminate }}"
+        );
+    }
+    text + "}\n"
+}
+
+/// A ring of elements that conditions lead round, of which the first and the last never hold together, with as many that
+/// lead from the last to the first.
+fn ring(length: usize) -> String {
+    let mut text = String::from("use std\nplan P {\n    start a0\n    in v0: float = 0\n");
+    for at in 0..length {
+        let next = at + 1;
+        let _ = writeln!(
+            text,
+            "    in v{next}: float = 0\n    actor a{at}: Wait {{ supervise s: CheckValue(value = v{at}, limit = v{next}) {{ Below -> a{next}, Above -> ignore }} Elapsed -> terminate }}"
+        );
+    }
+    let _ = writeln!(text, "    actor a{length}: Wait {{");
+    for at in 0..length {
+        let _ = writeln!(
+            text,
+            "        supervise s{at}: CheckValue(value = v{length}, limit = v0) {{ Below -> a0, Above -> ignore }}"
+        );
+    }
+    text + "        Elapsed -> terminate\n    }\n}\n"
+}
+
+/// An element with edges for states that it does not have, all of one name, and of a name each.
+fn undeclared_states(count: usize) -> String {
+    let names: String = (0..count).map(|at| format!("A, B{at}, ")).collect();
+    format!(
+        "use std\nplan P {{ start a actor a: Wait {{ {names}C -> terminate Elapsed -> terminate }} }}\n"
+    )
+}
+
+/// An element with bindings for ports that it does not have.
+fn undeclared_ports(count: usize) -> String {
+    let binds: String =
+        (0..count).map(|at| format!("p = 1, p{at} = 1, q => x, q{at} => x, ")).collect();
+    format!("use std\nplan P {{ start a actor a: Wait({binds}) {{ Elapsed -> terminate }} }}\n")
+}
+
+/// A text with so many of something.
+type Text = fn(usize) -> String;
+
+#[test]
+fn ten_times_of_one_thing_take_about_ten_times_as_long() {
+    let texts: [(Text, usize); 4] =
+        [(contradicting, 400), (ring, 150), (undeclared_states, 500), (undeclared_ports, 400)];
+    for (of, count) in texts {
+        let time = |count: usize| {
+            move || {
+                least(&of(count), |compiled| {
+                    assert!(!compiled.render(false).is_empty() || compiled.graph.is_some())
+                })
+            }
+        };
+        takes_at_most(35, &of(2), time(count), time(10 * count));
+    }
+}
+
 #[test]
 fn ten_times_the_unknown_names_take_about_ten_times_as_long() {
     let time = |count: usize| {

@@ -10,7 +10,7 @@ use crate::check::edges::{self, Connected, Elements, Origin, WrittenEdge};
 use crate::check::formula::Scope;
 use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
-use crate::check::{tables, timing};
+use crate::check::{tables, timing, written};
 use crate::graph::{Element, ElementId, EntryId, Supervisor};
 use crate::outline::{self, Component, ComponentKind, Times};
 use crate::toolbox::Template;
@@ -180,7 +180,8 @@ impl Components<'_> {
         let taken = written.edges.iter().any(|edge| edge.name.text == edges::ERROR);
         add_remarks(remarks, if taken { Faults::Taken } else { Faults::Unconnected }, diags);
         if let Some((inputs, outputs)) = &bound.valid {
-            tables::fits(self.scope, &signature, (inputs, outputs), &binds, diags);
+            tables::fits(self.scope, &signature, inputs, diags);
+            written::fits(self.scope, &signature, (inputs, outputs), diags);
         }
         let signatures = &self.context.program.signatures;
         let (generic, at) = (bound.generic.as_ref(), site.reference);

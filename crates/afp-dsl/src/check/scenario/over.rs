@@ -31,8 +31,10 @@ impl Over {
                     over.seeds = seeds.map(|seeds| (seeds, line.span()));
                 }
                 LineKind::OverWorlds(files) if over.worlds.is_none() && !files.is_empty() => {
-                    let worlds = files.iter().map(|file| unquote(file, diags));
-                    over.worlds = Some((worlds.flat_map(expanded).collect(), line.span()));
+                    let worlds: Vec<_> =
+                        files.iter().flat_map(|file| expanded(file, diags)).collect();
+                    // What is over no worlds is told already.
+                    over.worlds = Some((worlds, line.span())).filter(|(it, _)| !it.is_empty());
                 }
                 _ => {}
             }
@@ -89,28 +91,32 @@ fn one(scenario: &Scenario, world: Option<String>, seed: Option<u64>) -> Scenari
 }
 
 fn range(first: &Name, behind: &Name, diags: &mut Diagnostics) -> Option<Range<u64>> {
-    let (from, to) = (super::seed(first, diags)?, super::seed(behind, diags)?);
-    if from >= to {
-        let message = format!("no seed lies in '{from}..{to}'");
-        diags.push(
-            Diagnostic::new(Code::E0224, first.span.to(behind.span), message)
-                .help("write the first seed and the one behind the last, such as '0..20'"),
-        );
+    let range = super::seed(first, diags)?..super::seed(behind, diags)?;
+    if range.is_empty() {
+        diags.push(empty("seed", &range, "", first.span.to(behind.span)));
         return None;
     }
-    Some(from..to)
+    Some(range)
+}
+
+/// What is told of a range without numbers; `before` stands before one.
+fn empty(what: &str, range: &Range<u64>, before: &str, place: Span) -> Diagnostic {
+    let message = format!("no {what} lies in '{before}{}..{}'", range.start, range.end);
+    Diagnostic::new(Code::E0224, place, message).help(format!(
+        "write the first {what} and the one behind the last, such as '{before}0..20'"
+    ))
 }
 
 /// The worlds that a text stands for: `random:7..9` is `random:7` and `random:8`.
-fn expanded(text: String) -> Vec<String> {
+fn expanded(file: &Name, diags: &mut Diagnostics) -> Vec<String> {
+    let text = unquote(file, diags);
     let range = text.split_once(':').and_then(|(kind, range)| {
         let (from, to) = range.split_once("..")?;
         Some((kind, from.parse::<u64>().ok()?..to.parse::<u64>().ok()?))
     });
-    match range {
-        Some((kind, range)) => {
-            range.take(MOST as usize + 1).map(|number| format!("{kind}:{number}")).collect()
-        }
-        None => vec![text],
+    let Some((kind, range)) = range else { return vec![text] };
+    if range.is_empty() {
+        diags.push(empty("world", &range, &format!("{kind}:"), file.span));
     }
+    range.take(MOST as usize + 1).map(|number| format!("{kind}:{number}")).collect()
 }

@@ -8,11 +8,10 @@ use crate::check::Context;
 use crate::check::bindings::{self, Site};
 use crate::check::formula::Scope;
 use crate::check::names::{ambiguous, unknown};
-use crate::check::range;
 use crate::check::signature::Signature;
-use crate::graph::{Formula, Output};
+use crate::graph::Formula;
 use crate::table::Table;
-use crate::toolbox::{Constant, ReadsTable};
+use crate::toolbox::{Constant, ReadsTable, Template};
 use afp_syntax::ast::{self, Bind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
@@ -154,55 +153,19 @@ fn without_table(
         })
 }
 
-/// Reports what is known now to be a fault when a row is read: a negative index, and values that the entries which
-/// take them do not let pass.
+/// Reports an index that no table has.
 pub(in crate::check) fn fits(
     scope: &Scope<'_>,
     signature: &Signature,
-    (inputs, outputs): (&[Formula], &[Output]),
-    binds: &[Bind],
+    inputs: &[Formula],
     diags: &mut Diagnostics,
 ) {
-    let reads = signature.template().and_then(|template| template.reads_table.as_ref());
-    let Some(table) = reads.and_then(|reads| reads.table.as_ref()) else { return };
+    let Some((_, table)) = signature.template().and_then(Template::table) else { return };
     for index in inputs {
         if let Some(Constant::Int(number @ ..0)) = scope.value(index) {
             let message = format!("'{}' has no row '{number}'", table.name);
             let error = Diagnostic::new(Code::E0224, index.span, message);
             diags.push(error.help("the index of the first row is 0"));
-        }
-    }
-    values_fit(scope, table, outputs, binds, diags);
-}
-
-fn values_fit(
-    scope: &Scope<'_>,
-    table: &Table,
-    outputs: &[Output],
-    binds: &[Bind],
-    diags: &mut Diagnostics,
-) {
-    for output in outputs.iter().filter(|output| output.conversion.is_none()) {
-        let entry = scope.entries.get(output.entry.index());
-        let column = table.columns.get(usize::from(output.port));
-        let (Some(entry), Some(column)) = (entry, column) else { continue };
-        let (Some(range), Some(ty)) = (entry.range, &column.ty) else { continue };
-        let place = binds.iter().find_map(|bind| match bind {
-            Bind::Out { port, entry, .. } if port.text == column.name => {
-                entry.as_ref().map(|entry| entry.span)
-            }
-            _ => None,
-        });
-        let Some(place) = place else { continue };
-        let mut cells = table.rows.iter().filter_map(|row| row.get(usize::from(output.port)));
-        let error = cells.find_map(|cell| {
-            let name = &entry.name.text;
-            let message = |value| format!("the table has '{value}', out of the range of '{name}'");
-            let error = range::outside(&cell.value, range, ty, place, message)?;
-            Some(error.note(cell.span, "the value stands here"))
-        });
-        if let Some(error) = error {
-            diags.push(error.note(entry.name.span, "the entry is declared here"));
         }
     }
 }

@@ -1,56 +1,110 @@
 //! Loops of computations that count further than one step may go.
 
-use crate::flow::view::{Cause, Node, View};
-use crate::graph::{Component, Element};
+use std::collections::BTreeSet;
+
+use afp_number::MAX_TRANSITIONS_PER_STEP;
+
+use super::counters::Counter;
+use super::decided::{self, Known};
+use crate::flow::view::{Edge, Node, View};
+use crate::graph::{Element, ElementId};
 use crate::toolbox::Constant;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
-/// Edges that may be taken in one step, `MAX_TRANSITIONS_PER_STEP` of the run time.
-const MAX_TRANSITIONS: i64 = 1000;
-/// The state in which `Count` goes on.
-const AGAIN: u16 = 0;
+/// Edges that may be taken in one step.
+const MOST: i64 = MAX_TRANSITIONS_PER_STEP as i64;
 
-/// Warns of a cycle whose counter has a constant limit that is too large. `edges` is the length of
-/// the cycle; one with several ways round may be shorter than it seems and is left alone.
-pub(super) fn check(view: &View<'_>, members: &[Node], edges: usize, diags: &mut Diagnostics) {
-    if edges != members.len() {
-        return;
+/// The loops of a plan.
+pub(super) struct Loops<'a, 'b> {
+    view: &'a View<'b>,
+    /// What never changes.
+    constants: &'a Known,
+    /// How many edges may still be followed, so that the effort grows with the plan alone.
+    room: usize,
+}
+
+impl<'a, 'b> Loops<'a, 'b> {
+    /// Those of a plan in which these values never change.
+    pub fn new(view: &'a View<'b>, constants: &'a Known) -> Self {
+        Loops { view, constants, room: 100 * MOST as usize }
     }
-    let elements = members.iter().filter_map(|node| view.element(*node));
-    let counters: Vec<_> =
-        elements.filter_map(|element| Some((element, limit(view, element)?))).collect();
-    let [(element, limit)] = counters.as_slice() else { return };
+
+    /// Warns of a cycle whose counters go round too often. `members` are its nodes, `inner` its edges.
+    pub fn check(&mut self, members: &[Node], inner: &[&Edge], diags: &mut Diagnostics) {
+        let view = self.view;
+        let bounding = view.counters().bounding(view, inner.iter().copied());
+        let [(id, counter)] = bounding.as_slice() else { return };
+        let element = &view.plan.elements[id.index()];
+        let told = if inner.len() == members.len() {
+            simple(view, element, counter, inner.len())
+        } else if self.spins(members, *id, &view.counters().on(inner.iter().copied())) {
+            let others = view.counters().on(inner.iter().copied()).into_iter();
+            let others = others.map(|(other, _)| other).filter(|other| other != id);
+            let all: Vec<_> = [*id].into_iter().chain(others).collect();
+            let names = all.iter().map(|id| view.plan.elements[id.index()].name.as_str());
+            let (names, go) =
+                (words::list(names, "and"), if all.len() == 1 { "goes" } else { "go" });
+            let message =
+                format!("{names} {go} round more often within one step than {MOST} edges allow");
+            Some((message, "count less far".to_owned()))
+        } else {
+            None
+        };
+        if let Some((message, better)) = told {
+            let span = element.inputs.get(1).map_or(element.span, |limit| limit.span);
+            let help = format!("{better}, or put an actor such as 'Wait' into the loop");
+            diags.push(Diagnostic::new(Code::E0312, span, message).help(help));
+        }
+    }
+
+    /// Whether a cycle with several ways round, followed from the counter that bounds it, takes more edges than a step may,
+    /// all that its computations decide being known.
+    fn spins(&mut self, members: &[Node], from: ElementId, all: &[(ElementId, Counter)]) -> bool {
+        let mut known = self.constants.clone();
+        let begin = |counter: &Counter| Constant::Int(counter.begin.greatest);
+        known.extend(all.iter().map(|(_, counter)| (counter.entry, begin(counter))));
+        let members: BTreeSet<Node> = members.iter().copied().collect();
+        let mut node = from.index();
+        for _ in 0..MOST {
+            let Some(room) = self.room.checked_sub(1) else { return false };
+            self.room = room;
+            let Some(edge) = decided::next(self.view, node, &known) else { return false };
+            if !members.contains(&edge.to) {
+                return false;
+            }
+            decided::after(self.view, edge.cause, &mut known);
+            node = edge.to;
+        }
+        true
+    }
+}
+
+/// What is told of a cycle of so many edges with one way round, if its counter goes round too often, and what is better.
+fn simple(
+    view: &View<'_>,
+    element: &Element,
+    counter: &Counter,
+    edges: usize,
+) -> Option<(String, String)> {
     let length = i64::try_from(edges).unwrap_or(i64::MAX);
     // The last one leads out of the cycle.
-    if limit.saturating_mul(length) < MAX_TRANSITIONS {
-        return;
-    }
-    let message = format!(
-        "'{}' goes round {limit} times within one step, which may take at most {MAX_TRANSITIONS} edges",
-        element.name
-    );
-    let span = element.inputs.get(1).map_or(element.span, |limit| limit.span);
-    diags.push(Diagnostic::new(Code::E0312, span, message).help(format!(
-        "count at most to {}, or put an actor such as 'Wait' into the loop",
-        (MAX_TRANSITIONS - 1) / length
-    )));
+    let rounds = counter.first();
+    let message = || {
+        format!(
+            "'{}' goes round {rounds} times within one step, which may take at most {MOST} edges",
+            element.name
+        )
+    };
+    let is_long = rounds.saturating_mul(length) >= MOST;
+    is_long.then(|| (message(), better(view, counter, (MOST - 1) / length)))
 }
 
-/// Whether an edge is taken a limited number of times only: a counter goes round again.
-pub(super) fn is_bounded(view: &View<'_>, cause: Cause) -> bool {
-    let Cause::State(id, AGAIN) = cause else { return false };
-    limit(view, &view.plan.elements[id.index()]).is_some_and(|limit| limit < MAX_TRANSITIONS)
-}
-
-/// How far a `Count` of the standard toolbox counts, where that is written.
-pub(super) fn limit(view: &View<'_>, element: &Element) -> Option<i64> {
-    let Component::Computation(id) = element.component else { return None };
-    let toolbox = &view.model.toolboxes[id.toolbox.index()];
-    if toolbox.name != "std" || view.model.template(id).name != "Count" {
-        return None;
+/// How a counter goes round so often at most.
+fn better(view: &View<'_>, counter: &Counter, rounds: i64) -> String {
+    let Counter { entry, limit, begin } = counter;
+    if begin.greatest < 0 && *limit <= rounds {
+        let name = &view.plan.entries[entry.index()].name;
+        return format!("begin '{name}' with {} or more", limit - rounds);
     }
-    match view.constant(element.inputs.get(1)?)? {
-        Constant::Int(limit) => Some(limit),
-        _ => None,
-    }
+    format!("count at most to {}", begin.greatest.saturating_add(rounds))
 }

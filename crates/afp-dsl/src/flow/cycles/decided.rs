@@ -5,10 +5,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::count;
 use super::holding::standard_template;
 use crate::check::constant::{convert, evaluate};
-use crate::flow::view::{Cause, Edge, View, constant, each_entry, takes_time};
+use crate::flow::view::{Cause, Edge, Node, View, each_entry, takes_time};
 use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
 use crate::table::Table;
 use crate::toolbox::Constant;
@@ -30,15 +29,10 @@ pub(super) fn at_start(view: &View<'_>) -> Known {
         return Known::new();
     }
     let mut known = Known::new();
-    let mut inputs = 0;
-    for (id, entry) in (0..).map(EntryId).zip(&view.plan.entries) {
-        let value = match entry.kind {
-            EntryKind::In => {
-                inputs += 1;
-                given(view, inputs - 1)
-            }
-            _ => entry.init.as_ref().and_then(|init| value_of(init, &known)),
-        };
+    let ins = (0..).map(EntryId).zip(&view.plan.entries).filter(|(_, it)| it.kind == EntryKind::In);
+    known.extend(ins.enumerate().filter_map(|(at, (id, _))| Some((id, given(view, at)?))));
+    for (id, entry, init) in view.plan.initial().filter(|(_, it, _)| it.kind != EntryKind::In) {
+        let value = entry.value.clone().or_else(|| value_of(init, &known));
         known.extend(value.map(|value| (id, value)));
     }
     known.retain(|entry, _| read.contains(entry));
@@ -64,7 +58,7 @@ fn given(view: &View<'_>, input: usize) -> Option<Constant> {
         // What a plan with errors binds nobody knows.
         let plan = (*plan)?;
         for element in plan.elements.iter().filter(|element| element.component == own) {
-            let value = constant(plan, element.inputs.get(input)?)?;
+            let value = plan.constant(element.inputs.get(input)?)?;
             if all.get_or_insert_with(|| value.clone()) != &value {
                 return None;
             }
@@ -84,12 +78,7 @@ pub(super) fn after(view: &View<'_>, cause: Cause, known: &mut Known) {
     let values: Vec<_> =
         view.writes(cause).map(|output| written(view, cause, output, known)).collect();
     // A sub-plan may write what it does not surely write.
-    let outputs: &[Output] = match cause {
-        Cause::State(id, _) => &view.plan.elements[id.index()].outputs,
-        Cause::Event(id, _) | Cause::On(_, id, Some(_)) => &view.supervisor(id).outputs,
-        Cause::Error(_) | Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => &[],
-    };
-    outputs.iter().for_each(|output| _ = known.remove(&output.entry));
+    view.may_write(cause).iter().for_each(|output| _ = known.remove(&output.entry));
     known.extend(values.into_iter().flatten());
 }
 
@@ -114,7 +103,8 @@ fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: 
     let mut others = element.states.iter().flatten();
     let is_choice =
         others.any(|target| Some(target) != element.states[usize::from(state)].as_ref());
-    if takes_time(element) || !is_choice || count::limit(view, element).is_some() {
+    // How far a counter counts is known already.
+    if takes_time(element) || !is_choice || view.counters().has(id) {
         return false;
     }
     let mut reads_changed = false;
@@ -150,6 +140,19 @@ pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Opti
         },
         _ => None,
     }
+}
+
+/// The edge that a computation takes with these values, where that is known.
+pub(super) fn next<'v>(view: &'v View<'_>, node: Node, known: &Known) -> Option<&'v Edge> {
+    let decided = outcome(view, view.element(node)?, known);
+    let states = view.from(node).iter();
+    let mut taken = states.filter(|edge| match (edge.cause, decided) {
+        (Cause::State(_, state), Some(decided)) => state == decided,
+        (Cause::State(..), None) => edge.possible,
+        _ => false,
+    });
+    let first = taken.next()?;
+    taken.all(|other| other.to == first.to).then_some(first)
 }
 
 /// What an output writes to its entry on an edge.

@@ -2,12 +2,17 @@
 //!
 //! What templates do nobody declares, except those of the standard toolbox, which are known here.
 
-use crate::flow::view::{Cause, Edge, View};
+use std::collections::BTreeSet;
+
+use afp_number::MAX_TEXT;
+
+use crate::flow::strong;
+use crate::flow::view::{Cause, Edge, View, takes_time};
 use crate::graph::{
     Component, Element, EntryId, Formula, FormulaKind, Output, Supervisor, TemplateId,
 };
 use crate::toolbox::Constant;
-use crate::types::Conversion;
+use crate::types::{Conversion, Type};
 
 /// The event of `CheckValue` that reports a value below its limit; the other one reports one above.
 const BELOW: u16 = 0;
@@ -33,39 +38,66 @@ fn waits(view: &View<'_>, supervisor: &Supervisor) -> bool {
     matches!(time, Some(Constant::Float(time)) if time > 0.0)
 }
 
-/// Whether the start of an element can fail: it commands something, or computes what it needs.
-pub(super) fn can_fail(view: &View<'_>, element: &Element) -> bool {
+/// Whether the start of an element can fail: it commands something, or computes what it needs or writes.
+fn can_fail(view: &View<'_>, element: &Element) -> bool {
     let (Component::Actor(id) | Component::Computation(id)) = element.component else {
         return true;
     };
-    if standard_template(view, id).is_some_and(|name| SURE.contains(&name)) {
-        let fits = |output: &Output| {
-            let entry = view.plan.entries.get(output.entry.index());
-            entry.is_some_and(|entry| entry.range.is_none() && entry.ranged_by.is_empty())
-                && output.conversion.as_ref().is_none_or(never_fails)
-        };
-        let inputs = element.inputs.iter().all(|input| is_plain(view, input));
-        return !(inputs && element.outputs.iter().all(fits));
+    if is_known(view, element) {
+        return !never_fails(view, element);
     }
     let computes = element.inputs.iter().any(|input| view.constant(input).is_none());
-    computes || !view.model.template(id).uses.is_empty()
+    // An actor writes in the end.
+    let writes = !takes_time(element) && !element.outputs.iter().all(|it| fits(view, it));
+    computes || writes || !view.model.template(id).uses.is_empty()
+}
+
+/// Whether a computation surely has no fault: it has none of its own, and neither what goes into it nor what comes out
+/// of it can be wrong.
+pub(super) fn never_fails(view: &View<'_>, element: &Element) -> bool {
+    is_known(view, element)
+        && element.inputs.iter().all(|input| is_plain(view, input))
+        && element.outputs.iter().all(|output| fits(view, output))
+}
+
+/// Whether a computation is known to have no fault of its own.
+fn is_known(view: &View<'_>, element: &Element) -> bool {
+    let Component::Computation(id) = element.component else { return false };
+    standard_template(view, id).is_some_and(|name| SURE.contains(&name))
+}
+
+/// Whether an output takes every value.
+fn fits(view: &View<'_>, output: &Output) -> bool {
+    let entry = view.plan.entries.get(output.entry.index());
+    entry.is_some_and(|entry| entry.range.is_none() && entry.ranged_by.is_empty())
+        && output.conversion.as_ref().is_none_or(always_converts)
 }
 
 /// Whether a formula is a constant or an entry, so that nothing can go wrong with it.
 fn is_plain(view: &View<'_>, formula: &Formula) -> bool {
     match &formula.kind {
         FormulaKind::Entry(_) => true,
-        FormulaKind::Convert(conversion, inner) if never_fails(conversion) => is_plain(view, inner),
+        FormulaKind::Convert(conversion, inner) if always_converts(conversion) => {
+            is_plain(view, inner)
+        }
         _ => view.constant(formula).is_some(),
     }
 }
 
-fn never_fails(conversion: &Conversion) -> bool {
-    !matches!(conversion, Conversion::FloatToInt | Conversion::FromText(_))
+/// Whether a conversion takes every value. A number has texts of more than a text's length.
+fn always_converts(conversion: &Conversion) -> bool {
+    match conversion {
+        Conversion::FloatToInt | Conversion::FromText(_) => false,
+        Conversion::ToText(ty) => match ty {
+            Type::Enum(choices) => choices.variants.iter().all(|name| name.len() <= MAX_TEXT),
+            ty => matches!(ty, Type::Bool | Type::Int | Type::Text),
+        },
+        Conversion::IntToFloat | Conversion::BoolToInt | Conversion::BoolToFloat => true,
+    }
 }
 
 /// What a `CheckValue` compares.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 enum Term {
     Entry(EntryId),
     Number(f64),
@@ -73,35 +105,38 @@ enum Term {
 
 /// Whether the conditions of a cycle never hold together: one value above a limit and below another one.
 pub(super) fn contradict(view: &View<'_>, cycle: &[Edge]) -> bool {
-    let is_written = |term: Term| {
-        let mut outputs = cycle.iter().flat_map(|edge| view.writes(edge.cause));
-        matches!(term, Term::Entry(entry) if outputs.any(|output| output.entry == entry))
-    };
-    let all = cycle.iter().filter_map(|edge| less(view, edge.cause));
-    let mut less: Vec<_> = all.filter(|(a, b)| !is_written(*a) && !is_written(*b)).collect();
-    less.dedup();
-    less.iter().any(|(least, _)| is_above(&less, *least))
+    let outputs = cycle.iter().flat_map(|edge| view.may_write(edge.cause));
+    let written: BTreeSet<EntryId> = outputs.map(|output| output.entry).collect();
+    let stays = |term: Term| !matches!(term, Term::Entry(entry) if written.contains(&entry));
+    let less = cycle.iter().filter_map(|edge| less(view, edge.cause));
+    goes_round(&less.filter(|(a, b)| stays(*a) && stays(*b)).collect::<Vec<_>>())
 }
 
-/// Whether a term would have to be less than itself, or a number than one that is not greater.
-fn is_above(less: &[(Term, Term)], least: Term) -> bool {
-    let (mut known, mut next) = (vec![least], 0);
-    while let Some(term) = known.get(next).copied() {
-        next += 1;
-        for (_, greater) in less.iter().filter(|(smaller, _)| *smaller == term) {
-            let impossible = match (least, *greater) {
-                (Term::Number(least), Term::Number(greater)) => least >= greater,
-                (least, greater) => least == greater,
-            };
-            if impossible {
-                return true;
-            }
-            if !known.contains(greater) {
-                known.push(*greater);
-            }
+/// Whether a term would have to be less than itself, where each number is less than the next.
+fn goes_round(less: &[(Term, Term)]) -> bool {
+    let (mut numbers, mut entries) = (Vec::new(), Vec::new());
+    for term in less.iter().flat_map(|(a, b)| [a, b]) {
+        match term {
+            Term::Number(number) => numbers.push(*number),
+            Term::Entry(entry) => entries.push(*entry),
         }
     }
-    false
+    numbers.sort_by(f64::total_cmp);
+    numbers.dedup();
+    entries.sort_unstable();
+    entries.dedup();
+    let place = |term: &Term| match term {
+        Term::Number(number) => numbers.partition_point(|other| other < number),
+        Term::Entry(entry) => numbers.len() + entries.partition_point(|other| other < entry),
+    };
+    let ordered = (1..numbers.len()).map(|at| (at - 1, at));
+    let mut edges: Vec<_> = less.iter().map(|(a, b)| (place(a), place(b))).chain(ordered).collect();
+    edges.sort_unstable();
+    let nodes = numbers.len() + entries.len();
+    let first = strong::first(nodes, edges.iter().map(|(from, _)| *from));
+    let targets: Vec<u32> = edges.iter().map(|(_, to)| *to as u32).collect();
+    let component = strong::components(&first, &targets);
+    edges.iter().any(|(from, to)| component[*from] == component[*to])
 }
 
 /// Which of the two that a `CheckValue` compares is less than which, when its event comes.

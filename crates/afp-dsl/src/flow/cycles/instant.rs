@@ -2,16 +2,13 @@
 
 use super::decided::{self, Known};
 use super::ending_of;
+use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, View};
 
 /// `quick` are the edges that take no time. The plan's own global supervisors are started and asked
 /// in the same step, so here their events count. Computations take the way that what is known at the start decides.
 pub(super) fn endings(view: &View<'_>, quick: &[Edge]) -> [bool; 2] {
-    let mut first = vec![0usize; view.nodes() + 1];
-    quick.iter().for_each(|edge| first[edge.from + 1] += 1);
-    for node in 0..view.nodes() {
-        first[node + 1] += first[node];
-    }
+    let first = strong::first(view.nodes(), quick.iter().map(|edge| edge.from));
     let mut entered: Vec<Option<Known>> = vec![None; view.nodes()];
     entered[view.start()] = Some(decided::at_start(view));
     let mut open = vec![view.start()];
@@ -22,7 +19,7 @@ pub(super) fn endings(view: &View<'_>, quick: &[Edge]) -> [bool; 2] {
         }
         let known = entered[node].clone().unwrap_or_default();
         // Quick edges are grouped by their origin, in the order of the nodes.
-        let own = quick[first[node]..first[node + 1]].iter();
+        let own = quick[first[node] as usize..first[node + 1] as usize].iter();
         let events = view
             .of_globals(node)
             .filter(|edge| matches!(edge.cause, Cause::Event(..) | Cause::On(_, _, Some(_))));

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use afp_core::Environment;
 use afp_core::rt::{Child, Machine, Tables};
-use afp_dsl::graph::{self, Component, EntryKind, Graph, PlanId};
+use afp_dsl::graph::{self, Component, Graph, PlanId};
 use afp_dsl::types::Type;
 use afp_syntax::source::Span;
 
-use super::{EntryInfo, LoadedPlan, WatchSlot, numbered};
+use super::{EntryInfo, LoadedPlan, WatchSlot};
 use crate::load::config::Config;
 use crate::load::element::{ElementSlot, Running};
 use crate::load::error::LoadError;
@@ -132,17 +132,7 @@ impl<E: Environment + ?Sized + 'static> Loader<'_, E> {
     }
 }
 
-/// Initial values in the order in which they may refer to one another: `const`, `in`, the rest.
+/// Initial values in the order in which they may refer to one another.
 fn initial(plan: &graph::Plan) -> Arc<[(u16, Formula)]> {
-    let rank = |kind| match kind {
-        EntryKind::Const => 0,
-        EntryKind::In => 1,
-        EntryKind::Var | EntryKind::Out => 2,
-    };
-    let mut order: Vec<_> = numbered(&plan.entries).collect();
-    order.sort_by_key(|(_, entry)| rank(entry.kind));
-    let formulas = order
-        .into_iter()
-        .filter_map(|(number, entry)| entry.init.as_ref().map(|init| (number, Formula::new(init))));
-    formulas.collect()
+    plan.initial().map(|(id, _, init)| (id.0, Formula::new(init))).collect()
 }

@@ -1,0 +1,91 @@
+//! Values that are known to be written: the cells of a table, and what `Assign` is given. The entry that takes one must
+//! let it pass.
+
+use afp_number::Error;
+
+use crate::check::constant::convert;
+use crate::check::entries::EntryDraft;
+use crate::check::formula::{Scope, fault_diagnostic};
+use crate::check::range;
+use crate::check::signature::Signature;
+use crate::graph::{Formula, Output};
+use crate::table::Table;
+use crate::toolbox::{Constant, Template};
+use crate::types::Type;
+use afp_syntax::diagnostics::{Diagnostic, Diagnostics};
+use afp_syntax::source::Span;
+
+/// Reports the first value of each output that its entry does not take.
+pub(super) fn fits(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    (inputs, outputs): (&[Formula], &[Output]),
+    diags: &mut Diagnostics,
+) {
+    for output in outputs {
+        let Some(entry) = scope.entries.get(output.entry.index()) else { continue };
+        let error = match (signature.template().and_then(Template::table), inputs) {
+            (Some((_, table)), _) => cell(entry, output, table),
+            (None, [value]) if is_assign(signature) => assigned(scope, entry, output, value),
+            _ => None,
+        };
+        if let Some(error) = error {
+            diags.push(error.note(entry.name.span, "the entry is declared here"));
+        }
+    }
+}
+
+fn is_assign(signature: &Signature) -> bool {
+    let toolbox = signature.template.as_ref().map(|(_, toolbox)| toolbox.name.as_str());
+    toolbox == Some("std") && signature.name == "Assign"
+}
+
+/// The first cell of a column that does not fit.
+fn cell(entry: &EntryDraft, output: &Output, table: &Table) -> Option<Diagnostic> {
+    let column = usize::from(output.port);
+    let ty = table.columns.get(column)?.ty.as_ref()?;
+    let mut cells = table.rows.iter().filter_map(|row| row.get(column));
+    cells.find_map(|cell| {
+        let name = &entry.name.text;
+        let message = |value| format!("the table has '{value}', out of the range of '{name}'");
+        let error = outside(entry, output, (&cell.value, ty), output.span, message)?;
+        Some(error.note(cell.span, "the value stands here"))
+    })
+}
+
+/// What `Assign` is given, where that is known and can never be written.
+fn assigned(
+    scope: &Scope<'_>,
+    entry: &EntryDraft,
+    output: &Output,
+    formula: &Formula,
+) -> Option<Diagnostic> {
+    let value = scope.value(formula)?;
+    if let Err(fault) = converted(output, &value) {
+        return Some(fault_diagnostic(fault, formula.span));
+    }
+    let message = |value| format!("'{value}' is out of the range of '{}'", entry.name.text);
+    outside(entry, output, (&value, &formula.ty), formula.span, message)
+}
+
+/// What is told of a value whose conversion is out of the range of an entry; `message` gets the value before it.
+fn outside(
+    entry: &EntryDraft,
+    output: &Output,
+    (value, ty): (&Constant, &Type),
+    place: Span,
+    message: impl FnOnce(String) -> String,
+) -> Option<Diagnostic> {
+    let (range, entry_ty) = (entry.range?, entry.ty.as_ref()?);
+    let written = converted(output, value).ok()?;
+    let shown = range::shown(value, ty);
+    range::outside(&written, range, entry_ty, place, |own| message(shown.unwrap_or(own)))
+}
+
+/// What an output makes of a value.
+fn converted(output: &Output, value: &Constant) -> Result<Constant, Error> {
+    match &output.conversion {
+        Some(conversion) => convert(conversion, value.clone()),
+        None => Ok(value.clone()),
+    }
+}

@@ -1,0 +1,272 @@
+//! How often cycles may be taken within one step, because a counter on them reaches its limit.
+//!
+//! A counter is a `Count` of the standard toolbox with a limit that is known, which counts in an entry that begins with
+//! known values. On a cycle where nothing but `Again` writes that entry it goes on at most so often as the limit is above
+//! the least of them; cycles within that cycle have their own counters.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use afp_number::MAX_TRANSITIONS_PER_STEP;
+
+use super::decided;
+use super::holding::standard_template;
+use crate::flow::strong;
+use crate::flow::view::{Cause, Edge, View};
+use crate::graph::{Component, Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
+use crate::toolbox::Constant;
+
+/// The state in which `Count` goes on.
+const AGAIN: u16 = 0;
+/// A cycle that is taken so often does not end within one step.
+pub(super) const MOST_ROUNDS: u64 = MAX_TRANSITIONS_PER_STEP as u64;
+/// How deep cycles with counters are looked into that lie in others.
+const DEEPEST: u32 = 8;
+
+/// A `Count` of which is known how far it counts.
+#[derive(Clone, Copy)]
+pub(super) struct Counter {
+    /// What it counts in.
+    pub entry: EntryId,
+    /// Its limit.
+    pub limit: i64,
+    /// What its entry begins with.
+    pub begin: Begin,
+}
+
+/// The values that an entry has before anything counts in it.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct Begin {
+    /// The least one; zero, which `Done` writes, is never less.
+    pub least: i64,
+    /// The greatest one.
+    pub greatest: i64,
+}
+
+impl Counter {
+    /// How often it says `Again` at most before it says `Done`.
+    fn most(&self) -> u64 {
+        u64::try_from(self.limit.saturating_sub(self.begin.least)).unwrap_or(0)
+    }
+
+    /// How often it says `Again` at least, when its cycle is entered for the first time.
+    pub fn first(&self) -> i64 {
+        self.limit.saturating_sub(self.begin.greatest)
+    }
+}
+
+/// The counters of a plan.
+#[derive(Default)]
+pub(crate) struct Counters(BTreeMap<ElementId, Counter>);
+
+impl Counters {
+    /// Finds them among the elements that can be reached.
+    pub fn of(view: &View<'_>) -> Counters {
+        let elements = (0..).map(ElementId).zip(&view.plan.elements);
+        let reached = elements.filter(|(id, _)| view.reached[id.index()]);
+        let found = reached
+            .filter_map(|(id, element)| Some((id, counted(view, element)?, limit(view, element)?)));
+        let found: Vec<_> = found.collect();
+        if found.is_empty() {
+            return Counters::default();
+        }
+        let begins = begins(view, found.iter().map(|(_, entry, _)| *entry).collect());
+        let known = found.into_iter().filter_map(|(id, entry, limit)| {
+            Some((id, Counter { entry, limit, begin: *begins.get(&entry)? }))
+        });
+        Counters(known.collect())
+    }
+
+    /// Whether a computation is one of them.
+    pub(super) fn has(&self, id: ElementId) -> bool {
+        self.0.contains_key(&id)
+    }
+
+    /// The counters by which a cycle goes on.
+    pub(super) fn on<'e>(
+        &self,
+        cycle: impl Iterator<Item = &'e Edge>,
+    ) -> Vec<(ElementId, Counter)> {
+        let goes_on = |edge: &Edge| match edge.cause {
+            Cause::State(id, AGAIN) => Some((id, *self.0.get(&id)?)),
+            _ => None,
+        };
+        cycle.filter_map(goes_on).collect()
+    }
+
+    /// Those of the counters on a cycle that bound how often it is taken: nothing on it but the `Again` of counters writes
+    /// what they count in.
+    pub(super) fn bounding<'e>(
+        &self,
+        view: &View<'_>,
+        cycle: impl Iterator<Item = &'e Edge> + Clone,
+    ) -> Vec<(ElementId, Counter)> {
+        let mut found = self.on(cycle.clone());
+        if !found.is_empty() {
+            let mut others: BTreeMap<EntryId, usize> = BTreeMap::new();
+            for output in cycle.flat_map(|edge| view.may_write(edge.cause)) {
+                *others.entry(output.entry).or_default() += 1;
+            }
+            for (_, counter) in &found {
+                others.entry(counter.entry).and_modify(|count| *count -= 1);
+            }
+            found.retain(|(_, counter)| others.get(&counter.entry) == Some(&0));
+        }
+        found
+    }
+
+    /// Whether a counter lets a cycle be taken fewer times than a step has edges.
+    pub(super) fn end<'e>(
+        &self,
+        view: &View<'_>,
+        cycle: impl Iterator<Item = &'e Edge> + Clone,
+    ) -> bool {
+        self.bounding(view, cycle).iter().any(|(_, counter)| counter.most() < MOST_ROUNDS)
+    }
+}
+
+/// The entry that a `Count` reads.
+fn count_of(view: &View<'_>, element: &Element) -> Option<EntryId> {
+    let Component::Computation(id) = element.component else { return None };
+    standard_template(view, id).filter(|name| *name == "Count")?;
+    match element.inputs.first()?.kind {
+        FormulaKind::Entry(entry) => Some(entry),
+        _ => None,
+    }
+}
+
+/// The entry that a `Count` reads and writes.
+fn counted(view: &View<'_>, element: &Element) -> Option<EntryId> {
+    let entry = count_of(view, element)?;
+    let next = |output: &Output| output.entry == entry && output.conversion.is_none();
+    element.outputs.iter().any(next).then_some(entry)
+}
+
+/// The `Count` that says `Again` for ever, since it does not write what it counts in, and that entry.
+pub(super) fn forgotten<'v>(view: &View<'v>, cause: Cause) -> Option<(&'v str, &'v str)> {
+    let Cause::State(id, AGAIN) = cause else { return None };
+    let element = &view.plan.elements[id.index()];
+    let entry = &view.plan.entries[count_of(view, element)?.index()];
+    let is_written = counted(view, element).is_some();
+    let writable = matches!(entry.kind, EntryKind::Var | EntryKind::Out);
+    (writable && !is_written).then_some((&element.name, &entry.name))
+}
+
+/// How far a `Count` of the standard toolbox counts, where that is written.
+fn limit(view: &View<'_>, element: &Element) -> Option<i64> {
+    whole(view.constant(element.inputs.get(1)?)?)
+}
+
+fn whole(value: Constant) -> Option<i64> {
+    match value {
+        Constant::Int(value) => Some(value),
+        _ => None,
+    }
+}
+
+/// What entries that are counted in begin with, where all that is written to them is known: their values at the start of
+/// the plan, those of `Assign`, and the zero of `Done`.
+fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryId, Begin> {
+    let at_start = decided::at_start(view);
+    let mut values: BTreeMap<EntryId, Vec<i64>> = BTreeMap::new();
+    for entry in counted_in.clone() {
+        let declared = &view.plan.entries[entry.index()];
+        let value = declared.value.clone().or_else(|| at_start.get(&entry).cloned());
+        match (&declared.init, value.and_then(whole)) {
+            (Some(_), None) => _ = counted_in.remove(&entry),
+            (_, value) => values.entry(entry).or_default().extend(value),
+        }
+    }
+    for (_, element) in view.elements() {
+        for output in element.outputs.iter().filter(|it| counted_in.contains(&it.entry)) {
+            match assigned(view, element) {
+                _ if counted(view, element) == Some(output.entry) => {}
+                Some(value) if output.conversion.is_none() => {
+                    values.get_mut(&output.entry).into_iter().for_each(|all| all.push(value));
+                }
+                _ => _ = values.remove(&output.entry),
+            }
+        }
+    }
+    for output in view.supervisors().flat_map(|supervisor| &supervisor.outputs) {
+        values.remove(&output.entry);
+    }
+    let begin = |values: Vec<i64>| Begin {
+        least: values.iter().copied().fold(0, i64::min),
+        greatest: values.into_iter().max().unwrap_or(0),
+    };
+    values.into_iter().map(|(entry, values)| (entry, begin(values))).collect()
+}
+
+/// What an `Assign` of the standard toolbox writes, where that is a whole number.
+fn assigned(view: &View<'_>, element: &Element) -> Option<i64> {
+    let Component::Computation(id) = element.component else { return None };
+    standard_template(view, id).filter(|name| *name == "Assign")?;
+    whole(view.constant(element.inputs.first()?)?)
+}
+
+/// Takes the edges away by which counters go on, cycle by cycle, those within others too, unless a node may be entered
+/// more than `most` times. Tells how often each node may be entered in one step; `None` where a cycle is left.
+///
+/// `edges` take no time and stand in the order of their nodes, which are less than the length of `component`: the
+/// strongly connected components.
+pub(crate) fn unwind(
+    view: &View<'_>,
+    mut component: Vec<u32>,
+    edges: &mut Vec<Edge>,
+    most: u64,
+) -> Vec<Option<u64>> {
+    let mut times = vec![1_u64; component.len()];
+    for _ in 0..DEEPEST {
+        let (factors, again) = bounded(view, &component, edges, |node| most / times[node]);
+        if again.is_empty() {
+            break;
+        }
+        for (node, times) in times.iter_mut().enumerate() {
+            let factor = factors.get(&component[node]).copied().unwrap_or(1);
+            *times = times.saturating_mul(factor);
+        }
+        edges.retain(|edge| !matches!(edge.cause, Cause::State(id, AGAIN) if again.contains(&id)));
+        component = components(component.len(), edges);
+    }
+    let mut times: Vec<_> = times.into_iter().map(Some).collect();
+    let cycles = edges.iter().filter(|edge| component[edge.from] == component[edge.to]);
+    let endless: BTreeSet<u32> = cycles.map(|edge| component[edge.from]).collect();
+    let unknown = component.iter().zip(&mut times).filter(|(of, _)| endless.contains(of));
+    unknown.for_each(|(_, times)| *times = None);
+    times
+}
+
+/// The strongly connected components of a graph whose edges stand in the order of its nodes.
+pub(crate) fn components(nodes: usize, edges: &[Edge]) -> Vec<u32> {
+    let first = strong::first(nodes, edges.iter().map(|edge| edge.from));
+    let targets: Vec<u32> = edges.iter().map(|edge| edge.to as u32).collect();
+    strong::components(&first, &targets)
+}
+
+/// For each component with counters that bound it how often its nodes may be entered while it is not left, and those
+/// counters; `room` says how often that may be.
+fn bounded(
+    view: &View<'_>,
+    component: &[u32],
+    edges: &[Edge],
+    room: impl Fn(usize) -> u64,
+) -> (BTreeMap<u32, u64>, BTreeSet<ElementId>) {
+    let (mut factors, mut again) = (BTreeMap::new(), BTreeSet::new());
+    if view.counters().0.is_empty() {
+        return (factors, again);
+    }
+    let mut cycles: BTreeMap<u32, Vec<&Edge>> = BTreeMap::new();
+    for edge in edges.iter().filter(|edge| component[edge.from] == component[edge.to]) {
+        cycles.entry(component[edge.from]).or_default().push(edge);
+    }
+    for (number, cycle) in cycles {
+        let counters = view.counters().bounding(view, cycle.iter().copied());
+        let rounds = counters.iter().map(|(_, counter)| counter.most());
+        let factor = rounds.fold(1, u64::saturating_add);
+        if !counters.is_empty() && factor <= room(cycle[0].from) {
+            factors.insert(number, factor);
+            again.extend(counters.into_iter().map(|(id, _)| id));
+        }
+    }
+    (factors, again)
+}
