@@ -1,5 +1,7 @@
 //! Compiles the plans of the tests to Rust: the cases of `run/` and the random plans.
 
+#[path = "build/names.rs"]
+mod names;
 #[allow(dead_code, reason = "what scripts need to know is for the tests")]
 #[path = "src/random.rs"]
 mod random;
@@ -15,17 +17,21 @@ use afp_dsl::files::Texts;
 use afp_dsl::toolbox::Toolboxes;
 use afp_syntax::source::Source;
 
+use names::Words;
+
 /// The random plans where nothing else is asked for, by seed.
 const RANDOM_PLANS: Range<u64> = 0..40;
 
 fn main() -> io::Result<()> {
-    for path in ["run", "plans", "toolbox/testing.afp", "src/random.rs", "src/random"] {
+    for path in ["build", "run", "plans", "toolbox/testing.afp", "src/random.rs", "src/random"] {
         println!("cargo::rerun-if-changed={path}");
     }
     println!("cargo::rerun-if-env-changed=AFP_RANDOM_PLANS");
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
     let toolboxes = toolboxes()?;
-    fs::write(out.join("run.rs"), cases(&toolboxes)?)?;
+    let (cases, words) = cases(&toolboxes)?;
+    fs::write(out.join("run.rs"), cases)?;
+    fs::write(out.join("names.rs"), names::code(&words, &toolboxes)?)?;
     fs::write(out.join("steps.rs"), steps(&toolboxes)?)?;
     fs::write(out.join("random.rs"), random_plans(&toolboxes)?)
 }
@@ -41,16 +47,19 @@ fn toolboxes() -> io::Result<Toolboxes> {
     Ok(toolboxes)
 }
 
-/// A module and a test for each case.
-fn cases(toolboxes: &Toolboxes) -> io::Result<String> {
+/// A module and a test for each case, and the words that generated code says.
+fn cases(toolboxes: &Toolboxes) -> io::Result<(String, Words)> {
     let files = fs::read_dir("run")?.map(|entry| entry.map(|entry| entry.path()));
     let mut files: Vec<PathBuf> = files.collect::<io::Result<_>>()?;
     files.retain(|path| path.extension().is_some_and(|extension| extension == "afp"));
     files.sort();
-    let mut code = String::new();
+    let (mut code, mut words) = (String::new(), Words::default());
     for path in files {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        code += &module(&name, &path, &fs::read_to_string(&path)?, toolboxes)?;
+        let text = fs::read_to_string(&path)?;
+        let module = module(&name, &path, &text, toolboxes)?;
+        words.add(&name, &text, &module);
+        code += &module;
         let _ = write!(
             code,
             "#[test]
@@ -60,7 +69,7 @@ fn {name}() {{
 "
         );
     }
-    Ok(code)
+    Ok((code, words))
 }
 
 /// The plan that must not allocate.

@@ -4,7 +4,7 @@ mod blame;
 mod message;
 
 use std::env;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -22,6 +22,9 @@ use message::Message;
 pub struct Job<'a> {
     /// The folder of the crate.
     pub folder: &'a Path,
+    /// The folder whose settings and toolchain cargo follows, with absolute paths in everything else; without it, that of
+    /// this process.
+    pub caller: Option<&'a Path>,
     /// Where cargo puts what it makes, unless the environment says otherwise; else below the folder.
     pub target: Option<&'a Path>,
     /// What builds for another machine.
@@ -57,39 +60,37 @@ pub enum Artifact {
     Extension,
 }
 
+/// What cargo has built.
+#[derive(Debug, Default)]
+pub struct Built {
+    /// The artifact that was wanted, if the crate has one.
+    pub artifact: Option<PathBuf>,
+    /// The manifests of all packages of this machine that it was made from.
+    pub manifests: Vec<PathBuf>,
+}
+
 /// What pyo3 reads to build an extension for any Python without asking one.
 const FOR_ANY_PYTHON: [(&str, &str); 2] =
     [("PYO3_NO_PYTHON", "1"), ("PYO3_BUILD_EXTENSION_MODULE", "1")];
 
-/// Builds a crate and gives the path of the artifact that is wanted.
+/// Builds a crate.
 ///
 /// # Errors
 /// There is no cargo, or it fails; why has been told.
-pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NotBuilt> {
+pub fn build(job: Job<'_>) -> Result<Built, NotBuilt> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut command = Command::new(&cargo);
-    command.args(["build", "--release", "--message-format=json-diagnostic-rendered-ansi"]);
-    command.arg("--manifest-path").arg(job.folder.join("Cargo.toml"));
-    if let (Some(target), None) = (job.target, env::var_os("CARGO_TARGET_DIR")) {
-        command.arg("--target-dir").arg(target);
-    }
-    if let Some(toolchain) = job.toolchain {
-        command.args(["--target", toolchain.triple]);
-        command.envs(toolchain.environment.iter().map(|(name, value)| (name, value)));
-    }
-    if job.artifact == Artifact::Extension {
-        command.envs(FOR_ANY_PYTHON);
-    }
+    let mut command = command(&cargo, &job);
     let started = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
     let mut child = started.map_err(|error| match error.kind() {
         ErrorKind::NotFound => job.no_cargo,
         _ => RunError::file("cannot start", cargo.as_ref())(error),
     })?;
-    let (mut built, mut messages) = (None, Vec::new());
+    let (mut built, mut messages) = (Built::default(), Vec::new());
     if let Some(out) = child.stdout.take() {
         let lines = BufReader::new(out).lines().map_while(Result::ok);
         for line in lines.filter_map(|line| serde_json::from_str::<Value>(&line).ok()) {
-            built = job.artifact.path(&line).or(built);
+            built.artifact = job.artifact.path(&line).or(built.artifact);
+            built.manifests.extend(manifest(&line));
             messages.extend(Message::read(&line));
         }
     }
@@ -100,6 +101,36 @@ pub fn build(job: Job<'_>) -> Result<Option<PathBuf>, NotBuilt> {
     reader.tell(job.folder, &messages, status.success())?;
     let first = || messages.iter().find(|message| message.is_error).map(Message::line);
     if status.success() { Ok(built) } else { Err(NotBuilt::Told { first: first() }) }
+}
+
+/// The command that builds a crate.
+fn command(cargo: &OsStr, job: &Job<'_>) -> Command {
+    let mut command = Command::new(cargo);
+    command.args(["build", "--release", "--message-format=json-diagnostic-rendered-ansi"]);
+    command.arg("--manifest-path").arg(job.folder.join("Cargo.toml"));
+    if let Some(caller) = job.caller {
+        command.current_dir(caller);
+    }
+    // Cargo would read a relative folder of the environment from the caller's.
+    let is_said = env::var_os("CARGO_TARGET_DIR").is_some() && job.caller.is_none();
+    if let (Some(target), false) = (job.target, is_said) {
+        command.arg("--target-dir").arg(target);
+    }
+    if let Some(toolchain) = job.toolchain {
+        command.args(["--target", toolchain.triple]);
+        command.envs(toolchain.environment.iter().map(|(name, value)| (name, value)));
+    }
+    if job.artifact == Artifact::Extension {
+        command.envs(FOR_ANY_PYTHON);
+    }
+    command
+}
+
+/// The manifest of the package that a message of cargo is about, if the package lies on this machine: that of another
+/// never changes.
+fn manifest(line: &Value) -> Option<PathBuf> {
+    let is_here = line.get("package_id")?.as_str()?.contains("path+file:");
+    is_here.then_some(PathBuf::from(line.get("manifest_path")?.as_str()?))
 }
 
 /// Who reads what the compiler has said.
@@ -158,6 +189,19 @@ impl Artifact {
 mod tests {
     use super::*;
     use serde_json::json;
+
+    #[test]
+    fn manifests_are_those_of_packages_on_this_machine() {
+        for (id, here) in [
+            ("path+file:///p/box#0.1.0", true),
+            ("box 0.1.0 (path+file:///p/box)", true),
+            ("registry+https://github.com/rust-lang/crates.io-index#box@0.1.0", false),
+        ] {
+            let line = json!({ "package_id": id, "manifest_path": "/p/box/Cargo.toml" });
+            assert_eq!(manifest(&line), here.then(|| PathBuf::from("/p/box/Cargo.toml")), "{id}");
+        }
+        assert_eq!(manifest(&json!({ "reason": "build-finished" })), None);
+    }
 
     #[test]
     fn artifacts_are_found_in_what_cargo_says() {

@@ -4,11 +4,11 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use afp_codegen::{MADE_BY, Origin};
+use afp_codegen::{MADE_BY, Origin, RUST_MADE_BY};
 use afp_run::{RunError, write_whole};
 
-/// Writes the files that differ from what is there, so that cargo builds only what changed, and
-/// removes sources of an earlier plan.
+/// Writes the crate of a plan: the files that differ from what is there, so that cargo builds only what changed.
+/// Sources of an earlier plan are removed; what else is there stays.
 ///
 /// # Errors
 /// The folder holds a crate that somebody else made, or other files of the same names, or cannot be written.
@@ -21,10 +21,23 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
                 "give an empty folder with '-o DIR'",
             ));
         }
-        Ok(_) => remove_old(folder, files)?,
-        Err(error) if error.kind() == ErrorKind::NotFound => leave_alone(folder, files)?,
+        Ok(_) => {
+            refuse_others(folder, files, is_made_here)?;
+            remove_old(folder, files)?;
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            refuse_others(folder, files, |_| false)?;
+        }
         Err(error) => return Err(RunError::file("cannot read", &manifest)(error)),
     }
+    put(folder, files, origin)
+}
+
+/// Writes the files that differ from what is there into a folder that is ours alone.
+///
+/// # Errors
+/// The folder cannot be written.
+pub(crate) fn put(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(), RunError> {
     for (name, text) in files {
         let path = folder.join(name);
         if let Some(parent) = path.parent() {
@@ -56,11 +69,24 @@ pub fn pin(folder: &Path, origin: &Origin) -> Result<Option<&'static str>, RunEr
     }
 }
 
-/// Refuses a folder without a manifest in which others keep something under a name that the crate would take.
-fn leave_alone(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
+/// Whether an earlier build made a file of a crate of ours. Of what is no Rust nobody can tell: the manifest says it.
+fn is_made_here(path: &Path) -> bool {
+    !is_rust(path) || fs::read_to_string(path).is_ok_and(|text| text.starts_with(RUST_MADE_BY))
+}
+
+fn is_rust(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "rs")
+}
+
+/// Refuses a folder in which others keep something under a name that the crate would take.
+fn refuse_others(
+    folder: &Path,
+    files: &[(&str, &str)],
+    is_ours: fn(&Path) -> bool,
+) -> Result<(), RunError> {
     let others = |(name, text): &&(&str, &str)| {
         let path = folder.join(name);
-        path.exists() && fs::read_to_string(path).ok().as_deref() != Some(*text)
+        path.exists() && fs::read_to_string(&path).ok().as_deref() != Some(*text) && !is_ours(&path)
     };
     match files.iter().find(others) {
         None => Ok(()),
@@ -71,14 +97,46 @@ fn leave_alone(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
     }
 }
 
+/// Removes the Rust of an earlier plan.
 fn remove_old(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
     let sources = folder.join("src");
     let Ok(entries) = fs::read_dir(&sources) else { return Ok(()) };
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         let kept = files.iter().any(|(name, _)| folder.join(name) == path);
-        if !kept && path.extension().is_some_and(|extension| extension == "rs") {
+        if !kept && is_rust(&path) && is_made_here(&path) {
             fs::remove_file(&path).map_err(RunError::file("cannot remove", &path))?;
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OURS: &str = "// Made by 'afpc build' from x.afp.\n";
+
+    #[test]
+    fn rust_of_others_is_neither_removed_nor_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let manifest = ("Cargo.toml", "# Made by 'afpc build' from x.afp.\n");
+        let origin = Origin::Version("0.1.0".to_owned());
+        let build = |files: &[(&str, &str)]| write(folder.path(), files, &origin);
+        build(&[manifest, ("x.afp", "1"), ("src/lib.rs", OURS), ("src/old.rs", OURS)]).unwrap();
+        fs::write(path("src/hardware.rs"), "//! Mine.\n").unwrap();
+        let changed = format!("{OURS}//! Other.\n");
+        build(&[manifest, ("x.afp", "2"), ("src/lib.rs", &changed)]).unwrap();
+        let read = |name: &str| fs::read_to_string(path(name)).ok();
+        assert_eq!(read("src/old.rs"), None);
+        assert_eq!(read("src/hardware.rs").as_deref(), Some("//! Mine.\n"));
+        assert_eq!(read("src/lib.rs"), Some(changed));
+        assert_eq!(read("x.afp").as_deref(), Some("2"));
+        let refused = build(&[manifest, ("src/hardware.rs", OURS)]).unwrap_err().to_string();
+        assert!(
+            refused.contains("src/hardware.rs' is there, and 'afpc' did not make it"),
+            "{refused}"
+        );
+        assert_eq!(read("src/hardware.rs").as_deref(), Some("//! Mine.\n"));
+    }
 }

@@ -56,9 +56,10 @@ impl Product {
 /// No folder that can be written, no cargo, a crate that does not build.
 pub fn product(parts: &Parts<'_>, product: Product) -> Result<PathBuf, NotBuilt> {
     let kept = Kept::new(parts, product)?;
-    match fresh::program(&kept.folder, &parts.manifests()) {
+    let files = kept.files(parts)?;
+    match fresh::program(&kept.folder, &parts.project.folder, &files) {
         Some(built) => Ok(built),
-        None => kept.build(parts),
+        None => kept.build(parts, &files),
     }
 }
 
@@ -93,7 +94,19 @@ impl Kept {
         Ok(Kept { product, options, folder: kept.join(below), target: build })
     }
 
-    fn build(&self, parts: &Parts<'_>) -> Result<PathBuf, NotBuilt> {
+    /// The files of its crate.
+    fn files(&self, parts: &Parts<'_>) -> Result<Vec<(String, String)>, RunError> {
+        let declared: Vec<_> = parts.toolboxes.iter().map(|own| &*own.declared).collect();
+        let files = match self.product {
+            Product::Runner(_) => runner_files(&self.options, &declared),
+            Product::Extension => extension_files(&self.options, &declared),
+        };
+        files.map_err(|path| {
+            RunError::usage(format!("'{path}' is no path of a module"), "mend 'module' in afp.toml")
+        })
+    }
+
+    fn build(&self, parts: &Parts<'_>, files: &[(String, String)]) -> Result<PathBuf, NotBuilt> {
         let names = parts.names();
         let no_cargo = RunError::Missing {
             message: format!(
@@ -104,20 +117,13 @@ impl Kept {
                    use built-in toolboxes alone run without it"
                     .to_owned(),
         };
-        let declared: Vec<_> = parts.toolboxes.iter().map(|own| &*own.declared).collect();
-        let files = match self.product {
-            Product::Runner(_) => runner_files(&self.options, &declared),
-            Product::Extension => extension_files(&self.options, &declared),
-        };
-        let files = files.map_err(|path| {
-            RunError::usage(format!("'{path}' is no path of a module"), "mend 'module' in afp.toml")
-        })?;
         let texts: Vec<_> = files.iter().map(|(path, text)| (&**path, &**text)).collect();
-        crate_folder::write(&self.folder, &texts, &self.options.origin)?;
+        crate_folder::put(&self.folder, &texts, &self.options.origin)?;
         say(format_args!("building {} for {names} (once) ...", self.product.words()));
         let begun = fresh::begin(&self.folder)?;
         let built = cargo::build(Job {
             folder: &self.folder,
+            caller: Some(&parts.project.folder),
             target: Some(&self.target),
             toolchain: None,
             artifact: match self.product {
@@ -128,8 +134,9 @@ impl Kept {
             no_cargo,
             tools: None,
         })?;
-        let built = built.ok_or(NotBuilt::Told { first: None })?;
-        fresh::done(&self.folder, &built, begun)?;
-        Ok(built)
+        let program = built.artifact.ok_or(NotBuilt::Told { first: None })?;
+        let watched = fresh::watched(&built.manifests, &parts.project.folder);
+        fresh::done(&self.folder, &program, &watched, begun)?;
+        Ok(program)
     }
 }

@@ -126,12 +126,6 @@ impl<'a> Parts<'a> {
         self.toolboxes.iter().map(|own| &own.krate).chain(robot).chain(hardware)
     }
 
-    /// What they are built from beside Rust: the manifests of their crates.
-    pub(crate) fn manifests(&self) -> Vec<PathBuf> {
-        let folders = self.crates().filter_map(|krate| krate.folder.as_ref());
-        folders.map(|folder| folder.join("Cargo.toml")).collect()
-    }
-
     /// `the toolbox 'a'`, `the robot 'b' with the toolboxes 'c' and 'd'`.
     pub fn names(&self) -> String {
         let names: Vec<_> = self.toolboxes.iter().map(|own| format!("'{}'", own.name)).collect();

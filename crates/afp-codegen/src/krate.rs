@@ -4,9 +4,9 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::Options;
-use crate::layout::{doc, file, file_with_places};
-use crate::manifest::{Dependency, Origin, manifest};
-use crate::names::{ident, snake};
+use crate::layout::{doc, file_with_places};
+use crate::manifest::{Dependency, Origin, RUST_MADE_BY, manifest};
+use crate::names::{NEVER, UniqueNames, ident, snake};
 use crate::places::Places;
 use crate::plan::{Generated, plan};
 use afp_dsl::graph::Graph;
@@ -66,6 +66,8 @@ impl CrateFile {
 /// The files of a crate.
 pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
     let generated = plan(graph, &Options { core: quote!(afp::core), ..Options::default() });
+    let dependencies = dependencies(graph, options);
+    let krate = crate_name(&graph.main().name, &dependencies);
     let main = graph.main().span;
     let plain = |path: &str, text| CrateFile {
         path: path.to_owned(),
@@ -73,29 +75,50 @@ pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
         places: Places::default(),
         whole: main,
     };
-    let mut files = vec![plain("Cargo.toml", cargo_toml(graph, options))];
+    let mut files = vec![plain("Cargo.toml", cargo_toml(&krate, options, dependencies))];
     files.extend(options.texts.iter().map(|(path, text)| plain(path, text.clone())));
-    files.push(plain("src/lib.rs", library(graph, &generated, options)));
+    let head = format!("{RUST_MADE_BY} from {}.", base_name(&options.file));
+    let rust = |path: &str, tokens| {
+        let (text, places) = file_with_places(&head, tokens);
+        CrateFile { path: path.to_owned(), text, places, whole: main }
+    };
+    files.push(rust("src/lib.rs", library(graph, &generated, options)));
     if !options.lib {
-        files.push(plain("src/main.rs", program(graph, &generated, options)));
+        files.push(rust("src/main.rs", program(graph, (&krate, &generated), options)));
     }
     for module in &generated.modules {
         let name = module.name.to_string();
         let path = format!("src/{}.rs", name.trim_start_matches("r#"));
-        let (text, places) = file_with_places(module.tokens());
-        files.push(CrateFile { path, text, places, whole: module.span });
+        files.push(CrateFile { whole: module.span, ..rust(&path, module.tokens()) });
     }
     files
 }
 
-fn cargo_toml(graph: &Graph, options: &CrateOptions) -> String {
+/// Crates that Rust has for itself, and names of folders that cargo keeps for itself.
+const KEPT: &[&str] =
+    &["alloc", "build", "core", "deps", "examples", "incremental", "proc_macro", "std", "test"];
+
+/// The name of the crate in Rust: the plan's, unless another crate beside it has that.
+fn crate_name(plan: &str, dependencies: &[Dependency]) -> String {
+    let others = dependencies.iter().flat_map(|it| [&it.key, &it.package]);
+    let others: Vec<_> = others.map(|name| name.replace('-', "_")).collect();
+    let kept = [KEPT, NEVER].concat().into_iter();
+    let mut names = UniqueNames::taken(kept.chain(others.iter().map(String::as_str)));
+    match snake(plan) {
+        // What the crates of AFP depend on in turn.
+        name if name.starts_with("afp_") => names.unique(format!("{name}_plan")),
+        name => names.unique_or(name, "plan"),
+    }
+}
+
+fn cargo_toml(krate: &str, options: &CrateOptions, dependencies: Vec<Dependency>) -> String {
     let made_by = format!(" build' from {}", base_name(&options.file));
-    let package = snake(&graph.main().name).replace('_', "-");
+    let package = krate.replace('_', "-");
     let profile = "# One unit, optimised as a whole: the scheduler melts into the plan.\n\
                    [profile.release]\n\
                    lto = \"fat\"\n\
                    codegen-units = 1\n";
-    manifest(&made_by, &package, dependencies(graph, options), profile)
+    manifest(&made_by, &package, dependencies, profile)
 }
 
 /// The crates that a plan needs: those of its toolboxes beside `afp` and what runs it.
@@ -127,7 +150,7 @@ fn given<'a>(options: &'a CrateOptions, path: &str) -> Option<&'a Dependency> {
     options.dependencies.iter().find(|given| given.key.replace('-', "_") == name)
 }
 
-fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> String {
+fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> TokenStream {
     let modules = generated.modules.iter().map(|module| {
         let name = &module.name;
         quote!(pub mod #name;)
@@ -139,22 +162,26 @@ fn library(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
         let place = format!("../{path}");
         quote!((#path, include_str!(#place)))
     });
-    file(quote! {
+    quote! {
         #![doc = #about]
         #![no_std]
         #(#modules)*
-        pub use #module::#ty;
+        pub use self::#module::#ty;
         #help
         pub const TEXTS: &[(&str, &str)] = &[#(#texts),*];
-    })
+    }
 }
 
-fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> String {
+fn program(
+    graph: &Graph,
+    (krate, generated): (&str, &Generated),
+    options: &CrateOptions,
+) -> TokenStream {
     let name = &graph.main().name;
     let itself = options.hardware.as_ref();
     let also = if itself.is_some() { ", or on the robot itself" } else { "" };
     let about = format!(" Runs the plan `{name}` on the simulated robot{also}.");
-    let (krate, ty) = (ident(&snake(name)), &generated.plan);
+    let (krate, ty) = (ident(krate), &generated.plan);
     let path = &options.file;
     let (import, robot) = match options.robot.as_ref().and_then(|path| path.parse().ok()) {
         None => (
@@ -168,16 +195,17 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
     let settings = itself.iter().flat_map(|itself| &itself.settings);
     let settings = settings.map(|(name, value)| quote!((#name, #value)));
     let main = match itself.and_then(|itself| itself.ty.parse::<TokenStream>().ok()) {
-        None => quote!(afp_run::main::<#robot, _>(program, #ty::new)),
-        Some(hardware) => quote!(afp_run::main_with::<#robot, #hardware, _>(program, #ty::new)),
+        None => quote!(afp_run::main::<#robot, _>(program, #krate::#ty::new)),
+        Some(hardware) => {
+            quote!(afp_run::main_with::<#robot, #hardware, _>(program, #krate::#ty::new))
+        }
     };
-    file(quote! {
+    quote! {
         #![doc = #about]
         use std::process::ExitCode;
 
         use afp_run::Program;
         #import
-        use #krate::#ty;
 
         fn main() -> ExitCode {
             let program = Program {
@@ -188,7 +216,7 @@ fn program(graph: &Graph, generated: &Generated, options: &CrateOptions) -> Stri
             };
             #main
         }
-    })
+    }
 }
 
 /// The last part of a path of either kind.

@@ -88,22 +88,27 @@ fn is_comment(group: &Group) -> bool {
 ///
 /// Tokens that are no Rust file come back as they are, so that the compiler shows what is wrong.
 pub fn file(tokens: TokenStream) -> String {
-    file_with_places(tokens).0
+    file_with_places("", tokens).0
 }
 
-/// The text of a file, and which place each line is made from.
-pub fn file_with_places(tokens: TokenStream) -> (String, Places) {
+/// The text of a file below a line of comment, if that is not empty, and which place each line is made from.
+pub fn file_with_places(head: &str, tokens: TokenStream) -> (String, Places) {
     match syn::parse2(tokens.clone()) {
-        Ok(file) => airy(&prettyplease::unparse(&file)),
+        Ok(file) => airy(head, &prettyplease::unparse(&file)),
         Err(_) => (tokens.to_string(), Places::default()),
     }
 }
 
-/// Blank lines between items, where the printer leaves none, and no places among the lines.
-fn airy(text: &str) -> (String, Places) {
+/// Blank lines below the head and between items, where the printer leaves none, and no places among the lines.
+fn airy(head: &str, text: &str) -> (String, Places) {
     let mut airy = String::with_capacity(text.len() + text.len() / 16);
     let (mut places, mut here) = (Places::default(), None);
     let mut before = "";
+    if !head.is_empty() {
+        airy += &format!("{head}\n\n");
+        places.line(head, None);
+        places.line("", None);
+    }
     let mut lines = text.lines().peekable();
     while let Some(line) = lines.next() {
         if let Some(place) = place(line) {
@@ -185,7 +190,8 @@ mod tests {
             fn g() { match 1 { #d 1 => {} _ => {} } }
             struct Last {}
         };
-        let (text, places) = file_with_places(tokens.clone());
+        let (text, places) = file_with_places("// Head.", tokens.clone());
+        assert!(text.starts_with("// Head.\n\n/// Help.\n"), "{text}");
         assert!(!text.contains('\u{1}') && !code(tokens).to_string().contains("comment"));
         let place = |part: &str| {
             let line = text.lines().position(|line| line.contains(part)).unwrap();

@@ -27,7 +27,7 @@ pub use input::MacroInput;
 pub use krate::{CrateFile, CrateOptions, Hardware, crate_files};
 pub use layout::{code, file};
 pub use linked::{LinkOptions, extension_files, runner_files};
-pub use manifest::{Dependency, Features, MADE_BY, Origin};
+pub use manifest::{Dependency, Features, MADE_BY, Origin, RUST_MADE_BY};
 pub use places::Places;
 pub use plan::{Generated, Module, plan};
 pub use scenarios::{ScenarioSetting, ScenarioTests};

@@ -2,6 +2,8 @@
 
 /// How every such manifest begins.
 pub const MADE_BY: &str = "# Made by 'afpc";
+/// How every file of Rust begins that the next build may replace or remove.
+pub const RUST_MADE_BY: &str = "// Made by 'afpc build'";
 
 /// Where a crate comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -13,7 +13,13 @@ const KEYWORDS: &[&str] = &[
 
 /// Rust's words that cannot be names at all. The checks refuse them, but not `self_`, of which the
 /// change of case leaves `self`.
-const NEVER: &[&str] = &["self", "Self", "super", "crate"];
+pub const NEVER: &[&str] = &["self", "Self", "super", "crate"];
+
+/// Rust's types of lower case: a module of such a name hides the type from what stands beside it.
+pub const PRIMITIVES: &[&str] = &[
+    "bool", "char", "f128", "f16", "f32", "f64", "i128", "i16", "i32", "i64", "i8", "isize", "str",
+    "u128", "u16", "u32", "u64", "u8", "usize",
+];
 
 /// An identifier, raw where it has to be.
 pub fn ident(name: &str) -> Ident {
@@ -83,8 +89,14 @@ pub struct UniqueNames(Vec<String>);
 
 impl UniqueNames {
     /// A register in which some names are taken.
-    pub fn taken(names: &[&str]) -> Self {
-        UniqueNames(names.iter().map(|name| (*name).to_owned()).collect())
+    pub fn taken<'n>(names: impl IntoIterator<Item = &'n str>) -> Self {
+        UniqueNames(names.into_iter().map(str::to_owned).collect())
+    }
+
+    /// The name itself; one that is taken gets a word behind it, then a number.
+    pub fn unique_or(&mut self, name: String, word: &str) -> String {
+        let is_taken = self.0.contains(&name);
+        self.unique(if is_taken { format!("{name}_{word}") } else { name })
     }
 
     /// The name itself, or the first of `name_2`, `name_3`... that is free.
@@ -126,9 +138,12 @@ mod tests {
 
     #[test]
     fn a_taken_name_gets_a_number() {
-        let mut names = UniqueNames::taken(&["touch"]);
+        let mut names = UniqueNames::taken(["touch"]);
         assert_eq!(names.unique("touch".into()), "touch_2");
         assert_eq!(names.unique("lane".into()), "lane");
         assert_eq!(names.unique("touch".into()), "touch_3");
+        assert_eq!(names.unique_or("touch".into(), "plan"), "touch_plan");
+        assert_eq!(names.unique_or("touch".into(), "plan"), "touch_plan_2");
+        assert_eq!(names.unique_or("free".into(), "plan"), "free");
     }
 }

@@ -9,6 +9,7 @@ mod bindings;
 mod components;
 mod context;
 mod elements;
+mod graph_names;
 mod imports;
 mod names;
 mod rules;
@@ -22,10 +23,9 @@ use quote::quote;
 
 use crate::Options;
 use crate::layout::{comment, doc};
-use crate::names::camel;
 use afp_dsl::graph::{Graph, PlanId};
 use afp_syntax::source::Span;
-use context::Context;
+use context::{Context, Shared};
 pub(crate) use shared::units_name;
 
 /// The Rust code of a graph: a module for each plan, and what they share.
@@ -58,17 +58,13 @@ pub struct Module {
 
 /// The Rust code of all plans of a graph.
 pub fn plan(graph: &Graph, options: &Options) -> Generated {
-    let enums = shared::enums_of(graph);
-    let tables = tables::tables_of(graph);
-    let mut modules = shared::modules(graph, &enums, options);
-    modules.extend(tables::module(graph, (&tables, &enums), options));
+    let shared = Shared::of(graph);
+    let mut modules = shared::modules(graph, &shared.enums, options);
+    modules.extend(tables::module(graph, &shared, options));
     let ids = (0..=u16::MAX).map(PlanId).take(graph.plans.len());
-    for id in ids.clone() {
-        modules.push(module(&Context::new(graph, (&enums, &tables), id), options, id));
-    }
-    let plans = ids.map(|id| module_and_type(graph, id));
-    let (main, plan) = module_and_type(graph, graph.main);
-    Generated { modules, plans: plans.collect(), main, plan }
+    modules.extend(ids.map(|id| module(&Context::new(graph, &shared, id), options, id)));
+    let (main, plan) = shared.names.plan(graph.main);
+    Generated { modules, plans: shared.names.plans, main, plan }
 }
 
 fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
@@ -152,10 +148,4 @@ impl Generated {
             pub use self::#main::#plan;
         }
     }
-}
-
-/// The module and the type of a plan.
-fn module_and_type(graph: &Graph, id: PlanId) -> (Ident, Ident) {
-    let name = &graph.plan(id).name;
-    (context::module_name(name), context::type_name(&camel(name)))
 }

@@ -16,7 +16,7 @@ use quote::quote;
 use crate::Options;
 use crate::enums;
 use crate::layout::doc;
-use crate::names::{camel, ident, snake};
+use crate::names::{PRIMITIVES, camel, ident, snake};
 use crate::rust_type::TypePaths;
 use afp_dsl::toolbox::{InPort, Template, TemplateKind, Toolbox};
 use afp_dsl::types::{Enum, Object, Type};
@@ -82,10 +82,11 @@ fn type_paths(core: &TokenStream) -> TypePaths<'_> {
     TypePaths { core: quote!(#core::), quantity: quote!(#core::quantity::), choice, object }
 }
 
-/// The module of a template's types. A template that is called as the modules of the devices are gives way.
-fn module(template: &Template) -> Ident {
+/// The module of a template's types. A template that is called as the modules of the devices or a type of Rust are gives
+/// way.
+pub(crate) fn module(template: &Template) -> Ident {
     let name = snake(&template.name);
-    let taken = devices::MODULES.contains(&&*name);
+    let taken = devices::MODULES.contains(&&*name) || PRIMITIVES.contains(&&*name);
     if taken { ident(&format!("{name}_")) } else { ident(&name) }
 }
 
@@ -142,7 +143,7 @@ fn implement(core: &TokenStream, template: &Template) -> TokenStream {
     let outcomes = Parameters::of(template.outputs.iter().map(|port| &port.ty)).owned_arguments();
     let live = has_live(template).then(|| quote!(type Live<'a> = #module::Live #live;));
     quote! {
-        impl #parameters #core::#trait_name for #name #arguments {
+        impl #parameters #core::#trait_name for self::#name #arguments {
             type Inputs<'a> = #module::Inputs #inputs;
             #live
             type #outcome = #module::#outcome #outcomes;
@@ -223,12 +224,12 @@ mod tests {
     use afp_syntax::source::Source;
 
     #[test]
-    fn templates_called_as_the_modules_of_devices_give_way() {
+    fn templates_called_as_what_stands_beside_them_give_way() {
         let text = "toolbox lamps\ndevice lamp { signal on: bool }\nactor Signal { state Shown }\n\
-                    actor Devices { state Done }\nactor Blink { state Done }";
+                    actor Devices { state Done }\nactor Str { state Done }\nactor Blink { state Done }";
         let (lamps, _) = Toolbox::parse(&Source::new("lamps.afp", text), 0, "lamps");
         let lamps = lamps.expect("it is sound");
         let names: Vec<_> = lamps.templates.iter().map(|it| module(it).to_string()).collect();
-        assert_eq!(names, ["signal_", "devices_", "blink"]);
+        assert_eq!(names, ["signal_", "devices_", "str_", "blink"]);
     }
 }

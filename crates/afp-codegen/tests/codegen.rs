@@ -6,7 +6,9 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use afp_codegen::{CrateOptions, Dependency, Features, Module, Options, Origin};
+use afp_codegen::{
+    CrateFile, CrateOptions, Dependency, Features, Module, Options, Origin, RUST_MADE_BY,
+};
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::{Toolbox, Toolboxes};
@@ -131,9 +133,9 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     assert!(!manifest.contains("afp-dsl"));
     assert_eq!(get("wall_following.afp"), Some(&text));
     assert!(
-        get("src/main.rs")
-            .unwrap()
-            .contains("afp_run::main::<Simulation, _>(program, WallFollowing::new)")
+        get("src/main.rs").unwrap().contains(
+            "afp_run::main::<Simulation, _>(program, wall_following::WallFollowing::new)"
+        )
     );
     options.texts.push(("lib/avoid.afp".to_owned(), "plan Avoid {}".to_owned()));
     let files = afp_codegen::crate_files(&graph, &options);
@@ -141,6 +143,79 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     assert_eq!(get("lib/avoid.afp"), Some("plan Avoid {}"));
     let library = get("src/lib.rs").unwrap();
     assert!(library.contains("include_str!(\"../lib/avoid.afp\")"), "{library:?}");
+}
+
+/// The files of a crate of a plan and the sub-plans that it uses in turn, each one last in the next one's file.
+fn crate_of(plans: &[&str], options: &CrateOptions) -> Vec<CrateFile> {
+    let texts = plans.iter().enumerate().map(|(i, name)| match plans.get(i + 1) {
+        Some(next) => {
+            format!("plan {name} {{ start go subplan go: {next}() {{ OK -> terminate }} }}\n")
+        }
+        None => format!(
+            "plan {name} {{ start go computation go: Log(value = 1) {{ Done -> terminate }} }}\n"
+        ),
+    });
+    let source = Source::new("x.afp", format!("use std\n{}", texts.collect::<String>()));
+    let compiled = afp_dsl::compile(&source, &toolboxes(), &Texts::default());
+    let errors = compiled.render(false);
+    afp_codegen::crate_files(&compiled.graph.unwrap_or_else(|| panic!("{errors}")), options)
+}
+
+#[test]
+fn no_name_of_a_plan_takes_that_of_another_file_or_crate() {
+    let (_, _, mut options) = wall_following();
+    options.robot = Some("robot_arm::Arm".to_owned());
+    options.dependencies = vec![Dependency {
+        key: "robot-arm".to_owned(),
+        package: "arm".to_owned(),
+        origin: Origin::Path("../arm".to_owned()),
+        features: Features::Default,
+    }];
+    for (plans, package, modules) in [
+        (&["Main"][..], "main", &["main_plan"][..]),
+        (&["Lib", "Main", "Str"], "lib", &["str_plan", "main_plan", "lib_plan"]),
+        (&["Enums", "EnumsPlan"], "enums", &["enums_plan", "enums_plan_plan"]),
+        (&["Std"], "std-plan", &["std_plan"]),
+        (&["Afp"], "afp-plan", &["afp"]),
+        (&["AfpRun"], "afp-run-plan", &["afp_run"]),
+        (&["AfpCore"], "afp-core-plan", &["afp_core"]),
+        (&["Arm"], "arm-plan", &["arm"]),
+        (&["RobotArm"], "robot-arm-plan", &["robot_arm"]),
+        (&["Build"], "build-plan", &["build"]),
+        (&["Program"], "program", &["program"]),
+    ] {
+        let files = crate_of(plans, &options);
+        let get = |path: &str| &files.iter().find(|file| file.path == path).unwrap().text;
+        let manifest = get("Cargo.toml");
+        assert!(manifest.contains(&format!("name = \"{package}\"")), "{manifest}");
+        let mut wanted: Vec<_> = ["main", "lib"].iter().chain(modules).collect();
+        let of = |file: &CrateFile| {
+            Some(file.path.strip_prefix("src/")?.strip_suffix(".rs")?.to_owned())
+        };
+        let mut paths: Vec<_> = files.iter().filter_map(of).collect();
+        wanted.sort();
+        paths.sort();
+        assert!(paths.iter().eq(wanted), "{plans:?}: {paths:?}");
+        assert!(get("src/main.rs").contains("fn main()"));
+        let main = format!("{}::{}::new", package.replace('-', "_"), plans[0]);
+        assert!(get("src/main.rs").contains(&main), "{}", get("src/main.rs"));
+    }
+}
+
+#[test]
+fn every_file_of_rust_says_what_made_it_and_knows_its_lines() {
+    let (_, graph, options) = wall_following();
+    let files = afp_codegen::crate_files(&graph, &options);
+    let rust = files.iter().filter(|file| file.path.ends_with(".rs"));
+    for file in rust {
+        let head = format!("{RUST_MADE_BY} from wall_following.afp.\n\n//! ");
+        assert!(file.text.starts_with(&head), "{}", file.text);
+    }
+    let plan = files.iter().find(|file| file.path == "src/wall_following.rs").unwrap();
+    let line = plan.text.lines().position(|line| line.contains("SearchFirstWall(")).unwrap();
+    let (span, exact) = plan.place(line + 1);
+    let text = &options.texts[0].1[span.start as usize..span.end as usize];
+    assert_eq!((text, exact), ("searchFirstWall", true));
 }
 
 #[test]

@@ -16,6 +16,7 @@ use afp_codegen::{
     compile_errors, complete, register_supported,
 };
 use afp_dsl::toolbox::Toolbox;
+use afp_syntax::has_scenario;
 use afp_syntax::source::Sources;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -131,9 +132,11 @@ fn register_code(support: Support) -> Result<TokenStream, TokenStream> {
 fn scenarios_code(setting: ScenarioSetting) -> Result<TokenStream, TokenStream> {
     let is_built_in = |path: &str| afp_toolboxes::ALL.iter().any(|each| each.rust_path == path);
     let mut tests = ScenarioTests::new(&setting, is_built_in);
+    let mut without = Vec::new();
     for path in sources::plan_files(&setting.path) {
         let file = sources::read(&path)?;
-        if !file.source.text.lines().any(|line| line.trim_start().starts_with("scenario ")) {
+        if !has_scenario(&file.source.text) {
+            without.push(file.text);
             continue;
         }
         let (compiled, available) = sources::compile(&file, None, &[])?;
@@ -144,5 +147,7 @@ fn scenarios_code(setting: ScenarioSetting) -> Result<TokenStream, TokenStream> 
         tests.add(&path, &full, &compiled, &available.texts);
     }
     let none = || compile_error(&format!("error: there are no scenarios in '{}'", setting.path));
-    tests.modules().ok_or_else(none)
+    let modules = tests.modules().ok_or_else(none)?;
+    // A file that gets its first scenario is watched before.
+    Ok(quote!(#modules const _: &[&str] = &[#(#without),*];))
 }

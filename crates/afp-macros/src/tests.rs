@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::{expand, plan_code, toolbox_code};
+use crate::{expand, plan_code, scenarios_code, toolbox_code};
 
 /// The texts of all compile errors.
 fn errors(tokens: &TokenStream) -> Vec<String> {
@@ -78,6 +78,16 @@ fn what_is_no_file_name_is_a_compile_error() {
         let text = expand(wrong, plan_code).to_string();
         assert!(text.contains("compile_error"), "{text}");
     }
+}
+
+#[test]
+fn every_scenario_of_a_folder_is_a_test_however_it_is_written() {
+    let text = expand(quote!("tests/scenarios"), scenarios_code).to_string();
+    for name in ["behind_a_tab", "in_two_lines", "behind_a_plan"] {
+        assert!(text.contains(&format!("fn {name} ()")), "{name}: {text}");
+    }
+    assert_eq!(text.matches("# [test]").count(), 3, "{text}");
+    assert!(text.contains("none.afp\")"), "a file without one is watched: {text}");
 }
 
 #[test]

@@ -54,6 +54,12 @@ pub fn count_tokens(text: &str) -> usize {
     lexer::lex(text, 0, &mut Diagnostics::default()).len()
 }
 
+/// Whether a text has a scenario, of whatever else it has.
+pub fn has_scenario(text: &str) -> bool {
+    let items = parse(text, 0, &mut Diagnostics::default()).file().items();
+    items.iter().any(|item| matches!(item, ast::Item::Scenario(_)))
+}
+
 /// The place of a token.
 pub fn token_span(token: &Token, file: u16) -> Span {
     let range = token.text_range();

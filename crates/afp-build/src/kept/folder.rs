@@ -67,7 +67,7 @@ fn candidates(project: &Path, variable: &dyn Fn(&str) -> Option<PathBuf>) -> Vec
         return vec![Folder { kept: target.join("afp"), build: target }];
     }
     let cache = cache_of(variable).map(with_build);
-    cache.into_iter().chain([with_build(project.join(IN_PROJECT))]).collect()
+    cache.into_iter().chain([with_build(whole(project.join(IN_PROJECT)))]).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,11 @@
 //! Whether a runner is still what its sources say.
 //!
-//! Cargo writes beside each program which files of this machine it was made from. A runner is fresh
-//! while none of them has changed since its build began; then cargo need not even be there.
+//! Cargo writes beside each program which files of Rust it was made from, and tells in a build which packages of this
+//! machine have a part in it. A runner is fresh while its own crate is as it would be written now, and neither those
+//! files nor what decides how cargo builds them has changed since its build began; then cargo need not even be there.
 
+use std::collections::BTreeSet;
+use std::env;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -11,6 +14,13 @@ use afp_run::RunError;
 
 /// Names the program; its time is the beginning of the build.
 const STAMP: &str = "built";
+/// Lists what [`watched`] gave, a path in each line.
+const WATCHED: &str = "watched";
+/// A package's manifest, or that of the workspace around it, from which it may inherit.
+const MANIFEST: &str = "Cargo.toml";
+/// What a folder says to cargo about everything below it.
+const SETTINGS: [&str; 4] =
+    [".cargo/config.toml", ".cargo/config", "rust-toolchain.toml", "rust-toolchain"];
 
 /// Marks the beginning of a build.
 ///
@@ -30,8 +40,15 @@ pub fn begin(folder: &Path) -> Result<SystemTime, RunError> {
 ///
 /// # Errors
 /// The folder cannot be written.
-pub fn done(folder: &Path, program: &Path, begun: SystemTime) -> Result<(), RunError> {
-    let stamp = folder.join(STAMP);
+pub fn done(
+    folder: &Path,
+    program: &Path,
+    watched: &BTreeSet<PathBuf>,
+    begun: SystemTime,
+) -> Result<(), RunError> {
+    let (stamp, list) = (folder.join(STAMP), folder.join(WATCHED));
+    let paths = watched.iter().map(|path| format!("{}\n", path.display()));
+    fs::write(&list, paths.collect::<String>()).map_err(RunError::file("cannot write", &list))?;
     let keep = || {
         fs::write(&stamp, program.as_os_str().as_encoded_bytes())?;
         File::options().write(true).open(&stamp)?.set_modified(begun)
@@ -39,9 +56,23 @@ pub fn done(folder: &Path, program: &Path, begun: SystemTime) -> Result<(), RunE
     keep().map_err(RunError::file("cannot write", &stamp))
 }
 
-/// The program kept in a folder, unless something that it was made from has changed; `others` are
-/// files that cargo does not list.
-pub fn program(folder: &Path, others: &[PathBuf]) -> Option<PathBuf> {
+/// The files that there are of those that decide how packages are built for a caller: their manifests and those around
+/// them, and the settings of cargo where it is called.
+pub fn watched(manifests: &[PathBuf], caller: &Path) -> BTreeSet<PathBuf> {
+    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".cargo")));
+    let of_home =
+        home.iter().flat_map(|home| ["config.toml", "config"].map(|name| home.join(name)));
+    let mut all: BTreeSet<_> = of_home.collect();
+    all.extend(caller.ancestors().flat_map(|folder| SETTINGS.map(|name| folder.join(name))));
+    let packages: BTreeSet<_> =
+        manifests.iter().flat_map(|path| path.ancestors().skip(1)).collect();
+    all.extend(packages.into_iter().map(|folder| folder.join(MANIFEST)));
+    all.into_iter().filter(|path| path.is_file()).collect()
+}
+
+/// The program kept in a folder, unless something that it was made from has changed; `files` are those of its crate.
+pub fn program(folder: &Path, caller: &Path, files: &[(String, String)]) -> Option<PathBuf> {
     let stamp = folder.join(STAMP);
     let begun = fs::metadata(&stamp).ok()?.modified().ok()?;
     let program = PathBuf::from(fs::read_to_string(&stamp).ok()?);
@@ -50,9 +81,19 @@ pub fn program(folder: &Path, others: &[PathBuf]) -> Option<PathBuf> {
         let changed = fs::metadata(path).and_then(|about| about.modified());
         changed.is_ok_and(|changed| changed < begun)
     };
-    // The folder's own files are as its name says.
-    let mut sources = sources(&list).into_iter().filter(|path| !path.starts_with(folder));
-    let fresh = program.is_file() && sources.all(|path| older(&path)) && others.iter().all(older);
+    let sources = sources(&list);
+    let of_others = sources.iter().filter(|path| !path.starts_with(folder));
+    let kept = fs::read_to_string(folder.join(WATCHED)).ok()?;
+    let kept: BTreeSet<_> = kept.lines().map(PathBuf::from).collect();
+    let manifests = kept.iter().filter(|path| path.ends_with(MANIFEST)).cloned();
+    let is_written = |(name, text): &(String, String)| {
+        fs::read_to_string(folder.join(name)).is_ok_and(|written| written == *text)
+    };
+    let fresh = program.is_file()
+        && !sources.is_empty()
+        && files.iter().all(is_written)
+        && of_others.chain(&kept).all(older)
+        && watched(&manifests.collect::<Vec<_>>(), caller) == kept;
     fresh.then_some(program)
 }
 
@@ -78,30 +119,81 @@ mod tests {
         assert!(sources("").is_empty());
     }
 
+    /// A kept runner in `runner`, made of `ws/box` for `project`, and when its build began.
+    struct Kept {
+        folder: tempfile::TempDir,
+        begun: SystemTime,
+    }
+
+    impl Kept {
+        fn new() -> Kept {
+            let kept = Kept { folder: tempfile::tempdir().unwrap(), begun: SystemTime::now() };
+            let source = kept.write("ws/box/lib.rs", "");
+            let program = kept.write("target/program", "");
+            let list = format!("{}: {}", program.display(), source.display());
+            kept.write("target/program.d", &list);
+            kept.write("runner/src/main.rs", "fn main() {}");
+            kept.write("project/.cargo/config.toml", "");
+            kept.write("ws/Cargo.toml", "[workspace]");
+            let manifest = kept.write("ws/box/Cargo.toml", "");
+            assert_eq!(kept.found(), None, "nothing is built");
+            let begun = begin(&kept.path("runner")).unwrap() + Duration::from_secs(1);
+            assert_eq!(kept.found(), None, "the build has only begun");
+            let watched = watched(&[manifest], &kept.path("project"));
+            done(&kept.path("runner"), &program, &watched, begun).unwrap();
+            assert_eq!(kept.found(), Some(program));
+            Kept { begun, ..kept }
+        }
+
+        fn path(&self, name: &str) -> PathBuf {
+            self.folder.path().join(name)
+        }
+
+        fn write(&self, name: &str, text: &str) -> PathBuf {
+            let path = self.path(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(&path, text).unwrap();
+            path
+        }
+
+        fn found(&self) -> Option<PathBuf> {
+            let files = [("src/main.rs".to_owned(), "fn main() {}".to_owned())];
+            program(&self.path("runner"), &self.path("project"), &files)
+        }
+    }
+
     #[test]
-    fn a_program_is_fresh_until_a_source_changes_or_goes() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = |name: &str| folder.path().join(name);
-        fs::create_dir(path("runner")).unwrap();
-        for name in ["program", "a.rs", "Cargo.toml"] {
-            fs::write(path(name), "").unwrap();
+    fn a_program_is_fresh_until_what_it_was_made_from_changes_or_goes() {
+        let kept = Kept::new();
+        let all =
+            ["ws/box/lib.rs", "ws/box/Cargo.toml", "ws/Cargo.toml", "project/.cargo/config.toml"];
+        for name in all {
+            let file = File::options().write(true).open(kept.path(name)).unwrap();
+            file.set_modified(kept.begun + Duration::from_secs(1)).unwrap();
+            assert_eq!(kept.found(), None, "{name} is newer");
+            file.set_modified(kept.begun - Duration::from_secs(1)).unwrap();
+            assert_eq!(kept.found(), Some(kept.path("target/program")));
         }
-        let list = format!("{}: {}", path("program").display(), path("a.rs").display());
-        fs::write(path("program.d"), list).unwrap();
-        let found = || program(&path("runner"), &[path("Cargo.toml")]);
-        assert_eq!(found(), None);
-        let begun = begin(&path("runner")).unwrap() + Duration::from_secs(1);
-        assert_eq!(found(), None, "the build has only begun");
-        done(&path("runner"), &path("program"), begun).unwrap();
-        assert_eq!(found(), Some(path("program")));
-        for source in ["a.rs", "Cargo.toml"] {
-            let file = File::options().write(true).open(path(source)).unwrap();
-            file.set_modified(begun + Duration::from_secs(1)).unwrap();
-            assert_eq!(found(), None, "{source} is newer");
-            file.set_modified(begun - Duration::from_secs(1)).unwrap();
-            assert_eq!(found(), Some(path("program")));
+        for name in all {
+            let kept = Kept::new();
+            fs::remove_file(kept.path(name)).unwrap();
+            assert_eq!(kept.found(), None, "{name} is gone");
         }
-        fs::remove_file(path("a.rs")).unwrap();
-        assert_eq!(found(), None);
+    }
+
+    #[test]
+    fn a_program_is_stale_when_its_crate_or_the_files_around_it_are_others() {
+        for (name, text) in [
+            ("runner/src/main.rs", "fn main() { }"),
+            ("target/program.d", ""),
+            ("project/rust-toolchain.toml", ""),
+            ("Cargo.toml", "[workspace]"),
+        ] {
+            let kept = Kept::new();
+            let path = kept.write(name, text);
+            let old = kept.begun - Duration::from_secs(9);
+            File::options().write(true).open(path).unwrap().set_modified(old).unwrap();
+            assert_eq!(kept.found(), None, "{name}");
+        }
     }
 }

@@ -15,8 +15,8 @@ use afp_dsl::types::Type;
 pub fn accessors(context: &Context<'_>) -> TokenStream {
     let ty = &context.ty;
     let new = doc("", "The plan, not yet started.");
-    let mut names = UniqueNames::taken(&["new", "default", "from", "into"]);
-    let mut constants = UniqueNames::taken(&[]);
+    let mut names = UniqueNames::taken(["new", "default", "from", "into"]);
+    let mut constants = UniqueNames::default();
     let typed: Vec<_> = (0..)
         .zip(&context.plan.entries)
         .filter(|(_, entry)| is_open(entry))

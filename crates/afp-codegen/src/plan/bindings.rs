@@ -1,7 +1,7 @@
 //! The functions between entries and ports: inputs pulled from the configuration, outputs staged.
 
 use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::context::{ComponentNames, Context, Paths};
 use crate::formula::{Formulas, convert, is_literal};
@@ -199,25 +199,27 @@ impl Bound<'_> {
     }
 
     /// The fields of an outcome that are bound, and the statements that stage them.
-    fn puts(&self, outcome: u16) -> Option<(Vec<Ident>, Vec<TokenStream>)> {
+    ///
+    /// Each is bound to a local of a name of ours: under its own it could hide a function that is called here.
+    fn puts(&self, outcome: u16) -> Option<(Vec<TokenStream>, Vec<TokenStream>)> {
         let ports = (0..).zip(&self.template.outputs);
         let carried = ports.filter(|(_, port)| port.on.is_empty() || port.on.contains(&outcome));
         let bound = carried.filter_map(|(number, port)| {
             let output = self.outputs.iter().find(|output| output.port == number)?;
             let generic = is_generic(&port.ty);
             let ty = if generic { self.generic? } else { &port.ty };
-            let name = ident(&snake(&port.name));
+            let (name, local) = (ident(&snake(&port.name)), format_ident!("value_{number}"));
             let value = match (generic, ty) {
                 // It is an entry's object already.
-                (true, Type::Object(_)) => quote!(#name),
+                (true, Type::Object(_)) => quote!(#local),
                 _ => self
                     .context
-                    .with_type_paths(|type_paths| staged_value(type_paths, output, ty, &name)),
+                    .with_type_paths(|type_paths| staged_value(type_paths, output, ty, &local)),
             };
             let value = limited(&self.context.plan.entries[output.entry.index()], value);
             let value = tried("output", number, value);
             let entry = &self.context.entries[output.entry.index()];
-            Some((name, quote!(staged.#entry = Some(#value);)))
+            Some((quote!(#name: #local), quote!(staged.#entry = Some(#value);)))
         });
         let (fields, puts): (Vec<_>, Vec<_>) = bound.unzip();
         (!fields.is_empty()).then_some((fields, puts))

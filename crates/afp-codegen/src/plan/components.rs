@@ -83,7 +83,7 @@ fn start_supervisor(context: &Context<'_>) -> TokenStream {
     let arms: Vec<_> = all
         .map(|(supervisor, names)| {
             let bound = supervisors::bound(context, supervisor, names);
-            let (number, field) = (&names.number, &names.inputs);
+            let (number, field) = (&names.number, &names.field);
             let Function { scratch, call, .. } = bound.inputs();
             let at = at(supervisor.span);
             quote! {
@@ -118,7 +118,7 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
     let arms: Vec<_> = all
         .map(|(supervisor, names)| {
             let bound = supervisors::bound(context, supervisor, names);
-            let (number, field) = (&names.number, &names.inputs);
+            let (number, field) = (&names.number, &names.field);
             let (Function { scratch, call, .. }, outputs) = (bound.live(), bound.outputs().call);
             let at = at(supervisor.span);
             quote! {
@@ -369,7 +369,7 @@ fn leave(context: &Context<'_>) -> TokenStream {
         let drops: Vec<_> = context
             .locals(index)
             .map(|local| {
-                let field = &local.inputs;
+                let field = &local.field;
                 quote!(self.supervisors.#field = None;)
             })
             .collect();

@@ -3,54 +3,29 @@
 use std::sync::Arc;
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::formula::reads;
 use crate::names::{UniqueNames, camel, ident, shout, snake};
 use crate::rust_type::TypePaths;
+use crate::toolbox;
 use afp_dsl::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
 use afp_dsl::rows::Rows;
-use afp_dsl::toolbox::{Template, Toolbox};
+use afp_dsl::toolbox::Template;
 use afp_dsl::types::{Enum, Object, Type};
 
-use super::imports::{CORE, QUANTITY, RT};
-use super::shared::FileEnum;
-use super::tables::FileTable;
+use super::graph_names::GraphNames;
+use super::imports::imported;
+use super::shared::{FileEnum, enums_of};
+use super::tables::{FileTable, tables_of};
 
-/// Types of the module itself, and names that are always there.
-const OWN: &[&str] = &[
-    "E",
-    "R",
-    "Active",
-    "Config",
-    "Rules",
-    "Staged",
-    "Supervisors",
-    "Default",
-    "Debug",
-    "Clone",
-    "Copy",
-    "Err",
-    "Iterator",
-    "None",
-    "Ok",
-    "Option",
-    "Result",
-    "Some",
-];
 /// Statics of the module itself.
 const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "REASONS", "SUPERVISORS", "SWEEPS"];
-/// Functions and locals that generated code calls by bare name.
-const VALUES: &[&str] =
-    &["config", "staged", "cx", "to", "from", "see", "plan", "element", "supervisor"];
-
 /// One plan, with the names of its parts.
 pub struct Context<'a> {
     pub graph: &'a Graph,
-    /// The enums of the plan files.
-    pub enums: &'a [FileEnum],
-    /// Their tables that some plan reads.
-    pub tables: &'a [FileTable],
+    /// What this module shares with the others.
+    pub shared: &'a Shared,
     pub plan: &'a Plan,
     pub rows: &'a Rows,
     /// The module.
@@ -73,9 +48,11 @@ pub struct Context<'a> {
 pub struct ComponentNames {
     /// As the text shows it, for comments.
     pub text: String,
-    /// The variant or field that holds it.
+    /// The variant that holds an element.
     pub variant: Ident,
-    /// The field that holds it, and the function of its inputs.
+    /// The field that holds a supervisor.
+    pub field: Ident,
+    /// The function of its inputs.
     pub inputs: Ident,
     /// The function of its live inputs.
     pub live: Ident,
@@ -87,30 +64,26 @@ pub struct ComponentNames {
     pub place: Ident,
 }
 
-/// The module of a plan, by a name that no other module has.
-pub fn module_name(plan: &str) -> Ident {
-    match snake(plan).as_str() {
-        name @ ("enums" | "tables" | "units" | "core" | "std") => format_ident!("{name}_plan"),
-        name => ident(name),
-    }
+/// What the modules of a graph share.
+pub struct Shared {
+    /// The enums of the plan files.
+    pub enums: Vec<FileEnum>,
+    /// Their tables that some plan reads.
+    pub tables: Vec<FileTable>,
+    /// The names by which modules know one another.
+    pub names: GraphNames,
 }
 
-/// The type of a plan, by a name that nothing else in its module has.
-pub fn type_name(name: &str) -> Ident {
-    let mut taken = UniqueNames::taken(OWN);
-    for name in [CORE, RT, QUANTITY].into_iter().flatten() {
-        taken.unique((*name).to_owned());
+impl Shared {
+    /// What the modules of this graph share.
+    pub fn of(graph: &Graph) -> Self {
+        Shared { enums: enums_of(graph), tables: tables_of(graph), names: GraphNames::new(graph) }
     }
-    ident(&taken.unique(name.to_owned()))
 }
 
 impl<'a> Context<'a> {
     /// Names everything in a plan.
-    pub fn new(
-        graph: &'a Graph,
-        (enums, tables): (&'a [FileEnum], &'a [FileTable]),
-        id: PlanId,
-    ) -> Self {
+    pub fn new(graph: &'a Graph, shared: &'a Shared, id: PlanId) -> Self {
         let (plan, rows) = (graph.plan(id), graph.rows(id));
         let mut namer = Namer::new();
         let elements: Vec<_> =
@@ -126,25 +99,20 @@ impl<'a> Context<'a> {
             }
         });
         let supervisors = supervisors.collect();
+        let (module, ty) = shared.names.plan(id);
         Context {
             graph,
-            enums,
-            tables,
+            shared,
             plan,
             rows,
-            module: module_name(&plan.name),
-            ty: type_name(&camel(&plan.name)),
+            module,
+            ty,
             entries: entry_names(plan),
             elements,
             supervisors,
             read: read(plan),
             written: written(plan),
         }
-    }
-
-    /// A toolbox by index.
-    fn toolbox(&self, id: TemplateId) -> &'a Toolbox {
-        &self.graph.toolboxes[id.toolbox.index()]
     }
 
     /// A template by index.
@@ -158,25 +126,26 @@ impl<'a> Context<'a> {
         if let Some(paths) = self.table_paths(self.template(id)) {
             return paths;
         }
-        let toolbox = self.toolbox(id);
-        let (module, alias) = (path(&toolbox.rust_path), alias(self.graph, &toolbox.name));
-        let name = &self.template(id).name;
-        let (camel, snake) = (ident(&camel(name)), ident(&snake(name)));
+        let toolbox = id.toolbox.index();
+        let module = path(&self.graph.toolboxes[toolbox].rust_path);
+        let alias = &self.shared.names.toolboxes[toolbox];
+        let template = self.template(id);
+        let (name, own) = (ident(&camel(&template.name)), toolbox::module(template));
         let generic = generic.map(|ty| {
             let ty = self.entry_type(ty);
             quote!(<#ty>)
         });
         Paths {
-            marker: quote!(#alias::#camel #generic),
-            module: quote!(#alias::#snake),
-            implementation: quote!(#module::#camel #generic),
+            marker: quote!(#alias::#name #generic),
+            module: quote!(#alias::#own),
+            implementation: quote!(#module::#name #generic),
         }
     }
 
     /// Those of what reads a table, which stands beside the plan's module.
     fn table_paths(&self, template: &Template) -> Option<Paths> {
         let (_, table) = template.table()?;
-        let (_, name) = self.tables.iter().find(|(known, _)| Arc::ptr_eq(known, table))?;
+        let (_, name) = self.shared.tables.iter().find(|(known, _)| Arc::ptr_eq(known, table))?;
         Some(Paths {
             marker: quote!(super::tables::#name::Row),
             module: quote!(super::tables::#name),
@@ -200,7 +169,7 @@ impl<'a> Context<'a> {
     fn enum_path(&self, choices: &Enum) -> TokenStream {
         let camel = || ident(&camel(&choices.name));
         let Some(toolbox) = &choices.toolbox else {
-            let named = self.enums.iter().find(|(known, _)| **known == *choices);
+            let named = self.shared.enums.iter().find(|(known, _)| **known == *choices);
             let name = named.map_or_else(camel, |(_, name)| name.clone());
             return quote!(super::enums::#name);
         };
@@ -228,7 +197,7 @@ impl<'a> Context<'a> {
 
     /// The entries of another plan of the graph, with the names of its module and type.
     pub fn child(&self, id: PlanId) -> (Ident, Ident) {
-        super::module_and_type(self.graph, id)
+        self.shared.names.plan(id)
     }
 }
 
@@ -254,20 +223,10 @@ pub fn path(text: &str) -> TokenStream {
     quote!(#(#parts)::*)
 }
 
-/// The name under which a module of templates is imported. A crate that is named like a toolbox keeps its name.
-pub fn alias(graph: &Graph, toolbox: &str) -> Ident {
-    let name = snake(toolbox);
-    let mut roots = graph.toolboxes.iter().map(|each| each.rust_path.split("::").next());
-    match name.as_str() {
-        "std" | "core" | "alloc" | "rt" | "enums" | "tables" | "units" => {
-            format_ident!("{name}_templates")
-        }
-        name if roots.any(|root| root == Some(name)) => format_ident!("{name}_templates"),
-        name => ident(name),
-    }
-}
-
 /// Names components so that nothing collides.
+///
+/// Functions of components end in what they are for, which no other function and no local of generated code does. So
+/// neither can hide the other, whatever the text calls a component.
 struct Namer {
     variants: UniqueNames,
     functions: UniqueNames,
@@ -276,29 +235,26 @@ struct Namer {
 
 impl Namer {
     fn new() -> Self {
-        let mut functions = UniqueNames::taken(VALUES);
-        for name in RT {
-            functions.unique((*name).to_owned());
-        }
         Namer {
-            variants: UniqueNames::taken(&["None"]),
-            functions,
-            numbers: UniqueNames::taken(STATICS),
+            variants: UniqueNames::taken(["None"]),
+            functions: UniqueNames::default(),
+            numbers: UniqueNames::taken(STATICS.iter().copied().chain(imported())),
         }
     }
 
     fn name(&mut self, name: &str, text: &str) -> ComponentNames {
         let base = self.functions.unique(snake(name));
-        let live = self.functions.unique(format!("{base}_live"));
-        let outputs = self.functions.unique(format!("{base}_outputs"));
+        let [inputs, live, outputs] =
+            ["inputs", "live", "outputs"].map(|what| ident(&format!("{base}_{what}")));
         let number = self.numbers.unique(shout(name));
         let place = self.numbers.unique(format!("{number}_PLACE"));
         ComponentNames {
             text: text.to_owned(),
             variant: ident(&self.variants.unique(camel(name))),
-            inputs: ident(&base),
-            live: ident(&live),
-            outputs: ident(&outputs),
+            field: ident(&base),
+            inputs,
+            live,
+            outputs,
             number: ident(&number),
             place: ident(&place),
         }

@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 
-use super::context::{Context, alias, path};
+use super::context::{Context, path};
 use crate::names::ident;
 
 /// What lives at the root of `afp_core`.
-pub const CORE: &[&str] = &[
+const CORE: &[&str] = &[
     "Duration",
     "Environment",
     "Events",
@@ -22,7 +22,7 @@ pub const CORE: &[&str] = &[
     "WriteError",
 ];
 /// What lives in `afp_core::rt`.
-pub const RT: &[&str] = &[
+const RT: &[&str] = &[
     "Actor",
     "AtElement",
     "BadValue",
@@ -95,7 +95,7 @@ pub const RT: &[&str] = &[
     "store_text",
 ];
 /// What lives in `afp_core::quantity`.
-pub const QUANTITY: &[&str] = &[
+const QUANTITY: &[&str] = &[
     "Acceleration",
     "Angle",
     "AngularSpeed",
@@ -120,6 +120,11 @@ const TRACE: &[&str] = &[
     "Reaction",
     "Sink",
 ];
+
+/// All names that code of a module says without a path because they are imported there.
+pub fn imported() -> impl Iterator<Item = &'static str> {
+    [CORE, RT, QUANTITY, TRACE].into_iter().flatten().copied()
+}
 
 /// The items for what the sections name.
 pub fn imports(
@@ -146,8 +151,9 @@ pub fn imports(
             names => Some(quote!(use #module::{#(#names),*};)),
         }
     });
-    let toolboxes = context.graph.toolboxes.iter().filter_map(|toolbox| {
-        let (module, alias) = (path(&toolbox.rust_path), alias(context.graph, &toolbox.name));
+    let toolboxes = context.graph.toolboxes.iter().zip(&context.shared.names.toolboxes);
+    let toolboxes = toolboxes.filter_map(|(toolbox, alias)| {
+        let module = path(&toolbox.rust_path);
         let item = quote!(use #module::templates as #alias;);
         used.contains(&alias.to_string()).then_some(item)
     });

@@ -165,7 +165,7 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
             #at_element
 
             fn try_clone(&self) -> Option<Self> {
-                Some(self.clone())
+                Some(Clone::clone(self))
             }
 
             fn slots(&self) -> [Slot; #slots] {
@@ -321,7 +321,7 @@ fn outside(context: &Context<'_>) -> TokenStream {
         }
 
         fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-            self.accepts(entry, value)?;
+            PlanState::accepts(self, entry, value)?;
             match entry {
                 #(#inputs)*
                 _ => Err(WriteError::NotStarted),

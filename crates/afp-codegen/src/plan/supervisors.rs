@@ -17,7 +17,7 @@ pub fn supervisors(context: &Context<'_>) -> TokenStream {
     let all = || context.plan.supervisors.iter().zip(&context.supervisors);
     let fields = all().map(|(supervisor, names)| {
         let bound = bound(context, supervisor, names);
-        let (field, ty) = (&names.inputs, &bound.paths.implementation);
+        let (field, ty) = (&names.field, &bound.paths.implementation);
         let whose = if supervisor.owner.is_none() { "global" } else { "local" };
         let note = comment(&format!("{whose} supervisor {}: {}", names.text, bound.template.name));
         let at = at(supervisor.span);

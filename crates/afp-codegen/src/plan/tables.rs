@@ -6,9 +6,10 @@
 use std::sync::Arc;
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::Module;
+use super::context::Shared;
 use super::shared::FileEnum;
 use crate::Options;
 use crate::layout::doc;
@@ -51,11 +52,8 @@ pub fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
 }
 
 /// The module `tables`, where any plan reads one.
-pub fn module(
-    graph: &Graph,
-    (tables, enums): (&[FileTable], &[FileEnum]),
-    options: &Options,
-) -> Option<Module> {
+pub fn module(graph: &Graph, shared: &Shared, options: &Options) -> Option<Module> {
+    let Shared { enums, tables, .. } = shared;
     let core = &options.core;
     let choice = &|choices: &Enum| enum_path(graph, enums, choices);
     // No column holds an object.
@@ -101,9 +99,10 @@ fn reader(
     let types: Vec<_> = template.outputs.iter().map(|port| &port.ty).collect();
     let owned = types.iter().map(|ty| type_paths.value(ty));
     let stored = types.iter().map(|ty| stored(type_paths, ty));
-    let given = types.iter().zip(&fields).map(|(ty, field)| match ty {
-        Type::Text => quote!(#field: #core::Text::try_from(*#field)?),
-        _ => quote!(#field: *#field),
+    let cells: Vec<_> = (0..fields.len()).map(|column| format_ident!("cell_{column}")).collect();
+    let given = types.iter().zip(fields.iter().zip(&cells)).map(|(ty, (field, cell))| match ty {
+        Type::Text => quote!(#field: #core::Text::try_from(*#cell)?),
+        _ => quote!(#field: *#cell),
     });
     let rows = table.rows.iter().map(|row| {
         let values = row.iter().zip(&types).map(|(cell, ty)| value(type_paths, ty, cell));
@@ -136,7 +135,7 @@ fn reader(
             impl #core::Computation<Row> for Row {
                 fn compute(inputs: Inputs) -> Result<State, #core::Fault> {
                     Ok(match #core::rt::row(&ROWS, inputs.index) {
-                        Some((#(#fields,)*)) => State::Row { #(#given,)* },
+                        Some((#(#cells,)*)) => State::Row { #(#given,)* },
                         None => State::End,
                     })
                 }

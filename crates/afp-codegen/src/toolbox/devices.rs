@@ -171,8 +171,8 @@ impl Code {
                 let about = doc("", &bounds(amount));
                 let from = type_paths(core).quantity_from(amount.dimension, quote!(amount));
                 let fields = Some(quote!({ #about #field: #ty }));
-                let (pattern, made) = (quote!({ #field }), quote!({ #field: #from }));
-                (fields, Some(pattern), ty, quote!(#field), Some(made))
+                let (pattern, made) = (quote!({ #field: value }), quote!({ #field: #from }));
+                (fields, Some(pattern), ty, quote!(value), Some(made))
             }
         };
         self.variants.push(quote!(#help #variant #fields,));

@@ -1,7 +1,7 @@
 //! The states or events of a template as an enum that carries their outputs.
 
-use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
 
 use super::{Parameters, bound, type_paths, words};
 use crate::layout::doc;
@@ -83,7 +83,7 @@ fn field(core: &TokenStream, port: &OutPort) -> TokenStream {
 fn implement(
     core: &TokenStream,
     template: &Template,
-    name: &proc_macro2::Ident,
+    name: &Ident,
     parameters: Parameters,
 ) -> TokenStream {
     let bound = bound(template).filter(|_| parameters.generic);
@@ -97,7 +97,10 @@ fn implement(
     let given = (0..).zip(&template.outcomes).map(|(index, outcome)| {
         let variant = ident(&camel(&outcome.name));
         let ports: Vec<_> = outputs(template, index).collect();
-        let fields = ports.iter().map(|(_, port)| ident(&snake(&port.name)));
+        let fields = ports.iter().map(|(number, port)| {
+            let (name, local) = (ident(&snake(&port.name)), local(*number));
+            quote!(#name: #local)
+        });
         let fields = (!ports.is_empty()).then(|| quote!({ #(#fields),* }));
         let gives = ports.iter().map(|(number, port)| give(core, *number, port));
         quote!(#name::#variant #fields => { #(#gives)* })
@@ -119,9 +122,14 @@ fn implement(
     }
 }
 
+/// What holds an output while it is handed over: under its own name it could hide what it is handed to.
+fn local(number: u16) -> Ident {
+    format_ident!("value_{number}")
+}
+
 /// Hands over one output.
 fn give(core: &TokenStream, number: u16, port: &OutPort) -> TokenStream {
-    let (name, number) = (ident(&snake(&port.name)), Literal::u16_unsuffixed(number));
+    let (name, number) = (local(number), Literal::u16_unsuffixed(number));
     match &port.ty {
         Type::Bool => quote!(to.bool(#number, #name);),
         Type::Int => quote!(to.int(#number, #name);),

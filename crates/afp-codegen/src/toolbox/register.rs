@@ -18,13 +18,13 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let bounds = bounds.map(|template| {
         let (marker, implementation) = types(core, &quote!(super), template);
         let component = words(template.kind).component;
-        quote!(#implementation: #core::#component<#marker, E>,)
+        quote!(#implementation: #core::#component<self::#marker, E>,)
     });
     let templates = implemented(toolbox).map(|template| {
         let (marker, implementation) = types(core, &quote!(super), template);
         let method = ident(&snake(&words(template.kind).component.to_string()));
         let (toolbox, name) = (&toolbox.name, &template.name);
-        quote!(registry.#method::<#marker, #implementation>(#toolbox, #name);)
+        quote!(registry.#method::<self::#marker, #implementation>(#toolbox, #name);)
     });
     let objects = toolbox.objects.iter().map(|object| {
         let (toolbox, name, ty) = (&toolbox.name, &object.name, ident(&camel(&object.name)));
@@ -34,7 +34,7 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
         #about
         pub fn register<E, R>(registry: &mut R)
         where
-            E: ?Sized,
+            E: ?::core::marker::Sized,
             R: #core::rt::Registry<E>,
             #(#bounds)*
         {

@@ -14,13 +14,13 @@ enum Active {
 
 /// Outputs of `here`.
 fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), BadValue> {
-    let kit::here::State::Done { place } = outcome;
-    staged.place = Some(Object::new(place));
+    let kit::here::State::Done { place: value_0 } = outcome;
+    staged.place = Some(Object::new(value_0));
     Ok(())
 }
 
 /// Inputs of `seek`.
-fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, BadValue> {
+fn seek_inputs<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, BadValue> {
     Ok(kit::seek::Inputs {
         name: config.text(),
         side: crate::kit::templates::Side::Right,
@@ -40,13 +40,13 @@ fn seek_live(config: &Config) -> Result<kit::seek::Live, BadValue> {
 /// Outputs of `seek`.
 fn seek_outputs(staged: &mut Staged, outcome: kit::seek::State) -> Result<(), BadValue> {
     match outcome {
-        kit::seek::State::Found { place, said } => {
-            staged.found = Some(Object::new(place));
-            staged.text = Some(said);
+        kit::seek::State::Found { place: value_0, said: value_1 } => {
+            staged.found = Some(Object::new(value_0));
+            staged.text = Some(value_1);
         }
-        kit::seek::State::Lost { said, turn } => {
-            staged.text = Some(said);
-            staged.turn = Some(output(2, || finite(turn))?);
+        kit::seek::State::Lost { said: value_1, turn: value_2 } => {
+            staged.text = Some(value_1);
+            staged.turn = Some(output(2, || finite(value_2))?);
         }
         _ => {}
     }

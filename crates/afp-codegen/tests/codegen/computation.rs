@@ -10,7 +10,7 @@ enum Active {
 }
 
 /// Inputs of `area`.
-fn area(config: &Config) -> Result<kit::area::Inputs, BadValue> {
+fn area_inputs(config: &Config) -> Result<kit::area::Inputs, BadValue> {
     Ok(kit::area::Inputs {
         width: config.width(),
         height: Length::from_si(3.0),
@@ -20,11 +20,11 @@ fn area(config: &Config) -> Result<kit::area::Inputs, BadValue> {
 /// Outputs of `area`.
 fn area_outputs(staged: &mut Staged, outcome: kit::area::State) -> Result<(), BadValue> {
     match outcome {
-        kit::area::State::Small { area } => {
-            staged.size = Some(output(0, || finite(area))?);
+        kit::area::State::Small { area: value_0 } => {
+            staged.size = Some(output(0, || finite(value_0))?);
         }
-        kit::area::State::Large { area } => {
-            staged.size = Some(output(0, || finite(area))?);
+        kit::area::State::Large { area: value_0 } => {
+            staged.size = Some(output(0, || finite(value_0))?);
         }
     }
     Ok(())

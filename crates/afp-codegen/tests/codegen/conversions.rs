@@ -20,7 +20,7 @@ enum Active {
 }
 
 /// Inputs of `a`.
-fn a(config: &Config) -> Result<std_templates::assign::Inputs<f64>, BadValue> {
+fn a_inputs(config: &Config) -> Result<std_templates::assign::Inputs<f64>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.f(),
     })
@@ -31,13 +31,13 @@ fn a_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<f64>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.number = Some(output(0, || Ok(float_to_int(result)?))?);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.number = Some(output(0, || Ok(float_to_int(value_0)?))?);
     Ok(())
 }
 
 /// Inputs of `b`.
-fn b(config: &Config) -> Result<std_templates::assign::Inputs<Length>, BadValue> {
+fn b_inputs(config: &Config) -> Result<std_templates::assign::Inputs<Length>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.way(),
     })
@@ -48,13 +48,13 @@ fn b_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<Length>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.said = Some(output(0, || Ok(print_quantity(result.si(), "m")?))?);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.said = Some(output(0, || Ok(print_quantity(value_0.si(), "m")?))?);
     Ok(())
 }
 
 /// Inputs of `c`.
-fn c(config: &Config) -> Result<std_templates::assign::Inputs<bool>, BadValue> {
+fn c_inputs(config: &Config) -> Result<std_templates::assign::Inputs<bool>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.flag(),
     })
@@ -65,13 +65,16 @@ fn c_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<bool>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.said = Some(output(0, || Ok(Text::print(result)?))?);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.said = Some(output(0, || Ok(Text::print(value_0)?))?);
     Ok(())
 }
 
 /// Inputs of `d`.
-fn d() -> Result<std_templates::assign::Inputs<crate::kit::templates::Side>, BadValue> {
+fn d_inputs() -> Result<
+    std_templates::assign::Inputs<crate::kit::templates::Side>,
+    BadValue,
+> {
     Ok(std_templates::assign::Inputs {
         value: crate::kit::templates::Side::Left,
     })
@@ -82,13 +85,13 @@ fn d_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<crate::kit::templates::Side>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.said = Some(output(0, || Ok(print_choice(result)?))?);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.said = Some(output(0, || Ok(print_choice(value_0)?))?);
     Ok(())
 }
 
 /// Inputs of `e`.
-fn e(config: &Config) -> Result<kit::area::Inputs, BadValue> {
+fn e_inputs(config: &Config) -> Result<kit::area::Inputs, BadValue> {
     Ok(kit::area::Inputs {
         width: input(
             0,
@@ -103,7 +106,7 @@ fn e(config: &Config) -> Result<kit::area::Inputs, BadValue> {
 }
 
 /// Inputs of `k`.
-fn k(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
+fn k_inputs(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
     Ok(std_templates::count::Inputs {
         value: bool_to_int(config.flag()),
         limit: input(1, || Ok(parse_int(config.text())?))?,
@@ -111,7 +114,7 @@ fn k(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
 }
 
 /// Inputs of `n`.
-fn n(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
+fn n_inputs(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: input(
             0,
@@ -128,7 +131,7 @@ fn n(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
 }
 
 /// Inputs of `o`.
-fn o(config: &Config) -> Result<std_templates::compare::Inputs<f64>, BadValue> {
+fn o_inputs(config: &Config) -> Result<std_templates::compare::Inputs<f64>, BadValue> {
     Ok(std_templates::compare::Inputs {
         left: int_to_float(config.i()),
         right: config.f(),
@@ -136,7 +139,7 @@ fn o(config: &Config) -> Result<std_templates::compare::Inputs<f64>, BadValue> {
 }
 
 /// Inputs of `p`.
-fn p(config: &Config) -> Result<std_templates::assign::Inputs<Text>, BadValue> {
+fn p_inputs(config: &Config) -> Result<std_templates::assign::Inputs<Text>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.text.get().clone(),
     })
@@ -147,7 +150,7 @@ fn p_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<Text>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.number = Some(output(0, || Ok(parse_int(result.as_str())?))?);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.number = Some(output(0, || Ok(parse_int(value_0.as_str())?))?);
     Ok(())
 }

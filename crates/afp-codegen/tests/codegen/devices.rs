@@ -59,7 +59,7 @@ pub mod devices {
         /// So much is left at most.
         pub fn battery_low(self) -> ::core::option::Option<f64> {
             match self {
-                Fault::BatteryLow { share } => ::core::option::Option::Some(share),
+                Fault::BatteryLow { share: value } => ::core::option::Option::Some(value),
                 _ => ::core::option::Option::None,
             }
         }
@@ -77,7 +77,7 @@ pub mod devices {
             self,
         ) -> ::core::option::Option<::afp_core::quantity::Speed> {
             match self {
-                Fault::WheelsRunaway { by } => ::core::option::Option::Some(by),
+                Fault::WheelsRunaway { by: value } => ::core::option::Option::Some(value),
                 _ => ::core::option::Option::None,
             }
         }
@@ -421,6 +421,6 @@ pub mod signal {
 /// Names the Rust type of every template and object to a registry.
 pub fn register<E, R>(registry: &mut R)
 where
-    E: ?Sized,
+    E: ?::core::marker::Sized,
     R: ::afp_core::rt::Registry<E>,
 {}

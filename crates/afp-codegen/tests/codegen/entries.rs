@@ -167,7 +167,7 @@ impl PlanState for P {
     }
 
     fn try_clone(&self) -> Option<Self> {
-        Some(self.clone())
+        Some(Clone::clone(self))
     }
 
     fn slots(&self) -> [Slot; 2] {
@@ -240,7 +240,7 @@ impl PlanState for P {
     }
 
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
+        PlanState::accepts(self, entry, value)?;
         match entry {
             0 => set_input(&mut self.config.pace, value),
             1 => set_input(&mut self.config.often, value),
@@ -344,13 +344,13 @@ where
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
-            WAIT => cx.start_actor(wait(&self.config)).map(Active::Wait),
+            WAIT => cx.start_actor(wait_inputs(&self.config)).map(Active::Wait),
             LOG => {
                 let computed = cx
                     .compute::<
                         std_templates::Log<Text>,
                         afp_std::Log<Text>,
-                    >(log(&self.config));
+                    >(log_inputs(&self.config));
                 return Started::computed(computed, |_| Ok(()), cx);
             }
             _ => Err(Fault::INTERNAL),

@@ -68,7 +68,7 @@ enum Active {
 }
 
 /// Inputs of `set`.
-fn set() -> Result<std_templates::assign::Inputs<super::enums::Mood>, BadValue> {
+fn set_inputs() -> Result<std_templates::assign::Inputs<super::enums::Mood>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: super::enums::Mood::Loop,
     })
@@ -79,13 +79,13 @@ fn set_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<super::enums::Mood>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.mood = Some(result);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.mood = Some(value_0);
     Ok(())
 }
 
 /// Inputs of `log`.
-fn log(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
+fn log_inputs(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: input(0, || Ok(join("mood ", print_choice(config.mood())?.as_str())?))?,
     })

@@ -20,35 +20,35 @@ enum Active {
 }
 
 /// Inputs of `a`.
-fn a(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
+fn a_inputs(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: input(0, || Ok(int_sub(int_mul(int_neg(config.i())?, 2)?, int_neg(3)?)?))?,
     })
 }
 
 /// Inputs of `b`.
-fn b(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
+fn b_inputs(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: input(0, || Ok(int_rem(int_add(config.i(), 1)?, 4)?))?,
     })
 }
 
 /// Inputs of `c`.
-fn c(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
+fn c_inputs(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: int_to_float(config.i()) / 4.0 + config.f() * (config.f() - 1.5),
     })
 }
 
 /// Inputs of `d`.
-fn d(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
+fn d_inputs(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: input(0, || Ok(rem(config.f(), (config.f() + 1.0))?))?,
     })
 }
 
 /// Inputs of `e`.
-fn e(config: &Config) -> Result<std_templates::log::Inputs<Time>, BadValue> {
+fn e_inputs(config: &Config) -> Result<std_templates::log::Inputs<Time>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: Time::from_si(
             Length::from_si(2.0 * (config.way() - Length::from_si(0.1)).si()).si()
@@ -58,7 +58,7 @@ fn e(config: &Config) -> Result<std_templates::log::Inputs<Time>, BadValue> {
 }
 
 /// Inputs of `k`.
-fn k(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
+fn k_inputs(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: 1.0
             - config.way()
@@ -67,7 +67,7 @@ fn k(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
 }
 
 /// Inputs of `n`.
-fn n(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
+fn n_inputs(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: input(
             0,
@@ -86,14 +86,14 @@ fn n(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
 }
 
 /// Inputs of `o`.
-fn o(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
+fn o_inputs(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: input(0, || Ok(int_min(int_min(config.i(), 3), int_neg(config.i())?)))?,
     })
 }
 
 /// Inputs of `q`.
-fn q(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
+fn q_inputs(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: input(
             0,
@@ -103,7 +103,7 @@ fn q(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue> {
 }
 
 /// Inputs of `r`.
-fn r(config: &Config) -> Result<std_templates::log::Inputs<Length>, BadValue> {
+fn r_inputs(config: &Config) -> Result<std_templates::log::Inputs<Length>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: Length::from_si(
             hypot(config.way().si(), max(config.way().si(), Length::from_si(2.0).si())),
@@ -112,7 +112,7 @@ fn r(config: &Config) -> Result<std_templates::log::Inputs<Length>, BadValue> {
 }
 
 /// Inputs of `s`.
-fn s(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
+fn s_inputs(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: sin(
             atan2(

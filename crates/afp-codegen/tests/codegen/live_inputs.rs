@@ -13,7 +13,7 @@ enum Active {
 }
 
 /// Inputs of `wait`.
-fn wait(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
+fn wait_inputs(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(Length::from_si(1.0).si() / config.twice().si())
             * int_to_float(config.fixed()) * int_to_float(config.size()),
@@ -21,7 +21,7 @@ fn wait(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
 }
 
 /// Inputs of `log`.
-fn log(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
+fn log_inputs(config: &Config) -> Result<std_templates::log::Inputs<Text>, BadValue> {
     Ok(std_templates::log::Inputs {
         value: config.label.get().clone(),
     })
@@ -174,7 +174,7 @@ impl PlanState for Inner {
     }
 
     fn try_clone(&self) -> Option<Self> {
-        Some(self.clone())
+        Some(Clone::clone(self))
     }
 
     fn slots(&self) -> [Slot; 0] {
@@ -222,7 +222,7 @@ impl PlanState for Inner {
     }
 
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
+        PlanState::accepts(self, entry, value)?;
         match entry {
             0 => set_input(&mut self.config.twice, value),
             1 => set_input(&mut self.config.fixed, value),
@@ -293,13 +293,13 @@ where
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
-            WAIT => cx.start_actor(wait(&self.config)).map(Active::Wait),
+            WAIT => cx.start_actor(wait_inputs(&self.config)).map(Active::Wait),
             LOG => {
                 let computed = cx
                     .compute::<
                         std_templates::Log<Text>,
                         afp_std::Log<Text>,
-                    >(log(&self.config));
+                    >(log_inputs(&self.config));
                 return Started::computed(computed, |_| Ok(()), cx);
             }
             _ => Err(Fault::INTERNAL),
@@ -362,7 +362,7 @@ enum Active {
 const INNER_PLACE: Child = Child { components: 1, entries: 2 };
 
 /// Inputs of `inner`.
-fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
+fn inner_inputs(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
     to.twice.set(input(0, || limited(config.pace() * 2.0, 0.0, 5.0))?);
     to.fixed.set(3);
     to.size.set(2);
@@ -463,7 +463,7 @@ impl PlanState for P {
     }
 
     fn try_clone(&self) -> Option<Self> {
-        Some(self.clone())
+        Some(Clone::clone(self))
     }
 
     fn slots(&self) -> [Slot; 0] {
@@ -501,7 +501,7 @@ impl PlanState for P {
     }
 
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
+        PlanState::accepts(self, entry, value)?;
         match entry {
             0 => set_input(&mut self.config.pace, value),
             _ => Err(WriteError::NotStarted),
@@ -563,7 +563,9 @@ where
         let started: Result<Active, Fault> = match element {
             INNER => {
                 let mut plan = super::inner::Inner::new();
-                if let Err(fault) = cx.noted(inner(&self.config, &mut plan.config)) {
+                if let Err(fault) = cx
+                    .noted(inner_inputs(&self.config, &mut plan.config))
+                {
                     return Started::Failed(fault);
                 }
                 let mut machine = Machine::new(plan);

@@ -14,7 +14,7 @@ enum Active {
 }
 
 /// Inputs of `loop`.
-fn r#loop(config: &Config) -> Result<std_templates::assign::Inputs<i64>, BadValue> {
+fn loop_inputs(config: &Config) -> Result<std_templates::assign::Inputs<i64>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.r#type(),
     })
@@ -25,13 +25,15 @@ fn loop_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<i64>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.staged = Some(result);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.staged = Some(value_0);
     Ok(())
 }
 
 /// Inputs of `active`.
-fn active(config: &Config) -> Result<std_templates::assign::Inputs<i64>, BadValue> {
+fn active_inputs(
+    config: &Config,
+) -> Result<std_templates::assign::Inputs<i64>, BadValue> {
     Ok(std_templates::assign::Inputs {
         value: config.staged(),
     })
@@ -42,13 +44,13 @@ fn active_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<i64>,
 ) -> Result<(), BadValue> {
-    let std_templates::assign::State::Done { result } = outcome;
-    staged.r#type = Some(result);
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.r#type = Some(value_0);
     Ok(())
 }
 
 /// Inputs of `self_`.
-fn self_() -> Result<std_templates::wait::Inputs, BadValue> {
+fn self_inputs() -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(1.0),
     })

@@ -14,13 +14,13 @@ enum Active {
 
 /// Outputs of `here`.
 fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), BadValue> {
-    let kit::here::State::Done { place } = outcome;
-    staged.to = Some(Object::new(place));
+    let kit::here::State::Done { place: value_0 } = outcome;
+    staged.to = Some(Object::new(value_0));
     Ok(())
 }
 
 /// Inputs of `seek`.
-fn seek<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, BadValue> {
+fn seek_inputs<'a>(config: &'a Config) -> Result<kit::seek::Inputs<'a>, BadValue> {
     Ok(kit::seek::Inputs {
         name: "",
         side: crate::kit::templates::Side::Left,
@@ -53,8 +53,8 @@ enum Active {
 
 /// Outputs of `here`.
 fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), BadValue> {
-    let kit::here::State::Done { place } = outcome;
-    staged.place = Some(Object::new(place));
+    let kit::here::State::Done { place: value_0 } = outcome;
+    staged.place = Some(Object::new(value_0));
     Ok(())
 }
 
@@ -62,7 +62,7 @@ fn here_outputs(staged: &mut Staged, outcome: kit::here::State) -> Result<(), Ba
 const INNER_PLACE: Child = Child { components: 2, entries: 1 };
 
 /// Inputs of `inner`.
-fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
+fn inner_inputs(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
     to.from.set(config.place.get().clone());
     Ok(())
 }

@@ -12,7 +12,7 @@ enum Active {
 }
 
 /// Inputs of `wait`.
-fn wait(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
+fn wait_inputs(config: &Config) -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(1.0) * (config.angle() / Angle::from_si(1.0)),
     })
@@ -103,7 +103,7 @@ impl PlanState for Inner {
     }
 
     fn try_clone(&self) -> Option<Self> {
-        Some(self.clone())
+        Some(Clone::clone(self))
     }
 
     fn slots(&self) -> [Slot; 0] {
@@ -145,7 +145,7 @@ impl PlanState for Inner {
     }
 
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
+        PlanState::accepts(self, entry, value)?;
         match entry {
             0 => set_input(&mut self.config.angle, value),
             _ => Err(WriteError::NotStarted),
@@ -201,7 +201,7 @@ where
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
-            WAIT => cx.start_actor(wait(&self.config)).map(Active::Wait),
+            WAIT => cx.start_actor(wait_inputs(&self.config)).map(Active::Wait),
             _ => Err(Fault::INTERNAL),
         };
         match started {
@@ -298,7 +298,7 @@ enum Active {
 }
 
 /// Inputs of `count`.
-fn count(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
+fn count_inputs(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
     Ok(std_templates::count::Inputs {
         value: config.turns(),
         limit: config.often(),
@@ -311,11 +311,11 @@ fn count_outputs(
     outcome: std_templates::count::State,
 ) -> Result<(), BadValue> {
     match outcome {
-        std_templates::count::State::Again { next } => {
-            staged.turns = Some(output(0, || limited(next, 0.0, 10.0))?);
+        std_templates::count::State::Again { next: value_0 } => {
+            staged.turns = Some(output(0, || limited(value_0, 0.0, 10.0))?);
         }
-        std_templates::count::State::Done { next } => {
-            staged.turns = Some(output(0, || limited(next, 0.0, 10.0))?);
+        std_templates::count::State::Done { next: value_0 } => {
+            staged.turns = Some(output(0, || limited(value_0, 0.0, 10.0))?);
         }
     }
     Ok(())
@@ -325,7 +325,7 @@ fn count_outputs(
 const INNER_PLACE: Child = Child { components: 2, entries: 4 };
 
 /// Inputs of `inner`.
-fn inner(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
+fn inner_inputs(config: &Config, to: &mut super::inner::Config) -> Result<(), BadValue> {
     to.angle
         .set(
             input(
@@ -493,7 +493,7 @@ impl PlanState for P {
     }
 
     fn try_clone(&self) -> Option<Self> {
-        Some(self.clone())
+        Some(Clone::clone(self))
     }
 
     fn slots(&self) -> [Slot; 0] {
@@ -545,7 +545,7 @@ impl PlanState for P {
     }
 
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
+        PlanState::accepts(self, entry, value)?;
         match entry {
             0 => set_input(&mut self.config.pace, value),
             1 => set_input(&mut self.config.often, value),
@@ -619,7 +619,7 @@ where
                     .compute::<
                         std_templates::Count,
                         afp_std::Count,
-                    >(count(&self.config));
+                    >(count_inputs(&self.config));
                 return Started::computed(
                     computed,
                     |outcome| count_outputs(&mut self.staged, outcome),
@@ -628,7 +628,9 @@ where
             }
             INNER => {
                 let mut plan = super::inner::Inner::new();
-                if let Err(fault) = cx.noted(inner(&self.config, &mut plan.config)) {
+                if let Err(fault) = cx
+                    .noted(inner_inputs(&self.config, &mut plan.config))
+                {
                     return Started::Failed(fault);
                 }
                 let mut machine = Machine::new(plan);

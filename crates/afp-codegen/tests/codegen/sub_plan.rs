@@ -13,7 +13,7 @@ enum Active {
 }
 
 /// Inputs of `loop`.
-fn r#loop(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
+fn loop_inputs(config: &Config) -> Result<std_templates::count::Inputs, BadValue> {
     Ok(std_templates::count::Inputs {
         value: config.i(),
         limit: config.rounds(),
@@ -26,18 +26,18 @@ fn loop_outputs(
     outcome: std_templates::count::State,
 ) -> Result<(), BadValue> {
     match outcome {
-        std_templates::count::State::Again { next } => {
-            staged.i = Some(next);
+        std_templates::count::State::Again { next: value_0 } => {
+            staged.i = Some(value_0);
         }
-        std_templates::count::State::Done { next } => {
-            staged.i = Some(next);
+        std_templates::count::State::Done { next: value_0 } => {
+            staged.i = Some(value_0);
         }
     }
     Ok(())
 }
 
 /// Inputs of `wait`.
-fn wait() -> Result<std_templates::wait::Inputs, BadValue> {
+fn wait_inputs() -> Result<std_templates::wait::Inputs, BadValue> {
     Ok(std_templates::wait::Inputs {
         duration: Time::from_si(1.0),
     })
@@ -63,7 +63,7 @@ enum Active {
 const ROUND_PLACE: Child = Child { components: 2, entries: 2 };
 
 /// Inputs of `round`.
-fn round(config: &Config, to: &mut super::round::Config) -> Result<(), BadValue> {
+fn round_inputs(config: &Config, to: &mut super::round::Config) -> Result<(), BadValue> {
     to.rounds.set(input(0, || Ok(float_to_int(config.often())?))?);
     to.label.set(input(1, || Ok(join("at ", Text::print(config.count())?.as_str())?))?);
     Ok(())
@@ -84,7 +84,7 @@ fn round_outputs(
 const AGAIN_PLACE: Child = Child { components: 5, entries: 6 };
 
 /// Inputs of `again`.
-fn again(to: &mut super::round::Config) -> Result<(), BadValue> {
+fn again_inputs(to: &mut super::round::Config) -> Result<(), BadValue> {
     to.rounds.set(2);
     to.label.set(input(1, || Ok(Text::try_from("round")?))?);
     Ok(())

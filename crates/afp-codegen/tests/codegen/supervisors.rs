@@ -26,7 +26,7 @@ fn near_live(
 }
 
 /// Inputs of `any`.
-fn any<'a>() -> Result<kit::watch::Inputs<'a>, BadValue> {
+fn any_inputs<'a>() -> Result<kit::watch::Inputs<'a>, BadValue> {
     Ok(kit::watch::Inputs {
         label: "mood",
     })
@@ -45,19 +45,19 @@ fn any_outputs(
     outcome: kit::watch::Event<Text>,
 ) -> Result<(), BadValue> {
     match outcome {
-        kit::watch::Event::Changed { seen, side } => {
-            staged.mood = Some(seen);
-            staged.side = Some(side);
+        kit::watch::Event::Changed { seen: value_0, side: value_1 } => {
+            staged.mood = Some(value_0);
+            staged.side = Some(value_1);
         }
-        kit::watch::Event::Same { side } => {
-            staged.side = Some(side);
+        kit::watch::Event::Same { side: value_1 } => {
+            staged.side = Some(value_1);
         }
     }
     Ok(())
 }
 
 /// Inputs of `wait.slow`.
-fn wait_slow() -> Result<std_templates::check_timeout::Inputs, BadValue> {
+fn wait_slow_inputs() -> Result<std_templates::check_timeout::Inputs, BadValue> {
     Ok(std_templates::check_timeout::Inputs {
         duration: Time::from_si(0.1),
     })

@@ -56,7 +56,7 @@ impl ::afp_core::rt::Writable for Side {
 #[derive(Clone, Copy, Debug)]
 pub struct Seek;
 
-impl ::afp_core::ActorTemplate for Seek {
+impl ::afp_core::ActorTemplate for self::Seek {
     type Inputs<'a> = seek::Inputs<'a>;
     type Live<'a> = seek::Live;
     type State = seek::State;
@@ -194,13 +194,13 @@ pub mod seek {
 
         fn give(self, to: &mut dyn ::afp_core::rt::Outputs) {
             match self {
-                State::Found { place, said } => {
-                    to.object(0, &mut Some(place));
-                    to.text(1, &said);
+                State::Found { place: value_0, said: value_1 } => {
+                    to.object(0, &mut Some(value_0));
+                    to.text(1, &value_1);
                 }
-                State::Lost { said, turn } => {
-                    to.text(1, &said);
-                    to.float(2, turn.si());
+                State::Lost { said: value_1, turn: value_2 } => {
+                    to.text(1, &value_1);
+                    to.float(2, value_2.si());
                 }
                 State::Bored => {}
             }
@@ -212,7 +212,7 @@ pub mod seek {
 #[derive(Clone, Copy, Debug)]
 pub struct Watch<V>(::core::marker::PhantomData<V>);
 
-impl<V: ::afp_core::rt::Any> ::afp_core::SupervisorTemplate for Watch<V> {
+impl<V: ::afp_core::rt::Any> ::afp_core::SupervisorTemplate for self::Watch<V> {
     type Inputs<'a> = watch::Inputs<'a>;
     type Live<'a> = watch::Live<V>;
     type Event = watch::Event<V>;
@@ -308,12 +308,12 @@ pub mod watch {
 
         fn give(self, to: &mut dyn ::afp_core::rt::Outputs) {
             match self {
-                Event::Changed { seen, side } => {
-                    to.value(0, ::afp_core::rt::Stored::as_value(&seen).to_owned());
-                    to.choice(1, ::afp_core::rt::Choice::index(side));
+                Event::Changed { seen: value_0, side: value_1 } => {
+                    to.value(0, ::afp_core::rt::Stored::as_value(&value_0).to_owned());
+                    to.choice(1, ::afp_core::rt::Choice::index(value_1));
                 }
-                Event::Same { side } => {
-                    to.choice(1, ::afp_core::rt::Choice::index(side));
+                Event::Same { side: value_1 } => {
+                    to.choice(1, ::afp_core::rt::Choice::index(value_1));
                 }
             }
         }
@@ -324,7 +324,7 @@ pub mod watch {
 #[derive(Clone, Copy, Debug)]
 pub struct Area;
 
-impl ::afp_core::ComputationTemplate for Area {
+impl ::afp_core::ComputationTemplate for self::Area {
     type Inputs<'a> = area::Inputs;
     type State = area::State;
 }
@@ -403,11 +403,11 @@ pub mod area {
 
         fn give(self, to: &mut dyn ::afp_core::rt::Outputs) {
             match self {
-                State::Small { area } => {
-                    to.float(0, area.si());
+                State::Small { area: value_0 } => {
+                    to.float(0, value_0.si());
                 }
-                State::Large { area } => {
-                    to.float(0, area.si());
+                State::Large { area: value_0 } => {
+                    to.float(0, value_0.si());
                 }
             }
         }
@@ -418,7 +418,7 @@ pub mod area {
 #[derive(Clone, Copy, Debug)]
 pub struct Here;
 
-impl ::afp_core::ComputationTemplate for Here {
+impl ::afp_core::ComputationTemplate for self::Here {
     type Inputs<'a> = here::Inputs;
     type State = here::State;
 }
@@ -465,8 +465,8 @@ pub mod here {
 
         fn give(self, to: &mut dyn ::afp_core::rt::Outputs) {
             match self {
-                State::Done { place } => {
-                    to.object(0, &mut Some(place));
+                State::Done { place: value_0 } => {
+                    to.object(0, &mut Some(value_0));
                 }
             }
         }
@@ -476,18 +476,20 @@ pub mod here {
 /// Names the Rust type of every template and object to a registry.
 pub fn register<E, R>(registry: &mut R)
 where
-    E: ?Sized,
+    E: ?::core::marker::Sized,
     R: ::afp_core::rt::Registry<E>,
-    super::Seek: ::afp_core::Actor<Seek, E>,
-    super::Watch<::afp_core::Value>: ::afp_core::Supervisor<Watch<::afp_core::Value>, E>,
+    super::Seek: ::afp_core::Actor<self::Seek, E>,
+    super::Watch<
+        ::afp_core::Value,
+    >: ::afp_core::Supervisor<self::Watch<::afp_core::Value>, E>,
 {
-    registry.actor::<Seek, super::Seek>("kit", "Seek");
+    registry.actor::<self::Seek, super::Seek>("kit", "Seek");
     registry
         .supervisor::<
-            Watch<::afp_core::Value>,
+            self::Watch<::afp_core::Value>,
             super::Watch<::afp_core::Value>,
         >("kit", "Watch");
-    registry.computation::<Area, super::Area>("kit", "Area");
-    registry.computation::<Here, super::Here>("kit", "Here");
+    registry.computation::<self::Area, super::Area>("kit", "Area");
+    registry.computation::<self::Here, super::Here>("kit", "Here");
     registry.object::<super::Place>("kit", "Place");
 }

@@ -92,7 +92,7 @@ enum Active {
 }
 
 /// Inputs of `searchFirstWall`.
-fn search_first_wall() -> Result<carbot::forward::Inputs, BadValue> {
+fn search_first_wall_inputs() -> Result<carbot::forward::Inputs, BadValue> {
     Ok(carbot::forward::Inputs {
         distance: Length::from_si(100.0),
         speed: Speed::from_si(0.2),
@@ -100,7 +100,9 @@ fn search_first_wall() -> Result<carbot::forward::Inputs, BadValue> {
 }
 
 /// Inputs of `backupCollision`.
-fn backup_collision(config: &Config) -> Result<carbot::forward::Inputs, BadValue> {
+fn backup_collision_inputs(
+    config: &Config,
+) -> Result<carbot::forward::Inputs, BadValue> {
     Ok(carbot::forward::Inputs {
         distance: -config.walldist(),
         speed: Speed::from_si(0.2),
@@ -108,7 +110,7 @@ fn backup_collision(config: &Config) -> Result<carbot::forward::Inputs, BadValue
 }
 
 /// Inputs of `findWallAngle`.
-fn find_wall_angle() -> Result<carbot::search_wall::Inputs, BadValue> {
+fn find_wall_angle_inputs() -> Result<carbot::search_wall::Inputs, BadValue> {
     Ok(carbot::search_wall::Inputs {
         sweep: Angle::from_deg(60.0),
         range: Length::from_si(1.5),
@@ -120,14 +122,14 @@ fn find_wall_angle_outputs(
     staged: &mut Staged,
     outcome: carbot::search_wall::State,
 ) -> Result<(), BadValue> {
-    if let carbot::search_wall::State::WallFound { angle } = outcome {
-        staged.wallangle = Some(output(0, || finite(angle))?);
+    if let carbot::search_wall::State::WallFound { angle: value_0 } = outcome {
+        staged.wallangle = Some(output(0, || finite(value_0))?);
     }
     Ok(())
 }
 
 /// Inputs of `parallelToWall`.
-fn parallel_to_wall(config: &Config) -> Result<carbot::turn::Inputs, BadValue> {
+fn parallel_to_wall_inputs(config: &Config) -> Result<carbot::turn::Inputs, BadValue> {
     Ok(carbot::turn::Inputs {
         angle: config.wallangle(),
         speed: AngularSpeed::from_deg(45.0),
@@ -135,7 +137,9 @@ fn parallel_to_wall(config: &Config) -> Result<carbot::turn::Inputs, BadValue> {
 }
 
 /// Inputs of `followWall`.
-fn follow_wall(config: &Config) -> Result<carbot::wall_forward::Inputs, BadValue> {
+fn follow_wall_inputs(
+    config: &Config,
+) -> Result<carbot::wall_forward::Inputs, BadValue> {
     Ok(carbot::wall_forward::Inputs {
         walldist: config.walldist(),
         lanedist: config.walldist(),
@@ -148,7 +152,7 @@ fn follow_wall(config: &Config) -> Result<carbot::wall_forward::Inputs, BadValue
 }
 
 /// Inputs of `turnAfterWallLost`.
-fn turn_after_wall_lost() -> Result<carbot::turn::Inputs, BadValue> {
+fn turn_after_wall_lost_inputs() -> Result<carbot::turn::Inputs, BadValue> {
     Ok(carbot::turn::Inputs {
         angle: -Angle::from_deg(60.0),
         speed: AngularSpeed::from_deg(45.0),
@@ -176,7 +180,7 @@ struct Supervisors {
 }
 
 /// Inputs of `searchFirstWall.checkLane`.
-fn search_first_wall_check_lane() -> Result<
+fn search_first_wall_check_lane_inputs() -> Result<
     carbot::check_driving_lane::Inputs,
     BadValue,
 > {
@@ -301,7 +305,7 @@ impl PlanState for WallFollowing {
     }
 
     fn try_clone(&self) -> Option<Self> {
-        Some(self.clone())
+        Some(Clone::clone(self))
     }
 
     fn slots(&self) -> [Slot; 3] {
@@ -338,7 +342,7 @@ impl PlanState for WallFollowing {
     }
 
     fn set_input(&mut self, entry: u16, value: &Value) -> Result<(), WriteError> {
-        self.accepts(entry, value)?;
+        PlanState::accepts(self, entry, value)?;
         match entry {
             0 => set_input(&mut self.config.walldist, value),
             _ => Err(WriteError::NotStarted),
@@ -395,7 +399,7 @@ where
                 self.supervisors.search_first_wall_touch = cx.start_supervisor(inputs)?;
             }
             SEARCH_FIRST_WALL_CHECK_LANE => {
-                let inputs = search_first_wall_check_lane();
+                let inputs = search_first_wall_check_lane_inputs();
                 self.supervisors.search_first_wall_check_lane = cx
                     .start_supervisor(inputs)?;
             }
@@ -463,24 +467,25 @@ where
     ) -> Started {
         let started: Result<Active, Fault> = match element {
             SEARCH_FIRST_WALL => {
-                cx.start_actor(search_first_wall()).map(Active::SearchFirstWall)
+                cx.start_actor(search_first_wall_inputs()).map(Active::SearchFirstWall)
             }
             BACKUP_COLLISION => {
-                cx.start_actor(backup_collision(&self.config))
+                cx.start_actor(backup_collision_inputs(&self.config))
                     .map(Active::BackupCollision)
             }
             FIND_WALL_ANGLE => {
-                cx.start_actor(find_wall_angle()).map(Active::FindWallAngle)
+                cx.start_actor(find_wall_angle_inputs()).map(Active::FindWallAngle)
             }
             PARALLEL_TO_WALL => {
-                cx.start_actor(parallel_to_wall(&self.config))
+                cx.start_actor(parallel_to_wall_inputs(&self.config))
                     .map(Active::ParallelToWall)
             }
             FOLLOW_WALL => {
-                cx.start_actor(follow_wall(&self.config)).map(Active::FollowWall)
+                cx.start_actor(follow_wall_inputs(&self.config)).map(Active::FollowWall)
             }
             TURN_AFTER_WALL_LOST => {
-                cx.start_actor(turn_after_wall_lost()).map(Active::TurnAfterWallLost)
+                cx.start_actor(turn_after_wall_lost_inputs())
+                    .map(Active::TurnAfterWallLost)
             }
             _ => Err(Fault::INTERNAL),
         };

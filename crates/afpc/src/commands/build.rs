@@ -129,8 +129,9 @@ fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), N
         Err(NoPlan::File(error)) => Err(error),
         _ => Ok(()),
     };
-    let binary = cargo::build(Job {
+    let built = cargo::build(Job {
         folder: &folder,
+        caller: None,
         // Plans beside one another share what they are built from.
         target: arguments.output.is_none().then_some(&*shared),
         toolchain: toolchain.as_ref(),
@@ -139,7 +140,7 @@ fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), N
         no_cargo,
         tools: (reader == Reader::Tools).then_some(&object),
     })?;
-    made.binary = binary.map(whole);
+    made.binary = built.artifact.map(whole);
     Ok(())
 }
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use afp_dsl::files::read_text_file;
 use afp_project::ProjectFile;
 use afp_run::RunError;
+use afp_syntax::has_scenario;
 
 /// Where a project keeps scenarios.
 const FOLDERS: &[&str] = &["plans", "tests", "scenarios"];
@@ -63,10 +64,9 @@ fn below(folder: &Path, deep: bool, files: &mut Vec<PathBuf>) -> Result<(), RunE
     Ok(())
 }
 
-/// Whether a file may have a scenario; the compiler will know, and why the file cannot be read.
+/// Whether a file has a scenario; the compiler will know why one cannot be read.
 fn has_scenarios(path: &Path) -> bool {
-    let has = |text: String| text.lines().any(|line| line.trim_start().starts_with("scenario "));
-    read_text_file(path).map_or(true, has)
+    read_text_file(path).map_or(true, |text| has_scenario(&text))
 }
 
 /// Why there is nothing to run.
