@@ -195,7 +195,6 @@ impl RunOptions {
             ("--press", !self.press.is_empty()),
             ("--fail", !self.fail.is_empty()),
             ("--measure", !self.measure.is_empty()),
-            ("--set world.*", self.set.iter().any(|(name, _)| change::key(name).is_some())),
         ];
         let option =
             of_simulation.iter().find(|(_, given)| *given).map(|(name, _)| name.to_string());
