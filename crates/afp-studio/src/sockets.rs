@@ -119,7 +119,8 @@ pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
             Some(Event::Said(id, message)) => room.handle(id, message, begin.elapsed()),
             Some(Event::Left(id)) => {
                 clients.remove(&id);
-                room.leave(id)
+                room.leave(id, begin.elapsed());
+                Vec::new()
             }
             Some(Event::JobSaid(id, line)) => room.job_said(id, &line),
             Some(Event::JobEnded(id)) => room.job_done(id, jobs.ended(id)),
