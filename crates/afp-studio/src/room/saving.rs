@@ -12,7 +12,8 @@ impl Room {
     /// When [`Room::tick`] has something to do.
     pub fn due(&self) -> Duration {
         let saves = self.documents.values().filter_map(|document| document.due());
-        saves.min().map_or(self.looked + LOOKS_EVERY, |due| due.min(self.looked + LOOKS_EVERY))
+        let due = saves.chain(self.jobs_due()).min();
+        due.map_or(self.looked + LOOKS_EVERY, |due| due.min(self.looked + LOOKS_EVERY))
     }
 
     /// Writes what is due, and looks at the folder from time to time.
@@ -20,6 +21,9 @@ impl Room {
         let mut out = Vec::new();
         if self.falls.is_some_and(|falls| falls <= now) {
             out.extend(self.hand_pen(self.clients.keys().next().copied()));
+        }
+        if self.jobs_due().is_some_and(|due| due <= now) {
+            out.extend(self.tell_jobs(now));
         }
         if now >= self.looked + LOOKS_EVERY {
             self.looked = now;
