@@ -1,11 +1,16 @@
-// Changes of a text as values: those of an edit of the server, and the one between two texts.
+// Changes of a text as values: those of an edit of the server, of an editor, and those between two texts.
+import type { ChangeSet } from "@codemirror/state";
 import type { Change } from "./history";
+import { hunks } from "./lines";
 import { offset, type Range } from "./positions";
 
 export interface TextEdit {
   range: Range;
   newText: string;
 }
+
+/** A text with `\n` between its lines, as all texts of the page are. */
+export const withNewlines = (text: string): string => (text.includes("\r") ? text.replace(/\r\n?/g, "\n") : text);
 
 /** Edits of one text, all for the text as it is, as changes to be made one after the other. */
 export function inOrder(uri: string, text: string, edits: TextEdit[]): Change[] {
@@ -14,12 +19,40 @@ export function inOrder(uri: string, text: string, edits: TextEdit[]): Change[] 
   return changes.map((change, at) => ({ change, at })).sort((a, b) => b.change.from - a.change.from || b.at - a.at).map(({ change }) => change);
 }
 
-/** The one change between two texts: what both begin and end with is left out. */
+/** The changes of a set, to be made one after the other. */
+export function sequence(uri: string, changes: ChangeSet): Change[] {
+  const made: Change[] = [];
+  changes.iterChanges((fromA, toA, fromB, _toB, inserted) => made.push({ uri, from: fromB, to: fromB + toA - fromA, insert: inserted.toString() }), true);
+  return made;
+}
+
+/** What makes one text of another, line by line, to be made one after the other. */
 export function difference(uri: string, before: string, after: string): Change[] {
-  if (before === after) return [];
+  const [old, now] = [lines(before), lines(after)];
+  const [starts, ends] = [offsets(old), offsets(now)];
+  const part = ({ from, to, start, end }: { from: number; to: number; start: number; end: number }): Change => {
+    const insert = after.slice(ends[start], ends[end]);
+    return within(uri, before.slice(starts[from], starts[to]), insert, starts[from]!);
+  };
+  // From the end, so that none moves another.
+  return hunks(old, now).map(part).reverse();
+}
+
+const lines = (text: string): string[] => text.match(/[^\n]*\n|[^\n]+$/g) ?? [];
+
+function offsets(all: readonly string[]): number[] {
+  const found = [0];
+  for (const line of all) found.push(found.at(-1)! + line.length);
+  return found;
+}
+
+/** The one change between two pieces of text: what both begin and end with is left out, and no letter is taken apart. */
+function within(uri: string, before: string, after: string, at: number): Change {
   let from = 0;
   while (from < before.length && from < after.length && before[from] === after[from]) from++;
+  if (from > 0 && /[\ud800-\udbff]/.test(before[from - 1]!)) from--;
   let [to, end] = [before.length, after.length];
   while (to > from && end > from && before[to - 1] === after[end - 1]) [to, end] = [to - 1, end - 1];
-  return [{ uri, from, to, insert: after.slice(from, end) }];
+  if (to < before.length && /[\udc00-\udfff]/.test(before[to]!)) [to, end] = [to + 1, end + 1];
+  return { uri, from: at + from, to: at + to, insert: after.slice(from, end) };
 }

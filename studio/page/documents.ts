@@ -1,28 +1,21 @@
 // The texts of the page: opened from the room, changed in one place, told to the server, said to be saved by it alone.
+import type { ChangeSet } from "@codemirror/state";
 import { computed, signal } from "@preact/signals";
-import { difference, inOrder, type TextEdit } from "./changes";
+import { difference, withNewlines } from "./changes";
 import { conflicts, dispute, settle, type Keep } from "./conflicts";
 import { attach, clear, push, record, type Change, type Step } from "./history";
-import { LOST, Refused, type Lsp } from "./lsp";
+import { LOST, Refused, type Finish, type Lsp } from "./lsp";
+import * as pending from "./pending";
 import { position, type Range } from "./positions";
-import type { Part } from "./drawing/shapes";
 import { select } from "./selection";
 import { files, lsp, pen, type Kept } from "./session";
 import { words } from "./words";
 
-export interface WorkspaceEdit {
-  documentChanges?: (
-    | { kind: "create"; uri: string }
-    | { textDocument: { uri: string; version: number | null }; edits: TextEdit[] }
-  )[];
-  changes?: Record<string, TextEdit[]>;
-}
-
 interface Document extends Kept {
   /** The last version that the room has written. */
   written: number;
-  /** The text of that version. */
-  base: string;
+  /** What was made of it since the text that the room is known to have. */
+  pending: pending.Pending;
   failed: string | null;
 }
 
@@ -40,11 +33,6 @@ export interface Told {
 }
 
 const takers = new Set<Taker>();
-
-/** Texts that the server was told since the one that is known to be written: it may have written any of them. */
-const told = new Map<string, string[]>();
-/** So many of them are kept. */
-const MOST_TOLD = 256;
 
 /** The address of the plan file that is shown; empty without one. */
 export const current = signal("");
@@ -107,79 +95,52 @@ export async function create(what: { uri: string; text: string } | { uri: string
 }
 
 function take(kept: Kept): void {
-  put({ ...kept, written: kept.version, base: kept.text, failed: null });
+  put({ ...kept, written: kept.version, pending: pending.known(kept.text), failed: null });
   const { uri, version, text } = kept;
   lsp().notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text } });
 }
 
-/** Makes changes one after the other, tells everybody who shows a text, and the server unless it knows. */
-function make(changes: Change[], maker: Maker = "page", tell = true): Step[] {
+/** Tells the server what was made of a text. */
+type Say = (uri: string, told: Told[], changes: ChangeSet) => void;
+
+/** Makes changes one after the other, tells the server, and everybody who shows a text. */
+function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] {
   const steps: Step[] = [];
-  const made = new Map<string, Told[]>();
-  for (const { uri, from, to, insert } of changes) {
+  const made = new Map<string, { before: string; told: Told[]; changes: Change[] }>();
+  for (const change of changes) {
+    const { uri, from, to } = change;
     const document = documents.peek().get(uri);
     if (!document) continue;
     const before = document.text;
-    const range = { start: position(before, from), end: position(before, to) };
-    made.set(uri, [...(made.get(uri) ?? []), { range, text: insert }]);
+    const insert = withNewlines(change.insert);
+    const one = made.get(uri) ?? { before, told: [], changes: [] };
+    one.told.push({ range: { start: position(before, from), end: position(before, to) }, text: insert });
+    one.changes.push({ uri, from, to, insert });
+    made.set(uri, one);
     put({ ...document, text: before.slice(0, from) + insert + before.slice(to) });
     steps.push({ uri, from, removed: before.slice(from, to), inserted: insert });
   }
-  for (const [uri, contentChanges] of made) {
-    if (tell) {
-      const version = documents.peek().get(uri)!.version + 1;
-      put({ ...documents.peek().get(uri)!, version });
-      lsp().notify("textDocument/didChange", { textDocument: { uri, version }, contentChanges });
-      if (lsp().open.peek()) told.set(uri, [...(told.get(uri) ?? []), text(uri)].slice(-MOST_TOLD));
-    }
-    const own = changes.filter((change) => change.uri === uri);
-    takers.forEach((take) => take(uri, own, maker, contentChanges));
+  for (const [uri, { before, told, changes }] of made) {
+    say(uri, told, pending.together(changes, before.length));
+    takers.forEach((take) => take(uri, changes, maker, told));
   }
   return steps;
 }
 
-/** Makes an edit of the server as one entry of the history. Throws where it was made for another version. */
-export async function apply(edit: WorkspaceEdit, label: string, chosen?: Part[]): Promise<void> {
-  if (!pen.value) throw new Refused(0, words.watching);
-  const listed = edit.documentChanges ?? Object.entries(edit.changes ?? {}).map(edited);
-  const uris = listed.map((each) => ("kind" in each ? each.uri : each.textDocument.uri));
-  await Promise.all(uris.map(open));
-  const changes: Change[] = [];
-  for (const each of listed) {
-    if ("kind" in each) continue;
-    const { uri, version: wanted } = each.textDocument;
-    if (wanted !== null && wanted !== version(uri)) throw new Stale();
-    changes.push(...inOrder(uri, text(uri), each.edits));
-  }
-  push({ label, changes, ...(chosen ? { select: chosen } : {}) });
-}
+/** Tells the server what was made here, which it has once it says so; without a connection it is told later. */
+const own: Say = (uri, told, changes) => {
+  const version = tell(lsp(), uri, told);
+  const document = documents.peek().get(uri)!;
+  if (lsp().open.peek()) put({ ...document, pending: pending.told(document.pending, version, changes) });
+};
 
-const edited = ([uri, edits]: [string, TextEdit[]]) => ({ textDocument: { uri, version: null }, edits });
-
-/** An edit is for a text that has changed meanwhile: it is to be asked for again. */
-export class Stale extends Error {}
-
-/** Asks for an edit and makes it, again where the text has changed meanwhile. */
-export async function change(ask: () => Promise<{ edit: WorkspaceEdit; label: string; select?: Part[] } | null>): Promise<void> {
-  for (let attempt = 0; attempt < 4; attempt++) {
-    const found = await asked(ask);
-    if (!found) return;
-    try {
-      return await apply(found.edit, found.label, found.select);
-    } catch (why) {
-      if (!(why instanceof Stale)) throw why;
-    }
-  }
-}
-
-/** Asks once more where the connection was lost before the answer: an edit is computed by the server and made here. */
-async function asked<T>(ask: () => Promise<T>): Promise<T> {
-  try {
-    return await ask();
-  } catch (why) {
-    if (why instanceof Refused && why.code === LOST) return ask();
-    throw why;
-  }
+/** Tells a server the next version of a text; gives that. `taken` is the number of the room's change that it has in it. */
+function tell(to: Lsp, uri: string, contentChanges: readonly { range?: Range; text: string }[], taken?: number): number {
+  const document = documents.peek().get(uri)!;
+  const version = document.version + 1;
+  put({ ...document, version });
+  to.notify("textDocument/didChange", { textDocument: { uri, version }, contentChanges, ...(taken === undefined ? {} : { taken }) });
+  return version;
 }
 
 /** Takes over what was typed in the text pane. Changes are made one after the other. */
@@ -201,15 +162,14 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
   lsp().on("afp/saved", ({ uri, version, failed }) => {
     const document = documents.peek().get(uri);
     if (!document) return;
-    const base = version === document.version ? document.text : document.base;
-    if (!failed && version === document.version) told.delete(uri);
-    put(failed ? { ...document, failed } : { ...document, written: Math.max(document.written, version), base, failed: null });
+    const written = { written: Math.max(document.written, version), pending: pending.reached(document.pending, version), failed: null };
+    put({ ...document, ...(failed ? { failed } : written) });
   });
-  lsp().on("afp/changed", ({ uri, text: now, clean }: { uri: string; text: string; clean: boolean }) => {
+  lsp().on("afp/changed", ({ uri, text: now, clean, version, number }: { uri: string; text: string; clean: boolean; version: number; number: number }) => {
     if (!documents.peek().has(uri)) return;
     if (clean) {
       settle(uri);
-      return arrived(uri, now);
+      return arrived(uri, now, version, number);
     }
     const choose = async (keep: Keep): Promise<void> => {
       chosen.set(uri, keep);
@@ -247,35 +207,60 @@ export function offer(uri: string, mine: string): void {
   dispute({ uri, choices: ["mine", "theirs"], mine, choose });
 }
 
-/** Takes over a text of the room. What was saved here is so still: theirs lies in the file. */
-function arrived(uri: string, now: string, tell = true): void {
-  const { text: before, written, version } = documents.peek().get(uri)!;
-  const own = chosen.get(uri);
-  chosen.delete(uri);
-  const steps = before === now ? [] : make(difference(uri, before, now), "outside", tell);
-  if (own) record({ label: words.keep[own], steps });
-  else record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
+/** Takes over a text that the room has, made with a version in sight. What was saved here is so still: theirs lies in the file. */
+function arrived(uri: string, now: string, seen: number, number: number): void {
+  const before = documents.peek().get(uri)!;
+  const [rest, changes] = pending.arrived(uri, before.pending, seen, now);
+  put({ ...before, pending: rest });
+  const say: Say = (uri, told) => void tell(lsp(), uri, told, number);
+  takeOver(uri, changes, say);
+  // The room waits for the text that has its own in it, also where that changes nothing.
+  if (changes.length === 0) tell(lsp(), uri, [], number);
+  const { written, version } = before;
   const document = documents.peek().get(uri)!;
-  put({ ...document, written: written >= version ? document.version : written, base: now, failed: null });
+  put({ ...document, written: written >= version ? document.version : written, failed: null });
 }
 
-/** On a new connection: opens everything again, and sends what the server was not told. */
-export async function again(first: Lsp): Promise<void> {
-  for (const uri of documents.peek().keys()) {
-    const { text: theirs, etag } = await first.request<Kept>("afp/read", { uri });
-    const { text: mine, base, version: before } = documents.peek().get(uri)!;
-    const version = before + 1;
-    // What was killed may have written more than it could say.
-    const ours = theirs === base || told.get(uri)?.includes(theirs);
-    told.delete(uri);
-    first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text: theirs } });
-    put({ ...documents.peek().get(uri)!, version, written: version, etag, base: theirs, failed: null });
-    if (ours && mine !== theirs && pen.peek()) {
-      first.notify("textDocument/didChange", { textDocument: { uri, version: version + 1 }, contentChanges: [{ text: mine }] });
-      put({ ...documents.peek().get(uri)!, version: version + 1 });
-    } else if (theirs !== mine) {
-      arrived(uri, theirs, false);
-      if (mine !== base) offer(uri, mine);
-    }
+/** Makes changes that come from the room, as an entry of the history. */
+function takeOver(uri: string, changes: Change[], say: Say): void {
+  const keep = chosen.get(uri);
+  chosen.delete(uri);
+  const steps = make(changes, "outside", say);
+  if (keep) record({ label: words.keep[keep], steps });
+  else record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
+}
+
+/** On a new connection: reads everything that is open anew. What it gives opens it, and sends what the server was not told. */
+export async function again(first: Lsp): Promise<Finish> {
+  const uris = [...documents.peek().keys()];
+  const all = await Promise.all(uris.map((uri) => first.request<Kept>("afp/read", { uri }).catch(refused)));
+  // All at once: what is typed after it is told as ever.
+  return () => all.forEach((kept, at) => reopen(first, uris[at]!, kept));
+}
+
+/** Why a text cannot be read; what is no answer stays an error. */
+function refused(why: unknown): Refused {
+  if (why instanceof Refused && why.code !== LOST) return why;
+  throw why;
+}
+
+function reopen(first: Lsp, uri: string, kept: Kept | Refused): void {
+  const before = documents.peek().get(uri)!;
+  // The others go on; this one is not saved, which is said.
+  if (kept instanceof Refused) return put({ ...before, failed: kept.message });
+  const { text: theirs, etag } = kept;
+  const mine = before.text;
+  const version = before.version + 1;
+  first.notify("textDocument/didOpen", { textDocument: { uri, languageId: "afp", version, text: theirs } });
+  put({ ...before, version, written: version, etag, pending: pending.known(theirs), failed: null });
+  if (mine === theirs) return;
+  // What was killed may have written more than it could say.
+  if (pen.peek() && pending.mayBe(before.pending, theirs)) {
+    const version = tell(first, uri, [{ text: mine }]);
+    const changes = pending.together(difference(uri, theirs, mine), theirs.length);
+    put({ ...documents.peek().get(uri)!, pending: pending.told(pending.known(theirs), version, changes) });
+  } else {
+    takeOver(uri, difference(uri, mine, theirs), () => {});
+    if (mine !== before.pending.base) offer(uri, mine);
   }
 }

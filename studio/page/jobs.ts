@@ -35,7 +35,7 @@ export async function run(title: string, order: { kind: string; [more: string]: 
   if (order.kind !== "new" && !(await trusted(order.kind === "build"))) return null;
   const { id } = await lsp().request<{ id: number }>("afp/job", order);
   running.value = [...running.peek(), { id, title, last: "" }];
-  say(`> ${title}`);
+  say([`> ${title}`]);
   const done = early.get(id) ?? (await new Promise<Done>((done) => waiting.set(id, done)));
   early.delete(id);
   running.value = running.peek().filter((job) => job.id !== id);
@@ -44,15 +44,16 @@ export async function run(title: string, order: { kind: string; [more: string]: 
 
 export const end = (id: number): Promise<unknown> => lsp().request("afp/endJob", { id });
 
-function say(line: string): void {
-  said.value = [...said.peek(), line].slice(-MOST);
+function say(lines: readonly string[]): void {
+  said.value = [...said.peek(), ...lines].slice(-MOST);
 }
 
 /** Begins to hear of them. */
 export function begin(): void {
-  lsp().on("afp/jobSaid", ({ id, text }) => {
-    running.value = running.peek().map((job) => (job.id === id ? { ...job, last: text } : job));
-    say(text);
+  lsp().on("afp/jobSaid", ({ id, text }: { id: number; text: string }) => {
+    const lines = text.split("\n");
+    running.value = running.peek().map((job) => (job.id === id ? { ...job, last: lines.at(-1)! } : job));
+    say(lines);
   });
   lsp().on("afp/jobDone", (done: Done) => {
     const wait = waiting.get(done.id);

@@ -32,6 +32,9 @@ export interface Socket {
   onmessage: ((event: any) => void) | null;
 }
 
+/** The end of a greeting. */
+export type Finish = (() => void) | void;
+
 interface Asked {
   text: string;
   sent: boolean;
@@ -44,11 +47,11 @@ const WAITS = [200, 500, 1000, 2000, 5000];
 
 /**
  * Connects, and again whenever the connection is lost. `greet` runs first on every connection, with an `Lsp` of its own;
- * requests of others wait for its end.
+ * requests of others wait for its end. What it gives is done right before they go on, with nothing between.
  */
 export function connect(
   url: string,
-  greet: (first: Lsp) => Promise<void> = async () => {},
+  greet: (first: Lsp) => Promise<Finish> = async () => {},
   make: (url: string) => Socket = (at) => new WebSocket(at) as Socket,
 ): Lsp {
   const open = signal(false);
@@ -92,8 +95,9 @@ export function connect(
     socket = own;
     own.onmessage = (event) => take(event.data);
     own.onopen = () => {
-      const ready = (): void => {
+      const ready = (finish: Finish): void => {
         if (socket !== own) return;
+        finish?.();
         attempts = 0;
         open.value = true;
         for (const each of asked.values()) {

@@ -16,6 +16,7 @@ import * as guide from "./guide";
 import { begin as beginJobs } from "./jobs";
 import * as keep from "./keep";
 import * as layout from "./layout";
+import { connect } from "./lsp";
 import { showFirst } from "./panes/files";
 import { begin as beginWorld } from "./world/surroundings";
 import * as places from "./places";
@@ -26,7 +27,7 @@ import { begin as beginUnsent } from "./unsent";
 import { words } from "./words";
 
 const scheme = location.protocol === "https:" ? "wss" : "ws";
-begin(`${scheme}://${location.host}/lsp`, documents.again);
+begin(`${scheme}://${location.host}/lsp`, documents.again, connect, sessionStorage);
 documents.begin(ask);
 problems.begin();
 places.begin();

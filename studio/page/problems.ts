@@ -1,6 +1,7 @@
 // What the server says is wrong with each text, and the fixes that it has.
 import { computed, effect, signal } from "@preact/signals";
-import { apply, current, type WorkspaceEdit } from "./documents";
+import { current } from "./documents";
+import { apply, type WorkspaceEdit } from "./edits";
 import type { Range } from "./positions";
 import { lsp } from "./session";
 

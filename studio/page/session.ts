@@ -1,6 +1,6 @@
 // This page's conversation with the server: who greets, what the folder holds, who changes it.
 import { signal } from "@preact/signals";
-import { connect, type Lsp } from "./lsp";
+import { connect, type Finish, type Lsp } from "./lsp";
 
 export interface Kept {
   uri: string;
@@ -10,7 +10,7 @@ export interface Kept {
 }
 
 export interface Hello {
-  client: number | string;
+  client: number;
   root: string;
   open: string | null;
   pen: boolean;
@@ -46,11 +46,19 @@ const CAPABILITIES = {
   },
 };
 
-/** Connects to a server and greets it, on each connection anew; `again` runs on each but the first, before others may ask. */
-export function begin(url: string, again: (lsp: Lsp) => Promise<void>, make = connect): Lsp {
-  const greet = async (first: Lsp): Promise<void> => {
-    const said = await first.request<Hello>("afp/hello", {});
+const CLIENT = "afp-studio-client";
+
+/**
+ * Connects to a server and greets it, on each connection anew; `again` runs on each but the first, before others may ask.
+ * `storage` outlives the page when it is loaded anew: it is the same client then.
+ */
+export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = connect, storage?: Storage): Lsp {
+  let client = storage?.getItem(CLIENT) ?? null;
+  const greet = async (first: Lsp): Promise<Finish> => {
+    const said = await first.request<Hello>("afp/hello", client === null ? {} : { client: Number(client) });
     const begun = hello.value !== null;
+    client = String(said.client);
+    storage?.setItem(CLIENT, client);
     // At once: what the server tells next is newer.
     files.value = said.files;
     pen.value = said.pen;
@@ -59,7 +67,7 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<void>, make = co
     first.notify("initialized", {});
     legend.value = capabilities.semanticTokensProvider?.legend ?? legend.value;
     hello.value = said;
-    if (begun) await again(first);
+    if (begun) return again(first);
   };
   connection = make(url, greet);
   connection.on("afp/files", (params) => (files.value = params.files));

@@ -20,6 +20,7 @@ export const words = {
   redo: (label: string | null) => (label ? `Redo: ${label}` : "Nothing to redo"),
   typing: "typing",
   deleting: "deleting",
+  stale: (what: string) => `Not done, since the text kept changing meanwhile: ${what}. Do it once more.`,
   changedOutside: (name: string) => `change of ${name} by another program`,
   undoForeign: "Undo a change that is not yours?",
   undoForeignBody: (label: string) => `The last thing that happened is a ${label}. You did not make it on this page.`,

@@ -1,6 +1,7 @@
 // What lies on the disk and what the page says of it: "saved" is never shown for what is not there, and no byte is lost.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
 import { mkdir, readFile, rename, rm, symlink, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
@@ -50,6 +51,45 @@ inBrowser("a file that cannot be written is said not to be saved, and is as soon
   await isSaved();
   await holds("plan.afp", wanted);
   assert.equal(await page.locator(".banner.error").count(), 0);
+});
+
+inBrowser("of what is typed while another program writes again and again no letter is lost", { "plan.afp": `// 0\n\n${PLAN}` }, async ({ page, folder, holds, isSaved, read }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  await type(page, "start go", " // ");
+  const file = join(folder, "plan.afp");
+  let written = 0;
+  const other = setInterval(() => {
+    // At both ends of the file, in one go, so that nothing is written between.
+    const now = readFileSync(file, "utf8");
+    if (now) writeFileSync(file, `${now.replace(/^\/\/ \d+/, `// ${++written}`).trimEnd()}\n${written % 2 ? "// end\n" : ""}`.replace("// end\n// end\n", "// end\n"));
+  }, 170);
+  const letters = "abcdefghijklmnopqrstuvwxyz".repeat(4);
+  await page.keyboard.type(letters, { delay: 35 });
+  clearInterval(other);
+  await isSaved();
+  assert.ok(written > 5);
+  const now = await read("plan.afp");
+  assert.ok(now.includes(`start go // ${letters}\n`), now);
+  assert.ok(now.startsWith(`// ${written}\n`), now);
+  await holds("plan.afp", await page.evaluate(() => [...document.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\n")));
+});
+
+inBrowser("lines of a file that end in several ways stay so, and what is pasted brings no other ends", { "plan.afp": PLAN.replace("\n", "\r\n") }, async ({ page, holds, isSaved }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  await type(page, "use std", " x");
+  await page.keyboard.press("Backspace");
+  await page.keyboard.press("Backspace");
+  await page.evaluate(() => {
+    const clipboardData = new DataTransfer();
+    clipboardData.setData("text/plain", " // a\r\n// b\r// c");
+    document.querySelector(".cm-content")!.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+  });
+  await type(page, "start go", " // here");
+  await isSaved();
+  const wanted = PLAN.replace("start go", "start go // here").replace("use std\n", "use std // a\r\n// b\r\n// c\r\n");
+  await holds("plan.afp", wanted);
 });
 
 inBrowser("a file that another program removes is not saved until it is written anew", { "plan.afp": PLAN }, async ({ page, folder, holds, isSaved, read }) => {

@@ -1,11 +1,12 @@
 // Texts, against a server of the test: what it is told gives the same texts, edits are made for their version alone.
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { difference, inOrder } from "../page/changes";
+import { inOrder } from "../page/changes";
 import { conflicts } from "../page/conflicts";
-import { again, apply, begin, change, current, onText, open, saved, Stale, text, typed, unsent, version } from "../page/documents";
+import { again, begin, current, onText, open, saved, text, typed, unsent, version } from "../page/documents";
+import { apply, change, Stale } from "../page/edits";
 import { undo, undoLabel } from "../page/history";
-import type { Lsp } from "../page/lsp";
+import { Refused, type Finish, type Lsp } from "../page/lsp";
 import { offset, position } from "../page/positions";
 import * as session from "../page/session";
 import { random } from "./random";
@@ -26,7 +27,7 @@ class Room {
       if (method === "afp/read") return { uri: params.uri, text: this.texts.get(params.uri) ?? "", version: 1, etag: null } as any;
       if (method === "afp/choose") {
         this.chosen = params;
-        this.tell("afp/changed", { uri: params.uri, text: this.chooses, clean: true });
+        this.changes(params.uri, this.chooses);
         return null as any;
       }
       if (method === "afp/pen") return { holder: 1, yours: true } as any;
@@ -43,6 +44,9 @@ class Room {
     },
   };
   tell = (method: string, params: unknown) => this.takers.get(method)!(params);
+  /** Another text than the page's last one is there. */
+  changes = (uri: string, text: string) => this.tell("afp/changed", { uri, text, clean: true, version: this.versions.get(uri), number: ++this.told });
+  told = 0;
 }
 
 let room: Room;
@@ -112,6 +116,60 @@ test("an edit for an older text is asked for again, never made", async () => {
   assert.equal(text(uri), "xa!b");
 });
 
+test("an edit that is too old each time is told, and not counted as made", async () => {
+  const uri = fresh();
+  await open(uri);
+  const edit = { documentChanges: [{ textDocument: { uri, version: -1 }, edits: [] }] };
+  let asked = 0;
+  await assert.rejects(change(async () => ((asked += 1), { edit, label: "add 'go'" })), /add 'go'\. Do it once more/);
+  assert.equal(asked, 4);
+});
+
+test("lines end with \\n alone, wherever a text comes from", async () => {
+  const uri = fresh();
+  await open(uri);
+  typed([{ uri, from: 0, to: 0, insert: "a\r\nb\rc" }]);
+  assert.equal(text(uri), "a\nb\nc");
+  assert.equal(room.texts.get(uri), text(uri));
+});
+
+test("what is typed while the page greets a new server is sent, of every text that is open", async () => {
+  const [one, two] = [fresh(), fresh()];
+  for (const uri of [one, two]) room.texts.set(uri, "// ");
+  for (const uri of [one, two]) await open(uri);
+  const type = (insert: string): void => [one, two].forEach((uri) => typed([{ uri, from: 3, to: 3, insert }]));
+  room.lsp.open.value = false;
+  const { notify, request } = room.lsp;
+  // Without a connection nothing is told; it comes back, and greets.
+  room.lsp.notify = () => {};
+  type("a");
+  const first: Lsp = { ...room.lsp, notify, request: async (method, params: any) => (type("b"), request(method, params)) };
+  const finish = await again(first);
+  type("c");
+  finish!();
+  [room.lsp.notify, room.lsp.open.value] = [notify, true];
+  type("d");
+  for (const uri of [one, two]) {
+    assert.equal(text(uri), "// dcbba");
+    assert.equal(room.texts.get(uri), text(uri));
+    assert.equal(room.versions.get(uri), version(uri));
+    assert.deepEqual(conflicts.value, []);
+  }
+});
+
+test("a text that a new server cannot read is not saved, and the others go on", async () => {
+  const [one, two] = [fresh(), fresh()];
+  for (const uri of [one, two]) await open(uri);
+  const request: Lsp["request"] = async (method, params: any) => {
+    if (params.uri === one) throw new Refused(-32803, "cannot read it");
+    return room.lsp.request(method, params);
+  };
+  (await again({ ...room.lsp, request }))!();
+  assert.equal(saved.value, "cannot read it");
+  typed([{ uri: two, from: 0, to: 0, insert: "a" }]);
+  assert.equal(room.texts.get(two), "a");
+});
+
 test("saved is what the server says, of the newest version", async () => {
   const uri = fresh();
   await open(uri);
@@ -134,7 +192,7 @@ test("a change of another program arrives, and undoing it asks", async () => {
   current.value = uri;
   const heard: string[] = [];
   const quiet = onText((_, changes, maker) => heard.push(`${maker} ${JSON.stringify(changes.map(({ from, to, insert }) => [from, to, insert]))}`));
-  room.tell("afp/changed", { uri, text: "one\n2\ntwo\n", clean: true });
+  room.changes(uri, "one\n2\ntwo\n");
   quiet();
   assert.deepEqual(heard, ['outside [[4,4,"2\\n"]]']);
   assert.equal(room.texts.get(uri), text(uri));
@@ -197,7 +255,7 @@ test("after a lost connection what was not told is sent, and what others did is 
     room.lsp.notify = kept;
     room.lsp.open.value = true;
     session.pen.value = holder === "page";
-    await again(room.lsp);
+    (await again(room.lsp))!();
     assert.equal(text(uri), last, `${mine} ${theirs} ${holder}`);
     assert.deepEqual(unsent.value.filter((one) => one.uri === uri && one.text === mine), choice || (mine !== theirs && mine === last) ? [{ uri, text: mine }] : []);
     assert.equal(room.texts.get(uri), last);
@@ -215,19 +273,8 @@ test("after a lost connection what was not told is sent, and what others did is 
   session.pen.value = true;
 });
 
-test("the difference of two texts is one change", () => {
-  const below = random(3);
-  for (let round = 0; round < 300; round++) {
-    const any = () => Array.from({ length: below(6) }, () => "ab\n"[below(3)]).join("");
-    const [before, after] = [any(), any()];
-    const changes = difference("u", before, after);
-    assert.ok(changes.length <= 1);
-    assert.equal(changes.reduce((now, { from, to, insert }) => now.slice(0, from) + insert + now.slice(to), before), after);
-  }
-});
-
 test("what the server tells while it is being greeted is newer than its greeting", async () => {
-  let greeted: Promise<void> | null = null;
+  let greeted: Promise<Finish> | null = null;
   const takers = new Map<string, (params: any) => void>();
   const one = { uri: "file:///w/a.afp", name: "a.afp" };
   const two = { uri: "file:///w/b.afp", name: "b.afp" };

@@ -8,7 +8,7 @@ import { blocks } from "../page/markdown";
 import { offset, position } from "../page/positions";
 
 test("positions and offsets are each other's inverse", () => {
-  const text = "a\n\nö😀x\r\nlast";
+  const text = "a\n\nö😀x\nlast";
   for (let at = 0; at <= text.length; at++) assert.equal(offset(text, position(text, at)), at);
   assert.deepEqual(position(text, text.length), { line: 3, character: 4 });
   assert.equal(offset(text, { line: 0, character: 99 }), 1);
@@ -79,7 +79,7 @@ const soon = () => new Promise((done) => setTimeout(done));
 
 test("greeting goes first, others wait for it; errors are sentences; a lost connection is made anew", { timeout: 5000 }, async () => {
   const server = new Server();
-  const lsp = connect("ws://x/lsp", (first) => first.request("afp/hello", {}), server.make);
+  const lsp = connect("ws://x/lsp", async (first) => void (await first.request("afp/hello", {})), server.make);
   const early = lsp.request<number>("early", { a: 1 });
   server.last().onopen!({});
   assert.deepEqual(server.last().sent.map((each) => each.method), ["afp/hello"]);

@@ -41,6 +41,10 @@ inBrowser("one changes, the other watches; who takes the pen begins a history of
   await page.locator(".cm-line", { hasText: "// two" }).waitFor();
   await type(page, " // three");
   assert.equal(await page.locator(".cm-line", { hasText: "three" }).count(), 0);
+  // A page that is loaded anew still has the pen.
+  await other.reload();
+  await other.locator(".cm-line", { hasText: "// two" }).waitFor();
+  assert.deepEqual([await banner(page).count(), await banner(other).count()], [1, 0]);
   await other.close();
   await banner(page).waitFor({ state: "detached" });
   await type(page, " // four");

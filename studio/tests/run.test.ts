@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import AxeBuilder from "@axe-core/playwright";
+import type { WebSocket } from "playwright-core";
 import { moved } from "../page/debug/breakpoints";
 import { explained, inBrowser, shows } from "./browser";
 
@@ -34,6 +35,8 @@ plan Outer {
 `;
 
 inBrowser("runs, shows the active element through sub-plans, pauses, steps and ends with a card", { "plan.afp": PLAN }, async ({ page }) => {
+  const runs = new Set<WebSocket>();
+  page.on("websocket", (socket) => socket.on("framesent", ({ payload }) => void (/"launch"/.test(String(payload)) && runs.add(socket))));
   await page.locator(".count", { hasText: "warning" }).or(page.locator(".count", { hasText: "ready" })).waitFor();
   await page.getByRole("button", { name: "Plans of this file" }).click();
   await page.getByRole("menuitemradio", { name: "Outer" }).click();
@@ -72,6 +75,7 @@ inBrowser("runs, shows the active element through sub-plans, pauses, steps and e
   await page.getByLabel("Speed").selectOption("1");
   await card.getByRole("button", { name: "Run again" }).click();
   await page.locator(".run-active").first().waitFor();
+  assert.deepEqual([...runs].map((run) => run.isClosed()), [true, false], "a run that is over is let go");
   await page.keyboard.press("Shift+F5");
   await card.waitFor();
   await shows(card, /interrupted/);

@@ -8,8 +8,10 @@ use crate::history::Pose;
 use afp_core::quantity::Length;
 use afp_core::{Fault, Instant};
 
-/// The same while the robot moved by so much, metres, a turn counted as what it carries the corners by.
+/// The same while the robot moved by so much, metres.
 const WAY: f64 = 0.2;
+/// A turn by a radian counts as so much way, metres: what a sensor looks at changes with either.
+const TURN: f64 = 0.2;
 /// And in so many readings at least: a fast robot gets far from one to the next.
 const READINGS: u32 = 10;
 
@@ -48,8 +50,8 @@ impl<T: Copy + PartialEq> Repeats<T> {
             return Ok(());
         }
         self.time = reading.time;
-        let here = Pose::from(motion);
-        let step = self.last.replace(here).map_or(0.0, |last| last.distance_to(&here));
+        let (here, turn) = (Pose::from(motion), Length::from_si(TURN));
+        let step = self.last.replace(here).map_or(0.0, |last| last.distance_to(&here, turn));
         if value.is_none() || value != self.same {
             (self.same, self.times, self.way) = (value, 0, 0.0);
             return Ok(());

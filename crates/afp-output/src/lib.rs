@@ -13,7 +13,7 @@ mod part;
 mod read;
 mod target;
 
-use std::fs::{self, File};
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -91,21 +91,32 @@ impl Output {
     /// # Errors
     /// The disk is full or fails, somebody else has begun to write a file of that name; what was written stays at
     /// [`Output::path`].
-    pub fn finish(mut self) -> io::Result<()> {
+    pub fn finish(self) -> io::Result<()> {
+        self.put().map(drop)
+    }
+
+    /// Puts the file in its place; gives its length and time as they were when nobody else could know it.
+    fn put(mut self) -> io::Result<Metadata> {
         self.file.flush()?;
         let Some(target) = &self.becomes else {
             // Devices and pipes have nothing that could be synchronised.
-            return if self.file.metadata()?.is_file() { self.file.sync_all() } else { Ok(()) };
+            if self.file.metadata()?.is_file() {
+                self.file.sync_all()?;
+            }
+            return self.file.metadata();
         };
         self.file.sync_all()?;
         part::refuse_taken(target)?;
         let is_beside = self.path.parent() == target.parent();
         if !is_beside || !target::is_replaceable(target, &self.file)? {
-            fill(target, &mut self.file)?;
-            return fs::remove_file(&self.path);
+            let written = fill(target, &mut self.file)?;
+            fs::remove_file(&self.path)?;
+            return Ok(written);
         }
+        let written = self.file.metadata()?;
         fs::rename(&self.path, target)?;
-        sync_folder(target::folder(target))
+        sync_folder(target::folder(target))?;
+        Ok(written)
     }
 
     /// Gives up; nothing of what was written stays, and an old file is as it was.
@@ -134,9 +145,18 @@ impl Write for Output {
 /// file for seconds. No file of that name is left half
 /// written then, and an old one stays as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_and_stat(path, bytes).map(drop)
+}
+
+/// The same; gives the length and the time that the file was given with its bytes. What another program writes right
+/// afterwards has others: whoever looks at the file itself may see those.
+///
+/// # Errors
+/// As of [`write_whole`].
+pub fn write_and_stat(path: &Path, bytes: &[u8]) -> io::Result<Metadata> {
     let mut output = Output::begin(path, Taken::Wait)?;
     match output.write_all(bytes) {
-        Ok(()) => output.finish(),
+        Ok(()) => output.put(),
         Err(error) => {
             output.discard();
             Err(error)
@@ -169,14 +189,15 @@ fn takes_no_files(error: &io::Error) -> bool {
 
 /// Gives a file the bytes of another. It takes the space for them first and is cut to its length last: a full disk leaves
 /// it as it was.
-fn fill(target: &Path, from: &mut File) -> io::Result<()> {
+fn fill(target: &Path, from: &mut File) -> io::Result<Metadata> {
     let length = from.metadata()?.len();
     from.rewind()?;
     let mut file = File::options().write(true).open(target)?;
     reserve(&mut file, length)?;
     io::copy(from, &mut file)?;
     file.set_len(length)?;
-    file.sync_all()
+    file.sync_all()?;
+    file.metadata()
 }
 
 /// Takes the space that a file needs to become so long, without touching what it holds.

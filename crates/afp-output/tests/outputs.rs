@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
-use afp_output::{Output, check_writable, read_file, read_text_file, write_whole};
+use afp_output::{Output, check_writable, read_file, read_text_file, write_and_stat, write_whole};
 use tempfile::TempDir;
 
 fn folder() -> TempDir {
@@ -47,6 +47,20 @@ fn a_file_is_the_old_one_until_the_new_one_is_whole() {
     output.finish().unwrap();
     assert_eq!((text(&path).as_str(), mode(&path)), ("new", 0o751));
     assert_eq!(files(folder.path()), ["a.svg"]);
+}
+
+#[test]
+fn what_is_written_at_once_is_told_from_what_another_one_writes_since() {
+    let folder = folder();
+    let [path, other] = ["a.afp", "b.afp"].map(|name| folder.path().join(name));
+    // In the place of a file, and into one that has two names.
+    for _ in 0..2 {
+        let written = write_and_stat(&path, b"new").unwrap();
+        let there = fs::metadata(&path).unwrap();
+        let about = |data: &fs::Metadata| (data.len(), data.modified().unwrap());
+        assert_eq!(about(&written), about(&there));
+        let _ = fs::hard_link(&path, &other);
+    }
 }
 
 #[test]

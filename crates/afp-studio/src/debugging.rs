@@ -1,27 +1,52 @@
 //! Clients that run and debug plans: their messages go through, a frame each.
 
+use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 
 use axum::extract::ws::{Message, WebSocket};
-use tokio::sync::mpsc;
+use serde_json::{Value, json};
+use tokio::sync::{Semaphore, mpsc};
 
 use crate::Debugging;
+use crate::outbox::is_sent;
+use crate::sockets::MOST_CLIENTS;
 
-/// Messages that a client may leave unread before its connection ends.
-const UNREAD: usize = 1024;
+/// So many messages wait for a client; then who sends more waits.
+const WAITING: usize = 1024;
+
+/// So many clients at once: a page runs a plan, and asks for the world of the next run.
+const MOST: usize = 2 * MOST_CLIENTS;
+
+/// Where clients that debug are served.
+#[derive(Clone)]
+pub(crate) struct Debuggers {
+    to: Sender<Debugging>,
+    /// One for each client that may come.
+    places: Arc<Semaphore>,
+}
+
+impl Debuggers {
+    /// Clients are handed over.
+    pub fn new(to: Sender<Debugging>) -> Debuggers {
+        Debuggers { to, places: Arc::new(Semaphore::new(MOST)) }
+    }
+}
 
 /// Carries messages between a client and whoever debugs for it, until one of them is gone.
-pub(crate) async fn talk(mut socket: WebSocket, debuggers: Sender<Debugging>) {
+pub(crate) async fn talk(mut socket: WebSocket, debuggers: Debuggers) {
+    let Ok(_place) = debuggers.places.try_acquire() else {
+        return turn_away(socket).await;
+    };
     let (say, said) = channel();
-    let (told, mut tells) = mpsc::channel::<String>(UNREAD);
-    if debuggers.send(Debugging { said, told }).is_err() {
+    let (told, mut tells) = mpsc::channel::<String>(WAITING);
+    if debuggers.to.send(Debugging { said, told }).is_err() {
         return;
     }
     loop {
         tokio::select! {
             tell = tells.recv() => {
                 let Some(tell) = tell else { break };
-                if socket.send(Message::Text(tell.into())).await.is_err() {
+                if !is_sent(&mut socket, tell).await {
                     break;
                 }
             }
@@ -37,4 +62,18 @@ pub(crate) async fn talk(mut socket: WebSocket, debuggers: Sender<Debugging>) {
             }
         }
     }
+}
+
+/// Says why to one client too many, as the answer to what it asks first.
+async fn turn_away(mut socket: WebSocket) {
+    let Some(Ok(Message::Text(text))) = socket.recv().await else { return };
+    let asked: Value = serde_json::from_str(&text).unwrap_or_default();
+    let why =
+        format!("{MOST_CLIENTS} pages run plans in this folder: end a run, or close its page");
+    let answer = json!({
+        "seq": 0, "type": "response", "request_seq": asked["seq"], "command": asked["command"],
+        "success": false, "message": why,
+        "body": { "error": { "id": 1, "format": why, "showUser": true } },
+    });
+    is_sent(&mut socket, answer.to_string()).await;
 }

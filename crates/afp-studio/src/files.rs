@@ -1,10 +1,15 @@
 //! The files of a folder: what may be read and written, and how texts lie in them.
 
+mod line_ends;
+
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 use std::{fs, io};
+
+use line_ends::LineEnds;
+pub(crate) use line_ends::with_newlines;
 
 /// What is opened: plans, toolboxes and scenarios, the places of their drawings, projects.
 const ENDINGS: [&str; 3] = ["afp", "layout", "toml"];
@@ -15,6 +20,9 @@ const LONGEST: u64 = 4 << 20;
 /// When a file was last written, and its length: another one is another file.
 pub(crate) type Stamp = (Option<SystemTime>, u64);
 
+/// How coarse times of files may be: FAT keeps every second one.
+const COARSE: Duration = Duration::from_secs(2);
+
 /// A folder that nothing leads out of.
 #[derive(Clone, Debug)]
 pub struct Folder {
@@ -24,7 +32,7 @@ pub struct Folder {
 /// A text as it lies on the disk.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Kept {
-    /// With `\n` between lines, where all of the file's lines end alike.
+    /// With `\n` between lines, however those of the file end.
     pub text: String,
     /// What tells these bytes from others; none where there is no file.
     pub etag: Option<String>,
@@ -32,10 +40,10 @@ pub(crate) struct Kept {
 }
 
 /// What of a file is not its text, and stays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Style {
     marked: bool,
-    returns: bool,
+    ends: LineEnds,
 }
 
 impl Folder {
@@ -104,8 +112,19 @@ impl Folder {
 
 /// When a file was last written, and its length.
 pub(crate) fn stamp(path: &Path) -> Option<Stamp> {
-    let data = fs::metadata(path).ok()?;
-    Some((data.modified().ok(), data.len()))
+    fs::metadata(path).ok().map(|data| stamp_of(&data))
+}
+
+fn stamp_of(data: &fs::Metadata) -> Stamp {
+    (data.modified().ok(), data.len())
+}
+
+/// Whether a file was written so short ago that one written since could have the same stamp.
+pub(crate) fn is_fresh((written, _): Stamp) -> bool {
+    let Some(written) = written else { return true };
+    let now = SystemTime::now();
+    let apart = now.duration_since(written).or_else(|_| written.duration_since(now));
+    apart.is_ok_and(|apart| apart < COARSE)
 }
 
 /// Reads a file; one that is not there is empty.
@@ -123,23 +142,23 @@ pub(crate) fn read(path: &Path) -> Result<Kept, String> {
     let text = String::from_utf8(bytes).map_err(|_| wrong("it is no UTF-8".to_owned()))?;
     let marked = text.starts_with('\u{feff}');
     let text = if marked { &text['\u{feff}'.len_utf8()..] } else { &text };
-    let ends = text.matches('\n').count();
-    let returns = ends > 0 && text.matches("\r\n").count() == ends;
-    let text = if returns { text.replace("\r\n", "\n") } else { text.to_owned() };
-    Ok(Kept { text, etag, style: Style { marked, returns } })
+    let (text, ends) = (with_newlines(text).into_owned(), LineEnds::of(text));
+    Ok(Kept { text, etag, style: Style { marked, ends } })
 }
 
 impl Kept {
-    /// Writes another text the way that this one lies there, whole or not at all; gives what lies there now.
+    /// Writes another text the way that this one lies there, whole or not at all; gives what was written, and its stamp.
     ///
     /// # Errors
     /// It cannot be written.
-    pub(crate) fn write(&self, path: &Path, text: &str) -> Result<Kept, String> {
+    pub(crate) fn write(&self, path: &Path, text: &str) -> Result<(Kept, Stamp), String> {
         let mark = if self.style.marked { "\u{feff}" } else { "" };
-        let lines = if self.style.returns { text.replace('\n', "\r\n") } else { text.to_owned() };
-        let bytes = format!("{mark}{lines}").into_bytes();
-        afp_output::write_whole(path, &bytes).map_err(|why| why.to_string())?;
-        Ok(Kept { text: text.to_owned(), etag: Some(etag(&bytes)), style: self.style })
+        let ends = self.style.ends.follow(&self.text, text);
+        let bytes = format!("{mark}{}", ends.applied(text)).into_bytes();
+        let data = afp_output::write_and_stat(path, &bytes).map_err(|why| why.to_string())?;
+        let style = Style { marked: self.style.marked, ends };
+        let kept = Kept { text: text.to_owned(), etag: Some(etag(&bytes)), style };
+        Ok((kept, stamp_of(&data)))
     }
 }
 
@@ -191,13 +210,15 @@ mod tests {
             ("a\nb\n", "a\nb\n", "a\nc\n"),
             ("a\r\nb\r\n", "a\nb\n", "a\r\nc\r\n"),
             ("\u{feff}a\r\nb\r\n", "a\nb\n", "\u{feff}a\r\nc\r\n"),
-            ("a\r\nb\n", "a\r\nb\n", "a\r\nc\n"),
+            ("a\r\nb\n", "a\nb\n", "a\r\nc\n"),
+            ("a\nb\r\nx\ry", "a\nb\nx\ny", "a\nc\r\nx\ry"),
         ] {
             fs::write(&path, bytes).unwrap();
             let kept = read(&path).unwrap();
             assert_eq!(kept.text, text);
-            let next = kept.write(&path, &text.replace('b', "c")).unwrap();
+            let (next, written) = kept.write(&path, &text.replace('b', "c")).unwrap();
             assert_eq!(fs::read_to_string(&path).unwrap(), after);
+            assert_eq!(stamp(&path), Some(written));
             assert_eq!(read(&path).unwrap(), next);
         }
         fs::write(&path, [0xff, 0xfe]).unwrap();

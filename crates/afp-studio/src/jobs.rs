@@ -88,12 +88,78 @@ impl Drop for Runner {
     }
 }
 
+/// The longest line that is carried, in bytes: what a result may take. The rest of a longer one is left out.
+const LONGEST: u64 = 1 << 20;
+
+/// Carries lines until the stream ends. What is no text is carried as far as it is: a job whose stream nobody reads any
+/// more cannot say its results.
 fn carry(from: impl Read, id: JobId, to: &Sender<Event>) {
-    for line in BufReader::new(from).lines() {
-        // What is no text ends the stream.
-        let Ok(line) = line else { return };
-        if to.send(Event::JobSaid(id, line)).is_err() {
+    let mut from = BufReader::new(from);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let read = from.by_ref().take(LONGEST).read_until(b'\n', &mut line);
+        // A stream that cannot be read has ended.
+        if read.unwrap_or(0) == 0 {
             return;
+        }
+        let is_whole = line.last() == Some(&b'\n') || !skip_line(&mut from);
+        let text = String::from_utf8_lossy(&line);
+        let text = text.trim_end_matches(['\n', '\r']);
+        let text = if is_whole { text.to_owned() } else { format!("{text} ...") };
+        if to.send(Event::JobSaid(id, text)).is_err() {
+            return;
+        }
+    }
+}
+
+/// Reads the rest of a line; whether there was any.
+fn skip_line(from: &mut impl BufRead) -> bool {
+    let mut skipped = false;
+    loop {
+        let (length, ends) = match from.fill_buf() {
+            Ok([]) | Err(_) => return skipped,
+            Ok(bytes) => match bytes.iter().position(|byte| *byte == b'\n') {
+                Some(at) => (at + 1, true),
+                None => (bytes.len(), false),
+            },
+        };
+        from.consume(length);
+        skipped |= !ends || length > 1;
+        if ends {
+            return skipped;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_carried_whatever_stands_in_them() {
+        let long = "x".repeat(LONGEST as usize);
+        for (stream, expected) in [
+            (b"one\ntwo\r\nthree".to_vec(), vec!["one".to_owned(), "two".into(), "three".into()]),
+            (b"a\xffb\nlast\n".to_vec(), vec!["a\u{fffd}b".into(), "last".into()]),
+            (b"\n\n".to_vec(), vec![String::new(), String::new()]),
+            (format!("{long}\nlast").into_bytes(), vec![long.clone(), "last".into()]),
+            (
+                format!("{long}y{long}\nlast").into_bytes(),
+                vec![format!("{long} ..."), "last".into()],
+            ),
+        ] {
+            let (to, said) = std::sync::mpsc::channel();
+            carry(&stream[..], 1, &to);
+            drop(to);
+            let said: Vec<_> = said
+                .iter()
+                .map(|event| match event {
+                    Event::JobSaid(1, line) => line,
+                    _ => panic!("a line alone"),
+                })
+                .collect();
+            assert!(said == expected, "{} lines", said.len());
         }
     }
 }

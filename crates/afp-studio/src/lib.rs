@@ -14,6 +14,7 @@ mod examples;
 mod files;
 mod jobs;
 mod lock;
+mod outbox;
 mod page;
 mod room;
 mod server;
@@ -71,7 +72,7 @@ pub fn own_folder() -> Option<PathBuf> {
 pub struct Debugging {
     /// What it says; disconnected when it is gone.
     pub said: std::sync::mpsc::Receiver<String>,
-    /// What it is told; closed when it is gone.
+    /// What it is told; whoever tells more than it reads waits. Closed when it is gone, or reads nothing for a while.
     pub told: tokio::sync::mpsc::Sender<String>,
 }
 

@@ -3,6 +3,7 @@
 //! A value without thread and clock: messages of clients go in, with the time, and messages to clients come out.
 
 mod document;
+mod following;
 mod jobs;
 mod requests;
 mod saving;
@@ -17,9 +18,10 @@ use serde_json::{Value, json};
 
 use crate::MakeHost;
 use crate::examples::Example;
-use crate::files::{Folder, Stamp};
+use crate::files::{Folder, Stamp, with_newlines};
 use crate::trust::{Trust, Trusted};
 use document::Document;
+use following::Following;
 use jobs::Jobs;
 pub(crate) use jobs::{JobId, Order};
 
@@ -28,6 +30,10 @@ pub type ClientId = u32;
 
 /// Messages with those that they are for.
 pub type Out = Vec<(ClientId, Message)>;
+
+/// How long the pen waits for a holder that is gone: a connection that was lost is back sooner, and so is a page that is
+/// loaded anew.
+const PEN_WAITS: Duration = Duration::from_secs(5);
 
 /// How often the folder is looked at for what others have written.
 const LOOKS_EVERY: Duration = Duration::from_millis(500);
@@ -45,6 +51,8 @@ pub struct Room {
     documents: BTreeMap<String, Document>,
     /// Who changes them.
     pen: Option<ClientId>,
+    /// When the pen falls to another one, since its holder is gone.
+    falls: Option<Duration>,
     files: BTreeMap<String, Stamp>,
     looked: Duration,
     trust: Trust,
@@ -62,6 +70,7 @@ struct Client {
     server: Server,
     /// Whether something came in since its server was last idle.
     busy: bool,
+    following: Following,
 }
 
 impl Room {
@@ -85,6 +94,7 @@ impl Room {
             drawings: Drawings::default(),
             documents: BTreeMap::new(),
             pen: None,
+            falls: None,
             files,
             looked: Duration::ZERO,
             trust,
@@ -120,16 +130,25 @@ impl Room {
 
     /// A client has come.
     pub fn join(&mut self, client: ClientId) {
-        self.clients.insert(client, Client { server: self.server(), busy: false });
         self.pen.get_or_insert(client);
+        let (server, following) = (self.server(), Following::default());
+        self.clients.insert(client, Client { server, busy: false, following });
     }
 
-    /// A client is gone: the pen falls to another one.
-    pub fn leave(&mut self, client: ClientId) -> Out {
+    /// A client is gone. The pen waits for it a while.
+    pub fn leave(&mut self, client: ClientId, now: Duration) {
         self.clients.remove(&client);
-        match self.pen == Some(client) {
-            true => self.hand_pen(self.clients.keys().next().copied()),
-            false => Vec::new(),
+        if self.pen == Some(client) {
+            self.falls = Some(now + PEN_WAITS);
+        }
+    }
+
+    /// A client says who it was before its connection was lost, if it was anybody. A pen that waits is its own if it was
+    /// before; one who comes new waits for nobody who is alone here.
+    fn greeted(&mut self, client: ClientId, before: Option<ClientId>) {
+        let is_alone = before.is_none() && self.clients.len() == 1;
+        if self.falls.is_some() && (before == self.pen || is_alone) {
+            (self.pen, self.falls) = (Some(client), None);
         }
     }
 
@@ -177,13 +196,14 @@ impl Room {
 
     fn notified(&mut self, id: ClientId, notification: Notification, now: Duration) -> Out {
         let uri = notification.params["textDocument"]["uri"].as_str().map(str::to_owned);
+        let taken = notification.params["taken"].as_u64().and_then(|number| number.try_into().ok());
         let method = notification.method.clone();
         let mut out = self.forward(id, notification.into());
         let Some(uri) = uri else { return out };
         match method.as_str() {
             "textDocument/didOpen" => out.extend(self.opened(id, &uri)),
-            "textDocument/didChange" => out.extend(self.changed(id, &uri, now)),
-            "textDocument/didClose" => self.closed(&uri),
+            "textDocument/didChange" => out.extend(self.changed(id, &uri, taken, now)),
+            "textDocument/didClose" => self.closed(id, &uri),
             _ => {}
         }
         out
@@ -192,12 +212,19 @@ impl Room {
     /// A client has opened a text: it is told where the room has another one.
     fn opened(&mut self, id: ClientId, uri: &str) -> Out {
         let path = path_of(uri);
+        let Some((version, own)) = self.text_of(id, uri) else { return Vec::new() };
+        let own = own.to_owned();
+        let following = self.clients.get_mut(&id).map(|client| &mut client.following);
+        following.into_iter().for_each(|following| following.opened(uri, version));
         match self.document(&path) {
             Ok(document) => {
                 let (text, theirs) = (document.text.clone(), document.theirs().map(str::to_owned));
-                let mut out = self.differs(id, uri, &text);
+                let mut out = Vec::new();
+                if own != text {
+                    out.extend(self.tell(id, uri, &text));
+                }
                 // Who comes while there is something to choose chooses, too.
-                out.extend(theirs.map(|theirs| (id, changed(uri, &theirs, false))));
+                out.extend(theirs.map(|theirs| (id, disputed(uri, &theirs))));
                 out
             }
             // Texts that lie elsewhere are looked at and never written.
@@ -206,26 +233,36 @@ impl Room {
     }
 
     /// A client has changed a text: the others are told, or the client that may not.
-    fn changed(&mut self, id: ClientId, uri: &str, now: Duration) -> Out {
+    fn changed(&mut self, id: ClientId, uri: &str, taken: Option<u32>, now: Duration) -> Out {
         let path = path_of(uri);
-        let Some(text) = self.text_of(id, uri).map(str::to_owned) else { return Vec::new() };
+        let Some((version, own)) = self.text_of(id, uri) else { return Vec::new() };
+        let own = own.to_owned();
         let pen = *self.pen.get_or_insert(id);
         let Ok(document) = self.document(&path) else { return Vec::new() };
-        if document.text == text {
+        let kept = document.text.clone();
+        let Some(client) = self.clients.get_mut(&id) else { return Vec::new() };
+        if !client.following.has_all(uri, version, taken, own == kept) {
+            return Vec::new();
+        }
+        if own == kept {
             return self.tell_if_saved(id, &path);
         }
         if pen != id {
-            let kept = document.text.clone();
-            return vec![(id, changed(uri, &kept, true))];
+            return Vec::from_iter(self.tell(id, uri, &kept));
         }
-        document.set(text.clone(), now);
-        let mut out = self.tell_all(uri, &text, true, Some(id));
+        let text = with_newlines(&own);
+        if let Ok(document) = self.document(&path) {
+            document.set(text.to_string(), now);
+        }
+        let mut out = self.tell_all(uri, &text);
         out.extend(self.tell_if_saved(id, &path));
         out
     }
 
     /// Forgets a text that no client has open any more, once it is saved.
-    fn closed(&mut self, uri: &str) {
+    fn closed(&mut self, id: ClientId, uri: &str) {
+        let following = self.clients.get_mut(&id).map(|client| &mut client.following);
+        following.into_iter().for_each(|following| following.closed(uri));
         let still = self.clients.values().any(|client| client.server.text(uri).is_some());
         let path = path_of(uri);
         if !still && self.documents.get(&path).is_some_and(Document::is_saved) {
@@ -242,30 +279,34 @@ impl Room {
         self.documents.get_mut(path).ok_or_else(|| "there is no such file".to_owned())
     }
 
-    /// The text that a client has open.
-    fn text_of(&self, id: ClientId, uri: &str) -> Option<&str> {
-        Some(self.clients.get(&id)?.server.text(uri)?.1)
+    /// The text that a client has open, and its version.
+    fn text_of(&self, id: ClientId, uri: &str) -> Option<(i32, &str)> {
+        self.clients.get(&id)?.server.text(uri)
     }
 
-    /// Tells a client the text of the room, where it has another one open.
-    fn differs(&self, id: ClientId, uri: &str, text: &str) -> Out {
-        match self.text_of(id, uri) {
-            Some(own) if own != text => vec![(id, changed(uri, text, true))],
-            _ => Vec::new(),
-        }
+    /// The clients that have a text open.
+    fn having(&self, uri: &str) -> Vec<ClientId> {
+        let clients = self.clients.keys().copied();
+        clients.filter(|&id| self.text_of(id, uri).is_some()).collect()
     }
 
-    /// Tells clients that have it open that a text is another one.
-    fn tell_all(&self, uri: &str, text: &str, clean: bool, but: Option<ClientId>) -> Out {
-        let concerned = |&(&id, _): &(&ClientId, &Client)| {
-            Some(id) != but && self.text_of(id, uri).is_some_and(|own| !clean || own != text)
+    /// Tells a client the text of the room.
+    fn tell(&mut self, id: ClientId, uri: &str, text: &str) -> Option<(ClientId, Message)> {
+        Some((id, self.clients.get_mut(&id)?.following.tell(uri, text)))
+    }
+
+    /// Tells clients that have another one open, or are about to, the text of the room.
+    fn tell_all(&mut self, uri: &str, text: &str) -> Out {
+        let has_other = |(_, client): &(&ClientId, &Client)| {
+            let own = client.server.text(uri);
+            own.is_some_and(|(_, own)| own != text || client.following.is_behind(uri))
         };
-        let clients = self.clients.iter().filter(concerned);
-        clients.map(|(&id, _)| (id, changed(uri, text, clean))).collect()
+        let clients: Vec<_> = self.clients.iter().filter(has_other).map(|(&id, _)| id).collect();
+        clients.into_iter().filter_map(|id| self.tell(id, uri, text)).collect()
     }
 
     fn hand_pen(&mut self, to: Option<ClientId>) -> Out {
-        self.pen = to;
+        (self.pen, self.falls) = (to, None);
         let say = |&id: &ClientId| {
             (id, notification("afp/pen", json!({ "holder": to, "yours": to == Some(id) })))
         };
@@ -286,6 +327,7 @@ fn notification(method: &str, params: Value) -> Message {
     Notification { method: method.to_owned(), params }.into()
 }
 
-fn changed(uri: &str, text: &str, clean: bool) -> Message {
-    notification("afp/changed", json!({ "uri": uri, "text": text, "clean": clean }))
+/// What a client is told where somebody has to choose between its text and theirs.
+fn disputed(uri: &str, theirs: &str) -> Message {
+    notification("afp/changed", json!({ "uri": uri, "text": theirs, "clean": false }))
 }

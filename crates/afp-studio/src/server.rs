@@ -17,9 +17,10 @@ use axum::routing::get;
 use axum::serve::ListenerExt;
 
 use crate::access::Secret;
+use crate::debugging::{self, Debuggers};
 use crate::room::Room;
 use crate::sockets::{self, Sockets};
-use crate::{Debugging, debugging, page};
+use crate::{Debugging, page};
 
 /// Frames that are longer end the connection.
 const LONGEST_FRAME: usize = 1 << 20;
@@ -28,7 +29,7 @@ const LONGEST_FRAME: usize = 1 << 20;
 struct Shared {
     secret: Secret,
     sockets: Sockets,
-    debuggers: Sender<Debugging>,
+    debuggers: Debuggers,
 }
 
 /// Serves until the program is asked to end.
@@ -41,6 +42,7 @@ pub(crate) async fn serve(
     let (sockets, end) = Sockets::new();
     let jobs = sockets.jobs(program, room.folder().root().to_owned());
     let worker = thread::spawn(move || sockets::run(room, end, jobs));
+    let debuggers = Debuggers::new(debuggers);
     let shared = Shared { secret, sockets: sockets.clone(), debuggers };
     let routes = Router::new()
         .route("/", get(index))

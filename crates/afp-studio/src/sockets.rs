@@ -9,16 +9,13 @@ use std::time::{Duration, Instant};
 
 use afp_lsp::Message;
 use axum::extract::ws::{self, WebSocket};
-use tokio::sync::mpsc;
 
 use crate::jobs::Runner;
+use crate::outbox::{Outbox, is_sent, outbox};
 use crate::room::{ClientId, JobId, Out, Room};
 
 /// More clients than this are turned away.
-const MOST_CLIENTS: usize = 8;
-
-/// Messages that a client may leave unread before its connection ends.
-const UNREAD: usize = 512;
+pub(crate) const MOST_CLIENTS: usize = 8;
 
 /// The way to the room.
 #[derive(Clone)]
@@ -28,7 +25,7 @@ pub(crate) struct Sockets {
 }
 
 pub(crate) enum Event {
-    Joined(ClientId, mpsc::Sender<String>),
+    Joined(ClientId, Outbox),
     Said(ClientId, Message),
     Left(ClientId),
     /// A job has printed a line.
@@ -58,16 +55,16 @@ impl Sockets {
 /// Carries messages between a client and the room until one of them is gone.
 pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
     let id = sockets.next.fetch_add(1, Ordering::Relaxed);
-    let (out, mut answers) = mpsc::channel(UNREAD);
+    let (out, mut answers) = outbox();
     if sockets.events.send(Event::Joined(id, out)).is_err() {
         return;
     }
     loop {
         tokio::select! {
-            answer = answers.recv() => {
+            answer = answers.next() => {
                 // No more answers: it has read too little, or there are too many clients.
                 let Some(answer) = answer else { break };
-                if socket.send(ws::Message::Text(answer.into())).await.is_err() {
+                if !is_sent(&mut socket, answer).await {
                     break;
                 }
             }
@@ -119,9 +116,13 @@ pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
             Some(Event::Said(id, message)) => room.handle(id, message, begin.elapsed()),
             Some(Event::Left(id)) => {
                 clients.remove(&id);
-                room.leave(id)
+                room.leave(id, begin.elapsed());
+                Vec::new()
             }
-            Some(Event::JobSaid(id, line)) => room.job_said(id, &line),
+            Some(Event::JobSaid(id, line)) => {
+                room.job_said(id, &line);
+                Vec::new()
+            }
             Some(Event::JobEnded(id)) => room.job_done(id, jobs.ended(id)),
             Some(Event::End) => break,
             None => Vec::new(),
@@ -142,10 +143,10 @@ pub(crate) fn run(mut room: Room, arrived: Receiver<Event>, mut jobs: Runner) {
 }
 
 /// Who reads too little loses the connection.
-fn send(clients: &mut BTreeMap<ClientId, mpsc::Sender<String>>, out: Out) {
+fn send(clients: &mut BTreeMap<ClientId, Outbox>, out: Out) {
     for (id, message) in out {
         let Some(to) = clients.get(&id) else { continue };
-        if to.try_send(written(&message)).is_err() {
+        if !to.put(written(&message)) {
             clients.remove(&id);
         }
     }

@@ -96,6 +96,8 @@ async function launch(what: { program: string } | { log: string }, plan: string)
   sensed.value = null;
   [records.value, log.value] = [[], "log" in what ? what.log : ""];
   frames.value = [{ path: "", plan }];
+  // A run that is over is still there to be asked.
+  dap?.close();
   const own = connect(address(), () => dap === own && lost());
   dap = own;
   hear(own);

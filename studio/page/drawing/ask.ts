@@ -1,5 +1,6 @@
 // The questions that drawing, palette and inspector put to the engine, each with the shape of its answer.
-import { change, current, text, type WorkspaceEdit } from "../documents";
+import { current, text } from "../documents";
+import { change, type WorkspaceEdit } from "../edits";
 import { spanOf } from "../places";
 import { offset } from "../positions";
 import { lsp } from "../session";

@@ -4,9 +4,10 @@ import { defaultKeymap, indentWithTab } from "@codemirror/commands";
 import { bracketMatching, indentOnInput, indentService, indentUnit } from "@codemirror/language";
 import { setDiagnostics, type Diagnostic as Shown } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, Compartment, EditorSelection, EditorState, StateEffect, StateField, Text, type ChangeSet, type Extension } from "@codemirror/state";
+import { Annotation, Compartment, EditorSelection, EditorState, StateEffect, StateField, Text, type Extension } from "@codemirror/state";
 import { Decoration, EditorView, drawSelection, highlightActiveLine, highlightSpecialChars, hoverTooltip, keymap, lineNumbers, type DecorationSet } from "@codemirror/view";
 import { effect, untracked } from "@preact/signals";
+import { sequence } from "../changes";
 import { onText, text, typed, version } from "../documents";
 import type { Change } from "../history";
 import { cursorAt, shown } from "../places";
@@ -37,13 +38,6 @@ const highlighted = StateField.define<DecorationSet>({
   provide: (field) => EditorView.decorations.from(field),
 });
 
-/** Changes of an editor, to be made one after the other. */
-export function sequence(uri: string, changes: ChangeSet): Change[] {
-  const made: Change[] = [];
-  changes.iterChanges((fromA, toA, fromB, _toB, inserted) => made.push({ uri, from: fromB, to: fromB + toA - fromA, insert: inserted.toString() }), true);
-  return made;
-}
-
 /** Lines inside of braces stand four columns further in. */
 const indentation = indentService.of((context, at) => {
   const line = context.state.doc.lineAt(at);
@@ -58,7 +52,6 @@ const language = EditorState.languageData.of(() => [
 ]);
 
 const behaviour: Extension = [
-  EditorState.lineSeparator.of("\n"),
   EditorState.tabSize.of(4),
   indentUnit.of("    "),
   indentation,

@@ -2,7 +2,8 @@
 import type { EditorView } from "@codemirror/view";
 import { ask, askLine } from "../dialogs";
 import type { TextEdit } from "../changes";
-import { apply, text, type WorkspaceEdit } from "../documents";
+import { text, version } from "../documents";
+import { apply, change, type WorkspaceEdit } from "../edits";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import { offset, position, range, type Range } from "../positions";
@@ -55,10 +56,12 @@ export async function mendHere(view: EditorView, uri: string): Promise<void> {
   if (action) await mend(action);
 }
 
-export async function format(uri: string): Promise<void> {
-  const edits = await lsp().request<TextEdit[] | null>("textDocument/formatting", { textDocument: { uri }, options: { tabSize: 4, insertSpaces: true } });
-  if (edits?.length) await apply({ changes: { [uri]: edits } }, words.format);
-}
+export const format = (uri: string): Promise<void> =>
+  change(async () => {
+    const textDocument = { uri, version: version(uri) };
+    const edits = await lsp().request<TextEdit[] | null>("textDocument/formatting", { textDocument: { uri }, options: { tabSize: 4, insertSpaces: true } });
+    return edits?.length ? { label: words.format, edit: { documentChanges: [{ textDocument, edits }] } } : null;
+  });
 
 /** Runs an order; what goes wrong is said. */
 export const ordered = (run: () => Promise<void>) => (): void => void run().catch(report);

@@ -114,7 +114,7 @@ impl Document {
     /// Looks at the file: what somebody else has written is taken over, or merged by lines.
     pub fn look(&mut self, now: Duration) -> Look {
         let stamp = files::stamp(&self.file);
-        if self.stamp == stamp && !self.unreadable {
+        if self.stamp == stamp && !self.unreadable && !stamp.is_some_and(files::is_fresh) {
             return Look::Same;
         }
         let found = match files::read(&self.file) {
@@ -131,6 +131,9 @@ impl Document {
             return Look::Same;
         }
         self.stamp = stamp;
+        if self.theirs.as_ref().is_some_and(|theirs| theirs.etag == found.etag) {
+            return Look::Same;
+        }
         // What was in conflict no longer lies there; what lies there may be so anew.
         self.theirs = None;
         if found.etag == self.kept.etag {
@@ -185,16 +188,15 @@ impl Document {
         (self.kept, self.due) = (theirs, Some(now));
     }
 
-    /// Writes the text.
+    /// Writes the text; gives the stamp of what was written, which another program may have written over since.
     ///
     /// # Errors
     /// It cannot be written; it will be tried again.
-    pub fn save(&mut self, now: Duration) -> Result<(), String> {
+    pub fn save(&mut self, now: Duration) -> Result<Stamp, String> {
         match self.kept.write(&self.file, &self.text) {
-            Ok(kept) => {
-                self.stamp = files::stamp(&self.file);
-                (self.kept, self.due) = (kept, None);
-                Ok(())
+            Ok((kept, stamp)) => {
+                (self.kept, self.stamp, self.due) = (kept, Some(stamp), None);
+                Ok(stamp)
             }
             Err(why) => {
                 self.due = Some(now + TRIES_AGAIN_AFTER);

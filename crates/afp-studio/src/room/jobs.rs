@@ -3,18 +3,25 @@
 //! The room says what is run, with which arguments; who runs it is not its business.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
-use afp_lsp::path_of;
+use afp_lsp::{Message, path_of};
 use serde_json::{Value, json};
 
 use super::{ClientId, Out, Room, notification};
 
 /// Jobs that go on at once.
 const MOST: usize = 4;
-/// Lines of what a job says that are kept for its end.
+/// Lines of what a job says that are told, and kept for its end.
 const MOST_LINES: usize = 2_000;
+/// Letters of such a line.
+const MOST_LETTERS: usize = 2_000;
+/// How long lines are collected before they are told, in one message.
+const COLLECTED: Duration = Duration::from_millis(50);
 /// Results of a job that are kept for its end; those of a run are some 600 bytes.
 const MOST_RESULTS: usize = 20_000;
+/// Bytes of them: they go out in one message.
+const MOST_BYTES: usize = 32 << 20;
 
 /// Tells jobs apart.
 pub(crate) type JobId = u32;
@@ -33,7 +40,11 @@ pub(crate) enum Order {
 pub(super) struct Job {
     client: ClientId,
     results: Vec<Value>,
+    /// How long they are together.
+    bytes: usize,
     said: Vec<String>,
+    /// So many of these lines the client was told.
+    told: usize,
 }
 
 /// Jobs of a room.
@@ -42,6 +53,8 @@ pub(super) struct Jobs {
     running: BTreeMap<JobId, Job>,
     orders: Vec<Order>,
     made: JobId,
+    /// When clients were told last what jobs say.
+    told: Duration,
 }
 
 impl Room {
@@ -83,28 +96,58 @@ impl Room {
         }
     }
 
-    /// A line that a job has printed: a result, or a text for people.
-    pub(crate) fn job_said(&mut self, id: JobId, line: &str) -> Out {
-        let Some(job) = self.jobs.running.get_mut(&id) else { return Out::new() };
-        if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
-            if job.results.len() < MOST_RESULTS {
-                job.results.push(result);
-            }
-            return Out::new();
-        }
-        if job.said.len() < MOST_LINES {
-            job.said.push(line.to_owned());
-        }
-        vec![(job.client, notification("afp/jobSaid", json!({ "id": id, "text": line })))]
+    /// A line that a job has printed.
+    pub(crate) fn job_said(&mut self, id: JobId, line: &str) {
+        self.jobs.running.get_mut(&id).into_iter().for_each(|job| job.say(line));
+    }
+
+    /// When lines of jobs are to be told.
+    pub(super) fn jobs_due(&self) -> Option<Duration> {
+        let waits = |job: &Job| job.told < job.said.len();
+        self.jobs.running.values().any(waits).then_some(self.jobs.told + COLLECTED)
+    }
+
+    /// Tells what jobs have said since it was told last.
+    pub(super) fn tell_jobs(&mut self, now: Duration) -> Out {
+        self.jobs.told = now;
+        self.jobs.running.iter_mut().filter_map(|(&id, job)| job.tell(id)).collect()
     }
 
     /// A job has ended with an exit code; without one it was ended.
     pub(crate) fn job_done(&mut self, id: JobId, code: Option<i32>) -> Out {
-        let Some(job) = self.jobs.running.remove(&id) else { return Out::new() };
+        let Some(mut job) = self.jobs.running.remove(&id) else { return Out::new() };
+        let mut out = Out::from_iter(job.tell(id));
         let done = json!({
             "id": id, "ok": code == Some(0), "code": code, "results": job.results, "said": job.said.join("\n"),
         });
-        vec![(job.client, notification("afp/jobDone", done))]
+        out.push((job.client, notification("afp/jobDone", done)));
+        out
+    }
+}
+
+impl Job {
+    /// A line: a result, or a text for people.
+    fn say(&mut self, line: &str) {
+        if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
+            self.bytes += line.len();
+            if self.results.len() < MOST_RESULTS && self.bytes <= MOST_BYTES {
+                self.results.push(result);
+            }
+            return;
+        }
+        match self.said.len() {
+            ..MOST_LINES => self.said.push(line.chars().take(MOST_LETTERS).collect()),
+            MOST_LINES => self.said.push("(it says more than is shown here)".to_owned()),
+            _ => {}
+        }
+    }
+
+    /// Tells the lines that the client was not told, if there are any.
+    fn tell(&mut self, id: JobId) -> Option<(ClientId, Message)> {
+        let lines = self.said.get(self.told..).filter(|lines| !lines.is_empty())?;
+        let said = json!({ "id": id, "text": lines.join("\n") });
+        self.told = self.said.len();
+        Some((self.client, notification("afp/jobSaid", said)))
     }
 }
 
@@ -197,4 +240,28 @@ fn world_of(room: &Room, world: &str) -> Result<String, String> {
         return Ok(world.to_owned());
     }
     Ok(room.folder.inside(world)?.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_job_says_is_told_in_one_message_and_only_so_much_of_it() {
+        let mut job = Job::default();
+        let mut text = |lines: usize| {
+            (0..lines).for_each(|_| job.say(&"x".repeat(MOST_LETTERS + 1)));
+            job.say(r#"{"name": "a result"}"#);
+            let (_, message) = job.tell(7)?;
+            let Message::Notification(told) = message else { return None };
+            Some(told.params["text"].as_str()?.lines().map(str::to_owned).collect::<Vec<_>>())
+        };
+        assert_eq!(text(0), None);
+        assert_eq!(text(600).unwrap(), vec!["x".repeat(MOST_LETTERS); 600]);
+        let rest = text(5_000).unwrap();
+        assert_eq!(rest.len(), MOST_LINES - 600 + 1);
+        assert_eq!(rest.last().unwrap(), "(it says more than is shown here)");
+        assert_eq!(text(10), None);
+        assert_eq!(job.results.len(), 4);
+    }
 }

@@ -43,6 +43,8 @@ pub(super) fn answer(
     let answer = match method {
         "afp/hello" => {
             out = room.look_at_files();
+            let before = params["client"].as_u64().and_then(|id| ClientId::try_from(id).ok());
+            room.greeted(client, before);
             Ok(hello(room, client))
         }
         "afp/pen" => {

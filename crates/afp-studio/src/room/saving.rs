@@ -6,18 +6,25 @@ use afp_lsp::uri_of;
 use serde_json::json;
 
 use super::document::Look;
-use super::{ClientId, LOOKS_EVERY, Out, Room, changed, notification};
+use super::{ClientId, LOOKS_EVERY, Out, Room, disputed, notification};
 
 impl Room {
     /// When [`Room::tick`] has something to do.
     pub fn due(&self) -> Duration {
         let saves = self.documents.values().filter_map(|document| document.due());
-        saves.min().map_or(self.looked + LOOKS_EVERY, |due| due.min(self.looked + LOOKS_EVERY))
+        let due = saves.chain(self.jobs_due()).min();
+        due.map_or(self.looked + LOOKS_EVERY, |due| due.min(self.looked + LOOKS_EVERY))
     }
 
     /// Writes what is due, and looks at the folder from time to time.
     pub fn tick(&mut self, now: Duration) -> Out {
         let mut out = Vec::new();
+        if self.falls.is_some_and(|falls| falls <= now) {
+            out.extend(self.hand_pen(self.clients.keys().next().copied()));
+        }
+        if self.jobs_due().is_some_and(|due| due <= now) {
+            out.extend(self.tell_jobs(now));
+        }
         if now >= self.looked + LOOKS_EVERY {
             self.looked = now;
             out.extend(self.look_at_files());
@@ -49,12 +56,11 @@ impl Room {
                 continue;
             }
             let saved = document.save(now);
-            if saved.is_ok() {
+            if let Ok(stamp) = saved {
                 // It is no news that somebody else would have to be told of.
-                let stamp = crate::files::stamp(path.as_ref());
-                self.files.extend(stamp.map(|stamp| (path.clone(), stamp)));
+                self.files.insert(path.clone(), stamp);
             }
-            out.extend(self.tell_saved(&path, saved));
+            out.extend(self.tell_saved(&path, saved.map(drop)));
         }
         out
     }
@@ -110,9 +116,11 @@ impl Room {
                 );
                 self.tell_saved(path, Err(why))
             }
-            Look::Changed => self.tell_all(&uri, &text, true, None),
+            Look::Changed => self.tell_all(&uri, &text),
             Look::Unreadable(why) => self.tell_saved(path, Err(why)),
-            Look::Conflict(theirs) => self.tell_all(&uri, &theirs, false, None),
+            Look::Conflict(theirs) => {
+                self.having(&uri).into_iter().map(|id| (id, disputed(&uri, &theirs))).collect()
+            }
         };
         if is_settled {
             out.extend(self.settled(path));
@@ -145,8 +153,7 @@ impl Room {
     pub(super) fn settled(&mut self, path: &str) -> Out {
         let Some(document) = self.documents.get(path) else { return Vec::new() };
         let (uri, text) = (uri_of(path), document.text.clone());
-        let ids: Vec<_> = self.clients.keys().copied().collect();
-        let having = ids.into_iter().filter(|&id| self.text_of(id, &uri).is_some());
-        having.map(|id| (id, changed(&uri, &text, true))).collect()
+        let having = self.having(&uri).into_iter();
+        having.filter_map(|id| self.tell(id, &uri, &text)).collect()
     }
 }

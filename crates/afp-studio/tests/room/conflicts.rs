@@ -20,6 +20,56 @@ fn changes_of_other_lines_go_together() {
 }
 
 #[test]
+fn what_is_typed_while_a_change_is_under_way_to_its_writer_takes_nothing_of_it_away() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let typed = |letters: &str| PLAN.replace("start go", &format!("start go // {letters}"));
+    place.types(1, 2, &typed("a"));
+    place.outside(&format!("// theirs\n{PLAN}"));
+    let out = place.pass(600);
+    let told = out.iter().find(|(_, value)| value["method"] == "afp/changed").unwrap();
+    let both = |letters: &str| format!("// theirs\n{}", typed(letters));
+    assert_eq!(told.1["params"]["text"], both("a"));
+    assert_eq!((&told.1["params"]["version"], &told.1["params"]["number"]), (&json!(2), &json!(1)));
+    // Typed before it arrived: what lies in the file stays, and nothing is said to be saved.
+    assert_eq!(place.types(1, 3, &typed("ab")), []);
+    assert_eq!(place.pass(600), []);
+    assert_eq!(place.on_disk(), both("a"));
+    // One more meanwhile is told for the same version.
+    place.outside(&format!("{}// end\n", both("a")));
+    let out = place.pass(600);
+    let told = out.iter().find(|(_, value)| value["method"] == "afp/changed").unwrap();
+    assert_eq!((&told.1["params"]["version"], &told.1["params"]["number"]), (&json!(2), &json!(2)));
+    assert_eq!(place.takes(1, 4, &both("ab"), json!(1)), []);
+    place.takes(1, 5, &format!("{}// end\n", both("ab")), json!(2));
+    place.pass(300);
+    assert_eq!(place.on_disk(), format!("{}// end\n", both("ab")));
+    place.types(1, 6, &both("abc"));
+    place.pass(300);
+    assert_eq!(place.on_disk(), both("abc"));
+}
+
+#[test]
+fn a_change_that_others_take_back_while_it_is_under_way_is_taken_back() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let theirs = format!("// theirs\n{PLAN}");
+    for (text, number) in [(theirs.as_str(), 1), (PLAN, 2)] {
+        place.outside(text);
+        let out = place.pass(600);
+        let told = out.iter().find(|(_, value)| value["method"] == "afp/changed").unwrap();
+        assert_eq!(
+            (&told.1["params"]["text"], &told.1["params"]["number"]),
+            (&json!(text), &json!(number))
+        );
+    }
+    place.takes(1, 2, &theirs, json!(1));
+    place.takes(1, 3, PLAN, json!(2));
+    place.pass(600);
+    assert_eq!(place.on_disk(), PLAN);
+}
+
+#[test]
 fn a_text_that_is_again_what_lies_in_the_file_is_saved_whether_or_not_the_disk_takes_anything() {
     let mut place = Place::new(PLAN);
     place.client(1);
@@ -106,7 +156,8 @@ fn a_conflict_that_others_take_back_is_none() {
         assert_eq!(settled.unwrap().1["params"]["text"], **expected, "{written:?}");
         assert_eq!(place.on_disk(), *expected, "{written:?}");
         // What is typed next is written again.
-        place.types(1, 3, PLAN);
+        let number = out.iter().filter_map(|(_, it)| it["params"]["number"].as_u64()).max();
+        place.takes(1, 3, PLAN, json!(number));
         place.pass(1000);
         assert_eq!(place.on_disk(), PLAN, "{written:?}");
     }

@@ -94,9 +94,21 @@ impl Place {
 
     /// A client gives the plan a whole new text.
     fn types(&mut self, client: ClientId, version: i32, text: &str) -> Vec<(ClientId, Value)> {
+        self.takes(client, version, text, Value::Null)
+    }
+
+    /// A client gives the plan a whole new text that has a change in it which it was told by this number.
+    fn takes(
+        &mut self,
+        client: ClientId,
+        version: i32,
+        text: &str,
+        number: Value,
+    ) -> Vec<(ClientId, Value)> {
         let document = json!({ "uri": self.uri("p.afp"), "version": version });
-        let change = json!({ "textDocument": document, "contentChanges": [{ "text": text }] });
-        self.tell(client, "textDocument/didChange", change)
+        let changes = json!([{ "text": text }]);
+        let said = json!({ "textDocument": document, "contentChanges": changes, "taken": number });
+        self.tell(client, "textDocument/didChange", said)
     }
 
     /// Lets time pass.
@@ -138,6 +150,36 @@ fn what_is_typed_is_written_within_300_ms_and_then_said_to_be_saved() {
     assert_eq!(out[0].1["params"]["version"], 2);
     assert_eq!(place.on_disk(), next.replace('\n', "\r\n"));
     assert_eq!(place.pass(2000), [], "what the room wrote is no news");
+}
+
+#[test]
+fn what_others_write_right_after_a_save_arrives_though_length_and_time_are_the_same() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.types(1, 2, &PLAN.replace("go", "at"));
+    place.pass(300);
+    let written = fs::metadata(place.path("p.afp")).unwrap().modified().unwrap();
+    place.outside(&PLAN.replace("go", "of"));
+    let file = fs::File::options().write(true).open(place.path("p.afp")).unwrap();
+    file.set_modified(written).unwrap();
+    let out = place.pass(600);
+    let changed = out.iter().find(|(_, value)| value["method"] == "afp/changed").unwrap();
+    assert_eq!(changed.1["params"]["text"], PLAN.replace("go", "of"));
+}
+
+#[test]
+fn clients_see_one_kind_of_line_end_and_the_file_keeps_its_own() {
+    let mut place = Place::new("// one\r\n// two\n// three\r// four");
+    place.client(1);
+    let text = place.ask(1, "afp/read", json!({ "uri": place.uri("p.afp") })).unwrap();
+    assert_eq!(text["text"], "// one\n// two\n// three\n// four");
+    place.types(1, 2, "// one\n// 2\n// three\n// four\n");
+    place.pass(300);
+    assert_eq!(place.on_disk(), "// one\r\n// 2\n// three\r// four\r");
+    // What a client brings along is the room's own from then on, and the client is told.
+    let out = place.types(1, 3, "// one\r\n// 2\n");
+    assert_eq!(methods(&out), [(1, "afp/changed")]);
+    assert_eq!(out[0].1["params"]["text"], "// one\n// 2\n");
 }
 
 #[test]
@@ -210,11 +252,46 @@ fn one_client_has_the_pen() {
     let refused = place.ask(2, "afp/create", json!({ "uri": place.uri("n.afp") })).unwrap_err();
     assert!(refused.contains("pen"), "{refused}");
     assert_eq!(place.ask(2, "afp/pen", json!({ "take": true })).unwrap()["yours"], true);
-    place.types(2, 4, PLAN);
+    place.takes(2, 4, PLAN, out[0].1["params"]["number"].clone());
     place.pass(300);
     assert_eq!(place.on_disk(), PLAN);
-    let out = said(place.room.leave(2));
-    assert_eq!((out[0].0, &out[0].1["params"]["yours"]), (1, &json!(true)));
+}
+
+#[test]
+fn the_pen_waits_for_its_holder_to_come_back_and_falls_then() {
+    // How long its holder is gone, as whom it comes back, and who has the pen then.
+    for (gone, before, holder) in [
+        (300, json!(1), 3),
+        (4900, json!(1), 3),
+        (300, Value::Null, 1),
+        (300, json!(2), 1),
+        (5500, json!(1), 2),
+    ] {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.client(2);
+        place.room.leave(1, place.now);
+        let told = place.pass(gone);
+        assert_eq!(methods(&told), if holder == 2 { vec![(2, "afp/pen")] } else { vec![] });
+        place.room.join(3);
+        let hello = place.ask(3, "afp/hello", json!({ "client": before })).unwrap();
+        assert_eq!(hello["pen"], holder == 3, "{gone} {before}");
+        assert_eq!(place.ask(2, "afp/pen", json!({})).unwrap()["holder"], holder);
+        // In the end somebody has it who is there.
+        let told = place.pass(6000);
+        assert_eq!(told.iter().any(|(_, it)| it["method"] == "afp/pen"), holder == 1);
+    }
+    // Nobody else is there: one who comes new has it at once, one who comes back does not take it from who is late.
+    for (before, has) in [(Value::Null, true), (json!(2), false)] {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.client(2);
+        place.room.leave(2, place.now);
+        place.room.leave(1, place.now);
+        place.room.join(3);
+        let hello = place.ask(3, "afp/hello", json!({ "client": before })).unwrap();
+        assert_eq!(hello["pen"], has, "{before}");
+    }
 }
 
 #[test]
@@ -349,7 +426,7 @@ fn a_page_that_is_loaded_again_finds_its_drawing_as_it_was() {
     place.ask(1, "afp/drawing", drawing.clone()).unwrap();
     place.types(1, 2, &grown);
     let before = place.ask(1, "afp/drawing", drawing.clone()).unwrap();
-    place.room.leave(1);
+    place.room.leave(1, place.now);
     place.client(2);
     assert_eq!(drawn(&place.ask(2, "afp/drawing", drawing.clone()).unwrap()), drawn(&before));
 

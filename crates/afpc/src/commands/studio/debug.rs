@@ -41,8 +41,8 @@ impl DebugService<'_> {
     /// Runs and debugs plans for a client until it is gone.
     pub(super) fn serve(&self, client: Debugging) {
         let Debugging { said, told } = client;
-        // Who reads too little loses the connection.
-        let tell = |message: String| told.try_send(message).is_ok();
+        // A run goes no faster than its client reads; who reads nothing loses the connection.
+        let tell = |message: String| told.blocking_send(message).is_ok();
         let mut before = Conversation::default();
         let mut elsewhere = None;
         let next = |due: Option<Duration>| {

@@ -2,19 +2,23 @@
 
 use std::io::Write;
 use std::path::Path;
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::mpsc::Receiver;
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use afp_debug::wire::{Frames, frame};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::super::super::dap::read;
 use super::output;
 
 /// What a program may take to end by itself once its client is gone: it stops the robot first.
 const GRACE_PERIOD: Duration = Duration::from_secs(2);
+
+/// How often it is looked whether the program is still there, while the client says nothing.
+const LOOK: Duration = Duration::from_millis(100);
 
 /// What a client has said up to now.
 #[derive(Default)]
@@ -38,7 +42,8 @@ impl Conversation {
     }
 }
 
-/// Lets a client talk with the debug adapter of another program until one of them is gone; then that program has ended.
+/// Lets a client talk with the debug adapter of another program until one of them is gone; then that program has ended. A
+/// client that is still there is told so, unless the program has said it.
 pub(super) fn relay(
     program: &Path,
     folder: &Path,
@@ -58,20 +63,43 @@ pub(super) fn relay(
     };
     let (Some(to), Some(from)) = (child.stdin.take(), child.stdout.take()) else { return };
     let greeted = before.greeting.is_some();
+    let silent = AtomicBool::new(false);
     thread::scope(|scope| {
-        scope.spawn(|| forward_answers(from, greeted, tell));
-        forward_requests(to, before, said);
-        end(&mut child);
+        let answers = scope.spawn(|| {
+            let said_goodbye = forward_answers(from, greeted, tell);
+            silent.store(true, Ordering::Relaxed);
+            said_goodbye
+        });
+        let is_gone = forward_requests(to, before, said, &silent);
+        let status = end(&mut child);
+        let said_goodbye = answers.join().unwrap_or_default();
+        if !is_gone && !said_goodbye {
+            tell(output("stderr", &died(status)));
+            tell(json!({ "seq": 0, "type": "event", "event": "terminated" }).to_string());
+        }
     });
 }
 
-/// Hands on what the program says; its answer to the greeting is the second one.
-fn forward_answers(from: ChildStdout, greeted: bool, tell: &(impl Fn(String) -> bool + Sync)) {
+/// What a client is told of a program that has ended by itself.
+fn died(status: Option<ExitStatus>) -> String {
+    let how = status.map_or_else(String::new, |status| format!(" ({status})"));
+    format!(
+        "the program with the robot of the project has ended by itself{how}: the terminal of the studio says why"
+    )
+}
+
+/// Hands on what the program says; its answer to the greeting is the second one. Whether it has said that the run is over.
+fn forward_answers(
+    from: ChildStdout,
+    greeted: bool,
+    tell: &(impl Fn(String) -> bool + Sync),
+) -> bool {
     let mut frames = Frames::default();
-    let mut answered = !greeted;
+    let (mut answered, mut said_goodbye) = (!greeted, false);
     read(from, |bytes| {
         frames.push(&bytes);
         while let Ok(Some(message)) = frames.next_message() {
+            said_goodbye |= is_goodbye(&message);
             if !answered && is_greeting(&message) {
                 answered = true;
             } else if !tell(message) {
@@ -80,6 +108,17 @@ fn forward_answers(from: ChildStdout, greeted: bool, tell: &(impl Fn(String) -> 
         }
         true
     });
+    said_goodbye
+}
+
+/// Whether a program says that the run is over, or that it lets the client go.
+fn is_goodbye(message: &str) -> bool {
+    if !message.contains("terminated") && !message.contains("disconnect") {
+        return false;
+    }
+    let value: Value = serde_json::from_str(message).unwrap_or_default();
+    value["event"] == "terminated"
+        || (value["type"] == "response" && value["command"] == "disconnect")
 }
 
 fn is_greeting(message: &str) -> bool {
@@ -87,25 +126,43 @@ fn is_greeting(message: &str) -> bool {
     value["type"] == "response" && value["command"] == "initialize"
 }
 
-/// Hands on what the client says until it is gone, or the program is.
-fn forward_requests(mut to: ChildStdin, before: Conversation, said: &Receiver<String>) {
+/// Hands on what the client says until it is gone, or the program takes or says nothing more; whether the client is gone.
+fn forward_requests(
+    mut to: ChildStdin,
+    before: Conversation,
+    said: &Receiver<String>,
+    silent: &AtomicBool,
+) -> bool {
     let mut send =
         |message: String| to.write_all(&frame(&message)).and_then(|()| to.flush()).is_ok();
-    let before = before.greeting.into_iter().chain(before.rest);
-    let _ = before.chain(said.iter()).all(&mut send);
+    if !before.greeting.into_iter().chain(before.rest).all(&mut send) {
+        return false;
+    }
+    while !silent.load(Ordering::Relaxed) {
+        match said.recv_timeout(LOOK) {
+            Ok(message) => {
+                if !send(message) {
+                    return false;
+                }
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return true,
+        }
+    }
+    false
 }
 
-/// Waits for a program whose input has ended; one that goes on is killed.
-fn end(child: &mut Child) {
+/// Waits for a program whose input has ended, and gives how it ended; one that goes on is killed.
+fn end(child: &mut Child) -> Option<ExitStatus> {
     let begin = Instant::now();
     while begin.elapsed() < GRACE_PERIOD {
-        if let Ok(Some(_)) = child.try_wait() {
-            return;
+        if let Ok(Some(status)) = child.try_wait() {
+            return Some(status);
         }
         thread::sleep(Duration::from_millis(10));
     }
     let _ = child.kill();
-    let _ = child.wait();
+    child.wait().ok()
 }
 
 #[cfg(all(test, unix))]

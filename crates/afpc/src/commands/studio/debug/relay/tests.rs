@@ -21,7 +21,13 @@ fn stand_in(folder: &Path, script: &str) -> PathBuf {
     path
 }
 
+/// What a client is told that asks for something and leaves.
 fn met(script: &str) -> Vec<String> {
+    talked(script, false)
+}
+
+/// What a client is told that asks for something, and leaves or stays.
+fn talked(script: &str, stays: bool) -> Vec<String> {
     let _alone = ALONE.lock();
     let place = tempfile::tempdir().unwrap();
     let program = stand_in(place.path(), script);
@@ -31,13 +37,25 @@ fn met(script: &str) -> Vec<String> {
     before.note(&serde_json::from_str(GREETING).unwrap(), GREETING);
     before.then(r#"{"command":"launch"}"#.to_owned());
     client.send(r#"{"command":"threads"}"#.to_owned()).unwrap();
-    drop(client);
+    let client = stays.then_some(client);
     let tell = |message: String| {
         told.lock().unwrap().push(message);
         true
     };
     relay(&program, place.path(), before, &said, &tell);
+    drop(client);
     told.into_inner().unwrap()
+}
+
+#[test]
+fn a_client_that_is_there_is_told_that_a_program_has_ended_by_itself() {
+    let told = talked("exit 3", true);
+    assert!(told[0].contains("ended by itself (exit status: 3)"), "{told:?}");
+    assert!(told[1].contains("\"terminated\""), "{told:?}");
+    assert_eq!(told.len(), 2);
+    let goodbye = r#"{"type":"event","event":"terminated"}"#;
+    let script = format!("printf 'Content-Length: {}\\r\\n\\r\\n%s' '{goodbye}'", goodbye.len());
+    assert_eq!(talked(&script, true), [goodbye]);
 }
 
 #[test]

@@ -1,0 +1,64 @@
+// Edits of texts that the server computes: made for the very text that they are for, as one entry of the history.
+import { inOrder, type TextEdit } from "./changes";
+import { open, text, version } from "./documents";
+import type { Part } from "./drawing/shapes";
+import { push, type Change } from "./history";
+import { LOST, Refused } from "./lsp";
+import { pen } from "./session";
+import { words } from "./words";
+
+export interface WorkspaceEdit {
+  documentChanges?: (
+    | { kind: "create"; uri: string }
+    | { textDocument: { uri: string; version: number | null }; edits: TextEdit[] }
+  )[];
+  changes?: Record<string, TextEdit[]>;
+}
+
+/** Makes an edit of the server as one entry of the history. Throws where it was made for another version. */
+export async function apply(edit: WorkspaceEdit, label: string, chosen?: Part[]): Promise<void> {
+  if (!pen.value) throw new Refused(0, words.watching);
+  const listed = edit.documentChanges ?? Object.entries(edit.changes ?? {}).map(edited);
+  const uris = listed.map((each) => ("kind" in each ? each.uri : each.textDocument.uri));
+  await Promise.all(uris.map(open));
+  const changes: Change[] = [];
+  for (const each of listed) {
+    if ("kind" in each) continue;
+    const { uri, version: wanted } = each.textDocument;
+    if (wanted !== null && wanted !== version(uri)) throw new Stale();
+    changes.push(...inOrder(uri, text(uri), each.edits));
+  }
+  push({ label, changes, ...(chosen ? { select: chosen } : {}) });
+}
+
+const edited = ([uri, edits]: [string, TextEdit[]]) => ({ textDocument: { uri, version: null }, edits });
+
+/** An edit is for a text that has changed meanwhile: it is to be asked for again. */
+export class Stale extends Error {}
+
+/** Asks for an edit and makes it, again where the text has changed meanwhile. */
+export async function change(ask: () => Promise<{ edit: WorkspaceEdit; label: string; select?: Part[] } | null>): Promise<void> {
+  for (let attempt = 1; ; attempt++) {
+    const found = await asked(ask);
+    if (!found) return;
+    try {
+      return await apply(found.edit, found.label, found.select);
+    } catch (why) {
+      if (!(why instanceof Stale)) throw why;
+      if (attempt === ATTEMPTS) throw new Error(words.stale(found.label));
+    }
+  }
+}
+
+/** So often an edit is asked for. */
+const ATTEMPTS = 4;
+
+/** Asks once more where the connection was lost before the answer: an edit is computed by the server and made here. */
+async function asked<T>(ask: () => Promise<T>): Promise<T> {
+  try {
+    return await ask();
+  } catch (why) {
+    if (why instanceof Refused && why.code === LOST) return ask();
+    throw why;
+  }
+}
