@@ -830,7 +830,8 @@ pub static NAMES: NameTable = NameTable {
                 PortRow::new("angle", "rad")
                     .within(-62.83185307179586, 62.83185307179586)
                     .at("wall_following.afp", 34, 40),
-                PortRow::new("speed", "rad/s").within(0.017453292519943295, 1.5707963267948966),
+                PortRow::new("speed", "rad/s")
+                    .within(0.017453292519943295, 1.5707963267948966),
             ],
         ),
         ComponentRow::new(
@@ -873,7 +874,8 @@ pub static NAMES: NameTable = NameTable {
                 PortRow::new("angle", "rad")
                     .within(-62.83185307179586, 62.83185307179586)
                     .at("wall_following.afp", 45, 43),
-                PortRow::new("speed", "rad/s").within(0.017453292519943295, 1.5707963267948966),
+                PortRow::new("speed", "rad/s")
+                    .within(0.017453292519943295, 1.5707963267948966),
             ],
         ),
         ComponentRow::new(
