@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use crate::MakeHost;
 use crate::examples::Example;
-use crate::files::{Folder, Stamp};
+use crate::files::{Folder, Listed};
 use crate::trust::{Trust, Trusted};
 use document::Document;
 use jobs::Jobs;
@@ -45,8 +45,10 @@ pub struct Room {
     documents: BTreeMap<String, Document>,
     /// Who changes them.
     pen: Option<ClientId>,
-    files: BTreeMap<String, Stamp>,
+    listed: Listed,
     looked: Duration,
+    /// When the folder was last walked.
+    walked: Duration,
     trust: Trust,
     jobs: Jobs,
 }
@@ -74,7 +76,7 @@ impl Room {
     ) -> Room {
         let open = open.and_then(|path| folder.inside(path.to_str()?).ok());
         let open = open.and_then(|path| Some(uri_of(path.to_str()?)));
-        let files = folder.files();
+        let listed = folder.list();
         let trust = Trust::of(folder.root());
         Room {
             folder,
@@ -85,8 +87,9 @@ impl Room {
             drawings: Drawings::default(),
             documents: BTreeMap::new(),
             pen: None,
-            files,
+            listed,
             looked: Duration::ZERO,
+            walked: Duration::ZERO,
             trust,
             jobs: Jobs::default(),
         }
@@ -273,9 +276,9 @@ impl Room {
     }
 
     /// The files as clients list them.
-    fn listed(&self) -> Value {
+    fn files(&self) -> Value {
         let file = |path: &String| json!({ "uri": uri_of(path), "name": self.folder.name(path) });
-        self.files.keys().map(file).collect()
+        self.listed.files.keys().map(file).collect()
     }
 }
 
