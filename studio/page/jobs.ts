@@ -32,7 +32,7 @@ const early = new Map<number, Done>();
 
 /** Does a job and waits for its end; null where the folder is not trusted. */
 export async function run(title: string, order: { kind: string; [more: string]: unknown }): Promise<Done | null> {
-  if (order.kind !== "new" && !(await trusted(order.kind === "build"))) return null;
+  if (order.kind !== "new" && !(await trusted(order.file, order.kind === "build"))) return null;
   const { id } = await lsp().request<{ id: number }>("afp/job", order);
   running.value = [...running.peek(), { id, title, last: "" }];
   say([`> ${title}`]);

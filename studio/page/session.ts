@@ -16,6 +16,7 @@ export interface Hello {
   pen: boolean;
   documents: Kept[];
   files: { uri: string; name: string }[];
+  more?: boolean;
   examples: { name: string; title: string }[];
 }
 
@@ -23,6 +24,8 @@ export interface Hello {
 export const hello = signal<Hello | null>(null);
 /** The files of the folder that can be opened. */
 export const files = signal<{ uri: string; name: string }[]>([]);
+/** Whether there are more files than those: the folder is too large to be looked through. */
+export const more = signal(false);
 /** Whether this page changes texts, or watches. */
 export const pen = signal(true);
 /** The names of kinds and modifiers in semantic tokens. */
@@ -60,7 +63,7 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = 
     client = String(said.client);
     storage?.setItem(CLIENT, client);
     // At once: what the server tells next is newer.
-    files.value = said.files;
+    [files.value, more.value] = [said.files, said.more ?? false];
     pen.value = said.pen;
     const params = { processId: null, rootUri: said.root, workspaceFolders: [{ uri: said.root, name: "root" }], capabilities: CAPABILITIES };
     const { capabilities } = await first.request<any>("initialize", params);
@@ -70,6 +73,6 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = 
     if (begun) return again(first);
   };
   connection = make(url, greet);
-  connection.on("afp/files", (params) => (files.value = params.files));
+  connection.on("afp/files", (params) => ([files.value, more.value] = [params.files, params.more]));
   return connection;
 }

@@ -45,6 +45,7 @@ export const words = {
 
   menu: "Files",
   files: "Plans in this folder",
+  moreFiles: "This folder has so many files that those farthest in are not listed: start the studio in the folder of your plans",
   newPlan: "New plan …",
   newProject: "New project …",
   newProjectName: "Name of the new project",

@@ -29,7 +29,7 @@ pub struct Position {
 /// The positions of a file's elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// Lines that later versions may understand, and comments, in their order.
+    /// Comments, and lines that place nothing, in their order.
     unknown: Vec<String>,
     placed: BTreeMap<Item, Placed>,
 }
@@ -39,6 +39,8 @@ struct Placed {
     position: Position,
     /// What stands behind the position.
     rest: String,
+    /// What further lines say of the item, without its path: people choose.
+    again: Vec<String>,
 }
 
 /// A line that cannot be used.
@@ -63,8 +65,8 @@ impl std::error::Error for LayoutError {}
 impl Layout {
     /// Reads the text of a layout file.
     ///
-    /// Lines that do not begin with the path of an item are kept for [`Layout::write`]; unless they are comments, they
-    /// are errors. A path with a wrong position, or placed a second time, is an error and left out.
+    /// Lines that do not begin with the path of an item and its position place nothing; unless they are comments, they
+    /// are errors, and so is a line that places an item a second time. All are kept for [`Layout::write`].
     pub fn read(text: &str) -> (Layout, Vec<LayoutError>) {
         read::read(text, None)
     }
@@ -77,7 +79,7 @@ impl Layout {
         read::read(text, Some(&items.collect()))
     }
 
-    /// The text of the file: unknown lines first, then the positions sorted by path.
+    /// The text of the file: first the lines that place nothing, then the positions sorted by path.
     pub fn write(&self) -> String {
         let mut text = String::new();
         for line in &self.unknown {
@@ -86,10 +88,13 @@ impl Layout {
         let mut lines: Vec<_> =
             self.placed.iter().map(|(item, placed)| (item.to_string(), placed)).collect();
         lines.sort_by(|a, b| a.0.cmp(&b.0));
-        for (path, Placed { position, rest }) in lines {
+        for (path, Placed { position, rest, again }) in lines {
             let gap = if rest.is_empty() { "" } else { " " };
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{path} {} {}{gap}{rest}", position.x, position.y);
+            for line in again {
+                let _ = writeln!(text, "{path} {line}");
+            }
         }
         text
     }
@@ -104,7 +109,7 @@ impl Layout {
         match self.placed.get_mut(&item) {
             Some(placed) => placed.position = position,
             None => {
-                self.placed.insert(item, Placed { position, rest: String::new() });
+                self.placed.insert(item, Placed::at(position));
             }
         }
     }
@@ -119,11 +124,18 @@ impl Layout {
         self.placed.iter().map(|(item, placed)| (item, placed.position))
     }
 
-    /// Gives an item, and what lies in it, another path.
+    /// Gives an item, and what lies in it, another path. A position that was left there is none of theirs.
     pub fn relocate(&mut self, from: &Item, to: &Item) {
-        let old = std::mem::take(&mut self.placed);
-        self.placed =
-            old.into_iter().map(|(item, placed)| (item.moved(from, to), placed)).collect();
+        let all = std::mem::take(&mut self.placed).into_iter();
+        let (moved, stays): (Vec<_>, Vec<_>) = all.partition(|(item, _)| item.lies_in(from));
+        self.placed = stays.into_iter().collect();
+        self.placed.extend(moved.into_iter().map(|(item, placed)| (item.moved(from, to), placed)));
+    }
+}
+
+impl Placed {
+    fn at(position: Position) -> Placed {
+        Placed { position, rest: String::new(), again: Vec::new() }
     }
 }
 

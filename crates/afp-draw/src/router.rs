@@ -5,8 +5,9 @@
 //! bends, crossings and how full the gaps between boxes are ([`gaps`]). Edges that share a line are
 //! put in the order with the fewest crossings ([`sequence`]) and moved apart as far as the gap
 //! allows ([`spread`]); many of one kind to one box become one where they meet ([`bundle`]). Time
-//! and memory depend on how many boxes and edges there are, never on where they stand. Routes that
-//! are kept stay exactly as they are; others go around them.
+//! and memory depend on how many boxes and edges there are, never on where they stand, and both have
+//! a bound: edges with too many lines are routed in parts, and what is left then asks nobody. Routes
+//! that are kept stay exactly as they are; others go around them.
 
 mod bundle;
 mod gaps;
@@ -32,6 +33,12 @@ const LEAST: f64 = 6.0;
 
 /// What routing may take before no edge is led elsewhere any more, in states of the search: about a second.
 pub(super) const BUDGET: u64 = 20_000_000;
+
+/// What routing may take before no edge is searched any more: some seconds.
+const MOST_EFFORT: u64 = 100_000_000;
+
+/// As many nodes are searched at once: with what a search notes of each, some 100 MB.
+const MOST_NODES: u32 = 1 << 20;
 
 /// A place in pixels, y downwards.
 pub(super) type Point = (f64, f64);
@@ -187,6 +194,16 @@ pub(super) fn route(
     connectors: &[Connector],
     kept: &[Option<Vec<Point>>],
 ) -> Routes {
+    route_within(MOST_NODES, boxes, connectors, kept)
+}
+
+/// The same with so many nodes at once.
+fn route_within(
+    most: u32,
+    boxes: &[Bounds],
+    connectors: &[Connector],
+    kept: &[Option<Vec<Point>>],
+) -> Routes {
     let boxes: Vec<_> = boxes.iter().map(Bounds::inflated).collect();
     let kept_of = |connector: usize| kept.get(connector).and_then(Option::as_deref);
     let mut order: Vec<_> =
@@ -203,14 +220,33 @@ pub(super) fn route(
         (from.0 - to.0).abs() + (from.1 - to.1).abs()
     };
     order.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
-    let trees = Trees::new(connectors);
-    let bundled = (0..connectors.len())
-        .filter(|connector| trees.holds(*connector))
-        .flat_map(|connector| &corners[connector]);
-    let lines = Lines::new(&boxes, connectors, &order, bundled.copied());
-    let mut laid = Laid::new(&boxes, connectors, &lines, trees, corners);
-    laid.lay_all(&order);
-    laid.routes()
+    let mut routes = Routes { corners, ..Routes::default() };
+    let mut parts = vec![order];
+    while let Some(mut part) = parts.pop() {
+        let searched = routes.effort <= MOST_EFFORT;
+        let trees = Trees::new(connectors);
+        let joined = (0..connectors.len()).filter(|connector| trees.holds(*connector));
+        let joined = joined.flat_map(|connector| &routes.corners[connector]).copied();
+        let lines = || Lines::new(&boxes, connectors, &part, joined, most);
+        let lines = searched.then(lines).flatten();
+        if searched && lines.is_none() {
+            routes.effort += u64::from(most);
+            if part.len() > 1 {
+                parts.push(part.split_off(part.len() / 2));
+                parts.push(part);
+                continue;
+            }
+        }
+        // Without lines each edge goes the way that asks nobody.
+        let lines = lines.unwrap_or_default();
+        let mut laid = Laid::new(&boxes, connectors, &lines, trees, routes.corners);
+        laid.lay_all(&part);
+        let found = laid.routes();
+        routes.corners = found.corners;
+        routes.crowded.extend(found.crowded);
+        routes.effort += found.effort;
+    }
+    routes
 }
 
 /// Drops corners that lie on the straight line between their neighbours, and repeated ones.

@@ -13,10 +13,14 @@ use afp_syntax::parse;
 
 use printer::Printer;
 
+/// What a file may begin with to say how it is encoded.
+const MARK: &str = "\u{feff}";
+
 /// Gives the canonical form of a plan file or toolbox.
 ///
 /// Formatting the result again changes nothing. Every comment is kept, in order, without the
-/// blanks at its end; commas between items are added or dropped as the list's form asks.
+/// blanks at its end; commas between items are added or dropped as the list's form asks. All lines
+/// end as the first one does, and a byte order mark stays.
 ///
 /// # Errors
 /// The text has syntax errors, since what is not understood cannot be laid out: the diagnostics
@@ -29,7 +33,16 @@ pub fn format(text: &str) -> Result<String, Diagnostics> {
         return Err(diags);
     }
     let lines = Printer::default().print(&parse.root());
-    Ok(align::text(lines))
+    Ok(lying_as(text, &align::text(lines)))
+}
+
+/// A text with `\n` between lines as another one lies in its file.
+fn lying_as(text: &str, formatted: &str) -> String {
+    let mark = if text.starts_with(MARK) { MARK } else { "" };
+    let first = text.split('\n').next().filter(|first| first.len() < text.len());
+    let returns = first.is_some_and(|first| first.ends_with('\r'));
+    let lines = if returns { formatted.replace('\n', "\r\n") } else { formatted.to_owned() };
+    format!("{mark}{lines}")
 }
 
 #[cfg(test)]

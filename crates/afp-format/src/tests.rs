@@ -221,8 +221,22 @@ fn a_text_with_syntax_errors_is_left_alone() {
     let diags = format("plan P { start }").unwrap_err();
     assert!(diags.has_errors());
     assert_eq!(formatted(""), "");
-    assert_eq!(formatted("\u{feff}\r\n"), "");
-    assert_eq!(formatted("// a\r\nuse std\r\n"), "// a\nuse std\n");
+}
+
+#[test]
+fn lines_end_as_the_first_one_does_and_a_mark_stays() {
+    for (text, expected) in [
+        ("// a\r\nuse   std\r\n", "// a\r\nuse std\r\n"),
+        ("// a\r\nuse   std\n", "// a\r\nuse std\r\n"),
+        ("// a\nuse   std\r\n", "// a\nuse std\n"),
+        ("// a\rb \r\r\nuse   std", "// a\rb\r\nuse std\r\n"),
+        ("use   std\r", "use std\n"),
+        ("\u{feff}use   std\n", "\u{feff}use std\n"),
+        ("\u{feff}enum E {a,\r\nb}\r\n\r\n", "\u{feff}enum E {\r\n    a\r\n    b\r\n}\r\n"),
+        ("\u{feff}\r\n", "\u{feff}"),
+    ] {
+        becomes(text, expected);
+    }
 }
 
 #[test]

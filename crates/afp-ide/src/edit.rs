@@ -45,6 +45,7 @@ pub use afp_syntax::diagnostics::Edit as TextEdit;
 pub use buffer::difference;
 pub(crate) use name::Taken;
 pub use positions::follow;
+pub use project::used_files;
 pub use several::{Made, edit_all};
 pub use wire::{item, path};
 
@@ -265,6 +266,22 @@ pub enum Change {
         /// The sub-plan.
         element: String,
     },
+}
+
+impl Change {
+    /// Whether it may concern other files than its own: those that use that one, and what they see besides.
+    pub fn concerns_others(&self) -> bool {
+        matches!(
+            self,
+            Change::Remove { .. }
+                | Change::Rename { .. }
+                | Change::RenameColumn { .. }
+                | Change::RenameValue { .. }
+                | Change::Move { .. }
+                | Change::Extract { .. }
+                | Change::Inline { .. }
+        )
+    }
 }
 
 /// Why a change cannot be made.

@@ -205,13 +205,24 @@ impl Workspace {
 
     /// The plan files that the client has open or works on, by path.
     pub fn plan_files(&self) -> Vec<String> {
+        let mut paths = self.afp_files();
+        paths.retain(|path| self.plan_text(path).is_some());
+        paths
+    }
+
+    /// The text of a file that may have plans: of one that declares toolboxes alone there is none.
+    pub fn plan_text(&self, path: &str) -> Option<String> {
+        self.text(path).ok().filter(|text| !is_toolbox(text))
+    }
+
+    /// The files of plans and of toolboxes that the client has open or works on, by path.
+    pub fn afp_files(&self) -> Vec<String> {
         let mut paths: Vec<String> =
             self.folders.iter().flat_map(|folder| self.host.plan_files(folder)).collect();
         paths.extend(self.documents.iter().map(|(path, _)| path.to_owned()));
         paths.retain(|path| self.is_afp(path));
         paths.sort();
         paths.dedup();
-        paths.retain(|path| self.text(path).is_ok_and(|text| !is_toolbox(&text)));
         paths
     }
 }

@@ -41,6 +41,11 @@ impl Secret {
         })
     }
 
+    /// The port of the server.
+    pub(crate) fn port(&self) -> u16 {
+        self.port
+    }
+
     /// The address with the code.
     pub fn address(&self) -> String {
         let code = self.code.lock().unwrap_or_else(PoisonError::into_inner);

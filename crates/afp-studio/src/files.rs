@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use std::{fs, io};
 
+use afp_project::Listing;
+
 use line_ends::LineEnds;
 pub(crate) use line_ends::with_newlines;
 
@@ -16,6 +18,9 @@ const ENDINGS: [&str; 3] = ["afp", "layout", "toml"];
 
 /// Texts longer than this are not opened.
 const LONGEST: u64 = 4 << 20;
+
+/// As many entries of the folder are looked at.
+const MOST_ENTRIES: usize = 50_000;
 
 /// When a file was last written, and its length: another one is another file.
 pub(crate) type Stamp = (Option<SystemTime>, u64);
@@ -27,6 +32,17 @@ const COARSE: Duration = Duration::from_secs(2);
 #[derive(Clone, Debug)]
 pub struct Folder {
     root: PathBuf,
+}
+
+/// What was found in a folder.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Listed {
+    /// The files that are opened, and the logs of runs, by path, with their stamps.
+    pub files: BTreeMap<String, Stamp>,
+    /// How many entries were looked at.
+    pub entries: usize,
+    /// Whether there are more.
+    pub is_cut: bool,
 }
 
 /// A text as it lies on the disk.
@@ -93,14 +109,15 @@ impl Folder {
         if real.starts_with(&self.root) { Ok(real) } else { Err(outside()) }
     }
 
-    /// The files that are opened, and the logs of runs, by path, with their stamps.
-    pub(crate) fn files(&self) -> BTreeMap<String, Stamp> {
-        let files = afp_project::files(&self.root).into_iter();
+    /// What lies in the folder now.
+    pub(crate) fn list(&self) -> Listed {
+        let Listing { files, logs, entries, is_cut } = afp_project::list(&self.root, MOST_ENTRIES);
+        let files = files.into_iter();
         let files = files.filter_map(|path| Some((path.to_str()?.to_owned(), stamp(&path)?)));
         // That a log grows concerns nobody.
-        let logs = afp_project::logs(&self.root).into_iter();
+        let logs = logs.into_iter();
         let logs = logs.filter_map(|path| Some((path.to_str()?.to_owned(), (None, 0))));
-        files.chain(logs).collect()
+        Listed { files: files.chain(logs).collect(), entries, is_cut }
     }
 
     /// A path as people read it: from the root.

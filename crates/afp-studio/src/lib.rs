@@ -5,8 +5,8 @@
 //! saved. The room alone writes files, whole or not at all, and never over what somebody else has written meanwhile.
 //!
 //! It listens on the machine itself alone. Other users of the machine reach that as well, and so does any web page:
-//! what lets a browser in is a code that works once, and what it asks is looked at (`Host`, `Origin`) before
-//! anything is answered.
+//! what lets a browser in is a code that works once, on Linux for this program's user alone, and what it asks is looked
+//! at (`Host`, `Origin`) before anything is answered.
 
 mod access;
 mod debugging;
@@ -16,6 +16,7 @@ mod jobs;
 mod lock;
 mod outbox;
 mod page;
+mod peer;
 mod room;
 mod server;
 mod sockets;

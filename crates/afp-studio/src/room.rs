@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 
 use crate::MakeHost;
 use crate::examples::Example;
-use crate::files::{Folder, Stamp, with_newlines};
+use crate::files::{Folder, Listed, with_newlines};
 use crate::trust::{Trust, Trusted};
 use document::Document;
 use following::Following;
@@ -53,8 +53,10 @@ pub struct Room {
     pen: Option<ClientId>,
     /// When the pen falls to another one, since its holder is gone.
     falls: Option<Duration>,
-    files: BTreeMap<String, Stamp>,
+    listed: Listed,
     looked: Duration,
+    /// When the folder was last walked.
+    walked: Duration,
     trust: Trust,
     jobs: Jobs,
 }
@@ -83,7 +85,7 @@ impl Room {
     ) -> Room {
         let open = open.and_then(|path| folder.inside(path.to_str()?).ok());
         let open = open.and_then(|path| Some(uri_of(path.to_str()?)));
-        let files = folder.files();
+        let listed = folder.list();
         let trust = Trust::of(folder.root());
         Room {
             folder,
@@ -95,8 +97,9 @@ impl Room {
             documents: BTreeMap::new(),
             pen: None,
             falls: None,
-            files,
+            listed,
             looked: Duration::ZERO,
+            walked: Duration::ZERO,
             trust,
             jobs: Jobs::default(),
         }
@@ -314,9 +317,9 @@ impl Room {
     }
 
     /// The files as clients list them.
-    fn listed(&self) -> Value {
+    fn files(&self) -> Value {
         let file = |path: &String| json!({ "uri": uri_of(path), "name": self.folder.name(path) });
-        self.files.keys().map(file).collect()
+        self.listed.files.keys().map(file).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Requests over HTTP: access is checked first, then come the page, its files and its socket.
 
 use std::collections::HashMap;
-use std::net::TcpListener;
+use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 use std::{io, thread};
@@ -9,7 +9,7 @@ use std::{io, thread};
 use afp_token::Token;
 use axum::Router;
 use axum::body::Body;
-use axum::extract::{Path, Query, Request, State, WebSocketUpgrade};
+use axum::extract::{ConnectInfo, Path, Query, Request, State, WebSocketUpgrade};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
@@ -20,7 +20,7 @@ use crate::access::Secret;
 use crate::debugging::{self, Debuggers};
 use crate::room::Room;
 use crate::sockets::{self, Sockets};
-use crate::{Debugging, page};
+use crate::{Debugging, page, peer};
 
 /// Frames that are longer end the connection.
 const LONGEST_FRAME: usize = 1 << 20;
@@ -52,6 +52,7 @@ pub(crate) async fn serve(
         .route("/{name}", get(file))
         .layer(from_fn_with_state(shared.clone(), guard))
         .with_state(shared);
+    let routes = routes.into_make_service_with_connect_info::<SocketAddr>();
     listener.set_nonblocking(true)?;
     // One message after the other goes out at once: else each second one waits 40 ms for the browser to say that it has the first.
     let listener = tokio::net::TcpListener::from_std(listener)?.tap_io(|stream| {
@@ -110,12 +111,17 @@ async fn guard(State(shared): State<Shared>, request: Request, next: Next) -> Re
 /// The page; the code in its address is changed into a cookie first.
 async fn index(
     State(shared): State<Shared>,
+    ConnectInfo(peer): ConnectInfo<SocketAddr>,
     Query(query): Query<HashMap<String, String>>,
     headers: HeaderMap,
 ) -> Response {
     if let Some(code) = query.get("code") {
         let known = shared.secret.knows(&headers);
         let away = away(query.get("file"));
+        if !known && !peer::is_own(peer, shared.secret.port()) {
+            let words = "this code is that of another user of this machine\n";
+            return (StatusCode::FORBIDDEN, words).into_response();
+        }
         return match shared.secret.redeem(code) {
             Some(cookie) => ([(header::SET_COOKIE, cookie)], away).into_response(),
             None if known => away,

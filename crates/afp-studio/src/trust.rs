@@ -78,19 +78,19 @@ impl Trust {
         afp_output::write_whole(list, text.as_bytes())
     }
 
-    /// What of the folder would be built and run, in words: robots and toolboxes of all projects in it.
-    pub fn code(&self) -> Vec<String> {
-        let files = afp_project::files(&self.root).into_iter();
-        let projects = files.filter(|path| path.file_name().is_some_and(|name| name == "afp.toml"));
-        let inside = projects.filter_map(|path| Some(path.parent()?.to_owned()));
-        // The folder may lie within a project.
+    /// What would be built and run, in words: robot and toolboxes of the project of a file; without one those of all
+    /// projects whose scenarios 'afpc test' may run in the folder.
+    pub fn code(&self, file: Option<&Path>) -> Vec<String> {
+        if let Some(home) = file.and_then(Path::parent) {
+            return code_of(home);
+        }
+        // The folder may lie within a project, whose scenarios these are then.
+        let home = ProjectFile::find(&self.root).map_or(self.root.clone(), |file| file.folder);
+        let files = [afp_project::files(&home), afp_project::scenario_files(&home)].concat();
+        let inside = files.iter().filter_map(|path| Some(path.parent()?.to_owned()));
         let folders: BTreeSet<_> = inside.chain([self.root.clone()]).collect();
-        folders
-            .iter()
-            .flat_map(|folder| code_of(folder))
-            .collect::<BTreeSet<_>>()
-            .into_iter()
-            .collect()
+        let code = folders.iter().flat_map(|folder| code_of(folder));
+        code.collect::<BTreeSet<_>>().into_iter().collect()
     }
 }
 
@@ -128,6 +128,38 @@ mod tests {
     fn a_folder_of_plans_has_no_code() {
         let place = tempfile::tempdir().unwrap();
         fs::write(place.path().join("plan.afp"), "plan A {}").unwrap();
-        assert!(Trust::kept(place.path(), None).code().is_empty());
+        assert!(Trust::kept(place.path(), None).code(None).is_empty());
+    }
+
+    /// Where the files of a folder are not looked for there may be some all the same.
+    #[test]
+    fn the_code_of_a_file_is_that_of_its_project_wherever_it_lies() {
+        let place = tempfile::tempdir().unwrap();
+        let deep = "a/".repeat(20);
+        for folder in [".parts", "target/x", "node_modules", deep.trim_end_matches('/')] {
+            let folder = place.path().join(folder);
+            fs::create_dir_all(&folder).unwrap();
+            fs::write(
+                folder.join("afp.toml"),
+                "[toolboxes]\nt = { path = 't.afp', crate = 'c' }\n",
+            )
+            .unwrap();
+            let trust = Trust::kept(place.path(), None);
+            assert!(trust.code(Some(&folder.join("b.afp")))[0].contains("t.afp"), "{folder:?}");
+            assert!(trust.code(Some(&place.path().join("a.afp"))).is_empty(), "{folder:?}");
+        }
+    }
+
+    #[test]
+    fn a_folder_within_a_project_has_the_code_of_that() {
+        let place = tempfile::tempdir().unwrap();
+        let (inner, other) = (place.path().join("plans"), place.path().join("tests/x"));
+        for folder in [&inner, &other] {
+            fs::create_dir_all(folder).unwrap();
+        }
+        fs::write(place.path().join("afp.toml"), "").unwrap();
+        fs::write(other.join("afp.toml"), "[robot]\ncrate = \"x\"\n").unwrap();
+        let code = Trust::kept(&inner, None).code(None);
+        assert!(code.len() == 1 && code[0].contains("tests"), "{code:?}");
     }
 }

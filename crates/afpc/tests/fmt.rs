@@ -62,6 +62,29 @@ fn check_shows_the_difference_and_changes_nothing() {
 }
 
 #[test]
+fn line_ends_and_marks_stay() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.afp");
+    let [ugly, pretty] = [UGLY, PRETTY].map(|text| text.replace('\n', "\r\n"));
+    for mark in ["", "\u{feff}"] {
+        fs::write(&path, format!("{mark}{ugly}")).unwrap();
+        assert_eq!(fmt(&["a.afp"], folder.path(), "").status.code(), Some(0));
+        assert_eq!(fs::read_to_string(&path).unwrap(), format!("{mark}{pretty}"));
+        let output = fmt(&["--check", "a.afp"], folder.path(), "");
+        assert_eq!((output.status.code(), text(&output.stdout)), (Some(0), ""));
+    }
+    fs::write(&path, PRETTY.replacen('\n', "\r\n", 1)).unwrap();
+    let output = fmt(&["--check", "a.afp"], folder.path(), "");
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(
+        text(&output.stderr),
+        "a.afp: lines end in two ways: 'afpc fmt' ends all as the first one\n"
+    );
+    fmt(&["a.afp"], folder.path(), "");
+    assert_eq!(fs::read_to_string(&path).unwrap(), pretty);
+}
+
+#[test]
 fn standard_input_goes_to_standard_output() {
     let folder = tempfile::tempdir().unwrap();
     let output = fmt(&["-"], folder.path(), UGLY);

@@ -68,7 +68,7 @@ export async function start(hold = false): Promise<void> {
     return;
   }
   trouble.value = null;
-  if (!(await trusted())) return;
+  if (!(await trusted(current.value))) return;
   const uri = current.value;
   // What was chosen last counts, though its drawing may still be on its way.
   const plan = trail.value[0] ?? wanted.value ?? shownPlan.value ?? "";

@@ -6,7 +6,7 @@ import { showLog } from "../debug/logs";
 import { guide } from "../guide";
 import { Sign } from "../icons";
 import { run } from "../jobs";
-import { files, hello } from "../session";
+import { files, hello, more } from "../session";
 import { planText, words } from "../words";
 
 /** What went wrong last, as a sentence; shown until it is closed. */
@@ -111,6 +111,7 @@ export function Files({ done }: { done: () => void }) {
           {name}
         </button>
       ))}
+      {more.value && <p class="group" role="presentation">{words.moreFiles}</p>}
       <hr role="presentation" />
       <button role="menuitem" onClick={pick(makeNew)}>
         <Sign name="plus" />

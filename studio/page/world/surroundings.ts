@@ -82,7 +82,7 @@ function refuse(why: string, chosen: string | null): void {
 }
 
 /** Asks once more for what could not be shown, and whether it may be where that was the reason. */
-export const again = async (): Promise<void> => void ((await trusted()) && (await askWorld(current.peek(), null)));
+export const again = async (): Promise<void> => void ((await trusted(current.peek())) && (await askWorld(current.peek(), null)));
 
 async function askRobot(uri: string): Promise<void> {
   const found = await lsp().request<{ devices: Device[] }>("afp/robot", { textDocument: { uri } }).catch(() => null);

@@ -78,16 +78,23 @@ fn improved(mut order: Vec<usize>, edges: &[(usize, usize)]) -> (Vec<usize>, usi
 struct Around {
     into: Vec<Vec<usize>>,
     out_of: Vec<Vec<usize>>,
+    /// The nodes that edges out of each node lead to, each once.
+    targets: Vec<Vec<usize>>,
 }
 
 impl Around {
     fn new(count: usize, edges: &[(usize, usize)]) -> Around {
-        let mut around = Around { into: vec![Vec::new(); count], out_of: vec![Vec::new(); count] };
+        let (mut into, mut out_of) = (vec![Vec::new(); count], vec![Vec::new(); count]);
         for (from, to) in edges {
-            around.out_of[*from].push(*to);
-            around.into[*to].push(*from);
+            out_of[*from].push(*to);
+            into[*to].push(*from);
         }
-        around
+        let mut targets: Vec<Vec<usize>> = out_of.clone();
+        for each in &mut targets {
+            each.sort_unstable();
+            each.dedup();
+        }
+        Around { into, out_of, targets }
     }
 
     /// The first rank at which a node makes the order best, if that is better than where it is.
@@ -127,10 +134,7 @@ impl Around {
         let back_in = self.into[node].iter().filter(|from| !is_before(**from)).count();
         let back_out = self.out_of[node].iter().filter(|to| is_before(**to)).count();
         let mut unreached = i64::from(back_in == self.into[node].len());
-        for (place, next) in self.out_of[node].iter().enumerate() {
-            if self.out_of[node][..place].contains(next) {
-                continue;
-            }
+        for next in &self.targets[node] {
             let from_node = !is_before(*next);
             let others = self.into[*next].iter().filter(|from| **from != node);
             let reached = from_node || others.into_iter().any(|from| rank[*from] < rank[*next]);

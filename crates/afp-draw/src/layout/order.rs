@@ -6,7 +6,7 @@
 use super::channel::{Segment, crossings};
 use super::grid::Grid;
 
-/// Pairs of edges that are compared at most; large plans stop improving here.
+/// What improving may take, in pairs of edges that are compared and items that are packed; large plans stop here.
 const BUDGET: u64 = 2_500_000;
 
 /// Crossings that one pixel of horizontal way is worth.
@@ -38,7 +38,17 @@ pub(super) fn improve(grid: &mut Grid) {
     for layer in 0..grid.layers.len() {
         pack(grid, layer);
     }
-    while work < BUDGET && (0..grid.layers.len()).any(|layer| move_items(grid, layer, &mut work)) {}
+    let connected = connected(grid);
+    while (0..grid.layers.len()).any(|layer| move_items(grid, layer, &connected, &mut work)) {}
+}
+
+/// Whether each item has an edge: where one without stands costs nothing.
+fn connected(grid: &Grid) -> Vec<bool> {
+    let mut connected = vec![false; grid.items.len()];
+    for end in grid.nets.iter().flat_map(|net| net.ends) {
+        connected[end.item] = true;
+    }
+    connected
 }
 
 /// Puts the items of a layer side by side, centred.
@@ -93,30 +103,38 @@ fn cost(grid: &Grid, channel: usize, work: &mut u64) -> f64 {
     crossings(&segments, work) + LENGTH * lengths.sum::<f64>()
 }
 
-/// Moves each item of a layer to its best place; says whether anything improved.
-fn move_items(grid: &mut Grid, layer: usize, work: &mut u64) -> bool {
-    let mut improved = false;
+/// Moves each connected item of a layer to its best place while that may take more; says whether anything improved.
+fn move_items(grid: &mut Grid, layer: usize, connected: &[bool], work: &mut u64) -> bool {
+    let items = grid.layers[layer].clone();
+    let movable = items.into_iter().filter(|item| connected[*item]);
+    movable.fold(false, |improved, item| move_item(grid, layer, item, work) || improved)
+}
+
+/// Moves an item to the best place of its layer; says whether that is another one.
+fn move_item(grid: &mut Grid, layer: usize, item: usize, work: &mut u64) -> bool {
+    if *work >= BUDGET {
+        return false;
+    }
     let around =
         |grid: &Grid, work: &mut u64| cost(grid, layer, work) + cost(grid, layer + 1, work);
-    for item in grid.layers[layer].clone() {
+    let before = grid.layers[layer].clone();
+    let mut best = (around(grid, work) - 1e-6, before.clone());
+    for place in 0..before.len() {
         if *work >= BUDGET {
             break;
         }
-        let before = grid.layers[layer].clone();
-        let mut best = (around(grid, work) - 1e-6, before.clone());
-        for place in 0..before.len() {
-            let mut order: Vec<_> = before.iter().copied().filter(|each| *each != item).collect();
-            order.insert(place, item);
-            grid.layers[layer] = order;
-            pack(grid, layer);
-            let cost = around(grid, work);
-            if cost < best.0 {
-                best = (cost, grid.layers[layer].clone());
-            }
-        }
-        improved |= best.1 != before;
-        grid.layers[layer] = best.1;
+        *work += before.len() as u64;
+        let mut order: Vec<_> = before.iter().copied().filter(|each| *each != item).collect();
+        order.insert(place, item);
+        grid.layers[layer] = order;
         pack(grid, layer);
+        let cost = around(grid, work);
+        if cost < best.0 {
+            best = (cost, grid.layers[layer].clone());
+        }
     }
+    let improved = best.1 != before;
+    grid.layers[layer] = best.1;
+    pack(grid, layer);
     improved
 }

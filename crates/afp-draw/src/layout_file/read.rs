@@ -9,8 +9,8 @@ use afp_syntax::item::Item;
 /// What a comment begins with.
 const COMMENT: char = '#';
 
-/// Reads all lines. Those with errors are left out, but for lines of another form, which are kept. `known` are the
-/// items that can have positions; all can where it is none.
+/// Reads all lines; those with errors are kept as they are. `known` are the items that can have positions; all can where
+/// it is none.
 pub(super) fn read(
     text: &str,
     known: Option<&BTreeMap<Item, String>>,
@@ -18,8 +18,16 @@ pub(super) fn read(
     let mut layout = Layout::default();
     let mut errors = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        let read = self::line(line.trim_end(), &mut layout);
-        let read = read.and_then(|item| is_known(line, item, known));
+        let read = self::line(line.trim_end());
+        if !matches!(read, Ok(Some(_))) && !line.trim_end().is_empty() {
+            layout.unknown.push(line.trim_end().to_owned());
+        }
+        let read = read.and_then(|placed| match placed {
+            Some((item, placed)) => {
+                layout.add(&item, placed).and_then(|()| is_known(line, &item, known))
+            }
+            None => Ok(()),
+        });
         if let Err((column, message)) = read {
             errors.push(LayoutError { line: index + 1, column, message });
         }
@@ -27,15 +35,15 @@ pub(super) fn read(
     (layout, errors)
 }
 
-/// Reads a line, and gives what it places; an error has its column.
-fn line(line: &str, layout: &mut Layout) -> Result<Option<Item>, (usize, String)> {
+/// What is wrong with a line, behind its column.
+type Wrong = (usize, String);
+
+/// Reads a line, and gives what it places and where.
+fn line(line: &str) -> Result<Option<(Item, Placed)>, Wrong> {
     let mut words = Words { line, at: 0 };
     let column = words.column();
     let path = words.next();
     let Some(item) = item(path) else {
-        if !line.is_empty() {
-            layout.unknown.push(line.to_owned());
-        }
         let is_nothing = path.is_empty() || path.starts_with(COMMENT);
         let wrong = || format!("expected a line such as 'Plan.element 300 120', found '{path}'");
         return if is_nothing { Ok(None) } else { Err((column, wrong())) };
@@ -44,24 +52,26 @@ fn line(line: &str, layout: &mut Layout) -> Result<Option<Item>, (usize, String)
     let x = number(words.next(), column)?;
     let column = words.column();
     let y = number(words.next(), column)?;
-    if layout.placed.contains_key(&item) {
-        return Err((1, format!("'{path}' is placed already")));
-    }
     let rest = words.rest().to_owned();
-    layout.placed.insert(item.clone(), Placed { position: Position { x, y }, rest });
-    Ok(Some(item))
+    Ok(Some((item, Placed { rest, ..Placed::at(Position { x, y }) })))
+}
+
+impl Layout {
+    /// Adds what a line says; the first line of an item places it.
+    fn add(&mut self, item: &Item, placed: Placed) -> Result<(), Wrong> {
+        let Some(first) = self.placed.get_mut(item) else {
+            self.placed.insert(item.clone(), placed);
+            return Ok(());
+        };
+        let Placed { position: Position { x, y }, rest, .. } = placed;
+        first.again.push(format!("{x} {y} {rest}").trim_end().to_owned());
+        Err((1, format!("'{item}' is placed already: remove one of the lines")))
+    }
 }
 
 /// Whether what a line places is there; one that is left from another name is kept all the same.
-fn is_known(
-    line: &str,
-    item: Option<Item>,
-    known: Option<&BTreeMap<Item, String>>,
-) -> Result<(), (usize, String)> {
-    let (Some(item), Some(known)) = (item, known) else { return Ok(()) };
-    if known.contains_key(&item) {
-        return Ok(());
-    }
+fn is_known(line: &str, item: &Item, known: Option<&BTreeMap<Item, String>>) -> Result<(), Wrong> {
+    let Some(known) = known.filter(|known| !known.contains_key(item)) else { return Ok(()) };
     let path = item.to_string();
     let help = match nearest(&path, known.values().map(String::as_str)) {
         Some(near) => format!("write '{near}'"),
@@ -71,7 +81,7 @@ fn is_known(
     Err((column, format!("nothing in the plan's file is called '{path}': {help}")))
 }
 
-fn number(word: &str, column: usize) -> Result<i32, (usize, String)> {
+fn number(word: &str, column: usize) -> Result<i32, Wrong> {
     let found =
         if word.is_empty() { "the end of the line".to_owned() } else { format!("'{word}'") };
     word.parse().map_err(|_| (column, format!("expected a whole number, found {found}")))

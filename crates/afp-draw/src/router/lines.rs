@@ -49,13 +49,15 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// The lines between boxes for some of the edges, which may join others along the corners of those.
+    /// The lines between boxes for some of the edges, which may join others along the corners of those; none where they
+    /// cross more than `most` times.
     pub(super) fn new(
         boxes: &[Bounds],
         connectors: &[Connector],
         searched: &[usize],
         joined: impl Iterator<Item = Point>,
-    ) -> Lines {
+        most: u32,
+    ) -> Option<Lines> {
         let mut anchors: Vec<Point> = Vec::with_capacity(4 * boxes.len() + 2 * searched.len());
         for each in boxes {
             let corner = |x| [(x, each.top), (x, each.bottom)];
@@ -69,7 +71,7 @@ impl Lines {
         anchors.dedup();
         let ends = extent(boxes);
         let reach = |axis| free_lines(boxes, &anchors, ends, axis);
-        crossings(&reach(Axis::Upright), &reach(Axis::Level))
+        crossings(&reach(Axis::Upright), &reach(Axis::Level), most)
     }
 
     /// The nodes from one place to another one above, below or beside it, in the order of their positions.
@@ -182,7 +184,7 @@ impl Met {
     }
 }
 
-fn crossings(upright: &[Line], level: &[Line]) -> Lines {
+fn crossings(upright: &[Line], level: &[Line], most: u32) -> Option<Lines> {
     let mut lines = Lines::default();
     let mut last_on: Vec<u32> = vec![NONE; level.len()];
     for line in upright {
@@ -195,7 +197,7 @@ fn crossings(upright: &[Line], level: &[Line]) -> Lines {
             if line.at < other.from || other.to < line.at {
                 continue;
             }
-            let node = u32::try_from(lines.positions.len()).unwrap_or(NONE);
+            let node = u32::try_from(lines.positions.len()).ok().filter(|node| *node < most)?;
             let left = std::mem::replace(&mut last_on[index], node);
             // Two lines at one height that touch have one node each; the second one is not needed.
             lines.positions.push((line.at, other.at));
@@ -205,7 +207,7 @@ fn crossings(upright: &[Line], level: &[Line]) -> Lines {
             above = node;
         }
     }
-    lines
+    Some(lines)
 }
 
 fn link(next: &mut [[u32; 4]], node: u32, side: usize, to: u32) {

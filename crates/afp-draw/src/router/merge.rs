@@ -39,8 +39,8 @@ pub(super) fn merged(
 ) -> bool {
     let mut changed = false;
     let tip = |edge: &usize| corners[*edge].last().map_or(0.0, |tip| tip.0);
-    let mut arrivals: Vec<usize> =
-        (0..connectors.len()).filter(|edge| joins[*edge] == Join::None).collect();
+    let arrives = |edge: &usize| joins[*edge] == Join::None && !corners[*edge].is_empty();
+    let mut arrivals: Vec<usize> = (0..connectors.len()).filter(arrives).collect();
     arrivals
         .sort_by(|a, b| connectors[*a].to.cmp(&connectors[*b].to).then(tip(a).total_cmp(&tip(b))));
     let alike = |a: &usize, b: &usize| {

@@ -11,6 +11,9 @@ use std::collections::BinaryHeap;
 const BUCKETS: u64 = 1024;
 const ALIKE: u32 = 8;
 
+/// Buckets that have held more entries give their memory back: each search fills others.
+const MOST_KEPT: usize = 1024;
+
 /// What a cost takes in an entry; the costs of paths over positions of 32 bits are far below.
 const COST_BITS: u32 = 48;
 const MOST: u64 = (1 << COST_BITS) - 1;
@@ -56,7 +59,7 @@ impl Queue {
         self.late.clear();
         self.beyond.clear();
         if self.waiting > 0 {
-            self.later.iter_mut().for_each(Vec::clear);
+            self.later.iter_mut().for_each(empty);
             self.waiting = 0;
         }
         self.move_to(0);
@@ -89,6 +92,7 @@ impl Queue {
             let next = &mut self.later[(self.at % BUCKETS) as usize];
             self.waiting -= next.len();
             self.now.append(next);
+            empty(next);
             self.now.sort_unstable();
         }
     }
@@ -121,6 +125,14 @@ impl Queue {
     }
 }
 
+/// Empties a bucket.
+fn empty(bucket: &mut Vec<Entry>) {
+    bucket.clear();
+    if bucket.capacity() > MOST_KEPT {
+        *bucket = Vec::new();
+    }
+}
+
 fn least(entry: u128) -> u64 {
     (entry >> (COST_BITS + u32::BITS)) as u64
 }
@@ -131,7 +143,22 @@ fn bucket(entry: u128) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{BUCKETS, Queue};
+    use super::{ALIKE, BUCKETS, Queue};
+
+    /// A large drawing took hundreds of megabytes for what had once waited in each bucket.
+    #[test]
+    fn what_has_waited_takes_no_memory_afterwards() {
+        let mut queue = Queue::new();
+        for bucket in 0..20_u64 {
+            for state in 0..5_000 {
+                queue.push(bucket << ALIKE, 0, state);
+            }
+            while bucket % 2 == 0 && queue.pop().is_some() {}
+            queue.clear();
+            let kept: usize = queue.later.iter().map(Vec::capacity).sum();
+            assert!(kept <= 5_000, "{bucket}: {kept}");
+        }
+    }
 
     /// Costs near each other, far from each other, and below what has come out already.
     #[test]

@@ -5,7 +5,8 @@ use super::gaps::Gaps;
 use super::lines::{DOWN, LEFT, Lines, NONE, RIGHT, UP, axis_of};
 use super::queue::Queue;
 use super::{
-    Axis, Bounds, Connector, Crowded, Heading, PITCH, Point, TIP, without_straight_corners,
+    Axis, Bounds, Connector, Crowded, Heading, MOST_EFFORT, PITCH, Point, TIP,
+    without_straight_corners,
 };
 
 /// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
@@ -95,7 +96,8 @@ impl<'a> Search<'a> {
         let goal = Goal { left, right, y: connector.tip - TIP, full: joins, tree };
         let side = if connector.heading == Heading::Down { DOWN } else { RIGHT };
         // Where another box stands on where it arrives, all else would be searched in vain.
-        let start = self.lines.node(escape).filter(|_| self.is_free(&goal));
+        let searched = self.effort <= MOST_EFFORT;
+        let start = self.lines.node(escape).filter(|_| searched && self.is_free(&goal));
         let end = start.and_then(|node| self.find(node, side, &goal));
         let junction = end.and_then(|end| self.junction(end, &goal));
         let mut points = vec![connector.start];

@@ -1,5 +1,8 @@
 use super::gaps::Gaps;
-use super::{Axis, Bounds, CLEAR, Connector, Heading, PITCH, Point, Routes, bundles, route};
+use super::lines::Lines;
+use super::{
+    Axis, Bounds, CLEAR, Connector, Heading, PITCH, Point, Routes, bundles, route, route_within,
+};
 
 fn bounds((left, top): Point, (width, height): Point) -> Bounds {
     Bounds { left, top, right: left + width, bottom: top + height }
@@ -73,6 +76,21 @@ fn parts(points: &[Point]) -> Vec<(bool, f64, f64, f64)> {
     points.windows(2).map(part).collect()
 }
 
+/// A box that an edge runs through.
+fn met<'b>(corners: &[Point], boxes: &'b [Bounds]) -> Option<&'b Bounds> {
+    let through = |each: &&Bounds| {
+        parts(corners).into_iter().any(|(upright, at, from, to)| {
+            let inside = |low: f64, high: f64| low + 0.5 < at && at < high - 0.5;
+            let over = |low: f64, high: f64| from < high - 0.5 && low + 0.5 < to;
+            match upright {
+                true => inside(each.left, each.right) && over(each.top, each.bottom),
+                false => inside(each.top, each.bottom) && over(each.left, each.right),
+            }
+        })
+    };
+    boxes.iter().find(through)
+}
+
 #[test]
 fn what_stands_below_is_reached_straight() {
     let boxes = [bounds((0.0, 0.0), (100.0, 50.0)), bounds((10.0, 120.0), (100.0, 50.0))];
@@ -95,17 +113,7 @@ fn edges_between_boxes_touch_neither_boxes_nor_each_other() {
         let found = routed(&boxes, &edges);
         let bundles = bundles(edges.iter().map(|(from, to)| (*from, *to, "")));
         for (edge, corners) in found.corners.iter().enumerate() {
-            for (upright, at, from, to) in parts(corners) {
-                for each in &boxes {
-                    let inside = |low: f64, high: f64| low + 0.5 < at && at < high - 0.5;
-                    let over = |low: f64, high: f64| from < high - 0.5 && low + 0.5 < to;
-                    let through = match upright {
-                        true => inside(each.left, each.right) && over(each.top, each.bottom),
-                        false => inside(each.top, each.bottom) && over(each.left, each.right),
-                    };
-                    assert!(!through, "{corners:?} runs through {each:?}");
-                }
-            }
+            assert_eq!(met(corners, &boxes), None, "{corners:?}");
             // Those of one bundle run on each other as soon as they meet.
             let apart = |other: &usize| bundles[edge].is_none() || bundles[edge] != bundles[*other];
             for other in (0..edge).filter(apart) {
@@ -252,5 +260,37 @@ fn boxes_on_top_of_each_other_still_have_edges() {
         assert_eq!(corners.first(), Some(&(50.0, 50.0)));
         assert_eq!(corners.last().map(|tip| tip.1), Some(0.0));
         parts(corners);
+    }
+}
+
+/// A thousand exits beside a thousand boxes took gigabytes.
+#[test]
+fn edges_with_too_many_lines_are_routed_in_parts() {
+    for seed in 1..=4 {
+        let (boxes, edges) = sample(25, seed);
+        let connectors = connectors(&boxes, &edges);
+        let inflated: Vec<_> = boxes.iter().map(Bounds::inflated).collect();
+        let nodes = |searched: &[usize], most: u32| {
+            let lines = Lines::new(&inflated, &connectors, searched, std::iter::empty(), most);
+            lines.map(|lines| u32::try_from(lines.positions.len()).unwrap())
+        };
+        let all: Vec<_> = (0..connectors.len()).collect();
+        let whole = nodes(&all, u32::MAX).unwrap();
+        let half = nodes(&all[..all.len() / 2], u32::MAX).unwrap();
+        assert_eq!(nodes(&all, (whole + half) / 2), None);
+        let found = route_within((whole + half) / 2, &boxes, &connectors, &[]);
+        for (corners, connector) in found.corners.iter().zip(&connectors) {
+            assert_eq!(corners[0], connector.start);
+            assert_eq!(corners[corners.len() - 1].1, connector.tip);
+            assert_eq!(met(corners, &boxes), None, "{seed}: {corners:?}");
+        }
+        // Boxes alone have more lines than that.
+        let found = route_within(100, &boxes, &connectors, &[]);
+        for (corners, connector) in found.corners.iter().zip(&connectors) {
+            assert_eq!(
+                (corners[0], corners[corners.len() - 1].1),
+                (connector.start, connector.tip)
+            );
+        }
     }
 }

@@ -9,6 +9,7 @@ use afp_dsl::graph::EntryKind;
 use afp_dsl::index::{DefinitionKind, Index, Meaning};
 use afp_dsl::index_files;
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::{Source, Span};
 use afp_syntax::{Node, Token};
@@ -82,6 +83,12 @@ pub(super) fn paths_of_uses(root: &Node) -> impl Iterator<Item = String> {
     let lines = tree::children(root, Kind::Use);
     let texts = lines.filter_map(|line| tree::tokens(&line, Kind::Text).next());
     texts.map(|text: Token| text.text().trim_matches('"').to_owned())
+}
+
+/// The files that a file uses, as normalised paths.
+pub fn used_files(file: &Source) -> Vec<String> {
+    let root = afp_syntax::parse(&file.text, 0, &mut Diagnostics::default()).root();
+    paths_of_uses(&root).map(|written| joined(&file.name, &written)).collect()
 }
 
 /// The trees of the files, and which files each of them sees.

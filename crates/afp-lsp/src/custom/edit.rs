@@ -47,7 +47,7 @@ fn changed(
     let analysis = server.analysis(&document.uri);
     let analysis =
         analysis.ok_or_else(|| Failure::Refused("there is no such plan file".to_owned()))?;
-    let files = server.sources(&analysis);
+    let files = server.sources(&analysis, &home_path, changes);
     let home = files.iter().position(|file| file.name == home_path);
     let home =
         home.ok_or_else(|| Failure::Refused("a toolbox has no plans to change".to_owned()))?;

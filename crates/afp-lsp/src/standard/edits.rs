@@ -1,11 +1,10 @@
 //! Renaming and formatting.
 
-use std::sync::Arc;
-
 use afp_draw::layout_file::Layout;
+use afp_dsl::files::normalised;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_dsl::outline::Part;
-use afp_ide::edit::{Change, difference, follow};
+use afp_ide::edit::{Change, difference, follow, used_files};
 use afp_syntax::item::Item;
 use afp_syntax::source::{Source, Span};
 use gen_lsp_types as lsp;
@@ -100,7 +99,7 @@ pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
     };
     let Renamed { what, path } = renamed(&analysis, offset)?;
     let change = what.renamed(params.new_name);
-    let files = server.sources(&analysis);
+    let files = server.sources(&analysis, &path, std::slice::from_ref(&change));
     let home = files.iter().position(|file| file.name == path);
     let home = home.ok_or_else(|| Failure::Refused("its file cannot be read".to_owned()))?;
     let edits = afp_ide::edit::edit(&files, &analysis.set.toolboxes, home, &change);
@@ -111,17 +110,46 @@ pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
 }
 
 impl Server {
-    /// The plan files that a change may edit: those of a compilation, and all that the client works on.
-    pub(crate) fn sources(&mut self, analysis: &Arc<Analysis>) -> Vec<Source> {
+    /// The plan files that changes of `home` may edit or have to look at: those of a compilation and, where others may be
+    /// concerned, those that use it.
+    pub(crate) fn sources(
+        &self,
+        analysis: &Analysis,
+        home: &str,
+        changes: &[Change],
+    ) -> Vec<Source> {
         let mut files: Vec<_> = analysis.compiled.plan_sources().cloned().collect();
-        for path in self.workspace.plan_files() {
-            if files.iter().all(|file| file.name != path)
-                && let Ok(text) = self.workspace.text(&path)
+        if changes.iter().any(Change::concerns_others) {
+            self.add_users(home, &mut files);
+        }
+        files
+    }
+
+    /// Adds the files that use one, and what these use besides.
+    fn add_users(&self, home: &str, files: &mut Vec<Source>) {
+        let home = normalised(home);
+        let name = home.rsplit('/').next().unwrap_or_default();
+        let mut beside = Vec::new();
+        for path in self.workspace.afp_files() {
+            if files.iter().any(|file| file.name == path) {
+                continue;
+            }
+            // Few name it at all, and only those are read as plans.
+            let text = self.workspace.text(&path).ok().filter(|text| text.contains(name));
+            let Some(file) = text.map(|text| Source::new(path, text)) else { continue };
+            let used = used_files(&file);
+            if used.contains(&home) {
+                beside.extend(used);
+                files.push(file);
+            }
+        }
+        for path in beside {
+            if files.iter().all(|file| normalised(&file.name) != path)
+                && let Some(text) = self.workspace.plan_text(&path)
             {
                 files.push(Source::new(path, text));
             }
         }
-        files
     }
 
     /// Edits by the file that they are made on.

@@ -33,13 +33,13 @@ pub struct Client {
 
 impl Client {
     /// A client that has not said anything yet.
-    pub fn new(files: Files) -> Client {
-        Client { server: Server::new(Box::new(files)), asked: 0 }
+    pub fn new(host: impl Host + 'static) -> Client {
+        Client { server: Server::new(Box::new(host)), asked: 0 }
     }
 
     /// A client that can do much and works in `/w`.
-    pub fn ready(files: Files) -> Client {
-        let mut client = Client::new(files);
+    pub fn ready(host: impl Host + 'static) -> Client {
+        let mut client = Client::new(host);
         let commands = json!({ "commands": ["afp.run", "afp.debug"] });
         let params = json!({
             "rootUri": "file:///w", "capabilities": {}, "initializationOptions": commands,

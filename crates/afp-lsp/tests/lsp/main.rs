@@ -5,4 +5,5 @@ mod client;
 mod errors;
 mod export;
 mod killed;
+mod others;
 mod random;

@@ -3,6 +3,7 @@
 //! The room says what is run, with which arguments; who runs it is not its business.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use afp_lsp::{Message, path_of};
@@ -68,8 +69,8 @@ impl Room {
             return Err(format!("{MOST} jobs go on: wait until one has ended, or end it"));
         }
         let kind = params["kind"].as_str().unwrap_or_default();
-        self.check_trust(kind)?;
         let arguments = arguments(self, kind, params)?;
+        self.check_trust(kind, params)?;
         self.jobs.made += 1;
         let id = self.jobs.made;
         self.jobs.running.insert(id, Job { client, ..Job::default() });
@@ -85,15 +86,22 @@ impl Room {
     }
 
     /// What runs code of the folder waits until it is trusted.
-    fn check_trust(&self, kind: &str) -> Result<(), String> {
-        let runs_code = kind == "build" || (kind != "new" && !self.trust.code().is_empty());
-        match runs_code && !self.trust.is_given() {
+    fn check_trust(&self, kind: &str, params: &Value) -> Result<(), String> {
+        if kind == "new" || self.trust.is_given() {
+            return Ok(());
+        }
+        match kind == "build" || !self.code(params)?.is_empty() {
             true => {
                 Err("this would run what lies in the folder: say first that you trust it"
                     .to_owned())
             }
             false => Ok(()),
         }
+    }
+
+    /// What a request would build and run of the folder, or of the project of the file that it names.
+    pub(super) fn code(&self, params: &Value) -> Result<Vec<String>, String> {
+        Ok(self.trust.code(file_of(self, params).transpose()?.as_deref()))
     }
 
     /// A line that a job has printed.
@@ -151,11 +159,15 @@ impl Job {
     }
 }
 
+/// The file that a request names; it is one of the folder.
+fn file_of(room: &Room, params: &Value) -> Option<Result<PathBuf, String>> {
+    params["file"].as_str().map(|uri| room.folder.inside(&path_of(uri)))
+}
+
 /// The arguments of the command line for a job. Files are those of the folder; everything else has its own form.
 fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, String> {
     let file = || -> Result<String, String> {
-        let uri = params["file"].as_str().ok_or("'file' is missing")?;
-        let path = room.folder.inside(&path_of(uri))?;
+        let path = file_of(room, params).ok_or("'file' is missing")??;
         Ok(path.to_string_lossy().into_owned())
     };
     let word = |name: &str, fits: &dyn Fn(char) -> bool| checked(&params[name], name, fits);

@@ -61,8 +61,8 @@ pub(super) fn answer(
         "afp/job" => room.begin_job(client, params),
         "afp/endJob" => room.end_job(params),
         "afp/create" => create(room, params),
-        "afp/rename" => rename(room, params),
-        "afp/remove" => remove(room, params),
+        "afp/rename" => rename(room, params, now, &mut out),
+        "afp/remove" => remove(room, params, now, &mut out),
         "afp/choose" => choose(room, params, now).map(|path| {
             out = room.settled(&path);
             Value::Null
@@ -87,25 +87,29 @@ fn hello(room: &Room, client: ClientId) -> Value {
         "pen": room.pen == Some(client),
         "trusted": room.trust.is_given(),
         "documents": documents.collect::<Vec<_>>(),
-        "files": room.listed(),
+        "files": room.files(),
+        "more": room.listed.is_cut,
         "examples": examples.collect::<Vec<_>>(),
     })
 }
 
 /// The first file of the folder with a plan: one that is opened for nothing in particular shows something.
 fn first_plan(room: &Room) -> Option<String> {
-    let plans = room.files.keys().filter(|path| path.ends_with(".afp"));
+    let plans = room.listed.files.keys().filter(|path| path.ends_with(".afp"));
     let mut read = plans.filter_map(|path| Some((path, files::read(path.as_ref()).ok()?.text)));
     read.find(|(_, text)| afp_lsp::holds_plan(text)).map(|(path, _)| uri_of(path))
 }
 
-/// Whether the folder is trusted, and what of it would run then; gives it that trust where it is asked to.
+/// Whether the folder is trusted, and what of it, or for a file of it, would run then; gives it that trust where it is
+/// asked to.
 fn trust(room: &mut Room, params: &Value) -> Result<Value, String> {
     if params["give"] == json!(true) {
         room.trust.give()?;
     }
     let folder = room.folder.root().to_string_lossy();
-    Ok(json!({ "trusted": room.trust.is_given(), "folder": folder, "code": room.trust.code() }))
+    // What lies elsewhere is not run at all.
+    let code = room.code(params).unwrap_or_default();
+    Ok(json!({ "trusted": room.trust.is_given(), "folder": folder, "code": code }))
 }
 
 fn path(params: &Value, name: &str) -> Result<String, String> {
@@ -137,24 +141,35 @@ fn create(room: &mut Room, params: &Value) -> Result<Value, String> {
     read(room, &path)
 }
 
-fn rename(room: &mut Room, params: &Value) -> Result<Value, String> {
+fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Result<Value, String> {
     let (from, to) = (path(params, "uri")?, path(params, "to")?);
     let (old, new) = (room.folder.inside(&from)?, room.folder.inside(&to)?);
     if new.exists() {
         return Err(format!("there is a file '{}' already", room.folder.name(&to)));
     }
+    out.extend(room.look_at(&from, now));
     saved(room, &from)?;
     std::fs::rename(&old, &new)
         .map_err(|why| format!("cannot rename '{}': {why}", old.display()))?;
     room.documents.remove(&from);
+    // What was open under this name was removed by somebody else.
+    room.documents.remove(&to);
+    let text = room.document(&to)?.text.clone();
+    out.extend(room.tell_all(&uri_of(&to), &text, true, None));
     read(room, &to)
 }
 
-/// Removes a file and gives its text, so that it can be made again.
-fn remove(room: &mut Room, params: &Value) -> Result<Value, String> {
+/// Removes a file and gives its text, with what others have just written, so that it can be made again.
+fn remove(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Result<Value, String> {
     let path = path(params, "uri")?;
     let file = room.folder.inside(&path)?;
-    let text = room.document(&path)?.text.clone();
+    room.document(&path)?;
+    out.extend(room.look_at(&path, now));
+    let document = room.document(&path)?;
+    if document.is_disputed() {
+        return Err("another program has changed it: choose between the two texts first".to_owned());
+    }
+    let text = document.text.clone();
     std::fs::remove_file(&file)
         .map_err(|why| format!("cannot remove '{}': {why}", file.display()))?;
     room.documents.remove(&path);

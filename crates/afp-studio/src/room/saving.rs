@@ -8,6 +8,12 @@ use serde_json::json;
 use super::document::Look;
 use super::{ClientId, LOOKS_EVERY, Out, Room, disputed, notification};
 
+/// How long the folder is left alone after a walk over so many entries: some ten times as long as that took, since nobody
+/// is answered meanwhile.
+fn pause(entries: usize) -> Duration {
+    Duration::from_micros(20 * entries as u64)
+}
+
 impl Room {
     /// When [`Room::tick`] has something to do.
     pub fn due(&self) -> Duration {
@@ -27,7 +33,10 @@ impl Room {
         }
         if now >= self.looked + LOOKS_EVERY {
             self.looked = now;
-            out.extend(self.look_at_files());
+            if now >= self.walked + pause(self.listed.entries) {
+                self.walked = now;
+                out.extend(self.look_at_files());
+            }
             let open: Vec<_> = self.documents.keys().cloned().collect();
             for path in open {
                 out.extend(self.look_at(&path, now));
@@ -58,7 +67,7 @@ impl Room {
             let saved = document.save(now);
             if let Ok(stamp) = saved {
                 // It is no news that somebody else would have to be told of.
-                self.files.insert(path.clone(), stamp);
+                self.listed.files.insert(path.clone(), stamp);
             }
             out.extend(self.tell_saved(&path, saved.map(drop)));
         }
@@ -98,7 +107,7 @@ impl Room {
     }
 
     /// Looks at the file of an open text.
-    fn look_at(&mut self, path: &str, now: Duration) -> Out {
+    pub(super) fn look_at(&mut self, path: &str, now: Duration) -> Out {
         let Some(document) = self.documents.get_mut(path) else { return Vec::new() };
         let was_disputed = document.is_disputed();
         let look = document.look(now);
@@ -130,20 +139,21 @@ impl Room {
 
     /// Looks at the tree: which files there are, and whether one has changed that plans may use.
     pub(super) fn look_at_files(&mut self) -> Out {
-        let found = self.folder.files();
-        if found == self.files {
+        let found = self.folder.list();
+        let before = std::mem::replace(&mut self.listed, found);
+        let found = &self.listed;
+        if (&found.files, found.is_cut) == (&before.files, before.is_cut) {
             return Vec::new();
         }
-        let others = !found.keys().eq(self.files.keys());
-        self.files = found;
-        let listed = self.listed();
+        let others = !found.files.keys().eq(before.files.keys()) || found.is_cut != before.is_cut;
+        let listed = json!({ "files": self.files(), "more": found.is_cut });
         let mut out = Vec::new();
         let ids: Vec<_> = self.clients.keys().copied().collect();
         for id in ids {
             let watched = notification("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
             out.extend(self.forward(id, watched));
             if others {
-                out.push((id, notification("afp/files", json!({ "files": listed }))));
+                out.push((id, notification("afp/files", listed.clone())));
             }
         }
         out

@@ -323,6 +323,34 @@ fn files_are_made_renamed_and_removed_within_the_folder_alone() {
 }
 
 #[test]
+fn what_others_have_just_written_goes_along_with_a_file() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let (here, there) = (place.uri("p.afp"), place.uri("q.afp"));
+    let theirs = PLAN.replace("Elapsed -> terminate", "Elapsed -> terminate // theirs");
+    place.outside(&theirs);
+    let gone = place.ask(1, "afp/remove", json!({ "uri": here })).unwrap();
+    assert_eq!(gone["text"], json!(theirs));
+    // An address that is still open, though its file is gone, has another text.
+    fs::write(place.path("q.afp"), format!("// q\n{PLAN}")).unwrap();
+    place.ask(1, "afp/read", json!({ "uri": there })).unwrap();
+    fs::remove_file(place.path("q.afp")).unwrap();
+    place.outside(PLAN);
+    place.ask(1, "afp/read", json!({ "uri": here })).unwrap();
+    place.outside(&theirs);
+    let renamed = place.ask(1, "afp/rename", json!({ "uri": here, "to": there })).unwrap();
+    assert_eq!(renamed["text"], json!(theirs));
+    // A conflict is there for somebody to choose.
+    place.outside(PLAN);
+    place.ask(1, "afp/read", json!({ "uri": here })).unwrap();
+    place.types(1, 2, &PLAN.replace("start go", "start mine"));
+    place.outside(&PLAN.replace("start go", "start theirs"));
+    let refused = place.ask(1, "afp/remove", json!({ "uri": here })).unwrap_err();
+    assert!(refused.contains("choose"), "{refused}");
+    assert!(place.path("p.afp").exists());
+}
+
+#[test]
 fn a_folder_opens_with_the_first_file_that_has_a_plan() {
     let mut place = Place::new("toolbox p {\n}\n");
     fs::create_dir(place.path("plans")).unwrap();
@@ -411,6 +439,28 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
     fs::write(place.path("afp.toml"), "[robot]\ncrate = \"x\"\n").unwrap();
     let refused = place.ask(1, "afp/job", json!({ "kind": "test" }));
     assert!(refused.unwrap_err().contains("trust"));
+}
+
+/// Folders that nobody looks into have projects, too.
+#[test]
+fn jobs_of_a_hidden_project_wait_for_trust() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    fs::create_dir(place.path(".parts")).unwrap();
+    fs::write(place.path(".parts/b.afp"), PLAN).unwrap();
+    let toolboxes = "[toolboxes]\nt = { path = 't.afp', crate = 'c' }\n";
+    fs::write(place.path(".parts/afp.toml"), toolboxes).unwrap();
+    let (open, hidden) = (place.uri("p.afp"), place.uri(".parts/b.afp"));
+    let code = |told: Value| told["code"].as_array().unwrap().len();
+    for (file, count) in [(&open, 0), (&hidden, 1)] {
+        assert_eq!(code(place.ask(1, "afp/trust", json!({ "file": file })).unwrap()), count);
+        for kind in ["test", "generate", "sweep"] {
+            let asked = place.ask(1, "afp/job", json!({ "kind": kind, "file": file }));
+            let refused = asked.as_ref().is_err_and(|why| why.contains("trust"));
+            assert_eq!(refused, count > 0, "{kind} of {file}: {asked:?}");
+        }
+    }
+    assert_eq!(code(place.ask(1, "afp/trust", json!({})).unwrap()), 0);
 }
 
 #[test]

@@ -62,6 +62,11 @@ fn one(name: &str, check: bool) -> Result<u8, NoPlan> {
         (true, _) if formatted == text => Ok(EXIT_OK),
         (true, _) => {
             print(&difference(shown, &text, &formatted))?;
+            if without_returns(&text) == without_returns(&formatted) {
+                say(format_args!(
+                    "{shown}: lines end in two ways: 'afpc fmt' ends all as the first one"
+                ));
+            }
             Ok(EXIT_FAILED)
         }
         (false, true) => print(&formatted),
@@ -93,6 +98,11 @@ fn formatted(shown: &str, text: &str) -> Result<String, NoPlan> {
         say(format_args!("{shown}: left as it is, since it has syntax errors"));
         NoPlan::Wrong
     })
+}
+
+/// A text with the ends of its lines alike, which nobody sees.
+fn without_returns(text: &str) -> String {
+    text.replace("\r\n", "\n")
 }
 
 /// The lines that would change, as a unified diff.

@@ -88,7 +88,7 @@ Examples:
   afpc test --generate plans/wall_following.afp
   afpc test --mutate --at-least 95
 
-A failed scenario is run again with a log: target/afp/tests/<name>.mcap.
+A failed scenario is run again with a log: target/afp/tests/<file>.<name>.<hash>.mcap.
 Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario failed or too few mutants are noticed,
 130 stopped";
 

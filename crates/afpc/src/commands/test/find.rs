@@ -5,14 +5,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::files::read_text_file;
+use afp_number::TextHash;
 use afp_project::ProjectFile;
 use afp_run::RunError;
 use afp_syntax::has_scenario;
 
-/// Where a project keeps scenarios.
-const FOLDERS: &[&str] = &["plans", "tests", "scenarios"];
 /// Where the logs of failed ones go.
 const LOGS: &str = "target/afp/tests";
+/// As many letters of a file's and a scenario's name stand in that of a log, which file systems bound.
+const LONGEST_NAME: usize = 40;
 
 /// Files to look into and words that names contain.
 pub(super) struct Wanted {
@@ -26,7 +27,8 @@ pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
     for argument in arguments {
         let path = Path::new(argument);
         if path.is_dir() {
-            below(path, true, &mut wanted.files)?;
+            readable(path)?;
+            wanted.files.extend(with_scenarios(afp_project::files(path)));
         } else if path.exists() || argument.ends_with(".afp") {
             wanted.files.push(path.to_owned());
         } else {
@@ -37,31 +39,25 @@ pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
     if !named {
         let project = ProjectFile::find(Path::new("."))?;
         let home = afp_project::shown(&project.folder);
-        below(&home, false, &mut wanted.files)?;
-        for folder in FOLDERS.iter().map(|name| home.join(name)).filter(|path| path.is_dir()) {
-            below(&folder, true, &mut wanted.files)?;
-        }
+        let home = if home.as_os_str().is_empty() { Path::new(".") } else { &home };
+        readable(home)?;
+        wanted.files.extend(with_scenarios(afp_project::scenario_files(home)));
     }
     let mut known = HashSet::new();
     wanted.files.retain(|file| known.insert(file.canonicalize().unwrap_or_else(|_| file.clone())));
     Ok(wanted)
 }
 
-/// The files with scenarios in a folder, sorted.
-fn below(folder: &Path, deep: bool, files: &mut Vec<PathBuf>) -> Result<(), RunError> {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let read = fs::read_dir(folder).map_err(RunError::file("cannot read the folder", folder))?;
-    let mut paths: Vec<_> = read.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    paths.sort();
-    for path in paths {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if path.is_dir() && deep && !name.starts_with('.') && name != "target" {
-            below(&path, true, files)?;
-        } else if name.ends_with(".afp") && has_scenarios(&path) {
-            files.push(path.strip_prefix(".").unwrap_or(&path).to_owned());
-        }
-    }
-    Ok(())
+/// Whether a folder can be looked into at all.
+fn readable(folder: &Path) -> Result<(), RunError> {
+    fs::read_dir(folder).map(drop).map_err(RunError::file("cannot read the folder", folder))
+}
+
+/// Those of some files that have scenarios.
+fn with_scenarios(files: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
+    let plans = files.into_iter().filter(|path| path.extension().is_some_and(|it| it == "afp"));
+    let having = plans.filter(|path| has_scenarios(path));
+    having.map(|path| path.strip_prefix(".").map_or(path.clone(), Path::to_owned))
 }
 
 /// Whether a file has a scenario; the compiler will know why one cannot be read.
@@ -90,8 +86,47 @@ pub(super) fn nothing(filters: &[String], files: &[PathBuf]) -> RunError {
 /// Where the log of a failed scenario goes; `None` where there can be none.
 pub(super) fn log_of(file: &Path, name: &str) -> Option<PathBuf> {
     fs::create_dir_all(LOGS).ok()?;
-    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-    let name: String = name.chars().map(plain).collect();
-    Some(Path::new(LOGS).join(format!("{stem}.{name}.mcap")))
+    Some(Path::new(LOGS).join(log_name(file, name)))
+}
+
+/// What the log of a scenario is called: what people read of it, and behind that what tells it from all others.
+fn log_name(file: &Path, name: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
+    let shown = |name: &str| name.chars().map(plain).take(LONGEST_NAME).collect::<String>();
+    let stem = shown(&file.file_stem().unwrap_or_default().to_string_lossy());
+    let shown = shown(&name.to_lowercase());
+    let mut hash = TextHash::of(&file.to_string_lossy());
+    hash.add("\0");
+    hash.add(name);
+    // Half of it: there are few scenarios.
+    format!("{stem}.{shown}.{:08x}.mcap", hash.get() as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+    use std::path::Path;
+
+    use super::log_name;
+
+    #[test]
+    fn no_two_scenarios_have_one_log() {
+        let long = "a".repeat(300);
+        let longer = format!("{long}b");
+        let names = ["ä", "ö", "Ä", "a b", "a_b", "A b", "", "..", "a/b", "a\\b", &long, &longer];
+        let files = ["p.afp", "tests/p.afp", "tests/q/p.afp"];
+        let pairs = files.iter().flat_map(|file| names.iter().map(move |name| (file, name)));
+        let logs = pairs.map(|(file, name)| log_name(Path::new(file), name).to_lowercase());
+        let logs: HashSet<_> = logs.collect();
+        assert_eq!(logs.len(), files.len() * names.len(), "{logs:?}");
+        for log in logs {
+            assert!(log.len() < 256 && !log.contains(['/', '\\']), "{log}");
+        }
+    }
+
+    #[test]
+    fn letters_of_all_languages_are_read_in_the_name_of_a_log() {
+        let log = log_name(Path::new("tests/room.afp"), "Übt, 3 mal");
+        assert!(log.starts_with("room.übt__3_mal."), "{log}");
+    }
 }
