@@ -155,7 +155,7 @@ fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Resu
     // What was open under this name was removed by somebody else.
     room.documents.remove(&to);
     let text = room.document(&to)?.text.clone();
-    out.extend(room.tell_all(&uri_of(&to), &text, true, None));
+    out.extend(room.tell_all(&uri_of(&to), &text));
     read(room, &to)
 }
 
