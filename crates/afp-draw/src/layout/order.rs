@@ -105,9 +105,11 @@ fn cost(grid: &Grid, channel: usize, work: &mut u64) -> f64 {
 
 /// Moves each connected item of a layer to its best place while that may take more; says whether anything improved.
 fn move_items(grid: &mut Grid, layer: usize, connected: &[bool], work: &mut u64) -> bool {
-    let items = grid.layers[layer].clone();
-    let movable = items.into_iter().filter(|item| connected[*item]);
-    movable.fold(false, |improved, item| move_item(grid, layer, item, work) || improved)
+    let mut improved = false;
+    for item in grid.layers[layer].clone().into_iter().filter(|item| connected[*item]) {
+        improved |= move_item(grid, layer, item, work);
+    }
+    improved
 }
 
 /// Moves an item to the best place of its layer; says whether that is another one.
