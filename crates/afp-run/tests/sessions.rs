@@ -87,7 +87,15 @@ fn a_log_tells_of_the_way_as_the_run_does() {
         let path = folder.path().join("a.mcap");
         let names = || OwnedNames::new(session.names());
         let about = About::default();
-        let log = SessionLog::create(&path, &about, names(), session.devices(), Vec::new(), false);
+        let log = SessionLog::create(
+            &path,
+            &about,
+            names(),
+            session.devices(),
+            Vec::new(),
+            false,
+            WhenFull::Wait,
+        );
         let (mut log, names) = (log.unwrap(), names());
         let mut track = Track::new(session.devices());
         session.run(at(26), &mut Open, &mut [&mut track, &mut log]).unwrap();
