@@ -20,6 +20,7 @@ mod port;
 mod positions;
 mod project;
 mod refer;
+mod refused;
 mod relocate;
 mod remove;
 mod rename;
@@ -27,7 +28,6 @@ mod several;
 mod tree;
 mod wire;
 
-use std::fmt;
 use std::rc::Rc;
 
 use buffer::TextBuffer;
@@ -46,6 +46,7 @@ pub use buffer::difference;
 pub(crate) use name::Taken;
 pub use positions::follow;
 pub use project::used_files;
+pub use refused::Refused;
 pub use several::{Made, edit_all};
 pub use wire::{item, path};
 
@@ -283,27 +284,6 @@ impl Change {
         )
     }
 }
-
-/// Why a change cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refused {
-    /// The reason: lower case, no final period, names in single quotes.
-    pub reason: String,
-}
-
-impl Refused {
-    fn new(reason: impl Into<String>) -> Refused {
-        Refused { reason: reason.into() }
-    }
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.reason)
-    }
-}
-
-impl std::error::Error for Refused {}
 
 /// The edits that make a change of the file `home`, file by file, in order and without overlaps.
 ///

@@ -1,5 +1,8 @@
 //! Clients over a socket: they see what the log holds, ask for things, and are dropped when they do not read.
 
+#[path = "live/board.rs"]
+mod board;
+
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::net::TcpStream;
@@ -8,20 +11,21 @@ use std::thread;
 use std::time::{Duration, Instant as Wall};
 
 use afp::load::{LoadedPlan, Registry};
-use afp_carbot::table::Carbot;
-use afp_core::{Environment, Instant, Platform, StillClock};
+use afp_core::Instant;
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
 use afp_live::Live;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
-use afp_session::{AnySession, Go, Hardware, Loader, Opened, Robot, Samples, Settings};
+use afp_session::{AnySession, Go, Hardware, Loader, Opened, Settings};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Error, Message, WebSocket};
+
+use board::Board;
 
 const PLAN: &str = "use std
 
@@ -268,41 +272,6 @@ fn entries_are_written_and_services_called_between_two_steps() {
     let asked: Vec<_> = session.requests().iter().map(|(at, _)| millis(*at)).collect();
     assert_eq!(asked, [0, 300, 400], "written, pressed for a while, stopped");
     live.finish();
-}
-
-/// A robot that is there, as far as anybody can tell from here.
-struct Board;
-
-impl Environment for Board {
-    fn stop(&mut self, _: Instant) {}
-
-    fn emergency_stop(&mut self) {}
-}
-
-impl Platform for Board {
-    type Clock = StillClock;
-
-    fn clock(&self) -> StillClock {
-        StillClock
-    }
-
-    fn now(&self) -> Instant {
-        Instant::ZERO
-    }
-
-    fn advance(&mut self, _: Instant) {}
-}
-
-impl Robot for Board {
-    type Devices = Carbot;
-
-    fn sample(&self, _: &mut Samples<'_, '_>) {}
-}
-
-impl Hardware for Board {
-    fn open(_: &Settings) -> Result<Board, String> {
-        Ok(Board)
-    }
 }
 
 #[test]

@@ -14,7 +14,6 @@ use afp_core::{Duration, Fault, Instant, Scheduler, StartError, Wake};
 
 use crate::faults::Faults;
 use crate::figures::Figures;
-use crate::hardware::Hardware;
 use crate::holds::Holds;
 use crate::observer::{Gate, Go, Observer, Open};
 use crate::record::{Keep, Kept};
@@ -73,16 +72,6 @@ where
     /// A plan that has not started, its inputs set or still to be, on a robot that has not moved.
     pub fn new(plan: P, robot: R) -> Self {
         Session::with_sink(plan, robot, Kept::default())
-    }
-
-    /// The same on a robot that is there.
-    pub fn on_hardware(plan: P, robot: R) -> Self
-    where
-        R: Hardware,
-    {
-        let mut session = Session::new(plan, robot);
-        session.is_there = true;
-        session
     }
 }
 

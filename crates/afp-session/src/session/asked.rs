@@ -9,11 +9,10 @@ use afp_core::{Duration, Instant, Value, WriteError};
 
 use super::Session;
 use crate::any::SetError;
+use crate::hardware::Hardware;
 use crate::holds::Hold;
 use crate::observer::{Applied, Observer};
-use crate::record::Keep;
-#[cfg(feature = "load")]
-use crate::record::Kept;
+use crate::record::{Keep, Kept};
 use crate::request::{Put, Request, RequestError, RequestId, Waiting};
 use crate::robot::Robot;
 use crate::sample::Pose2;
@@ -46,6 +45,19 @@ impl<P> Testing<P> {
             inject: self.inject,
             idle: self.idle,
         }
+    }
+}
+
+impl<P, R> Session<P, R, Kept>
+where
+    P: NamedPlan + Plan<R>,
+    R: Hardware,
+{
+    /// As [`Session::new`], on a robot that is there: nobody presses or breaks anything of it from here.
+    pub fn on_hardware(plan: P, robot: R) -> Self {
+        let mut session = Session::new(plan, robot);
+        session.is_there = true;
+        session
     }
 }
 

@@ -1,0 +1,77 @@
+//! Files that are made, renamed and removed, and what others do with them meanwhile.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::{PLAN, Place};
+
+#[test]
+fn files_are_made_renamed_and_removed_within_the_folder_alone() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let new = place.uri("n.afp");
+    let made = place.ask(1, "afp/create", json!({ "uri": new, "example": "first.afp" })).unwrap();
+    assert!(made["text"].as_str().unwrap().starts_with("/// Wait."));
+    let again = place.ask(1, "afp/create", json!({ "uri": new })).unwrap_err();
+    assert_eq!(again, "there is a file 'n.afp' already");
+    for wrong in ["../n.afp", "n.sh"] {
+        let uri = format!("{}/{wrong}", place.uri(""));
+        assert!(place.ask(1, "afp/create", json!({ "uri": uri })).is_err(), "{wrong}");
+    }
+    let over = json!({ "uri": new, "to": place.uri("p.afp") });
+    assert!(place.ask(1, "afp/rename", over).unwrap_err().contains("already"));
+    let to = place.uri("m.afp");
+    place.ask(1, "afp/rename", json!({ "uri": new, "to": to })).unwrap();
+    let gone = place.ask(1, "afp/remove", json!({ "uri": to })).unwrap();
+    assert!(gone["text"].as_str().unwrap().contains("plan P"));
+    let hello = place.ask(1, "afp/hello", json!({})).unwrap();
+    assert_eq!(hello["files"].as_array().unwrap().len(), 1);
+    assert_eq!(hello["examples"][0]["title"], "Wait.");
+    // Whoever comes sees the folder as it is now, not as it was when it was last looked at.
+    fs::write(place.path("q.afp"), PLAN).unwrap();
+    let hello = place.ask(1, "afp/hello", json!({})).unwrap();
+    assert_eq!(hello["files"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn what_others_have_just_written_goes_along_with_a_file() {
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let (here, there) = (place.uri("p.afp"), place.uri("q.afp"));
+    let theirs = PLAN.replace("Elapsed -> terminate", "Elapsed -> terminate // theirs");
+    place.outside(&theirs);
+    let gone = place.ask(1, "afp/remove", json!({ "uri": here })).unwrap();
+    assert_eq!(gone["text"], json!(theirs));
+    // An address that is still open, though its file is gone, has another text.
+    fs::write(place.path("q.afp"), format!("// q\n{PLAN}")).unwrap();
+    place.ask(1, "afp/read", json!({ "uri": there })).unwrap();
+    fs::remove_file(place.path("q.afp")).unwrap();
+    place.outside(PLAN);
+    place.ask(1, "afp/read", json!({ "uri": here })).unwrap();
+    place.outside(&theirs);
+    let renamed = place.ask(1, "afp/rename", json!({ "uri": here, "to": there })).unwrap();
+    assert_eq!(renamed["text"], json!(theirs));
+    // A conflict is there for somebody to choose.
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    let here = place.uri("p.afp");
+    place.types(1, 2, &PLAN.replace("start go", "start mine"));
+    place.outside(&PLAN.replace("start go", "start theirs"));
+    let refused = place.ask(1, "afp/remove", json!({ "uri": here })).unwrap_err();
+    assert!(refused.contains("choose"), "{refused}");
+    assert!(place.path("p.afp").exists());
+}
+
+#[test]
+fn a_folder_opens_with_the_first_file_that_has_a_plan() {
+    let mut place = Place::new("toolbox p {\n}\n");
+    fs::create_dir(place.path("plans")).unwrap();
+    fs::write(place.path("plans/a.afp"), "use std\n").unwrap();
+    fs::write(place.path("plans/b.afp"), "plan P {\n    start\n").unwrap();
+    place.room.join(1);
+    let hello = |place: &mut Place| place.ask(1, "afp/hello", json!({})).unwrap()["open"].clone();
+    assert_eq!(hello(&mut place), json!(place.uri("plans/b.afp")));
+    fs::remove_file(place.path("plans/b.afp")).unwrap();
+    assert_eq!(hello(&mut place), Value::Null);
+}
