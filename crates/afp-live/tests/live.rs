@@ -18,7 +18,7 @@ use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
 use afp_live::Live;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
-use afp_session::{AnySession, Go, Hardware, Loader, Opened, Settings};
+use afp_session::{AnySession, Go, Loader, Opened, Settings};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
