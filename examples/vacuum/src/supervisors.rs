@@ -22,11 +22,7 @@ macro_rules! supervisor {
         pub struct $name;
 
         impl<E: Senses + ?Sized> Supervisor<templates::$name, E> for $name {
-            fn start(
-                _: $module::Inputs,
-                _: &mut E,
-                _: Instant,
-            ) -> Result<Self, Fault> {
+            fn start(_: $module::Inputs, _: &mut E, _: Instant) -> Result<Self, Fault> {
                 Ok($name)
             }
 

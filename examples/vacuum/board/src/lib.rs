@@ -74,8 +74,10 @@ impl Hardware for Board {
     fn open(settings: &Settings) -> Result<Self, String> {
         let port = settings.get("port").ok_or("'settings' in afp.toml does not say the 'port'")?;
         let baud = settings.get_or("baud", BAUD);
-        let baud = baud.parse().map_err(|_| format!("'baud' is a number such as {BAUD}, not '{baud}'"))?;
-        let (mut line, mut ear) = line::open(port, baud).map_err(|error| format!("'{port}': {error}"))?;
+        let baud =
+            baud.parse().map_err(|_| format!("'baud' is a number such as {BAUD}, not '{baud}'"))?;
+        let (mut line, mut ear) =
+            line::open(port, baud).map_err(|error| format!("'{port}': {error}"))?;
         let (time, heard) = (RealTime::start(), Arc::new(Mutex::new(None)));
         let hears = heard.clone();
         // It ends with the line.

@@ -59,7 +59,8 @@ impl Line {
     pub fn say(&mut self, lines: &str) {
         // What was cut must not run into this.
         let text = if self.whole { lines.to_owned() } else { format!("\n{lines}") };
-        self.whole = matches!(self.port.write(text.as_bytes()), Ok(written) if written == text.len());
+        self.whole =
+            matches!(self.port.write(text.as_bytes()), Ok(written) if written == text.len());
     }
 
     /// Says what must not wait behind anything that was said before.
@@ -102,7 +103,8 @@ impl Said {
         let words: Vec<_> = line.split_whitespace().collect();
         let [ahead, turned, left, right, drop, dirt, button] = words.try_into().ok()?;
         let number = |word: &str| word.parse::<f64>().ok().filter(|number| number.is_finite());
-        let switch = |word: &str| ["0", "1"].iter().position(|known| *known == word).map(|at| at == 1);
+        let switch =
+            |word: &str| ["0", "1"].iter().position(|known| *known == word).map(|at| at == 1);
         Some(Said {
             way: [number(ahead)?, number(turned)?],
             bumper: [switch(left)?, switch(right)?],
