@@ -185,7 +185,10 @@ impl Simulation {
     /// Lets a body stand somewhere, at rest.
     pub(super) fn set_down(&mut self, body: RigidBodyHandle, at: Isometry) {
         self.stage.disturb();
-        let body = &mut self.stage.physics.bodies[body];
+        let physics = &mut self.stage.physics;
+        // With all that rested against it: the engine takes one that is awake among sleeping ones for its own mistake.
+        physics.islands.wake_up(&mut physics.bodies, body, true);
+        let body = &mut physics.bodies[body];
         body.set_position(at, true);
         body.set_linvel(Vector::ZERO, true);
         body.set_angvel(0.0, true);

@@ -46,6 +46,21 @@ fn what_can_be_pushed_is_carried_and_what_stands_is_not() {
 }
 
 #[test]
+fn what_has_come_to_rest_is_carried_again() {
+    let mut room = room();
+    room.put(&Put::New("crate".to_owned()), at(1.0, 0.4)).unwrap();
+    for round in 1..=6_u64 {
+        room.advance_to(Instant::from_nanos(round * 5_000_000_000));
+        // Beside each other, and apart.
+        let y = if round % 2 == 0 { 0.4 } else { -0.8 };
+        room.put(&Put::Thing("crate 1".to_owned()), at(1.0, y)).unwrap();
+        room.put(&Put::Thing("bin".to_owned()), at(1.0, y - 0.35)).unwrap();
+    }
+    room.advance_to(Instant::from_nanos(31_000_000_000));
+    assert_eq!(middle(&room.outline(0)), [1000, 50]);
+}
+
+#[test]
 fn nothing_is_put_into_something() {
     let mut room = room();
     let occupied = |by: &str| Err(RequestError::Occupied(by.to_owned()));
