@@ -64,7 +64,8 @@ fn a_generated_crate_carries_all_files_and_names_them() {
     assert_eq!(place.read(&format!("{folder}/patrol.afp")), MAIN);
     assert_eq!(place.read(&format!("{folder}/lib/avoid.afp")), AVOID);
     let sub_plan = place.read(&format!("{folder}/src/avoid.rs"));
-    let head = "// Made by 'afpc build' from patrol.afp.\n\n//! The plan `Avoid` of `lib/avoid.afp`";
+    let head =
+        "// Made by 'afpc build' from patrol.afp.\n\n//! The plan `Avoid` of `lib/avoid.afp`";
     assert!(sub_plan.starts_with(head), "{sub_plan}");
     // What the crate carries is a plan by itself.
     place.afpc(&format!("check {folder}/patrol.afp")).succeeds();
