@@ -50,12 +50,12 @@ pub fn run(profile: Profile) -> Result<(), Failure> {
     done?;
     // The program against the interpreter over twenty seeds.
     let mut long = cargo();
-    long.args(["test", "--package", "afpc", "--test", "build"]);
+    long.args(["test", "--package", "afpc", "--test", "afpc", "--", "--ignored", "build::"]);
     if profile == Profile::Release {
         // With the command line itself among what is built.
-        long.args(["--test", "own_toolboxes", "--test", "new"]);
+        long.args(["own_toolboxes::", "new::"]);
     }
-    run_command(profile.builds(long.args(["--", "--ignored"])))
+    run_command(profile.builds(&mut long))
 }
 
 fn use_it(afpc: &Path, folder: &Path, profile: Profile) -> Result<(), Failure> {

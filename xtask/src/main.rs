@@ -18,6 +18,7 @@ mod live;
 mod npm;
 mod opencv;
 mod pi;
+mod profiles;
 mod python;
 mod scxml;
 mod shell;
@@ -62,9 +63,12 @@ enum Chore {
         #[arg(long, default_value_t = 60)]
         seconds: u32,
     },
-    /// Builds a plan for a microcontroller and refuses any panic in the image; builds all that an editor
-    /// needs for the web, and runs it.
-    Gate,
+    /// Tries what leaves the checkout: a plan on a microcontroller, in whose image any panic is refused; what an editor needs,
+    /// for the web; an installed afpc; projects of their own; a Raspberry Pi.
+    Gate {
+        /// Suites by name; all without any.
+        suites: Vec<String>,
+    },
     /// Runs the long suites: hundreds of random plans, long runs, fuzzing, benchmarks with limits.
     Nightly {
         /// Suites by name; all without any.
@@ -105,7 +109,7 @@ fn main() -> ExitCode {
         Chore::Test { suites } => suites::run(suites::TEST, &suites),
         Chore::Bench { options } => bench(&options),
         Chore::Fuzz { targets, seconds } => fuzz::run(&targets, seconds),
-        Chore::Gate => suites::run(suites::GATE, &[]),
+        Chore::Gate { suites } => suites::run(suites::GATE, &suites),
         Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites),
         Chore::Lint { suites } => suites::run(suites::LINT, &suites),
         Chore::Book => book::run(),

@@ -41,7 +41,7 @@ pub fn quickly_built(command: &mut Command) -> &mut Command {
 /// What a command builds, or what it runs builds, it builds without long optimisation.
 pub fn quickly(command: &mut Command) -> &mut Command {
     command
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0")
         .env("CARGO_PROFILE_RELEASE_LTO", "off")
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
         .env("CARGO_PROFILE_RELEASE_DEBUG", "0")

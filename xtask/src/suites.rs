@@ -22,7 +22,11 @@ pub const TEST: &[Suite] = &[
     ("vscode", editors::extension),
     ("studio", studio::test),
     ("live", live::run),
-    ("gate", gate::run),
+];
+
+/// What `cargo xtask gate` runs.
+pub const GATE: &[Suite] = &[
+    ("firmware", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
     ("vacuum", vacuum::test),
@@ -36,6 +40,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("random worlds", random_worlds),
     ("single faults", single_faults),
     ("every event", every_event),
+    ("mutants", || by_night("afp-test", "mutants")),
     ("slips", slips),
     ("messages", messages),
     ("goals", goals),
@@ -53,7 +58,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("tree-sitter", editors::grammar),
     ("studio", studio::long),
     ("live", live::run),
-    ("gate", gate::run),
+    ("firmware", gate::run),
     ("web", wasm::run),
     ("install", || install::run(Profile::Release)),
     ("vacuum", vacuum::all),
@@ -62,9 +67,6 @@ pub const NIGHTLY: &[Suite] = &[
     ("fuzz", || fuzz::run(&[], FUZZED)),
     ("benchmarks", || bench(&["--check".to_owned()])),
 ];
-
-/// What `cargo xtask gate` runs.
-pub const GATE: &[Suite] = &[("gate", gate::run), ("web", wasm::run)];
 
 /// What `cargo xtask lint` runs.
 pub const LINT: &[Suite] = &[
@@ -153,7 +155,8 @@ fn again(name: &str) -> String {
         "random worlds" => {
             format!("    AFP_WORLDS={RANDOM_WORLDS} cargo test --release -p afp-worlds")
         }
-        "messages" => "    cargo xtask nightly messages".to_owned(),
+        "messages" | "mutants" => format!("    cargo xtask nightly {name}"),
+        "firmware" | "web" | "install" | "vacuum" => format!("    cargo xtask gate {name}"),
         "single faults" => format!(
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
@@ -285,9 +288,9 @@ mod tests {
 
     #[test]
     fn what_failed_is_named_with_the_command_that_runs_it_again() {
-        let account = [("gate", Duration::ZERO, false), ("python", Duration::ZERO, true)];
+        let account = [("dap", Duration::ZERO, false), ("python", Duration::ZERO, true)];
         let Err(Failure(text)) = conclude(&account) else { panic!("it passed") };
-        assert!(text.contains("failed: gate") && text.contains("cargo xtask test gate"), "{text}");
+        assert!(text.contains("failed: dap") && text.contains("cargo xtask test dap"), "{text}");
         assert!(!text.contains("python"), "{text}");
     }
 }

@@ -2,7 +2,9 @@
 //! which runs; and the language server in another one, with which Node.js talks as its own tests do.
 
 use std::fs;
+use std::path::PathBuf;
 
+use crate::profiles::unoptimised;
 use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -24,10 +26,7 @@ pub fn run() -> Result<(), Failure> {
         let both = format!("{TARGET} and {WITH_INPUT}");
         Failure(format!("{}\nhelp: install the standard libraries for {both}", why.0))
     })?;
-    let folder = target().join("wasm");
-    let build = ["build", "--target", TARGET, "--package", PACKAGE];
-    run_command(cargo().args(build).env("CARGO_TARGET_DIR", &folder))?;
-    let module = folder.join(TARGET).join("debug").join(PACKAGE).with_extension("wasm");
+    let module = module(TARGET, PACKAGE)?;
     println!("{PACKAGE} for {TARGET}: {} bytes, not optimised", fs::metadata(&module)?.len());
     run_command(program("node").arg("--eval").arg(RUN).arg(&module))
         .map_err(|why| Failure(format!("{}\nhelp: the gate needs Node.js (nodejs)", why.0)))?;
@@ -37,10 +36,7 @@ pub fn run() -> Result<(), Failure> {
 
 /// Talks with the language server.
 fn talk() -> Result<(), Failure> {
-    let folder = target().join("wasm");
-    let build = ["build", "--target", WITH_INPUT, "--package", LANGUAGE_SERVER];
-    run_command(cargo().args(build).env("CARGO_TARGET_DIR", &folder))?;
-    let module = folder.join(WITH_INPUT).join("debug").join(LANGUAGE_SERVER).with_extension("wasm");
+    let module = module(WITH_INPUT, LANGUAGE_SERVER)?;
     println!(
         "{LANGUAGE_SERVER} for {WITH_INPUT}: {} bytes, not optimised",
         fs::metadata(&module)?.len()
@@ -51,4 +47,12 @@ fn talk() -> Result<(), Failure> {
     node.env("AFP_LANGUAGE_SERVER", &module);
     node.env("AFP_CASES", root().join("crates/afp-lsp/tests/cases"));
     run_command(&mut node)
+}
+
+/// Builds a package for a target.
+fn module(triple: &str, package: &str) -> Result<PathBuf, Failure> {
+    let mut build = cargo();
+    build.args(["build", "--target", triple, "--package", package]);
+    run_command(unoptimised(&mut build)?)?;
+    Ok(target().join(triple).join("debug").join(package).with_extension("wasm"))
 }

@@ -246,19 +246,29 @@ fn every_event_of_the_shipped_plans_interrupts_as_it_should() {
     let files: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "afp")).collect();
     assert!(!files.is_empty());
     let by_night = std::env::var_os("AFP_BY_NIGHT").is_some();
-    for file in files.iter().filter(|file| by_night || seconds(file).is_none()) {
-        let made = Made::new(file, &robot());
-        let name = file.display();
-        let out = made.generated.left_out.iter().filter(|why| why.starts_with("no run reached"));
-        let out = out.filter(|why| !EVERY_OTHER_TIME.iter().any(|it| why.contains(it)));
-        assert_eq!(out.collect::<Vec<_>>(), [""; 0], "{name} has actors that nobody can test");
-        assert!(made.generated.count() >= 5, "{name}");
-        match by_night || file.ends_with("wall_following.afp") {
-            true => made.all_pass(&robot()),
-            // The others take minutes; 'cargo xtask nightly' has time for all.
-            false => made.halfway().all_pass(&robot()),
+    std::thread::scope(|threads| {
+        for file in files.iter().filter(|file| by_night || seconds(file).is_none()) {
+            threads.spawn(move || {
+                let made = testable(file);
+                match by_night || file.ends_with("wall_following.afp") {
+                    true => made.all_pass(&robot()),
+                    // The others take minutes; 'cargo xtask nightly' has time for all.
+                    false => made.halfway().all_pass(&robot()),
+                }
+            });
         }
-    }
+    });
+}
+
+/// What is made for a plan all of whose actors can be tested.
+fn testable(file: &Path) -> Made {
+    let made = Made::new(file, &robot());
+    let name = file.display();
+    let out = made.generated.left_out.iter().filter(|why| why.starts_with("no run reached"));
+    let out = out.filter(|why| !EVERY_OTHER_TIME.iter().any(|it| why.contains(it)));
+    assert_eq!(out.collect::<Vec<_>>(), [""; 0], "{name} has actors that nobody can test");
+    assert!(made.generated.count() >= 5, "{name}");
+    made
 }
 
 #[test]

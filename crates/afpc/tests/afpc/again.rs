@@ -1,8 +1,6 @@
 //! `afpc run --again`: a log repeats its run.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 use serde_json::Value;
 
 const QUIET: &str = "--log none --svg none --json";

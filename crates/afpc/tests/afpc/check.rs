@@ -1,8 +1,6 @@
 //! `afpc check`, `explain`, `graph`, `completions`, and commands that are not there yet.
 
-mod common;
-
-use common::{Place, WALL_FOLLOWING};
+use crate::common::{Place, WALL_FOLLOWING};
 
 #[test]
 fn a_good_plan_has_no_errors() {
@@ -25,7 +23,7 @@ fn a_file_may_be_a_pipe() {
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
             let mut child = command.spawn().unwrap();
             child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
-            let said = common::said(child.wait_with_output().unwrap());
+            let said = crate::common::said(child.wait_with_output().unwrap());
             assert_eq!(said.code, code, "{options} {said:#?}");
         }
     }

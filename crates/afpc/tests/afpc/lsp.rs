@@ -1,14 +1,10 @@
 //! `afpc lsp` over standard input and output: spoken to by hand, and by Neovim with its own client.
 
-#![cfg(feature = "lsp")]
-
-mod common;
-
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use common::Place;
+use crate::common::Place;
 
 const BROKEN: &str = "use carbot\n\nplan P {\n    start go\n    actor go: Forward(distance = 30) { \
                       ForwardSuccessful -> terminate }\n}\n";

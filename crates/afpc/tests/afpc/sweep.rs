@@ -1,12 +1,10 @@
 //! `afpc sweep`: rows that can be done again, tables, sweeps that are killed and go on.
 
-mod common;
-
 use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
 
-use common::{Place, Said};
+use crate::common::{Place, Said};
 use serde_json::Value;
 
 /// The columns of a table, without how long each run took.
@@ -50,7 +48,7 @@ fn every_row_can_be_done_again() {
 #[test]
 fn a_plan_that_looks_like_an_option_can_be_run_again() {
     let place = Place::new();
-    place.write("-n.afp", common::WALL_FOLLOWING);
+    place.write("-n.afp", crate::common::WALL_FOLLOWING);
     let said = place.afpc("sweep --until 100ms --json -- -n.afp");
     let command = objects(said.succeeds())[0]["command"].as_str().unwrap().to_owned();
     let again =
@@ -160,7 +158,7 @@ fn a_sweep_that_is_stopped_keeps_what_is_done() {
     }
     let pid = child.id().to_string();
     assert!(std::process::Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
-    let said = common::said(child.wait_with_output().unwrap());
+    let said = crate::common::said(child.wait_with_output().unwrap());
     said.fails(130, &[]);
     assert!(said.out.contains("of 60 runs, 0 failed, stopped; the same command goes on"));
     let done = rows(&place, "stopped.csv").len() - 1;
@@ -180,7 +178,7 @@ fn a_journal_of_another_sweep_is_left_alone() {
     place.afpc(&format!("{sweep} --seeds 0..3")).fails(2, &told);
     place.afpc(&format!("{sweep} --seeds 0..3 --restart")).succeeds();
     assert_eq!(rows(&place, "a.csv").len(), 4);
-    place.write("wall_following.afp", &common::WALL_FOLLOWING.replace("30 cm", "31 cm"));
+    place.write("wall_following.afp", &crate::common::WALL_FOLLOWING.replace("30 cm", "31 cm"));
     let told = ["the plan has changed since"];
     place.afpc(&format!("{sweep} --seeds 0..3")).fails(2, &told);
 }

@@ -1,9 +1,5 @@
 //! Every output of every command, wherever it may lead: nothing is lost, nothing replaced, and the exit code says it.
 
-#![cfg(target_os = "linux")]
-
-mod common;
-
 use std::fs::{self, File, Permissions};
 use std::io::Read;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
@@ -13,7 +9,7 @@ use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 use std::thread;
 
-use common::{Place, Said, said};
+use crate::common::{Place, Said, said};
 
 const PLAN: &str = "use carbot
 

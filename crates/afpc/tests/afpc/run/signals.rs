@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 
-use super::common::Place;
+use crate::common::Place;
 
 /// Starts a run in real time, does something to it once it lives, and gives its exit code and
 /// the rest of its output.

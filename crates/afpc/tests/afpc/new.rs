@@ -1,10 +1,8 @@
 //! `afpc new`: what it makes works at once; `afpc templates`: what there is.
 
-mod common;
-
 use std::process::Command;
 
-use common::{Place, Said, said};
+use crate::common::{Place, Said, said};
 
 #[test]
 fn a_plan_can_be_run_and_tested_at_once() {
@@ -57,7 +55,7 @@ fn projects_with_rust_run_and_pass_their_tests_unchanged() {
         place.afpc(&format!("new {name} {option}")).succeeds();
         let slow = |mut command: Command| {
             command.current_dir(place.path(name));
-            said(common::quickly_built(&mut command).output().unwrap())
+            said(crate::common::quickly_built(&mut command).output().unwrap())
         };
         let afpc = |arguments: &str| {
             let mut command = place.command();

@@ -1,8 +1,6 @@
 //! Plans of several files, in every command.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 
 const MAIN: &str = "use std
 use carbot
@@ -59,7 +57,7 @@ fn a_generated_crate_carries_all_files_and_names_them() {
     let place = place();
     let mut command = place.command();
     command.args(["build", "plans/patrol.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
-    common::said(command.output().unwrap()).fails(1, &["there is no cargo"]);
+    crate::common::said(command.output().unwrap()).fails(1, &["there is no cargo"]);
     let folder = "target/afp/patrol";
     assert_eq!(place.read(&format!("{folder}/patrol.afp")), MAIN);
     assert_eq!(place.read(&format!("{folder}/lib/avoid.afp")), AVOID);

@@ -1,8 +1,6 @@
 //! `afpc test`: finds scenarios, runs them, says what broke.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 
 const SCENARIOS: &str = r#"use "../wall_following.afp"
 

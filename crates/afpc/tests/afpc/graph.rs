@@ -1,8 +1,6 @@
 //! `afpc graph`: plans with errors, icons of a project.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 
 #[test]
 fn a_plan_with_errors_is_drawn_and_the_errors_are_said() {

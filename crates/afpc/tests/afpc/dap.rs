@@ -1,12 +1,10 @@
 //! `afpc dap` over standard input: how it ends; and over a socket: what it says, to one client and to several.
 
-mod common;
-
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Stdio};
 
-use common::{Place, Said, said};
+use crate::common::{Place, Said, said};
 
 /// The adapter is told some bytes and nothing more.
 fn told(bytes: &[u8]) -> Said {

@@ -1,10 +1,8 @@
 //! `afpc log`: timeline, facts, repair.
 
-mod common;
-
 use std::fs;
 
-use common::Place;
+use crate::common::Place;
 
 fn place() -> Place {
     let place = Place::with_plan();

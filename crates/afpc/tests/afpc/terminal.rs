@@ -1,10 +1,6 @@
 //! A run in a terminal: it reads Escape, and however it ends or is suspended, the terminal is as
 //! it was.
 
-#![cfg(target_os = "linux")]
-
-mod common;
-
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Write;
@@ -13,7 +9,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use common::Place;
+use crate::common::Place;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{LocalModes, tcgetattr};
 

@@ -1,7 +1,5 @@
 //! Runs the real binary in a folder of its own.
 
-#![allow(dead_code)] // Each test file uses a part.
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -130,7 +128,7 @@ pub fn quickly_built(command: &mut Command) -> &mut Command {
     let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans");
     command
         .env("CARGO_TARGET_DIR", target)
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0")
         .env("CARGO_PROFILE_RELEASE_LTO", "off")
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")
         .env("CARGO_PROFILE_RELEASE_DEBUG", "0")

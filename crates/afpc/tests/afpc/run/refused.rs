@@ -1,7 +1,7 @@
 //! What a run refuses, and what it says then.
 
 use super::QUIET;
-use super::common::{self, Place};
+use crate::common::{self, Place};
 
 #[test]
 fn options_that_wait_for_something_say_for_what() {

@@ -1,15 +1,12 @@
 //! `afpc build --target pi`: with which tools cargo is called, or what is missing and how to get it.
 //!
 //! All tools are scripts that say what a real one would, in a folder that is all that there is to find.
-#![cfg(unix)]
-
-mod common;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use common::{Place, Said, said};
+use crate::common::{Place, Said, said};
 
 /// What a tool does, as lines of the shell.
 const TOOLS: &[(&str, &str)] = &[

@@ -1,11 +1,9 @@
 //! `afpc build`: what is written, what is refused, and the binary that comes out.
 
-mod common;
-
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use common::{Place, said};
+use crate::common::{Place, said};
 
 #[test]
 fn without_cargo_the_crate_is_there_and_the_error_clear() {
@@ -81,7 +79,7 @@ fn others_watch(place: &Place, deaf: &str) {
 }
 
 #[test]
-#[ignore = "builds the physics engine in release mode; `cargo xtask test install` runs it"]
+#[ignore = "builds the physics engine in release mode; `cargo xtask gate install` runs it"]
 fn the_binary_says_the_same_as_the_interpreter_over_twenty_seeds() {
     let place = Place::with_plan();
     let mut command = place.command();

@@ -1,13 +1,10 @@
 //! `afpc build --json` and `afpc check --json`: what is wrong as objects, whoever has found it, and what was built last.
-#![cfg(unix)]
-
-mod common;
 
 use std::fs::{self, File, Permissions};
 use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, Stdio};
 
-use common::{Place, Said, WALL_FOLLOWING, said};
+use crate::common::{Place, Said, WALL_FOLLOWING, said};
 use serde_json::{Value, json};
 
 /// A plan with a warning: nothing uses an entry.
@@ -141,7 +138,7 @@ fn a_cargo_that_fails_without_a_word_or_is_not_there_is_an_error() {
     assert!(summary["folder"].as_str().unwrap().ends_with("/target/afp/p"), "{summary}");
     let mut command = place.command();
     command.args(["build", "p.afp", "--json"]).env("CARGO", "no-such-cargo");
-    let (all, _) = objects(common::said(command.output().unwrap()).fails(1, &[]));
+    let (all, _) = objects(crate::common::said(command.output().unwrap()).fails(1, &[]));
     assert!(all[1]["help"].as_str().unwrap().contains("https://rustup.rs"), "{all:?}");
     // The real one, whose own words are on standard error.
     place.write("afp.toml", "[afp]\npath = \"nowhere\"\n");

@@ -1,12 +1,10 @@
 //! Toolboxes of one's own, with crates outside of this workspace: checked, built, compiled in, run
 //! through a runner; and errors of their Rust at the lines of the toolbox and the plan.
 
-mod common;
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use common::{Place, Said, said};
+use crate::common::{Place, Said, said};
 use serde_json::Value;
 
 const TOOLBOX: &str = include_str!("gestures/gestures.afp");
@@ -106,7 +104,7 @@ fn with_waves(place: &Place) {
     place.write("waves/src/lib.rs", &named(RUST));
     place.write("waves/Cargo.toml", &manifest("robot-waves", &["afp", "afp-carbot"], ""));
     place.write("plans/wave.afp", &named(PLAN));
-    place.write("plans/plain.afp", common::WALL_FOLLOWING);
+    place.write("plans/plain.afp", crate::common::WALL_FOLLOWING);
     place.write(
         "afp.toml",
         "[toolboxes]\ngestures = { path = \"gestures/gestures.afp\" }\n\
@@ -156,7 +154,7 @@ fn two_toolboxes_of_one_name_do_not_go_into_one_runner() {
 /// A call in the project, built in the folder that all slow tests share, without long optimisation.
 fn build_with(mut command: Command, arguments: &str) -> Said {
     command.args(arguments.split_whitespace());
-    said(common::quickly_built(&mut command).output().unwrap())
+    said(crate::common::quickly_built(&mut command).output().unwrap())
 }
 
 fn afpc(place: &Place, arguments: &str) -> Said {

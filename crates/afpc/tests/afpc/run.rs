@@ -1,13 +1,10 @@
 //! `afpc run`: options, output, errors.
 
-mod common;
-#[path = "run/refused.rs"]
 mod refused;
 #[cfg(unix)]
-#[path = "run/signals.rs"]
 mod signals;
 
-use common::{Place, WALL_FOLLOWING};
+use crate::common::{Place, WALL_FOLLOWING};
 use serde_json::Value;
 
 const QUIET: &str = "--log none --svg none";
@@ -311,7 +308,7 @@ fn a_full_disk_is_no_success_and_a_closed_pipe_no_failure() {
     let run = "run wall_following.afp --until 1s --log none --svg none";
     let mut command = place.command();
     command.args(run.split(' ')).stdout(OpenOptions::new().write(true).open("/dev/full").unwrap());
-    let full = common::said(command.output().unwrap());
+    let full = crate::common::said(command.output().unwrap());
     full.fails(1, &["error: cannot write to 'standard output'"]);
     // Who looks at a run sees what it came to, though not all of it can be written.
     for json in ["", "--json"] {

@@ -1,13 +1,9 @@
 //! What names of outputs say, and files that are written again.
 
-#![cfg(unix)]
-
-mod common;
-
 use std::fs::{self, Permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 
-use common::Place;
+use crate::common::Place;
 
 const PLAN: &str =
     "use std\nplan P {\n  start w\n  actor w: Wait(duration=1s) {Elapsed->terminate}\n}\n";

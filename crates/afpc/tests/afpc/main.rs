@@ -1,0 +1,30 @@
+//! The command line as people call it: the real binary, in folders of their own.
+
+mod again;
+mod book;
+mod build;
+#[cfg(unix)]
+mod build_json;
+mod check;
+mod common;
+mod dap;
+#[cfg(target_os = "linux")]
+mod every_output;
+mod files;
+mod fmt;
+mod graph;
+mod log;
+#[cfg(feature = "lsp")]
+mod lsp;
+mod new;
+#[cfg(unix)]
+mod outputs;
+mod own_toolboxes;
+mod run;
+mod sweep;
+#[cfg(target_os = "linux")]
+mod terminal;
+mod test;
+mod timing;
+#[cfg(unix)]
+mod toolchain;
