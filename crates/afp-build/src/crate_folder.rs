@@ -7,8 +7,17 @@ use std::path::Path;
 use afp_codegen::{MADE_BY, Origin, RUST_MADE_BY};
 use afp_run::{RunError, write_whole};
 
-/// Writes the crate of a plan: the files that differ from what is there, so that cargo builds only what changed.
-/// Sources of an earlier plan are removed; what else is there stays.
+/// Writes the crate of a plan into a folder of builds, which is ours alone: the files that differ from what is there, so that
+/// cargo builds only what changed. Sources of an earlier plan are removed.
+///
+/// # Errors
+/// The folder cannot be written.
+pub fn write_own(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(), RunError> {
+    remove_old(folder, files, |_| true)?;
+    put(folder, files, origin)
+}
+
+/// The same into a folder of somebody's choice; what else is there stays.
 ///
 /// # Errors
 /// The folder holds a crate that somebody else made, or other files of the same names, or cannot be written.
@@ -23,7 +32,7 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
         }
         Ok(_) => {
             refuse_others(folder, files, is_made_here)?;
-            remove_old(folder, files)?;
+            remove_old(folder, files, is_made_here)?;
         }
         Err(error) if error.kind() == ErrorKind::NotFound => {
             refuse_others(folder, files, |_| false)?;
@@ -92,18 +101,22 @@ fn refuse_others(
         None => Ok(()),
         Some((name, _)) => Err(RunError::usage(
             format!("'{}' is there, and 'afpc' did not make it", folder.join(name).display()),
-            "give an empty folder with '-o DIR'",
+            "move it away, or give an empty folder with '-o DIR'",
         )),
     }
 }
 
 /// Removes the Rust of an earlier plan.
-fn remove_old(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
+fn remove_old(
+    folder: &Path,
+    files: &[(&str, &str)],
+    is_ours: fn(&Path) -> bool,
+) -> Result<(), RunError> {
     let sources = folder.join("src");
     let Ok(entries) = fs::read_dir(&sources) else { return Ok(()) };
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         let kept = files.iter().any(|(name, _)| folder.join(name) == path);
-        if !kept && is_rust(&path) && is_made_here(&path) {
+        if !kept && is_rust(&path) && is_ours(&path) {
             fs::remove_file(&path).map_err(RunError::file("cannot remove", &path))?;
         }
     }

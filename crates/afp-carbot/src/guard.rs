@@ -130,7 +130,8 @@ impl Guard {
         Ok(value)
     }
 
-    /// Whether nothing usable has come for so long that a robot that drives waits.
+    /// Whether nothing usable has come for so long that a robot that drives waits. What comes again and again, if late, is enough: it
+    /// is put where the robot was then, and how old it may be says the guard.
     pub(crate) fn is_late(&self, now: Instant) -> bool {
         now.since(self.usable) > LATE
     }

@@ -35,8 +35,8 @@ impl<T: Copy + PartialEq> Repeats<T> {
         Repeats { fault, time: now, same: None, times: 0, way: 0.0, last: None }
     }
 
-    /// Takes in what the sensor and the odometry say. Silence and darkness, none, may repeat, and while the odometry says
-    /// nothing the robot counts as standing.
+    /// Takes in what the sensor and the odometry say. Silence and darkness, none, may repeat, and what was driven while the odometry
+    /// said nothing does not count.
     ///
     /// # Errors
     /// The sensor has said exactly the same while the robot moved.
@@ -45,11 +45,15 @@ impl<T: Copy + PartialEq> Repeats<T> {
         reading: Reading<Option<T>>,
         counted: Reading<Motion>,
     ) -> Result<(), Fault> {
-        let (Ok(value), Ok(motion)) = (reading.value, counted.value) else { return Ok(()) };
+        let Ok(value) = reading.value else { return Ok(()) };
         if reading.time <= self.time {
             return Ok(());
         }
         self.time = reading.time;
+        let Ok(motion) = counted.value else {
+            self.last = None;
+            return Ok(());
+        };
         let (here, turn) = (Pose::from(motion), Length::from_si(TURN));
         let step = self.last.replace(here).map_or(0.0, |last| last.distance_to(&here, turn));
         if value.is_none() || value != self.same {

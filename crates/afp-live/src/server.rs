@@ -44,6 +44,8 @@ struct Visitor {
     since: Wall,
     /// Whether it is a client.
     admitted: Arc<AtomicBool>,
+    /// Whether it was sent away: its thread may take a while to notice.
+    sent_away: bool,
     thread: JoinHandle<()>,
 }
 
@@ -55,11 +57,12 @@ impl Visitor {
         let (told, own) = (Arc::clone(&admitted), stream.try_clone().ok()?);
         let named = thread::Builder::new().name("afp-live-client".into());
         let thread = named.spawn(move || client::serve(own, &hub, &tokens, &told)).ok()?;
-        Some(Visitor { stream, since, admitted, thread })
+        Some(Visitor { stream, since, admitted, sent_away: false, thread })
     }
 
+    /// Whether it is still to be let in.
     fn is_stranger(&self) -> bool {
-        !self.admitted.load(Ordering::Acquire)
+        !self.sent_away && !self.admitted.load(Ordering::Acquire)
     }
 
     fn is_gone(&self) -> bool {
@@ -67,7 +70,8 @@ impl Visitor {
     }
 
     /// Ends the connection, at whatever its thread is.
-    fn send_away(&self) {
+    fn send_away(&mut self) {
+        self.sent_away = true;
         // One that is gone already does not mind.
         let _ = self.stream.shutdown(Shutdown::Both);
     }
@@ -78,14 +82,14 @@ fn listen(listener: &TcpListener, hub: &Arc<Hub>, tokens: &Arc<Tokens>) {
     let mut visitors: Vec<Visitor> = Vec::new();
     while !hub.is_over() {
         visitors.retain(|visitor| !visitor.is_gone());
-        // In the order in which they came.
-        let strangers = visitors.iter().filter(|visitor| visitor.is_stranger());
-        strangers.filter(|it| it.since.elapsed() > HANDSHAKE).for_each(Visitor::send_away);
+        let late = |it: &&mut Visitor| it.is_stranger() && it.since.elapsed() > HANDSHAKE;
+        visitors.iter_mut().filter(late).for_each(Visitor::send_away);
         match listener.accept() {
             Ok((stream, _)) => {
-                let strangers = || visitors.iter().filter(|visitor| visitor.is_stranger());
-                if strangers().count() >= STRANGERS {
-                    strangers().take(1).for_each(Visitor::send_away);
+                // In the order in which they came.
+                let many = visitors.iter().filter(|it| it.is_stranger()).count() >= STRANGERS;
+                if many && let Some(first) = visitors.iter_mut().find(|it| it.is_stranger()) {
+                    first.send_away();
                 }
                 visitors.extend(Visitor::new(stream, hub, tokens));
             }
@@ -93,7 +97,7 @@ fn listen(listener: &TcpListener, hub: &Arc<Hub>, tokens: &Arc<Tokens>) {
             Err(_) => thread::sleep(LOOK),
         }
     }
-    visitors.iter().filter(|visitor| visitor.is_stranger()).for_each(Visitor::send_away);
+    visitors.iter_mut().filter(|visitor| visitor.is_stranger()).for_each(Visitor::send_away);
     let since = Wall::now();
     while since.elapsed() < GOODBYE && !visitors.iter().all(Visitor::is_gone) {
         thread::sleep(LOOK);

@@ -4,7 +4,7 @@
 mod board;
 
 use std::collections::BTreeMap;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::net::TcpStream;
 use std::path::Path;
 use std::thread;
@@ -339,8 +339,14 @@ fn strangers_take_no_place() {
     drop(clients);
     let took = gone.join().expect("the slow one");
     assert!(took < Duration::from_secs(8), "it was there for {took:?}");
-    let _more: Vec<_> = (0..60).map(|_| stranger()).collect();
+    let more: Vec<_> = (0..60).map(|_| stranger()).collect();
     assert!(Client::new(&watcher).is_ok(), "who comes last is heard");
+    let stays = |stranger: &TcpStream| {
+        stranger.set_read_timeout(Some(Duration::from_millis(20))).expect("a time");
+        stranger.peek(&mut [0]).is_err_and(|error| error.kind() == ErrorKind::WouldBlock)
+    };
+    let stay = more.iter().filter(|stranger| stays(stranger)).count();
+    assert!((8..=16).contains(&stay), "{stay} of 60 stay");
     let begun = Wall::now();
     live.finish();
     assert!(begun.elapsed() < Duration::from_secs(1), "nobody is waited for");

@@ -8,9 +8,28 @@ use crate::recorder::About;
 
 /// The attachment that holds the world, a text of whatever form the robot's worlds have.
 pub const WORLD: &str = "world";
-/// What the attachments of toolboxes begin with. Their names and that of the world have no ending, and the files that plans
-/// use have one.
+/// What the attachments of toolboxes begin with.
 const TOOLBOX: &str = "toolbox/";
+/// What a text begins with whose file is called as another attachment: another spelling of the same path.
+const HERE: &str = "./";
+
+/// Whether an attachment is none of the plans' texts.
+fn is_taken(attachment: &str) -> bool {
+    attachment == WORLD || attached_toolbox(attachment).is_some()
+}
+
+/// The name of the attachment that holds a text of the plans.
+fn text_attachment(file: &str) -> String {
+    match is_taken(file) {
+        true => format!("{HERE}{file}"),
+        false => file.to_owned(),
+    }
+}
+
+/// The file whose text an attachment holds.
+fn attached_text(attachment: &str) -> &str {
+    attachment.strip_prefix(HERE).filter(|file| is_taken(file)).unwrap_or(attachment)
+}
 
 /// The name of the attachment that holds a toolbox.
 pub fn toolbox_attachment(toolbox: &str) -> String {
@@ -45,7 +64,8 @@ impl About {
             ("afp_commit", recipe.build.commit.clone().unwrap_or_default()),
         ];
         facts.retain(|(_, value)| !value.is_empty());
-        let texts = recipe.texts.iter().map(|it| (it.name.clone(), TEXT, it.text.clone()));
+        let texts =
+            recipe.texts.iter().map(|it| (text_attachment(&it.name), TEXT, it.text.clone()));
         let toolboxes =
             recipe.toolboxes.iter().map(|it| (toolbox_attachment(&it.name), TEXT, it.text.clone()));
         let world = (WORLD.to_owned(), TEXT, recipe.world.text.clone());
@@ -90,14 +110,14 @@ impl LogData {
 
     /// The plan's file, then those that it uses.
     fn texts(&self, plan: &str) -> Vec<TextFile> {
-        let is_text = |name: &&String| *name != WORLD && attached_toolbox(name).is_none();
-        let mut names: Vec<_> = self.attachments.keys().filter(is_text).collect();
-        names.sort_by_key(|name| name.as_str() != plan);
-        let file = |name: &String| {
-            let text = self.attachments.get(name).cloned().unwrap_or_default();
-            TextFile { name: name.clone(), text }
+        let texts = self.attachments.iter().filter(|(name, _)| !is_taken(name));
+        let file = |(name, text): (&String, &String)| TextFile {
+            name: attached_text(name).to_owned(),
+            text: text.clone(),
         };
-        names.into_iter().map(file).collect()
+        let mut files: Vec<_> = texts.map(file).collect();
+        files.sort_by_key(|file| file.name != plan);
+        files
     }
 
     fn toolboxes(&self) -> Vec<TextFile> {

@@ -16,7 +16,7 @@ use afp_codegen::{
     compile_errors, complete, register_supported,
 };
 use afp_dsl::toolbox::Toolbox;
-use afp_syntax::has_scenario;
+use afp_syntax::may_have_scenario;
 use afp_syntax::source::Sources;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -133,9 +133,9 @@ fn scenarios_code(setting: ScenarioSetting) -> Result<TokenStream, TokenStream> 
     let is_built_in = |path: &str| afp_toolboxes::ALL.iter().any(|each| each.rust_path == path);
     let mut tests = ScenarioTests::new(&setting, is_built_in);
     let mut without = Vec::new();
-    for path in sources::plan_files(&setting.path) {
+    for path in sources::plan_files(&setting.path)? {
         let file = sources::read(&path)?;
-        if !has_scenario(&file.source.text) {
+        if !may_have_scenario(&file.source.text) {
             without.push(file.text);
             continue;
         }

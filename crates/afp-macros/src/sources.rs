@@ -52,14 +52,19 @@ pub fn read(path: &str) -> Result<File, TokenStream> {
 }
 
 /// The file itself, or the plan files of the folder, seen from the manifest.
-pub fn plan_files(path: &str) -> Vec<String> {
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn plan_files(path: &str) -> Result<Vec<String>, TokenStream> {
     let root = root();
     if !root.join(path).is_dir() {
-        return vec![path.to_owned()];
+        return Ok(vec![path.to_owned()]);
     }
-    let files = afp_project::files(&root.join(path)).into_iter();
-    let plans = files.filter(|file| file.extension().is_some_and(|ending| ending == "afp"));
-    plans.map(|file| file.strip_prefix(&root).unwrap_or(&file).display().to_string()).collect()
+    let files = afp_project::all_files(&root.join(path)).map_err(|(folder, why)| {
+        compile_error(&format!("error: cannot read the folder '{}': {why}", folder.display()))
+    })?;
+    let plans = files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "afp"));
+    Ok(plans.map(|file| file.strip_prefix(&root).unwrap_or(file).display().to_string()).collect())
 }
 
 /// A plan file, and the name of a plan in it where one stands behind a colon: `patrol.afp:Search`.

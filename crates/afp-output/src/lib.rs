@@ -177,7 +177,9 @@ pub fn check_writable(path: &Path) -> io::Result<()> {
     let Target::File(target) = Target::of(path)? else { return Ok(()) };
     match Part::create(&target, Taken::Wait) {
         Ok(part) => fs::remove_file(part.path),
-        Err(error) if takes_no_files(&error) && target.exists() => Ok(()),
+        Err(error) if takes_no_files(&error) && target.exists() => {
+            fs::remove_file(Part::elsewhere(&target)?.path)
+        }
         Err(error) => Err(error),
     }
 }
@@ -187,12 +189,14 @@ fn takes_no_files(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }
 
-/// Gives a file the bytes of another. It takes the space for them first and is cut to its length last: a full disk leaves
-/// it as it was.
+/// Gives a file the bytes of another, one writer after the other. It takes the space for them first and is cut to its length
+/// last: a full disk leaves it as it was, unless its file system writes what changes to a new place.
 fn fill(target: &Path, from: &mut File) -> io::Result<Metadata> {
     let length = from.metadata()?.len();
     from.rewind()?;
     let mut file = File::options().write(true).open(target)?;
+    // Where a file system knows no locks nobody else waits, either.
+    let _ = file.lock();
     reserve(&mut file, length)?;
     io::copy(from, &mut file)?;
     file.set_len(length)?;

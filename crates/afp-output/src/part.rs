@@ -91,7 +91,13 @@ impl Part {
             match private().open(&path) {
                 Ok(file) => return Ok(Part { file, path, kept: None }),
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
-                Err(error) => return Err(error),
+                Err(error) => {
+                    let message = format!(
+                        "its folder takes no new files, and neither does '{}': {error}",
+                        std::env::temp_dir().display()
+                    );
+                    return Err(io::Error::new(error.kind(), message));
+                }
             }
         }
     }

@@ -42,4 +42,4 @@ pub use project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Tool
 pub use read::read;
 pub use spot::{Spot, SpotKind, headings, spot};
 pub use time::duration;
-pub use tree::{Listing, files, list, scenario_files};
+pub use tree::{Listing, Unread, all_files, files, list, scenario_files};

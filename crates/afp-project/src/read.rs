@@ -49,7 +49,14 @@ impl Reader {
                 "toolboxes" => project.toolboxes = self.each(&pair, Reader::toolbox),
                 "target" => project.targets = self.each(&pair, Reader::target),
                 key => match keys::table_of(key) {
+                    Some(table) if !keys::keys(&[table, key]).is_empty() => {
+                        let message = format!("a project has no '[{key}]'");
+                        self.wrong(pair.span, message, &format!("write '[{table}.{key}]'"));
+                    }
                     None => self.unknown(&pair, "a project", keys::PROJECT),
+                    Some(_) if pair.item.is_table_like() => {
+                        self.unknown(&pair, "a project", keys::PROJECT);
+                    }
                     Some(table) => {
                         let message = format!("'{key}' stands above the tables");
                         self.wrong(pair.span, message, &format!("write it below '[{table}]'"));

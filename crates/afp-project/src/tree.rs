@@ -1,8 +1,8 @@
 //! The files of a project's folder.
 
-use std::collections::VecDeque;
-use std::fs;
+use std::collections::{HashSet, VecDeque};
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use crate::file::NAME;
 
@@ -25,23 +25,41 @@ pub struct Listing {
     pub is_cut: bool,
 }
 
+/// A folder that cannot be read, and why.
+pub type Unread = (PathBuf, io::Error);
+
 /// What lies below a folder, the nearest first, as far as `most` entries go. Hidden folders and those that builds fill are
-/// left out, and so are links to folders, so that no circle is walked.
+/// left out, so are those that cannot be read, and links to folders.
 pub fn list(folder: &Path, most: usize) -> Listing {
     let built = Inner { path: folder.join("target/afp"), depth: DEPTH, built: true };
-    walk([Inner { path: folder.to_owned(), depth: DEPTH, built: false }, built], most)
+    let own = Inner { path: folder.to_owned(), depth: DEPTH, built: false };
+    Walk::default().through([own, built], most).found
 }
 
 /// The plans, toolboxes and scenarios below a folder, and project files, by path: all that [`list`] would find.
 pub fn files(folder: &Path) -> Vec<PathBuf> {
-    walk([Inner { path: folder.to_owned(), depth: DEPTH, built: false }], usize::MAX).files
+    let own = Inner { path: folder.to_owned(), depth: DEPTH, built: false };
+    Walk::default().through([own], usize::MAX).found.files
 }
 
-/// Those of [`files`] that lie where a project keeps scenarios.
-pub fn scenario_files(folder: &Path) -> Vec<PathBuf> {
+/// The same for those who must miss none: with the folders that links lead to.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn all_files(folder: &Path) -> Result<Vec<PathBuf>, Unread> {
+    let own = Inner { path: folder.to_owned(), depth: DEPTH, built: false };
+    Walk::missing_none().through([own], usize::MAX).whole()
+}
+
+/// Those of [`all_files`] that lie where a project keeps scenarios.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn scenario_files(folder: &Path) -> Result<Vec<PathBuf>, Unread> {
     let inner = |name| Inner { path: folder.join(name), depth: DEPTH - 1, built: false };
     let own = Inner { path: folder.to_owned(), depth: 0, built: false };
-    walk([own].into_iter().chain(SCENARIOS.map(inner)), usize::MAX).files
+    let folders = [own].into_iter().chain(SCENARIOS.map(inner));
+    Walk::missing_none().through(folders, usize::MAX).whole()
 }
 
 /// A folder that is to be looked into.
@@ -53,48 +71,75 @@ struct Inner {
     built: bool,
 }
 
-fn walk(folders: impl IntoIterator<Item = Inner>, most: usize) -> Listing {
-    let mut found = Listing::default();
-    let mut waiting: VecDeque<_> = folders.into_iter().collect();
-    'all: while let Some(folder) = waiting.pop_front() {
-        // What cannot be read has no files.
-        let Ok(entries) = fs::read_dir(&folder.path) else { continue };
-        for entry in entries.flatten() {
-            if found.entries == most {
-                found.is_cut = true;
-                break 'all;
-            }
-            found.entries += 1;
-            let name = entry.file_name();
-            found.add(&folder, &entry, &name.to_string_lossy(), &mut waiting);
-        }
-    }
-    found.files.sort();
-    found.logs.sort();
-    found
+/// A walk through folders.
+#[derive(Default)]
+struct Walk {
+    found: Listing,
+    waiting: VecDeque<Inner>,
+    /// Whether links to folders are followed.
+    follows: bool,
+    /// The folders that links have led to: none is walked twice, and no circle.
+    linked: HashSet<PathBuf>,
+    /// The first folder that could not be read.
+    unread: Option<Unread>,
 }
 
-impl Listing {
-    fn add(
-        &mut self,
-        folder: &Inner,
-        entry: &fs::DirEntry,
-        name: &str,
-        waiting: &mut VecDeque<Inner>,
-    ) {
+impl Walk {
+    fn missing_none() -> Walk {
+        Walk { follows: true, ..Walk::default() }
+    }
+
+    fn through(mut self, folders: impl IntoIterator<Item = Inner>, most: usize) -> Walk {
+        self.waiting.extend(folders);
+        'all: while let Some(folder) = self.waiting.pop_front() {
+            let entries = match fs::read_dir(&folder.path) {
+                Ok(entries) => entries,
+                Err(error) => {
+                    // One that need not be there has no files.
+                    if error.kind() != io::ErrorKind::NotFound {
+                        self.unread.get_or_insert((folder.path, error));
+                    }
+                    continue;
+                }
+            };
+            for entry in entries.flatten() {
+                if self.found.entries == most {
+                    self.found.is_cut = true;
+                    break 'all;
+                }
+                self.found.entries += 1;
+                self.add(&folder, &entry);
+            }
+        }
+        self.found.files.sort();
+        self.found.logs.sort();
+        self
+    }
+
+    /// All files, if all folders could be read.
+    fn whole(self) -> Result<Vec<PathBuf>, Unread> {
+        self.unread.map_or(Ok(self.found.files), Err)
+    }
+
+    fn add(&mut self, folder: &Inner, entry: &fs::DirEntry) {
+        let (name, path) = (entry.file_name(), entry.path());
+        let name = name.to_string_lossy();
         let Ok(kind) = entry.file_type() else { return };
-        if kind.is_dir() {
-            let built = matches!(name, "target" | "node_modules") || name.starts_with('.');
-            if folder.depth > 0 && !built {
-                waiting.push_back(Inner { path: entry.path(), depth: folder.depth - 1, ..*folder });
+        let is_link = kind.is_symlink();
+        if kind.is_dir() || self.follows && is_link && path.is_dir() {
+            let built = matches!(&*name, "target" | "node_modules") || name.starts_with('.');
+            let is_new = !is_link || path.canonicalize().is_ok_and(|it| self.linked.insert(it));
+            if folder.depth > 0 && !built && is_new {
+                self.waiting.push_back(Inner { path, depth: folder.depth - 1, ..*folder });
             }
             return;
         }
         let is_text = (name.ends_with(".afp") || name == NAME) && !folder.built;
-        if (is_text || name.ends_with(".mcap")) && entry.path().is_file() {
-            // No pipe, which would keep its reader waiting.
-            let kind = if is_text { &mut self.files } else { &mut self.logs };
-            kind.push(entry.path());
+        // No pipe, which would keep its reader waiting; where a link leads nowhere, whoever reads it is told.
+        let is_file = path.is_file() || self.follows && is_link && !path.exists();
+        if (is_text || name.ends_with(".mcap")) && is_file {
+            let kind = if is_text { &mut self.found.files } else { &mut self.found.logs };
+            kind.push(path);
         }
     }
 }
@@ -128,6 +173,30 @@ mod tests {
         let cut = list(place.path(), 8);
         assert!(cut.is_cut && names(&cut.files) == "a.afp", "{cut:?}");
         assert_eq!(files(place.path()), all.files);
-        assert_eq!(names(&scenario_files(place.path())), "a.afp plans/tests/l.afp");
+        assert_eq!(names(&scenario_files(place.path()).unwrap()), "a.afp plans/tests/l.afp");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn who_must_miss_none_follows_links_and_is_told_of_what_cannot_be_read() {
+        use std::os::unix::fs::symlink;
+
+        let place = tempfile::tempdir().unwrap();
+        let path = |name: &str| place.path().join(name);
+        for folder in ["plans/own", "common"] {
+            fs::create_dir_all(path(folder)).unwrap();
+        }
+        fs::write(path("common/a.afp"), "").unwrap();
+        symlink("../common", path("plans/linked")).unwrap();
+        symlink("..", path("plans/own/circle")).unwrap();
+        symlink("nowhere.afp", path("plans/lost.afp")).unwrap();
+        let found = scenario_files(place.path()).unwrap();
+        let has = |name: &str| found.contains(&path(name));
+        assert!(has("plans/linked/a.afp") && has("plans/lost.afp"), "{found:?}");
+        assert!(found.len() < 10, "{found:?}");
+        assert_eq!(files(place.path()), [path("common/a.afp")]);
+        // A file in the place of a folder cannot be read as one, whoever asks.
+        fs::write(path("tests"), "").unwrap();
+        assert_eq!(scenario_files(place.path()).unwrap_err().0, path("tests"));
     }
 }

@@ -18,6 +18,8 @@ pub mod frames {
     pub const BODY: &str = "base_link";
     /// Where its own odometry takes it to be.
     pub const BY_ODOMETRY: &str = "base_link_by_odometry";
+    /// Where it takes itself to be on its map.
+    pub const BY_LOCALISATION: &str = "base_link_by_localisation";
 }
 
 /// A place and a heading in the plane.

@@ -32,8 +32,8 @@ use rapier2d::parry::query;
 
 /// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
 pub(crate) const FARTHEST: f64 = 1000.0;
-/// Nothing is smaller, lighter or slower than this, metres, kilograms and metres a second: in single precision what is much less
-/// is nothing, or pushed by nothing.
+/// Nothing is smaller, lighter, slower or weaker than this, metres, kilograms, metres a second and the strength of lights: in
+/// single precision what is much less is nothing, or pushed by nothing.
 const SMALLEST: f64 = 0.001;
 
 /// A world as read from its file.

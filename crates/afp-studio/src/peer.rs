@@ -34,6 +34,10 @@ fn own() -> Option<u32> {
     None
 }
 
+/// Nobody: who has closed the connection already.
+#[cfg(target_os = "linux")]
+const NOBODY: u32 = u32::MAX;
+
 /// The user of a connection in a table of Linux: its addresses are numbers as they lie in memory.
 #[cfg(target_os = "linux")]
 fn find(table: &str, peer: SocketAddr, port: u16) -> Option<u32> {
@@ -44,7 +48,9 @@ fn find(table: &str, peer: SocketAddr, port: u16) -> Option<u32> {
     let own = |line: &str| {
         let mut words = line.split_whitespace().skip(1);
         let ends = words.next()?.ends_with(&local) && words.next()?.ends_with(&remote);
-        ends.then(|| words.nth(4)?.parse().ok())?
+        let (user, file) = ends.then(|| Some((words.nth(4)?, words.nth(1)?)))??;
+        // What no process holds any more is shown as the administrator's.
+        if file == "0" { Some(NOBODY) } else { user.parse().ok() }
     };
     table.lines().find_map(own)
 }
@@ -73,10 +79,12 @@ mod tests {
    0: 0100007F:1268 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 11 1 0 100 0
    1: 0100007F:1268 0100007F:B2C4 01 00000000:00000000 00:00000000 00000000  1000        0 12 1 0 20 4
    2: 0100007F:B2C4 0100007F:1268 01 00000000:00000000 00:00000000 00000000  1001        0 13 1 0 20 4
+   3: 0100007F:B2C6 0100007F:1268 05 00000000:00000000 00:00000000 00000000     0        0 0 1 0 20 4
 ";
         let peer = |port: u16| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
         assert_eq!(find(table, peer(0xB2C4), 0x1268), Some(1001));
         assert_eq!(find(table, peer(0xB2C5), 0x1268), None);
+        assert_eq!(find(table, peer(0xB2C6), 0x1268), Some(NOBODY));
         assert_eq!(find(table, peer(0xB2C4), 0x1269), None);
         let mapped = table.replace("0100007F", "0000000000000000FFFF00000100007F");
         assert_eq!(find(&mapped, peer(0xB2C4), 0x1268), Some(1001));

@@ -57,6 +57,8 @@ pub struct Room {
     looked: Duration,
     /// When the folder was last walked.
     walked: Duration,
+    /// How long that took.
+    walking: Duration,
     trust: Trust,
     jobs: Jobs,
 }
@@ -100,6 +102,7 @@ impl Room {
             listed,
             looked: Duration::ZERO,
             walked: Duration::ZERO,
+            walking: Duration::ZERO,
             trust,
             jobs: Jobs::default(),
         }

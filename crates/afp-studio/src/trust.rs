@@ -86,7 +86,7 @@ impl Trust {
         }
         // The folder may lie within a project, whose scenarios these are then.
         let home = ProjectFile::find(&self.root).map_or(self.root.clone(), |file| file.folder);
-        let files = [afp_project::files(&home), afp_project::scenario_files(&home)].concat();
+        let files = afp_project::all_files(&home).unwrap_or_else(|_| afp_project::files(&home));
         let inside = files.iter().filter_map(|path| Some(path.parent()?.to_owned()));
         let folders: BTreeSet<_> = inside.chain([self.root.clone()]).collect();
         let code = folders.iter().flat_map(|folder| code_of(folder));

@@ -19,4 +19,4 @@ pub mod units;
 
 pub use kind::{Afp, Kind};
 pub use text::unquote;
-pub use tree::{Node, Parse, Token, count_tokens, has_scenario, node_span, parse, token_span};
+pub use tree::{Node, Parse, Token, count_tokens, may_have_scenario, node_span, parse, token_span};

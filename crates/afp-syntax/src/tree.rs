@@ -54,10 +54,11 @@ pub fn count_tokens(text: &str) -> usize {
     lexer::lex(text, 0, &mut Diagnostics::default()).len()
 }
 
-/// Whether a text has a scenario, of whatever else it has.
-pub fn has_scenario(text: &str) -> bool {
-    let items = parse(text, 0, &mut Diagnostics::default()).file().items();
-    items.iter().any(|item| matches!(item, ast::Item::Scenario(_)))
+/// Whether a text has a scenario, of whatever else it has, or may have one that an error hides.
+pub fn may_have_scenario(text: &str) -> bool {
+    let mut diags = Diagnostics::default();
+    let items = parse(text, 0, &mut diags).file().items();
+    diags.has_errors() || items.iter().any(|item| matches!(item, ast::Item::Scenario(_)))
 }
 
 /// The place of a token.

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use afp::core::Platform;
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp::{Duration, Environment, Instant, Reading};
+use afp_session::frames::{BODY, WORLD};
 use afp_session::parts::{Grid, Line, Noise, VirtualClock};
 use afp_session::{
     Active, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated, Transform,
@@ -243,8 +244,7 @@ impl Robot for Vacuum {
         to.put(signal::DIRT_LEVEL, SampleRef::Float(self.level));
         to.put(signal::BUTTON_HALT, SampleRef::Bool(self.button));
         to.put(signal::SUCTION_ON, SampleRef::Bool(self.suction && !self.dead));
-        let frames = ("world", "base_link");
-        let pose = Transform { parent: frames.0, child: frames.1, pose: self.pose, height: 0.0 };
+        let pose = Transform { parent: WORLD, child: BODY, pose: self.pose, height: 0.0 };
         to.put(signal::POSE, SampleRef::Pose(pose));
         to.put(signal::CLEANED, SampleRef::Float(self.cleaned()));
         to.put(signal::FALLEN, SampleRef::Bool(self.fallen()));

@@ -125,22 +125,16 @@ impl Server {
         files
     }
 
-    /// Adds the files that use one, and what these use besides.
+    /// Adds the files that use one, and those that use these, where a path may lead down to it; and what they use besides.
     fn add_users(&self, home: &str, files: &mut Vec<Source>) {
-        let home = normalised(home);
-        let name = home.rsplit('/').next().unwrap_or_default();
+        let (mut homes, mut done) = (vec![normalised(home)], 0);
         let mut beside = Vec::new();
-        for path in self.workspace.afp_files() {
-            if files.iter().any(|file| file.name == path) {
-                continue;
-            }
-            // Few name it at all, and only those are read as plans.
-            let text = self.workspace.text(&path).ok().filter(|text| text.contains(name));
-            let Some(file) = text.map(|text| Source::new(path, text)) else { continue };
-            let used = used_files(&file);
-            if used.contains(&home) {
-                beside.extend(used);
-                files.push(file);
+        while let Some(home) = homes.get(done).cloned() {
+            done += 1;
+            for path in self.users(&home, files, &mut beside) {
+                if !homes.contains(&path) {
+                    homes.push(path);
+                }
             }
         }
         for path in beside {
@@ -150,6 +144,28 @@ impl Server {
                 files.push(Source::new(path, text));
             }
         }
+    }
+
+    /// The paths of the files that use one. Those that are not there yet are added, and what they use to `beside`.
+    fn users(&self, home: &str, files: &mut Vec<Source>, beside: &mut Vec<String>) -> Vec<String> {
+        let known = files.iter().filter(|file| used_files(file).iter().any(|used| used == home));
+        let mut users: Vec<_> = known.map(|file| normalised(&file.name)).collect();
+        let name = home.rsplit('/').next().unwrap_or_default();
+        for path in self.workspace.afp_files() {
+            if files.iter().any(|file| file.name == path) {
+                continue;
+            }
+            // Few name it at all, and only those are read as plans.
+            let text = self.workspace.text(&path).ok().filter(|text| text.contains(name));
+            let Some(file) = text.map(|text| Source::new(path, text)) else { continue };
+            let used = used_files(&file);
+            if used.iter().any(|used| used == home) {
+                users.push(normalised(&file.name));
+                beside.extend(used);
+                files.push(file);
+            }
+        }
+        users
     }
 
     /// Edits by the file that they are made on.

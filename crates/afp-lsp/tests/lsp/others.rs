@@ -41,6 +41,12 @@ fn files() -> Files {
         "tests/s.afp",
         "use \"../plan.afp\"\nuse \"../lib.afp\"\nscenario \"s\" for P {\n    from b\n}\n",
     );
+    // A path leads down to it through another file.
+    add(
+        "route.afp",
+        "use \"plan.afp\"\nuse std\nplan R {\n    start p\n    subplan p: P { OK -> terminate }\n}\n",
+    );
+    add("tests/r.afp", "use \"../route.afp\"\nscenario \"r\" for R {\n    expect p.b active\n}\n");
     // The same name elsewhere is another file.
     add("other/plan.afp", PLAN);
     add("other/s.afp", "use \"plan.afp\"\nscenario \"s\" for P {\n    from b\n}\n");
@@ -82,13 +88,14 @@ fn what_uses_a_file_follows_its_names() {
         let changes = said["result"]["edit"]["changes"].as_object().cloned();
         changes.ok_or(said).map(|files| files.keys().cloned().collect::<Vec<_>>())
     };
-    let both = ["file:///w/plan.afp", "file:///w/tests/s.afp"].map(str::to_owned);
+    let below = ["file:///w/plan.afp", "file:///w/tests/r.afp", "file:///w/tests/s.afp"];
+    let with_route = ["file:///w/plan.afp", "file:///w/route.afp", "file:///w/tests/s.afp"];
     for to in ["Patrol", "Q"] {
         let found = edits(json!({ "rename": { "item": "P", "to": to } }));
-        assert_eq!(found.as_deref(), Ok(&both[..]), "{to}");
+        assert_eq!(found.as_deref(), Ok(&with_route.map(str::to_owned)[..]), "{to}");
     }
     let found = edits(json!({ "rename": { "item": "P.b", "to": "c" } }));
-    assert_eq!(found.as_deref(), Ok(&both[..]));
+    assert_eq!(found.as_deref(), Ok(&below.map(str::to_owned)[..]));
     // What uses it sees another plan of that name.
     let refused = edits(json!({ "rename": { "item": "P", "to": "L" } })).unwrap_err();
     assert!(refused["error"]["message"].as_str().unwrap().contains("lib.afp"), "{refused}");

@@ -46,6 +46,11 @@ fn a_key_above_its_table_is_told_where_it_belongs() {
     assert!(text.contains("help: write it below '[run]'"), "{text}");
     assert!(text.contains("error: a project has no 'runs'\n"), "{text}");
     assert!(text.contains("help: write 'run'"), "{text}");
+    let folder = project(&[("afp.toml", "[run]\n[hardware]\ntype = 'x::Y'\n[path]\na = 1\n")]);
+    let text = ProjectFile::find(folder.path()).unwrap_err().to_string();
+    assert!(text.contains("a project has no '[hardware]'\n"), "{text}");
+    assert!(text.contains("help: write '[robot.hardware]'"), "{text}");
+    assert!(text.contains("a project has no 'path'\n"), "{text}");
 }
 
 #[test]

@@ -122,7 +122,7 @@ fn draw(
     let (below, text) = (y + HEIGHT, y + HEIGHT + 20.0);
     let right = x + WIDTH;
     let secs = shot.at.as_secs_f64();
-    // What cannot be read would not be read by whoever shows the strip, either.
+    // What is no picture of a log's, or larger than any camera's, is left out.
     if let Some(fewer) = fewer_colors(shot.png) {
         let data = STANDARD.encode(fewer);
         let _ = writeln!(

@@ -13,7 +13,7 @@ use afp_carbot::devices::Navigator;
 use afp_carbot::table::signal;
 use afp_core::Instant;
 use afp_maps::{Filter, LocateJob, Locator, Planner, SearchJob};
-use afp_session::frames::WORLD;
+use afp_session::frames::{BY_LOCALISATION, WORLD};
 use afp_session::{SampleRef, Samples, Shape};
 use afp_worker::VirtualWorker;
 use std::f64::consts::TAU;
@@ -24,8 +24,6 @@ pub(super) type SimulatedLocator = Locator<VirtualWorker<LocateJob>>;
 /// The search for ways in virtual time.
 pub(super) type SimulatedPlanner = Planner<VirtualWorker<SearchJob>>;
 
-/// Where the robot takes itself to be on its map.
-const LOCATED: &str = "base_link_by_localisation";
 /// Beliefs are drawn as discs so thin, metres, with so many corners.
 const THIN: f64 = 0.01;
 const CORNERS: u32 = 16;
@@ -71,7 +69,7 @@ impl Simulation {
         let belief = locator.latest(self.lines.odometry.read(self.raw_motion()));
         let Ok(belief) = belief.value else { return };
         let pose = Pose { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() };
-        to.put(signal::LOCALISATION_POSE, frame(WORLD, LOCATED, pose, 0.0));
+        to.put(signal::LOCALISATION_POSE, frame(WORLD, BY_LOCALISATION, pose, 0.0));
         if to.wants(signal::LOCALISATION_BELIEF) {
             let radius = belief.spread.si();
             let shape = Shape {

@@ -11,6 +11,7 @@ use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
+use afp_session::frames::{BODY, WORLD};
 use afp_session::parts::{Line, Noise, VirtualClock};
 use afp_session::{
     Active, Drawing, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated,
@@ -242,7 +243,7 @@ impl Robot for Rover {
 
     fn sample(&self, to: &mut Samples<'_, '_>) {
         let pose = self.pose();
-        let pose = Transform { parent: "world", child: "base_link", pose, height: 0.0 };
+        let pose = Transform { parent: WORLD, child: BODY, pose, height: 0.0 };
         to.put(signal::POSE, SampleRef::Pose(pose));
         to.put(signal::BUMPER_FRONT, SampleRef::Bool(self.touched()));
         let touching = self.stage.touching(self.now).last();

@@ -28,6 +28,9 @@ pub(crate) fn with_newlines(text: &str) -> Cow<'_, str> {
     }
 }
 
+/// Texts with more lines are not compared.
+const MOST: usize = 10_000;
+
 impl LineEnds {
     /// Those of a file.
     pub fn of(file: &str) -> LineEnds {
@@ -50,10 +53,13 @@ impl LineEnds {
     }
 
     /// Those of another text in place of the one that has these: lines that stay keep theirs, and a new line ends as the
-    /// line that it takes the place of, or as the one before it.
+    /// line that it takes the place of, or as the one before it. Of very long texts all lines end as the first.
     pub fn follow(&self, before: &str, text: &str) -> LineEnds {
         let LineEnds::Each(ends) = self else { return self.clone() };
         let all = before.lines().count().max(text.lines().count());
+        if all > MOST {
+            return LineEnds::All(ends.first().copied().unwrap_or("\n"));
+        }
         let patch = diffy::DiffOptions::new().set_context_len(all).create_patch(before, text);
         let Some(hunk) = patch.hunks().first() else { return self.clone() };
         let mut ends = ends.iter().copied();

@@ -101,6 +101,11 @@ impl Document {
         self.theirs.is_some()
     }
 
+    /// Whether the file holds what cannot be read.
+    pub fn is_unreadable(&self) -> bool {
+        self.unreadable
+    }
+
     /// Theirs, while somebody has to choose.
     pub fn theirs(&self) -> Option<&str> {
         self.theirs.as_ref().map(|theirs| theirs.text.as_str())

@@ -43,6 +43,8 @@ pub(super) struct Job {
     results: Vec<Value>,
     /// How long they are together.
     bytes: usize,
+    /// Whether some were not kept.
+    is_cut: bool,
     said: Vec<String>,
     /// So many of these lines the client was told.
     told: usize,
@@ -137,9 +139,12 @@ impl Job {
     /// A line: a result, or a text for people.
     fn say(&mut self, line: &str) {
         if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
-            self.bytes += line.len();
-            if self.results.len() < MOST_RESULTS && self.bytes <= MOST_BYTES {
+            let bytes = self.bytes + line.len();
+            if self.results.len() < MOST_RESULTS && bytes <= MOST_BYTES {
+                self.bytes = bytes;
                 self.results.push(result);
+            } else if !std::mem::replace(&mut self.is_cut, true) {
+                self.said.push("(it has more results than are kept)".to_owned());
             }
             return;
         }

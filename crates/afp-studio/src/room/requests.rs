@@ -147,8 +147,13 @@ fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Resu
     if new.exists() {
         return Err(format!("there is a file '{}' already", room.folder.name(&to)));
     }
-    out.extend(room.look_at(&from, now));
-    saved(room, &from)?;
+    settled(room, &from, now, out)?;
+    if !room.document(&from)?.is_saved() {
+        return Err("it is not saved yet: wait a moment".to_owned());
+    }
+    if room.documents.get(&to).is_some_and(|document| !document.is_saved()) {
+        return Err(format!("'{}' is about to be written anew", room.folder.name(&to)));
+    }
     std::fs::rename(&old, &new)
         .map_err(|why| format!("cannot rename '{}': {why}", old.display()))?;
     room.documents.remove(&from);
@@ -163,25 +168,28 @@ fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Resu
 fn remove(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Result<Value, String> {
     let path = path(params, "uri")?;
     let file = room.folder.inside(&path)?;
-    room.document(&path)?;
-    out.extend(room.look_at(&path, now));
-    let document = room.document(&path)?;
-    if document.is_disputed() {
-        return Err("another program has changed it: choose between the two texts first".to_owned());
-    }
-    let text = document.text.clone();
+    settled(room, &path, now, out)?;
+    let text = room.document(&path)?.text.clone();
     std::fs::remove_file(&file)
         .map_err(|why| format!("cannot remove '{}': {why}", file.display()))?;
     room.documents.remove(&path);
     Ok(json!({ "text": text }))
 }
 
-/// What is renamed is saved before.
-fn saved(room: &mut Room, path: &str) -> Result<(), String> {
-    match room.document(path)?.is_saved() {
-        true => Ok(()),
-        false => Err("it is not saved yet: wait a moment".to_owned()),
+/// Looks at a file that is to be moved or removed: what another program has written there is known, and not in dispute.
+fn settled(room: &mut Room, path: &str, now: Duration, out: &mut Out) -> Result<(), String> {
+    room.document(path)?;
+    out.extend(room.look_at(path, now));
+    let document = room.document(path)?;
+    if document.is_disputed() {
+        return Err("another program has changed it: choose between the two texts first".to_owned());
     }
+    if document.is_unreadable() {
+        return Err(
+            "another program has written what is no text there: look at it first".to_owned()
+        );
+    }
+    Ok(())
 }
 
 fn choose(room: &mut Room, params: &Value, now: Duration) -> Result<String, String> {

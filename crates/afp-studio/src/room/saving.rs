@@ -1,6 +1,6 @@
 //! What happens by itself: texts are written, and what others have written is noticed.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use afp_lsp::uri_of;
 use serde_json::json;
@@ -8,10 +8,10 @@ use serde_json::json;
 use super::document::Look;
 use super::{ClientId, LOOKS_EVERY, Out, Room, disputed, notification};
 
-/// How long the folder is left alone after a walk over so many entries: some ten times as long as that took, since nobody
-/// is answered meanwhile.
-fn pause(entries: usize) -> Duration {
-    Duration::from_micros(20 * entries as u64)
+/// How long the folder is left alone after a walk over so many entries that took so long: ten times as long, since nobody is
+/// answered meanwhile, and a while for each entry where the disk is fast.
+fn pause(entries: usize, took: Duration) -> Duration {
+    Duration::from_micros(20 * entries as u64).max(took * 10)
 }
 
 impl Room {
@@ -33,9 +33,11 @@ impl Room {
         }
         if now >= self.looked + LOOKS_EVERY {
             self.looked = now;
-            if now >= self.walked + pause(self.listed.entries) {
+            if now >= self.walked + pause(self.listed.entries, self.walking) {
+                let begin = Instant::now();
                 self.walked = now;
                 out.extend(self.look_at_files());
+                self.walking = begin.elapsed();
             }
             let open: Vec<_> = self.documents.keys().cloned().collect();
             for path in open {

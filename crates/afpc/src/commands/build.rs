@@ -172,7 +172,10 @@ fn generate(
     };
     let files = crate_files(graph, &options);
     let texts: Vec<_> = files.iter().map(|file| (&*file.path, &*file.text)).collect();
-    crate_folder::write(folder, &texts, &origin)?;
+    match arguments.output {
+        None => crate_folder::write_own(folder, &texts, &origin)?,
+        Some(_) => crate_folder::write(folder, &texts, &origin)?,
+    }
     say(format_args!("generated {}", folder.display()));
     Ok(files)
 }

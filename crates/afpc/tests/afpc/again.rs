@@ -110,3 +110,17 @@ fn what_cannot_be_repeated_is_said() {
     let said = place.afpc(&format!("run small.afp --again a.mcap {QUIET}"));
     said.fails(2, &["'set walldist = 0.35 m' at 0 s: the plan has no such entry 'walldist'"]);
 }
+
+#[test]
+fn a_plan_that_is_called_as_another_part_of_its_log_is_in_it() {
+    let place = Place::with_plan();
+    for name in ["world", "toolbox/std"] {
+        place.write(name, crate::common::WALL_FOLLOWING);
+        let run = format!("run {name} --until 2s --svg none --json --log a.mcap");
+        let first = place.afpc(&run);
+        first.succeeds();
+        std::fs::remove_file(place.path(name)).unwrap();
+        let again = place.afpc(&format!("run --again a.mcap {QUIET}"));
+        assert_eq!((again.succeeds().out.as_str(), again.err.as_str()), (first.out.as_str(), ""));
+    }
+}

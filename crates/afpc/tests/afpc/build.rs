@@ -48,6 +48,20 @@ fn files_of_somebody_else_are_left_alone_where_there_is_no_crate() {
 }
 
 #[test]
+fn what_an_earlier_release_built_among_the_builds_is_replaced() {
+    let place = Place::with_plan();
+    let old = "target/afp/wall_following";
+    place.write(&format!("{old}/Cargo.toml"), "# Made by another release.\n");
+    place.write(&format!("{old}/src/lib.rs"), "//! The plan.\n");
+    place.write(&format!("{old}/src/gone.rs"), "");
+    let mut command = place.command();
+    command.args(["build", "wall_following.afp"]).env("CARGO", "no-such-cargo");
+    said(command.output().unwrap()).fails(1, &["there is no cargo"]);
+    assert!(place.read(&format!("{old}/src/lib.rs")).contains("WallFollowing"));
+    assert!(!place.exists(&format!("{old}/src/gone.rs")));
+}
+
+#[test]
 fn targets_of_later_releases_and_wrong_project_files_are_refused() {
     let place = Place::with_plan();
     let mcu = place.afpc("build wall_following.afp --target mcu");

@@ -148,6 +148,22 @@ fn a_wrong_scenario_does_not_hide_the_others() {
     place.afpc("test bump").fails(1, &["E0238", "tests/wrong.afp:2"]);
 }
 
+#[test]
+fn what_an_error_hides_is_not_passed_over() {
+    let place = place();
+    place.write(
+        "tests/open.afp",
+        "/* a comment that nobody ends\nscenario \"x\" for P { until 1 s }\n",
+    );
+    let said = place.afpc("test bump");
+    said.fails(1, &["E0105", "tests/open.afp:1"]);
+    assert!(said.out.contains("1 passed"), "{said:#?}");
+    std::fs::remove_file(place.path("tests/open.afp")).unwrap();
+    // A file has no place where a folder is expected.
+    place.write("scenarios", "");
+    place.afpc("test bump").fails(1, &["cannot read the folder 'scenarios'"]);
+}
+
 const SHORT: &str = r#"use carbot
 
 plan Short {

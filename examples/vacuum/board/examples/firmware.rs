@@ -91,13 +91,15 @@ impl Firmware {
         Ok(new)
     }
 
-    /// Whether it was a word for the board: noise keeps no motor going.
+    /// Whether it was a command: what is noise or was cut keeps no motor going.
     fn hear(&mut self, line: &str) -> bool {
         let words: Vec<_> = line.split_whitespace().collect();
-        let number = |word: &str| word.parse().unwrap_or(0.0);
         match words.as_slice() {
-            ["drive", speed, turn] => self.motion = [number(speed), number(turn)],
-            ["suck", on] => self.suction = *on == "1",
+            ["drive", speed, turn] => {
+                let (Ok(speed), Ok(turn)) = (speed.parse(), turn.parse()) else { return false };
+                self.motion = [speed, turn];
+            }
+            ["suck", on @ ("0" | "1")] => self.suction = *on == "1",
             ["stop"] => self.stopped = true,
             ["start"] => self.stopped = false,
             _ => return false,

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
+use std::mem;
 use std::os::unix::fs::OpenOptionsExt;
 
 use afp_hardware::LastResort;
@@ -20,8 +21,10 @@ pub struct Line {
 
 /// The way from the board.
 pub struct Ear {
-    lines: BufReader<File>,
-    /// Whether what comes next begins a line.
+    port: BufReader<File>,
+    /// What has come of a line.
+    line: Vec<u8>,
+    /// Whether that is its beginning.
     at_beginning: bool,
 }
 
@@ -35,21 +38,20 @@ pub struct Said {
     pub button: bool,
 }
 
-/// Opens a port for both ways. A serial line gets that speed in baud, and nothing on it is edited or sent back.
+/// Opens a port for both ways, neither of which is waited for. A serial line gets that speed in baud, and nothing on it is edited
+/// or sent back.
 pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
-    let end = |flags: OFlags| {
-        // It must not become the terminal that this process belongs to.
-        let flags = (flags | OFlags::NOCTTY).bits() as i32;
-        File::options().read(true).write(true).custom_flags(flags).open(port)
-    };
-    let (to, from) = (end(OFlags::NONBLOCK)?, end(OFlags::empty())?);
+    // It must not become the terminal that this process belongs to.
+    let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits() as i32;
+    let to = File::options().read(true).write(true).custom_flags(flags).open(port)?;
+    let from = BufReader::new(to.try_clone()?);
     if isatty(&to) {
         let mut modes = tcgetattr(&to)?;
         modes.make_raw();
         modes.set_speed(baud)?;
         tcsetattr(&to, OptionalActions::Now, &modes)?;
     }
-    let ear = Ear { lines: BufReader::new(from), at_beginning: false };
+    let ear = Ear { port: from, line: Vec::new(), at_beginning: false };
     Ok((Line { port: to, whole: false }, ear))
 }
 
@@ -57,8 +59,8 @@ impl Line {
     /// Says lines. Where the line is broken or full, nothing can be said: the board stops, and what it does not say is
     /// noticed.
     pub fn say(&mut self, lines: &str) {
-        // What was cut must not run into this.
-        let text = if self.whole { lines.to_owned() } else { format!("\n{lines}") };
+        // What was cut must not run into this, and a number that was cut is another number: no command ends with this.
+        let text = if self.whole { lines.to_owned() } else { format!("?\n{lines}") };
         self.whole =
             matches!(self.port.write(text.as_bytes()), Ok(written) if written == text.len());
     }
@@ -79,19 +81,22 @@ impl Line {
 }
 
 impl Ear {
-    /// What the board says next; what is cut or disturbed is passed over. None where the line ends.
-    pub fn hear(&mut self) -> Option<Said> {
-        let mut line = Vec::new();
+    /// What the board says next; what is cut or disturbed is passed over.
+    ///
+    /// # Errors
+    /// [`WouldBlock`](io::ErrorKind::WouldBlock) where it has said nothing more yet; the line has ended.
+    pub fn hear(&mut self) -> io::Result<Said> {
         loop {
-            line.clear();
-            if let Ok(0) | Err(_) = (&mut self.lines).take(LONGEST).read_until(b'\n', &mut line) {
-                return None;
+            let room = LONGEST - self.line.len() as u64;
+            if (&mut self.port).take(room).read_until(b'\n', &mut self.line)? == 0 {
+                return Err(io::ErrorKind::UnexpectedEof.into());
             }
+            let line = mem::take(&mut self.line);
             let (begins, ends) = (self.at_beginning, line.ends_with(b"\n"));
             self.at_beginning = ends;
             let text = std::str::from_utf8(&line).ok().filter(|_| begins && ends);
             if let Some(said) = text.and_then(Said::read) {
-                return Some(said);
+                return Ok(said);
             }
         }
     }
@@ -156,7 +161,8 @@ mod tests {
         ];
         std::fs::write(&folder, parts.concat()).unwrap();
         let (_, mut ear) = open(folder.to_str().unwrap(), 115_200).unwrap();
-        let heard: Vec<_> = std::iter::from_fn(|| ear.hear()).map(|said| said.way[0]).collect();
+        let heard: Vec<_> =
+            std::iter::from_fn(|| ear.hear().ok()).map(|said| said.way[0]).collect();
         std::fs::remove_file(&folder).unwrap();
         assert_eq!(heard, [1.0, 2.0]);
     }

@@ -1,6 +1,8 @@
 //! The robot over its serial line, with a stand-in at the other end.
 
+use std::fs::File;
 use std::io::{Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
 use std::thread;
 
 use afp::core::Platform;
@@ -18,7 +20,11 @@ use firmware::Firmware;
 
 /// Runs a board until it is told to stop, or for a while after the last word; gives it back.
 fn begin() -> (Board, thread::JoinHandle<Firmware>) {
-    let (mut firmware, path) = Firmware::new().unwrap();
+    let (firmware, path) = Firmware::new().unwrap();
+    opened(firmware, &path)
+}
+
+fn opened(mut firmware: Firmware, path: &str) -> (Board, thread::JoinHandle<Firmware>) {
     let far = thread::spawn(move || {
         for _ in 0..500 {
             if firmware.is_stopped() || firmware.step().is_err() {
@@ -27,7 +33,7 @@ fn begin() -> (Board, thread::JoinHandle<Firmware>) {
         }
         firmware
     });
-    (Board::open(&Settings::new([("port", &*path)])).unwrap(), far)
+    (Board::open(&Settings::new([("port", path)])).unwrap(), far)
 }
 
 fn pass(board: &mut Board, millis: u64) {
@@ -63,20 +69,65 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     });
     let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
     says.join().unwrap();
+    full(&path);
     let began = std::time::Instant::now();
-    for speed in 0..20_000 {
-        board.drive(Speed::from_si(f64::from(speed)), AngularSpeed::from_si(0.0));
-    }
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    pass(&mut board, 100);
     board.emergency_stop();
     assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
-    // What this end of a terminal has taken already cannot be taken back: some kilobytes of half a megabyte.
+    // What this end of a terminal has taken already cannot be taken back.
     let mut told = Vec::new();
-    while !told.ends_with(b"\nstop\n") {
+    while !told.ends_with(b"?\nstop\n") {
         let mut part = [0; 1 << 12];
         let read = port.read(&mut part).unwrap();
         told.extend_from_slice(&part[..read]);
         assert!(told.len() < 20_000, "it waits behind what was said before");
     }
+}
+
+/// Says lines on a port until it takes no more.
+fn full(path: &str) {
+    let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
+    let mut port = File::options().write(true).custom_flags(flags).open(path).unwrap();
+    while port.write(b"drive 0.1 0.1\n").is_ok() {}
+}
+
+#[test]
+fn what_was_cut_is_no_command() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    File::options().write(true).open(&path).unwrap().write_all(b"drive 0.2 -1").unwrap();
+    let far = thread::spawn(move || (0..10).for_each(|_| drop(firmware.step().unwrap())));
+    let board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    far.join().unwrap();
+    assert_eq!((board.way().ahead.si(), board.way().turned.si()), (0.0, 0.0));
+}
+
+#[test]
+fn who_halts_is_heard_before_what_waits_on_the_line() {
+    let (firmware, path) = Firmware::new().unwrap();
+    let (mut board, far) = opened(firmware, &path);
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    pass(&mut board, 100);
+    full(&path);
+    board.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0));
+    board.emergency_stop();
+    assert!(!far.join().unwrap().is_moving());
+}
+
+#[test]
+fn boards_that_are_no_more_listen_no_more() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    let far = thread::spawn(move || (0..75).for_each(|_| drop(firmware.step().unwrap())));
+    let settings = Settings::new([("port", &*path)]);
+    for _ in 0..8 {
+        drop(Board::open(&settings).unwrap());
+    }
+    let mut board = Board::open(&settings).unwrap();
+    for _ in 0..80 {
+        pass(&mut board, 10);
+        assert!(board.bumper().value.is_ok(), "another one took what the board said");
+    }
+    far.join().unwrap();
 }
 
 #[test]
@@ -123,4 +174,5 @@ fn what_cannot_be_opened_says_why() {
     let why = |settings: &Settings| Board::open(settings).err().unwrap();
     assert!(why(&Settings::default()).contains("'port'"));
     assert!(why(&Settings::new([("port", "/no/such/port")])).contains("/no/such/port"));
+    assert!(why(&Settings::new([("port", "/dev/null"), ("baud", "9600")])).contains("19200"));
 }

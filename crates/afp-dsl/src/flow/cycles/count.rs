@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use afp_number::MAX_TRANSITIONS_PER_STEP;
 
-use super::counters::Counter;
+use super::counters::{self, Counter};
 use super::decided::{self, Known};
 use crate::flow::view::{Edge, Node, View};
 use crate::graph::{Element, ElementId};
@@ -36,7 +36,8 @@ impl<'a, 'b> Loops<'a, 'b> {
         let [(id, counter)] = bounding.as_slice() else { return };
         let element = &view.plan.elements[id.index()];
         let told = if inner.len() == members.len() {
-            simple(view, element, counter, inner.len())
+            let entered = counters::entered(view, *id, counter.entry);
+            simple(view, element, (counter, entered), inner.len())
         } else if self.spins(members, *id, &view.counters().on(inner.iter().copied())) {
             let others = view.counters().on(inner.iter().copied()).into_iter();
             let others = others.map(|(other, _)| other).filter(|other| other != id);
@@ -61,8 +62,11 @@ impl<'a, 'b> Loops<'a, 'b> {
     /// all that its computations decide being known.
     fn spins(&mut self, members: &[Node], from: ElementId, all: &[(ElementId, Counter)]) -> bool {
         let mut known = self.constants.clone();
-        let begin = |counter: &Counter| Constant::Int(counter.begin.greatest);
-        known.extend(all.iter().map(|(_, counter)| (counter.entry, begin(counter))));
+        let begins = all.iter().map(|(id, counter)| {
+            let entered = counters::entered(self.view, *id, counter.entry);
+            (counter.entry, Constant::Int(entered))
+        });
+        known.extend(begins);
         let members: BTreeSet<Node> = members.iter().copied().collect();
         let mut node = from.index();
         for _ in 0..MOST {
@@ -79,16 +83,17 @@ impl<'a, 'b> Loops<'a, 'b> {
     }
 }
 
-/// What is told of a cycle of so many edges with one way round, if its counter goes round too often, and what is better.
+/// What is told of a cycle of so many edges with one way round, if its counter, come to with that value, goes round too often, and
+/// what is better.
 fn simple(
     view: &View<'_>,
     element: &Element,
-    counter: &Counter,
+    (counter, entered): (&Counter, i64),
     edges: usize,
 ) -> Option<(String, String)> {
     let length = i64::try_from(edges).unwrap_or(i64::MAX);
     // The last one leads out of the cycle.
-    let rounds = counter.first();
+    let rounds = counter.limit.saturating_sub(entered);
     let message = || {
         format!(
             "'{}' goes round {rounds} times within one step, which may take at most {MOST} edges",
@@ -96,15 +101,14 @@ fn simple(
         )
     };
     let is_long = rounds.saturating_mul(length) >= MOST;
-    is_long.then(|| (message(), better(view, counter, (MOST - 1) / length)))
+    is_long.then(|| (message(), better(view, (counter, entered), (MOST - 1) / length)))
 }
 
 /// How a counter goes round so often at most.
-fn better(view: &View<'_>, counter: &Counter, rounds: i64) -> String {
-    let Counter { entry, limit, begin } = counter;
-    if begin.greatest < 0 && *limit <= rounds {
-        let name = &view.plan.entries[entry.index()].name;
-        return format!("begin '{name}' with {} or more", limit - rounds);
+fn better(view: &View<'_>, (counter, entered): (&Counter, i64), rounds: i64) -> String {
+    if entered < 0 && counter.limit <= rounds {
+        let name = &view.plan.entries[counter.entry.index()].name;
+        return format!("begin '{name}' with {} or more", counter.limit - rounds);
     }
-    format!("count at most to {}", begin.greatest.saturating_add(rounds))
+    format!("count at most to {}", entered.saturating_add(rounds))
 }

@@ -11,12 +11,13 @@ use afp_number::MAX_TRANSITIONS_PER_STEP;
 use super::decided;
 use super::holding::standard_template;
 use crate::flow::strong;
-use crate::flow::view::{Cause, Edge, View};
+use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
 use crate::toolbox::Constant;
 
-/// The state in which `Count` goes on.
+/// The state in which `Count` goes on, and that in which it begins again with zero.
 const AGAIN: u16 = 0;
+const DONE: u16 = 1;
 /// A cycle that is taken so often does not end within one step.
 pub(super) const MOST_ROUNDS: u64 = MAX_TRANSITIONS_PER_STEP as u64;
 /// How deep cycles with counters are looked into that lie in others.
@@ -29,28 +30,14 @@ pub(super) struct Counter {
     pub entry: EntryId,
     /// Its limit.
     pub limit: i64,
-    /// What its entry begins with.
-    pub begin: Begin,
-}
-
-/// The values that an entry has before anything counts in it.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) struct Begin {
-    /// The least one; zero, which `Done` writes, is never less.
-    pub least: i64,
-    /// The greatest one.
-    pub greatest: i64,
+    /// The least value that its entry has before anything counts in it: zero, which `Done` writes, or less.
+    least: i64,
 }
 
 impl Counter {
     /// How often it says `Again` at most before it says `Done`.
     fn most(&self) -> u64 {
-        u64::try_from(self.limit.saturating_sub(self.begin.least)).unwrap_or(0)
-    }
-
-    /// How often it says `Again` at least, when its cycle is entered for the first time.
-    pub fn first(&self) -> i64 {
-        self.limit.saturating_sub(self.begin.greatest)
+        u64::try_from(self.limit.saturating_sub(self.least)).unwrap_or(0)
     }
 }
 
@@ -71,7 +58,7 @@ impl Counters {
         }
         let begins = begins(view, found.iter().map(|(_, entry, _)| *entry).collect());
         let known = found.into_iter().filter_map(|(id, entry, limit)| {
-            Some((id, Counter { entry, limit, begin: *begins.get(&entry)? }))
+            Some((id, Counter { entry, limit, least: *begins.get(&entry)? }))
         });
         Counters(known.collect())
     }
@@ -163,9 +150,9 @@ fn whole(value: Constant) -> Option<i64> {
     }
 }
 
-/// What entries that are counted in begin with, where all that is written to them is known: their values at the start of
-/// the plan, those of `Assign`, and the zero of `Done`.
-fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryId, Begin> {
+/// The least values that entries begin with that are counted in, where all that is written to them is known: their values at the
+/// start of the plan, those of `Assign`, and the zero of `Done`.
+fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryId, i64> {
     let at_start = decided::at_start(view);
     let mut values: BTreeMap<EntryId, Vec<i64>> = BTreeMap::new();
     for entry in counted_in.clone() {
@@ -190,11 +177,53 @@ fn begins(view: &View<'_>, mut counted_in: BTreeSet<EntryId>) -> BTreeMap<EntryI
     for output in view.supervisors().flat_map(|supervisor| &supervisor.outputs) {
         values.remove(&output.entry);
     }
-    let begin = |values: Vec<i64>| Begin {
-        least: values.iter().copied().fold(0, i64::min),
-        greatest: values.into_iter().max().unwrap_or(0),
-    };
-    values.into_iter().map(|(entry, values)| (entry, begin(values))).collect()
+    let least = |values: Vec<i64>| values.into_iter().fold(0, i64::min);
+    values.into_iter().map(|(entry, values)| (entry, least(values))).collect()
+}
+
+/// The least value with which the flow may come to a `Count` from outside of its loop: one that is known to be written, and
+/// by nothing else on the way.
+pub(super) fn entered(view: &View<'_>, id: ElementId, entry: EntryId) -> i64 {
+    let comes = |from: Vec<Node>| comes_unwritten(view, from, id.index(), entry);
+    let declared = &view.plan.entries[entry.index()];
+    let at_start = declared.value.clone().or_else(|| decided::at_start(view).remove(&entry));
+    let at_start = at_start.and_then(whole).filter(|_| comes(vec![view.start()]));
+    let written = view.elements().filter(|(node, _)| view.reached[*node]);
+    let written = written.filter_map(|(node, element)| {
+        let writes = element.outputs.iter().any(|output| output.entry == entry);
+        let (value, of) = match counted(view, element) == Some(entry) {
+            true => (0, Some(DONE)),
+            false => (assigned(view, element).filter(|_| writes)?, None),
+        };
+        let edges = view.from(node).iter();
+        let to = edges.filter(|edge| match edge.cause {
+            Cause::State(_, state) => of.is_none_or(|of| of == state),
+            _ => false,
+        });
+        comes(to.map(|edge| edge.to).collect()).then_some(value)
+    });
+    at_start.into_iter().chain(written).min().unwrap_or(0)
+}
+
+/// Whether the flow may come from some nodes to another one before anything but a counter that goes on writes an entry.
+fn comes_unwritten(view: &View<'_>, from: Vec<Node>, to: Node, entry: EntryId) -> bool {
+    let mut known = vec![false; view.nodes()];
+    let mut waiting = from;
+    while let Some(node) = waiting.pop() {
+        if node == to {
+            return true;
+        }
+        if std::mem::replace(&mut known[node], true) {
+            continue;
+        }
+        let writes = |edge: &&Edge| {
+            let all = view.may_write(edge.cause);
+            all.iter().any(|output| output.entry == entry)
+                && !matches!(edge.cause, Cause::State(id, AGAIN) if view.counters().has(id))
+        };
+        waiting.extend(view.from(node).iter().filter(|edge| !writes(edge)).map(|edge| edge.to));
+    }
+    false
 }
 
 /// What an `Assign` of the standard toolbox writes, where that is a whole number.

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use afp_dsl::files::read_text_file;
 use afp_number::TextHash;
-use afp_project::ProjectFile;
+use afp_project::{ProjectFile, Unread};
 use afp_run::RunError;
-use afp_syntax::has_scenario;
+use afp_syntax::may_have_scenario;
 
 /// Where the logs of failed ones go.
 const LOGS: &str = "target/afp/tests";
@@ -27,8 +27,7 @@ pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
     for argument in arguments {
         let path = Path::new(argument);
         if path.is_dir() {
-            readable(path)?;
-            wanted.files.extend(with_scenarios(afp_project::files(path)));
+            wanted.files.extend(with_scenarios(afp_project::all_files(path).map_err(unread)?));
         } else if path.exists() || argument.ends_with(".afp") {
             wanted.files.push(path.to_owned());
         } else {
@@ -40,17 +39,17 @@ pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
         let project = ProjectFile::find(Path::new("."))?;
         let home = afp_project::shown(&project.folder);
         let home = if home.as_os_str().is_empty() { Path::new(".") } else { &home };
-        readable(home)?;
-        wanted.files.extend(with_scenarios(afp_project::scenario_files(home)));
+        wanted.files.extend(with_scenarios(afp_project::scenario_files(home).map_err(unread)?));
     }
     let mut known = HashSet::new();
     wanted.files.retain(|file| known.insert(file.canonicalize().unwrap_or_else(|_| file.clone())));
     Ok(wanted)
 }
 
-/// Whether a folder can be looked into at all.
-fn readable(folder: &Path) -> Result<(), RunError> {
-    fs::read_dir(folder).map(drop).map_err(RunError::file("cannot read the folder", folder))
+/// Of a folder in which there may be scenarios.
+fn unread((folder, error): Unread) -> RunError {
+    let folder = folder.strip_prefix(".").unwrap_or(&folder);
+    RunError::file("cannot read the folder", folder)(error)
 }
 
 /// Those of some files that have scenarios.
@@ -60,9 +59,9 @@ fn with_scenarios(files: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
     having.map(|path| path.strip_prefix(".").map_or(path.clone(), Path::to_owned))
 }
 
-/// Whether a file has a scenario; the compiler will know why one cannot be read.
+/// Whether a file may have a scenario; the compiler will know why one cannot be read.
 fn has_scenarios(path: &Path) -> bool {
-    read_text_file(path).map_or(true, |text| has_scenario(&text))
+    read_text_file(path).map_or(true, |text| may_have_scenario(&text))
 }
 
 /// Why there is nothing to run.
