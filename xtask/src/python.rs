@@ -44,21 +44,37 @@ const SIMULATIONS: &str = "10000";
 /// # Errors
 /// No Python, no network for the packages, or a test that fails.
 pub fn run() -> Result<(), Failure> {
-    let python = environment("python", &PACKAGES)?;
-    run_command(cargo().args(["build", "--quiet", "--package", "afpc", "--features", "full"]))?;
-    let afpc = target().join("debug").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
+    let (python, afpc) = installed()?;
     read_a_log(&python, &afpc)?;
     read_a_sweep(&python, &afpc)?;
-    install(&python, "dev")?;
     // On all cores, a file by one of them.
     let tests = ["-m", "pytest", "--quiet", "-n", "auto", "--dist", "loadfile", "--durations=5"];
     let mut tests = at_package(&python, &tests);
     tests.args(["--doctest-modules", "--pyargs", "tests", "afp"]);
-    // The extension and the runner of a project are built where other slow tests build.
+    // What is built for a project is built where other slow tests build.
     run_command(quickly_built(&mut tests).env("AFPC", afpc))?;
     run_command(&mut at_package(&python, &["-m", "mypy"]))?;
     run_command(&mut at_package(&python, &["-m", "mypy.stubtest", "afp._afp"]))?;
     sdist(&python, &wheels("sdist")?)
+}
+
+/// The robot of a project, from Python: an extension and a runner are built with it.
+///
+/// # Errors
+/// As [`run`].
+pub fn robot() -> Result<(), Failure> {
+    let (python, afpc) = installed()?;
+    let mut test = at_package(&python, &["-m", "pytest", "--quiet", "tests/test_robot.py"]);
+    run_command(quickly_built(&mut test).env("AFPC", afpc).env("AFP_ROBOT", "1"))
+}
+
+/// A Python with the package as the `dev` profile builds it, and the command line.
+fn installed() -> Result<(PathBuf, PathBuf), Failure> {
+    let python = environment("python", &PACKAGES)?;
+    run_command(cargo().args(["build", "--quiet", "--package", "afpc", "--features", "full"]))?;
+    let afpc = target().join("debug").join(format!("afpc{}", std::env::consts::EXE_SUFFIX));
+    install(&python, "dev")?;
+    Ok((python, afpc))
 }
 
 /// What takes longer: the bars of the optimised package, the search for what breaks it, a million random steps in its

@@ -30,6 +30,7 @@ pub const GATE: &[Suite] = &[
     ("web", wasm::run),
     ("install", || install::run(Profile::Debug)),
     ("vacuum", vacuum::test),
+    ("python robot", python::robot),
     ("pi", pi::short),
 ];
 
@@ -50,6 +51,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("pi", pi::run),
     ("engine", engine::run),
     ("python", python::run),
+    ("python robot", python::robot),
     ("python long", python::long),
     ("wheels", || wheels::run(&[])),
     ("scxml", || scxml::run(2000)),
@@ -157,6 +159,7 @@ fn again(name: &str) -> String {
         }
         "messages" | "mutants" => format!("    cargo xtask nightly {name}"),
         "firmware" | "web" | "install" | "vacuum" => format!("    cargo xtask gate {name}"),
+        "python robot" => "    cargo xtask gate 'python robot'".to_owned(),
         "single faults" => format!(
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
