@@ -127,15 +127,33 @@ impl Server {
 
     /// Adds the files that use one, and those that use these, where a path may lead down to it; and what they use besides.
     fn add_users(&self, home: &str, files: &mut Vec<Source>) {
+        let known: Vec<_> =
+            files.iter().map(|file| (normalised(&file.name), used_files(file))).collect();
+        let others = self.workspace.afp_files().into_iter();
+        let others = others.filter(|path| files.iter().all(|file| file.name != *path));
+        // Each is read once.
+        let read = |path: String| Some(Source::new(path.clone(), self.workspace.text(&path).ok()?));
+        let mut others: Vec<_> = others.filter_map(read).collect();
         let (mut homes, mut done) = (vec![normalised(home)], 0);
         let mut beside = Vec::new();
         while let Some(home) = homes.get(done).cloned() {
             done += 1;
-            for path in self.users(&home, files, &mut beside) {
-                if !homes.contains(&path) {
-                    homes.push(path);
+            let users = known.iter().filter(|(_, used)| used.contains(&home));
+            let mut users: Vec<_> = users.map(|(path, _)| path.clone()).collect();
+            let name = home.rsplit('/').next().unwrap_or_default();
+            // Few name it at all, and only those are read as plans.
+            let uses = |file: &mut Source| {
+                let used = if file.text.contains(name) { used_files(file) } else { Vec::new() };
+                let uses = used.contains(&home);
+                if uses {
+                    users.push(normalised(&file.name));
+                    beside.extend(used);
                 }
-            }
+                uses
+            };
+            files.extend(others.extract_if(.., uses));
+            users.retain(|user| !homes.contains(user));
+            homes.extend(users);
         }
         for path in beside {
             if files.iter().all(|file| normalised(&file.name) != path)
@@ -144,28 +162,6 @@ impl Server {
                 files.push(Source::new(path, text));
             }
         }
-    }
-
-    /// The paths of the files that use one. Those that are not there yet are added, and what they use to `beside`.
-    fn users(&self, home: &str, files: &mut Vec<Source>, beside: &mut Vec<String>) -> Vec<String> {
-        let known = files.iter().filter(|file| used_files(file).iter().any(|used| used == home));
-        let mut users: Vec<_> = known.map(|file| normalised(&file.name)).collect();
-        let name = home.rsplit('/').next().unwrap_or_default();
-        for path in self.workspace.afp_files() {
-            if files.iter().any(|file| file.name == path) {
-                continue;
-            }
-            // Few name it at all, and only those are read as plans.
-            let text = self.workspace.text(&path).ok().filter(|text| text.contains(name));
-            let Some(file) = text.map(|text| Source::new(path, text)) else { continue };
-            let used = used_files(&file);
-            if used.iter().any(|used| used == home) {
-                users.push(normalised(&file.name));
-                beside.extend(used);
-                files.push(file);
-            }
-        }
-        users
     }
 
     /// Edits by the file that they are made on.
