@@ -3,7 +3,7 @@
 use afp::core::Platform;
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp::{Duration, Environment, Instant, Reading};
-use afp_session::frames::{BODY, WORLD};
+use afp_session::frames;
 use afp_session::parts::{Grid, Line, Noise, VirtualClock};
 use afp_session::{
     Active, Drawing, Pose2, Refused, Robot, SampleRef, Samples, Shape, Simulated, Transform, World,
@@ -150,7 +150,7 @@ impl Robot for {{Name}} {
     fn sample(&self, to: &mut Samples<'_, '_>) {
         to.put(signal::BUMPER_PRESSED, SampleRef::Bool(self.touched || self.held));
         let pose = self.pose;
-        let pose = Transform { parent: WORLD, child: BODY, pose, height: 0.0 };
+        let pose = Transform { parent: frames::WORLD, child: frames::BODY, pose, height: 0.0 };
         to.put(signal::POSE, SampleRef::Pose(pose));
     }
 
