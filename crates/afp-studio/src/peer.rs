@@ -47,8 +47,10 @@ fn find(table: &str, peer: SocketAddr, port: u16) -> Option<u32> {
     let (local, remote) = (format!("{address:08X}:{:04X}", peer.port()), format!(":{port:04X}"));
     let own = |line: &str| {
         let mut words = line.split_whitespace().skip(1);
-        let ends = words.next()?.ends_with(&local) && words.next()?.ends_with(&remote);
-        let (user, file) = ends.then(|| Some((words.nth(4)?, words.nth(1)?)))??;
+        if !words.next()?.ends_with(&local) || !words.next()?.ends_with(&remote) {
+            return None;
+        }
+        let (user, file) = (words.nth(4)?, words.nth(1)?);
         // What no process holds any more is shown as the administrator's.
         if file == "0" { Some(NOBODY) } else { user.parse().ok() }
     };

@@ -1,10 +1,6 @@
 //! `afpc check --timing`: the table, targets of `afp.toml`, and what the exit codes say.
 
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
-
-use serde_json::Value;
+use crate::common::Place;
 
 const PLAN: &str = "\
 use carbot
@@ -18,34 +14,19 @@ plan P {
 }
 ";
 
-fn check(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_afpc"))
-        .args(["check", "p.afp"])
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
-fn project(toml: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("p.afp"), PLAN).unwrap();
+fn project(toml: &str) -> Place {
+    let place = Place::new();
+    place.write("p.afp", PLAN);
     if !toml.is_empty() {
-        fs::write(folder.path().join("afp.toml"), toml).unwrap();
+        place.write("afp.toml", toml);
     }
-    folder
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
+    place
 }
 
 #[test]
 fn the_table_says_what_a_bound_is_made_of() {
-    let folder = project("");
-    let output = check(folder.path(), &["--timing"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let table = text(&output.stdout);
+    let said = project("").afpc("check p.afp --timing");
+    let table = &said.succeeds().out;
     assert!(table.contains("no target: ticks and capacity are not checked"), "{table}");
     let sum = "301.12 ms proved  period 1 ms + response 70 us + interrupt 50 us + stop 300 ms";
     assert!(table.contains(sum), "{table}");
@@ -53,9 +34,7 @@ fn the_table_says_what_a_bound_is_made_of() {
 
 #[test]
 fn json_has_the_same_for_tools() {
-    let folder = project("");
-    let output = check(folder.path(), &["--timing", "--json", "--target", "pi"]);
-    let line: Value = serde_json::from_str(text(&output.stdout).trim()).unwrap();
+    let line = project("").afpc("check p.afp --timing --json --target pi").last_json();
     assert_eq!(line["target"], "pi");
     let row = &line["timing"]["supervisors"][0];
     assert_eq!(row["supervisor"], "go.touch");
@@ -66,24 +45,14 @@ fn json_has_the_same_for_tools() {
 
 #[test]
 fn targets_of_the_project_are_checked_without_being_named() {
-    let folder = project("[target.slow]\ntick = \"2 ms\"\ncapacity = 0.01\n");
-    let output = check(folder.path(), &[]);
-    assert_eq!(output.status.code(), Some(1));
-    let errors = text(&output.stderr);
-    assert!(errors.contains("error[E0403]") && errors.contains("error[E0404]"), "{errors}");
-    let named = check(folder.path(), &["--target", "mcu"]);
-    assert_eq!(named.status.code(), Some(0), "{}", text(&named.stderr));
+    let place = project("[target.slow]\ntick = \"2 ms\"\ncapacity = 0.01\n");
+    place.afpc("check p.afp").fails(1, &["error[E0403]", "error[E0404]"]);
+    place.afpc("check p.afp --target mcu").succeeds();
 }
 
 #[test]
 fn what_is_wrong_with_a_target_is_said_at_its_place() {
-    let folder = project("[target.slow]\ntock = 3\n");
-    let output = check(folder.path(), &[]);
-    assert_eq!(output.status.code(), Some(1));
-    let errors = text(&output.stderr);
-    assert!(errors.contains("afp.toml:2:1") && errors.contains("tock"), "{errors}");
-    let folder = project("");
-    let output = check(folder.path(), &["--target", "moon"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("there is no target 'moon'"));
+    let place = project("[target.slow]\ntock = 3\n");
+    place.afpc("check p.afp").fails(1, &["afp.toml:2:1", "tock"]);
+    project("").afpc("check p.afp --target moon").fails(2, &["there is no target 'moon'"]);
 }
