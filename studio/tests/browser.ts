@@ -11,7 +11,8 @@ import { chromium, type Browser, type BrowserContextOptions, type Locator, type 
 /** The program. */
 export const AFPC = process.env.AFPC ?? "";
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const REASON = !AFPC ? "AFPC does not say where afpc is" : !existsSync(CHROMIUM) ? `there is no ${CHROMIUM}` : null;
+/** Why nothing can be tried in a browser; false where it can. */
+export const SKIP = !AFPC ? "AFPC does not say where afpc is" : !existsSync(CHROMIUM) ? `there is no ${CHROMIUM}` : false;
 
 /** The longest that anything in the page is waited for, in milliseconds. */
 const PATIENCE = 10_000;
@@ -115,7 +116,7 @@ async function serve(folder: string, port = "0", file = ""): Promise<{ address: 
 
 /** A test in the browser, on a folder with some files. What the page writes to its console as an error fails it. */
 export function inBrowser(name: string, files: Record<string, string>, run: (studio: Studio) => Promise<void>, options: BrowserContextOptions & { ignore?: RegExp; timeout?: number; open?: string } = {}): void {
-  test(name, { timeout: options.timeout ?? 120_000, skip: REASON ?? false }, async () => {
+  test(name, { timeout: options.timeout ?? 120_000, skip: SKIP }, async () => {
     browser ??= await chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"] });
     const folder = await mkdtemp(join(tmpdir(), "afp-studio-"));
     for (const [file, text] of Object.entries(files)) {
