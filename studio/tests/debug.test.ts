@@ -97,9 +97,9 @@ async function clean(page: Page, within: string): Promise<void> {
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(" ")}`), []);
 }
 
-const begun = async (page: Page): Promise<void> => {
+const begun = async (page: Page, speed = "20"): Promise<void> => {
   await page.locator(".count", { hasText: /ready|warning/ }).waitFor();
-  await page.getByLabel("Speed").selectOption("20");
+  await page.getByLabel("Speed").selectOption(speed);
   await page.keyboard.press("F5");
 };
 
@@ -133,8 +133,9 @@ inBrowser("a timeline shows the run; a moment of it is gone to by mouse and keys
 
 inBrowser("why something runs is said; what is forced is shown until it ends", { "plan.afp": PLAN }, async ({ page }) => {
   await page.locator('.node [data-item="Blink.light"] text.name').first().click({ force: true });
-  await begun(page);
-  await page.locator(".clock.running").waitFor();
+  // Slowly, so that it is held in the middle: entries have values once it has begun.
+  await begun(page, "1");
+  await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock.running")?.textContent ?? "0") > 0);
   await page.keyboard.press("F8");
   await page.locator(".clock.held").waitFor();
   await page.locator('.node [data-item="Blink.dark"] text.name').first().click({ force: true });
