@@ -13,6 +13,7 @@ use tungstenite::{Error, Message, WebSocket};
 use crate::admission::{Role, Tokens};
 use crate::handshake::{Admitted, handshake};
 use crate::hub::{Asked, Hub, Question, Service, Written};
+use crate::paced::Paced;
 use crate::protocol::{self, Call, ClientMessage, Parameter};
 use crate::queue::Queue;
 
@@ -29,7 +30,7 @@ pub(crate) fn serve(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens, admitted
         return;
     };
     admitted.store(true, Ordering::Release);
-    if socket.get_ref().set_read_timeout(Some(LISTEN)).is_err() {
+    if socket.get_ref().stream().set_read_timeout(Some(LISTEN)).is_err() {
         return;
     }
     let queue = Arc::new(Queue::default());
@@ -39,7 +40,7 @@ pub(crate) fn serve(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens, admitted
 }
 
 struct Client<'a> {
-    socket: WebSocket<TcpStream>,
+    socket: WebSocket<Paced>,
     hub: &'a Arc<Hub>,
     queue: &'a Arc<Queue>,
     role: Role,
@@ -74,13 +75,14 @@ impl Client<'_> {
         }
     }
 
-    /// Sends what waits, as far as the client reads; whether more of it waits.
+    /// Sends what waits, as far as the client reads in one turn; whether more of it waits.
     fn write(&mut self) -> Result<bool, Error> {
+        self.socket.get_mut().begin_turn();
         loop {
             match self.socket.flush() {
                 Ok(()) => self.stalled = None,
                 Err(why) if is_late(&why) => {
-                    self.stalled.get_or_insert_with(Wall::now);
+                    self.note_stall();
                     return Ok(true);
                 }
                 Err(why) => return Err(why),
@@ -91,6 +93,14 @@ impl Client<'_> {
                 Err(why) if !is_late(&why) => return Err(why),
                 _ => {}
             }
+        }
+    }
+
+    /// Notes since when the client reads nothing.
+    fn note_stall(&mut self) {
+        match self.socket.get_ref().has_written() {
+            true => self.stalled = None,
+            false => _ = self.stalled.get_or_insert_with(Wall::now),
         }
     }
 

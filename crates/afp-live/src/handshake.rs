@@ -11,6 +11,7 @@ use tungstenite::{WebSocket, accept_hdr_with_config};
 
 use crate::admission::{Refusal, Role, Tokens};
 use crate::hub::{Hub, Place};
+use crate::paced::Paced;
 use crate::protocol::NAMES;
 
 /// The longest message of a client, in bytes.
@@ -20,7 +21,7 @@ const WRITE: Duration = Duration::from_millis(100);
 
 /// A client that is let in.
 pub(crate) struct Admitted {
-    pub socket: WebSocket<TcpStream>,
+    pub socket: WebSocket<Paced>,
     pub role: Role,
     /// Taken as long as the client is there.
     pub place: Place,
@@ -51,7 +52,7 @@ pub(crate) fn handshake(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens) -> O
     };
     let limits =
         WebSocketConfig::default().max_message_size(Some(LONGEST)).max_frame_size(Some(LONGEST));
-    let socket = accept_hdr_with_config(stream, admit, Some(limits)).ok()?;
+    let socket = accept_hdr_with_config(Paced::new(stream), admit, Some(limits)).ok()?;
     let (role, place) = admitted?;
     Some(Admitted { socket, role, place })
 }

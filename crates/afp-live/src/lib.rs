@@ -19,6 +19,7 @@ mod client;
 mod handshake;
 mod hub;
 mod live;
+mod paced;
 mod protocol;
 mod queue;
 mod server;

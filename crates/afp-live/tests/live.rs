@@ -2,6 +2,8 @@
 
 #[path = "live/board.rs"]
 mod board;
+#[path = "live/slow.rs"]
+mod slow;
 
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, Write};
