@@ -53,6 +53,10 @@ impl About {
             ("plan", recipe.plan.clone()),
             ("plan_file", recipe.file.clone()),
             ("plan_text", recipe.texts.first().map(|it| it.name.clone()).unwrap_or_default()),
+            (
+                "plan_texts",
+                recipe.texts.iter().map(|it| it.name.as_str()).collect::<Vec<_>>().join("\n"),
+            ),
             ("robot", recipe.robot.clone()),
             ("seed", recipe.seed.to_string()),
             ("set", set.collect::<Vec<_>>().join("\n")),
@@ -89,7 +93,7 @@ impl LogData {
         Recipe {
             plan: fact("plan").to_owned(),
             file: fact("plan_file").to_owned(),
-            texts: self.texts(fact("plan_text")),
+            texts: self.texts(fact("plan_text"), &lines("plan_texts")),
             toolboxes: self.toolboxes(),
             robot: fact("robot").to_owned(),
             world: TextFile { name: fact("world").to_owned(), text: world },
@@ -108,15 +112,16 @@ impl LogData {
         }
     }
 
-    /// The plan's file, then those that it uses.
-    fn texts(&self, plan: &str) -> Vec<TextFile> {
+    /// The plan's file, then those that it uses, in the order in which they are used where the log says it.
+    fn texts(&self, plan: &str, order: &[String]) -> Vec<TextFile> {
         let texts = self.attachments.iter().filter(|(name, _)| !is_taken(name));
         let file = |(name, text): (&String, &String)| TextFile {
             name: attached_text(name).to_owned(),
             text: text.clone(),
         };
         let mut files: Vec<_> = texts.map(file).collect();
-        files.sort_by_key(|file| file.name != plan);
+        let at = |file: &TextFile| order.iter().position(|name| *name == file.name);
+        files.sort_by_key(|file| (file.name != plan, at(file).unwrap_or(order.len())));
         files
     }
 
@@ -132,6 +137,11 @@ impl LogData {
     fn requests(&self) -> Vec<(Instant, afp_session::Stimulus)> {
         let made = self.events.iter().filter_map(|event| event.request.clone());
         made.map(|request| (request.at, request.what)).collect()
+    }
+
+    /// Whether it says in which world the run was, which may have no text.
+    pub fn has_world(&self) -> bool {
+        self.attachments.contains_key(WORLD)
     }
 
     /// When somebody stopped the run, or when its log breaks off.

@@ -36,8 +36,10 @@ pub struct SessionLog {
     echoes: BTreeMap<SignalId, Instant>,
     /// How high the frame of a device stands, metres.
     heights: BTreeMap<&'static str, f64>,
-    /// When the camera is looked at next; never where it is not to be logged.
+    /// When cameras are looked at next; never where they are not to be logged.
     camera: Instant,
+    /// Whether one was looked at among these samples.
+    has_picture: bool,
     /// What moves, as it was last written.
     shapes: Vec<Shape>,
     moved: Vec<Shape>,
@@ -98,6 +100,7 @@ impl SessionLog {
             echoes: BTreeMap::new(),
             heights: BTreeMap::new(),
             camera: if camera { Instant::ZERO } else { Instant::MAX },
+            has_picture: false,
             shapes: scene,
             moved: Vec::new(),
             scene_again,
@@ -202,7 +205,7 @@ impl Observer for SessionLog {
                 }
             }
             SampleRef::Image(image) => {
-                self.camera = at + FILM;
+                self.has_picture = true;
                 let afp_session::Image { time, frame, width, height, rgb } = image;
                 let image = Image { time, frame, width, height, rgb: rgb.into() };
                 self.recorder.image(at, self.device(signal), image);
@@ -215,6 +218,9 @@ impl Observer for SessionLog {
     }
 
     fn after_samples(&mut self, at: Instant) {
+        if std::mem::take(&mut self.has_picture) {
+            self.camera = at + FILM;
+        }
         for frames in self.frames.chunks(FRAMES) {
             self.recorder.transforms(at, frames);
         }

@@ -56,7 +56,7 @@ type Made = (Vec<(String, String)>, String, World, u64);
 pub fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<Made> {
     let log = py.detach(|| afp_log::read(&path)).map_err(|why| log_error(&why))?;
     let recipe = log.recipe();
-    if recipe.texts.is_empty() || recipe.world.text.is_empty() {
+    if recipe.texts.is_empty() || !log.has_world() {
         return Err(error(format!("'{}' does not say which plan ran where", path.display())));
     }
     let texts = recipe.texts.into_iter().map(|file| (file.name, file.text)).collect();

@@ -37,7 +37,7 @@ impl Again {
             );
             return Err(RunError::usage(message, "name the log of a simulated run"));
         }
-        if recipe.plan.is_empty() || recipe.world.text.is_empty() {
+        if recipe.plan.is_empty() || !log.has_world() {
             let message = format!("'{}' does not say which plan ran where", path.display());
             return Err(RunError::usage(message, "name the log of a run"));
         }

@@ -82,12 +82,16 @@ pub(crate) fn run(
         }
         until = until.min(judge.go_on_from_moments(&mut *session)?);
     };
+    let (end, trace) = (session.now(), session.trace().get());
+    if let Some(mut log) = log {
+        // As a run that is over: the log says when, and repeats it.
+        session.stop(&mut [&mut log]);
+        log.finish(&*session)?;
+    }
     session.end();
-    log.map(|log| log.finish(&*session)).transpose()?;
     if went == Go::Stop {
         return Ok(None);
     }
-    let end = session.now();
     judge.note_not_reached(&*session);
     let Judge { mut watch, broken: refused, timeline, .. } = judge;
     let mut broken = watch.finish(end);
@@ -100,7 +104,7 @@ pub(crate) fn run(
         hits: watch.hits,
         activations: watch.activations,
         timeline,
-        trace: session.trace().get(),
+        trace,
     }))
 }
 

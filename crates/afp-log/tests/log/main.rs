@@ -1,5 +1,6 @@
 //! A log is written, read back, cut short, recovered.
 
+mod cameras;
 mod damaged;
 
 use std::fs;
@@ -222,7 +223,9 @@ fn a_recipe_comes_back_as_it_was_written() {
     let recipe = Recipe {
         plan: "Walk".to_owned(),
         file: "plans/walk.afp".to_owned(),
-        texts: vec![text("plans/walk.afp", "plan Walk {}"), text("toolbox/a.afp", "plan A {}")],
+        texts: ["plans/walk.afp", "zeta.afp", "toolbox/a.afp"]
+            .map(|it| text(it, "plan A {}"))
+            .into(),
         toolboxes: vec![text("gripper", "actor Grip {}")],
         robot: "sim".to_owned(),
         world: text("room", "name = \"room\""),
@@ -248,6 +251,7 @@ fn a_recipe_comes_back_as_it_was_written() {
     log.end(at(4), vec![("trace".to_owned(), "12ab".to_owned())]);
     log.finish().unwrap();
     let log = read(&path).unwrap();
+    assert!(log.has_world());
     assert_eq!(log.recipe(), recipe);
     assert_eq!(log.not_reached().count(), 4);
     assert_eq!(log.events[1].request.as_ref().unwrap().done, become_[1]);

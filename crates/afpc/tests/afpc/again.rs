@@ -124,3 +124,21 @@ fn a_plan_that_is_called_as_another_part_of_its_log_is_in_it() {
         assert_eq!((again.succeeds().out.as_str(), again.err.as_str()), (first.out.as_str(), ""));
     }
 }
+
+#[test]
+fn the_log_of_a_scenario_that_failed_while_its_plan_ran_on_repeats() {
+    let place = Place::new();
+    place.write(
+        "p.afp",
+        "use std\nplan P {\n    start a\n    actor a: Wait(duration = 400 ms) { Elapsed -> b }\n\
+         \x20   actor b: Wait(duration = 600 ms) { Elapsed -> a }\n}\n\n\
+         scenario \"fails\" for P {\n    expect end within 1 s\n    until 3 s\n}\n",
+    );
+    let failed = place.afpc("test p.afp");
+    let log = failed.out.lines().find_map(|line| line.trim().strip_prefix("log: "));
+    let log = log.unwrap_or_else(|| panic!("{failed:?}"));
+    let again = place.afpc(&format!("run --again {log} --log none --svg none"));
+    again.succeeds();
+    assert!(!again.err.contains("trace"), "{}", again.err);
+    assert!(again.out.contains("     3.000  ■ P ended: Interrupted"), "{}", again.out);
+}
