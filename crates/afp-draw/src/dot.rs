@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::Options;
+use super::names::free_names;
 use super::view::{Exit, To, View, name};
 use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
@@ -15,13 +16,9 @@ pub fn dot(outline: &Outline, options: &Options) -> String {
     let mut text = format!("digraph {} {{\n", quoted(title));
     text += "  node [fontname=\"Helvetica\", shape=box, style=rounded];\n";
     text += "  edge [fontname=\"Helvetica\", fontsize=10];\n";
-    for (index, view) in views.iter().enumerate() {
-        // Plans of other files may have the same name.
-        let before = views[..index].iter().filter(|other| other.name() == view.name()).count();
-        let prefix = match before {
-            0 => view.name().to_owned(),
-            before => format!("{}_{}", view.name(), before + 1),
-        };
+    // Plans of other files may have the same name.
+    let prefixes = free_names(views.iter().map(View::name));
+    for (index, (view, prefix)) in views.iter().zip(prefixes).enumerate() {
         Cluster { view, prefix }.write(&mut text, index);
     }
     text + "}\n"

@@ -128,7 +128,9 @@ impl Layout {
     pub fn relocate(&mut self, from: &Item, to: &Item) {
         let all = std::mem::take(&mut self.placed).into_iter();
         let (moved, stays): (Vec<_>, Vec<_>) = all.partition(|(item, _)| item.lies_in(from));
-        self.placed = stays.into_iter().collect();
+        let is_apart = !from.lies_in(to) && !to.lies_in(from);
+        let stays = stays.into_iter().filter(|(item, _)| !(is_apart && item.lies_in(to)));
+        self.placed = stays.collect();
         self.placed.extend(moved.into_iter().map(|(item, placed)| (item.moved(from, to), placed)));
     }
 }

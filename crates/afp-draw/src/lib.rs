@@ -13,6 +13,7 @@ mod layout;
 pub mod layout_file;
 mod legend;
 mod metrics;
+mod names;
 mod polyline;
 mod router;
 mod scene;
@@ -37,6 +38,7 @@ use afp_syntax::source::Sources;
 
 pub use dot::dot;
 pub use json::json;
+pub use names::free_names;
 pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Point, Scene, Symbol};
 pub use scxml::scxml;
 pub use sketch::Rect;

@@ -128,8 +128,10 @@ impl Walk {
         let is_link = kind.is_symlink();
         if kind.is_dir() || self.follows && is_link && path.is_dir() {
             let built = matches!(&*name, "target" | "node_modules") || name.starts_with('.');
-            let is_new = !is_link || path.canonicalize().is_ok_and(|it| self.linked.insert(it));
-            if folder.depth > 0 && !built && is_new {
+            if folder.depth == 0 || built {
+                return;
+            }
+            if !is_link || path.canonicalize().is_ok_and(|it| self.linked.insert(it)) {
                 self.waiting.push_back(Inner { path, depth: folder.depth - 1, ..*folder });
             }
             return;
@@ -189,6 +191,9 @@ mod tests {
         fs::write(path("common/a.afp"), "").unwrap();
         symlink("../common", path("plans/linked")).unwrap();
         symlink("..", path("plans/own/circle")).unwrap();
+        // Those that are not walked hide nothing of the others.
+        symlink("common", path("lib")).unwrap();
+        symlink("../common", path("plans/.hidden")).unwrap();
         symlink("nowhere.afp", path("plans/lost.afp")).unwrap();
         let found = scenario_files(place.path()).unwrap();
         let has = |name: &str| found.contains(&path(name));

@@ -64,7 +64,7 @@ impl Again {
         })
     }
 
-    /// Says where this run differs from that of the log, if it does.
+    /// Says where this run, to which something came from outside so many times, differs from that of the log, if it does.
     ///
     /// # Errors
     /// Both have the same plan, but another trace.
@@ -72,6 +72,7 @@ impl Again {
         &self,
         program: &Program<'_>,
         until: Option<Instant>,
+        requests: usize,
         trace: TraceHash,
     ) -> Result<(), RunError> {
         let (texts, toolboxes) = program.text_files();
@@ -84,6 +85,7 @@ impl Again {
             (texts != self.recipe.texts, "another text of the plan"),
             (self.recipe.toolboxes.iter().any(is_another), "another text of a toolbox"),
             (until != self.recipe.until, "another end"),
+            (requests != self.recipe.requests.len(), "something else that came from outside"),
         ];
         let differs: Vec<_> = differs.iter().filter(|it| it.0).map(|it| it.1).collect();
         let path = self.path.display();

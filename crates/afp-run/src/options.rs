@@ -8,7 +8,7 @@ mod help;
 mod parse;
 
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use afp_core::{Duration, Instant};
 use afp_session::{DEFAULT_UNTIL, Pose2};
@@ -155,6 +155,14 @@ pub(crate) enum TimeKeeper {
 }
 
 impl RunOptions {
+    /// The files that output shall go into.
+    pub fn outputs(&self) -> impl Iterator<Item = &Path> {
+        [&self.log, &self.svg].into_iter().filter_map(|output| match output {
+            Some(Destination::File(path)) => Some(path.as_path()),
+            Some(Destination::None) | None => None,
+        })
+    }
+
     /// Refuses what this release does not have.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! Holds simulated time back to a multiple of real time, and looks at keys and signals for whoever keeps it by itself.
 
+use std::cell::Cell;
 use std::thread;
 use std::time::{Duration as Span, Instant as Wall};
 
@@ -11,6 +12,8 @@ use crate::stop::StopFlag;
 
 /// Keys and signals are looked at this often while waiting.
 const SLICE: Span = Span::from_millis(10);
+/// Simulated time that is later than this, since the process slept or a step took long, goes on from there.
+const LATE: Span = Span::from_millis(250);
 
 /// What waiting came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +31,8 @@ pub(crate) enum Waited {
 /// Holds simulated time back.
 pub(crate) struct Pace {
     begun: Wall,
+    /// For how long simulated time has stood.
+    stood: Cell<Span>,
     keeper: TimeKeeper,
     keys: Option<Keys>,
 }
@@ -40,7 +45,7 @@ impl Pace {
             // A process that sleeps stops no robot.
             TimeKeeper::Robot => Keys::take(false),
         };
-        Pace { begun: Wall::now(), keeper, keys }
+        Pace { begun: Wall::now(), stood: Cell::default(), keeper, keys }
     }
 
     /// Seconds of real time so far.
@@ -53,7 +58,8 @@ impl Pace {
         match self.keeper {
             TimeKeeper::Nobody | TimeKeeper::Robot => None,
             TimeKeeper::Gate(times) => {
-                Some(Instant::from_nanos((self.begun.elapsed().as_nanos() as f64 * times) as u64))
+                let went = self.begun.elapsed().saturating_sub(self.stood.get());
+                Some(Instant::from_nanos((went.as_nanos() as f64 * times) as u64))
             }
         }
     }
@@ -71,12 +77,35 @@ impl Pace {
                 return Waited::Escape;
             }
             let TimeKeeper::Gate(times) = self.keeper else { return Waited::Due };
-            let due = self.begun + Span::from_secs_f64((at.as_secs_f64() / times).min(1e9));
+            let takes = Span::from_secs_f64((at.as_secs_f64() / times).min(1e9));
+            let due = self.begun + takes + self.stood.get();
             let left = due.saturating_duration_since(Wall::now());
             if left.is_zero() {
+                let late = due.elapsed();
+                if late > LATE {
+                    self.stood.set(self.stood.get() + late);
+                }
                 return Waited::Due;
             }
             thread::sleep(left.min(SLICE));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_slept_through_is_not_caught_up() {
+        let pace = Pace::new(TimeKeeper::Gate(1.0));
+        let pace = Pace { begun: Wall::now() - Span::from_secs(5), ..pace };
+        let (stop, at) =
+            (StopFlag::default(), |millis: u64| Instant::from_nanos(millis * 1_000_000));
+        assert_eq!(pace.wait(at(1000), &stop, &|| false), Waited::Due);
+        let (begun, now) = (Wall::now(), pace.simulated().unwrap());
+        assert!(now >= at(1000) && now < at(1500), "{now:?}");
+        assert_eq!(pace.wait(at(1100), &stop, &|| false), Waited::Due);
+        assert!(begun.elapsed() > Span::from_millis(50), "{:?}", begun.elapsed());
     }
 }

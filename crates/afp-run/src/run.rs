@@ -234,10 +234,13 @@ fn drive(
     sent.map(|sent| sent.finish(session)).transpose()?;
     live.into_iter().for_each(Live::finish);
     let requests = requests.finish(session);
+    let asked = requests.len();
     let came = Came { stopped_by, speed, measured, written, counts, track, requests, raster };
     let code = came.finish(session, report.into_inner(), &paths, setting)?;
     let until = setting.recipe.until;
-    setting.again.map_or(Ok(()), |again| again.compare(program, until, session.trace()))?;
+    // What somebody has stopped has no trace to compare.
+    let again = setting.again.filter(|_| stopped_by != Some(StoppedBy::Signal));
+    again.map_or(Ok(()), |again| again.compare(program, until, asked, session.trace()))?;
     Ok(stop.exit_code().filter(|_| stopped_by.is_some()).unwrap_or(code))
 }
 

@@ -1,7 +1,9 @@
 //! Outcomes as columns, the same for every kind of table.
 
+use std::collections::HashSet;
+
 use crate::findings::Measure;
-use crate::grid::{Row, Sweep};
+use crate::grid::{Axis, Row, Sweep};
 use crate::outcome::Outcome;
 
 /// A column.
@@ -34,7 +36,44 @@ impl Column {
     }
 }
 
-/// The columns of outcomes: numbers, world, seed, values, what came of it, the command, what it took.
+/// The columns that each table has.
+pub(crate) const FIXED: [&str; 15] = [
+    "run",
+    "world",
+    "seed",
+    "ending",
+    "where",
+    "why",
+    "time_s",
+    "distance_m",
+    "collisions",
+    "touched",
+    "interruptions",
+    "deadline_misses",
+    "trace",
+    "command",
+    "took_s",
+];
+
+/// The names of the columns of what is varied, of values as written and in SI units; with `in.` before it where a column
+/// has that name already.
+fn names_of_axes(sweep: &Sweep) -> Vec<[String; 2]> {
+    let mut known: HashSet<String> = FIXED.map(str::to_owned).into();
+    let names = |name: String| [format!("{name}_si"), name];
+    let free = |axis: &Axis| {
+        let own = names(axis.name.clone());
+        let [si, name] = match own.iter().any(|name| known.contains(name)) {
+            true => names(format!("in.{}", axis.name)),
+            false => own,
+        };
+        known.extend([name.clone(), si.clone()]);
+        [name, si]
+    };
+    sweep.axes.iter().map(free).collect()
+}
+
+/// The columns of outcomes: numbers, world, seed, values, what came of it, the command, what it took. Each has a name of its
+/// own.
 pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
     let rows: Vec<Row<'_>> = outcomes.iter().map(|outcome| sweep.row(outcome.run)).collect();
     let counts = |name: &str, count: fn(&Outcome) -> u64| {
@@ -52,13 +91,14 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
         column("world", of_rows(&rows, |row| row.world.name().unwrap_or_default().to_owned())),
         column("seed", Cells::Counts(rows.iter().map(|row| row.seed).collect())),
     ];
-    for (number, axis) in sweep.axes.iter().enumerate() {
+    let names = names_of_axes(sweep);
+    for (number, (axis, [name, si])) in sweep.axes.iter().zip(&names).enumerate() {
         let point = |row: &Row<'_>| row.values.get(number).map(|(_, point)| (*point).clone());
         let text = |row: &Row<'_>| point(row).map(|point| point.text).unwrap_or_default();
-        all.push(column(&axis.name, of_rows(&rows, text)));
+        all.push(column(name, of_rows(&rows, text)));
         if axis.points.iter().any(|point| point.si.is_some()) {
             let cells = rows.iter().map(|row| point(row).and_then(|point| point.si)).collect();
-            all.push(column(&format!("{}_si", axis.name), Cells::Numbers(cells)));
+            all.push(column(si, Cells::Numbers(cells)));
         }
     }
     all.extend([
@@ -72,7 +112,13 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
         counts("interruptions", |it| it.interruptions),
         counts("deadline_misses", |it| it.deadline_misses),
     ]);
-    all.extend(Measure::of_figures(outcomes).iter().map(numbers));
+    for figure in Measure::of_figures(outcomes) {
+        let mut column = numbers(&figure);
+        if names.as_flattened().contains(&column.name) {
+            column.name = of_robot(&column.name);
+        }
+        all.push(column);
+    }
     all.extend([
         texts("trace", |it| &it.trace),
         column("command", of_rows(&rows, |row| sweep.command(row))),
@@ -81,10 +127,56 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
     all
 }
 
+/// What a figure is called whose name is that of another column.
+pub(crate) fn of_robot(figure: &str) -> String {
+    format!("robot.{figure}")
+}
+
 fn column(name: &str, cells: Cells) -> Column {
     Column { name: name.to_owned(), cells }
 }
 
 fn of_rows(rows: &[Row<'_>], text: impl Fn(&Row<'_>) -> String) -> Cells {
     Cells::Texts(rows.iter().map(text).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use afp_core::Duration;
+
+    use super::*;
+    use crate::grid::{Point, WorldChoice};
+    use crate::outcome::Ending;
+    use crate::ranges::Seeds;
+
+    #[test]
+    fn each_column_has_a_name_of_its_own() {
+        let axis = |name: &str| Axis {
+            name: name.to_owned(),
+            points: vec![Point { text: "1".to_owned(), si: Some(1.0) }],
+        };
+        let mut sweep = Sweep {
+            plan: "p.afp".to_owned(),
+            worlds: vec![WorldChoice::OfPlan],
+            axes: vec![],
+            seeds: Seeds::new(0..1),
+            presses: vec![],
+            failures: vec![],
+            until: Duration::from_secs(1),
+            caveat: None,
+        };
+        let mut outcome = Outcome::failed(0, Ending::Ok, String::new());
+        outcome.figures.insert("n".to_owned(), Some(3.0));
+        let names = |sweep: &Sweep, outcome: &Outcome| -> Vec<_> {
+            let columns = columns(sweep, std::slice::from_ref(outcome)).into_iter();
+            columns.map(|column| column.name).collect()
+        };
+        let plain = names(&sweep, &Outcome::failed(0, Ending::Ok, String::new()));
+        assert_eq!(plain, FIXED);
+        sweep.axes = ["seed", "n", "n_si"].map(axis).into();
+        let all = names(&sweep, &outcome);
+        assert_eq!(all[3..9], ["in.seed", "in.seed_si", "n", "n_si", "in.n_si", "in.n_si_si"]);
+        assert!(all.contains(&"robot.n".to_owned()), "{all:?}");
+        assert_eq!(all.iter().collect::<HashSet<_>>().len(), all.len());
+    }
 }

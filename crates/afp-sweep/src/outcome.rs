@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use afp_session::{FigureValue, Figures};
 use serde::{Deserialize, Serialize};
 
+use crate::columns::{FIXED, of_robot};
+
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -91,7 +93,7 @@ pub struct Outcome {
 pub(crate) const CONTACTS: &str = "contacts";
 
 /// Figures as numbers with names: a count by the figure's own, each of its numbers with that before it, stretches of time
-/// by their sum in seconds.
+/// by their sum in seconds. What is called as a column that each table has is called the robot's.
 pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
     let mut all = BTreeMap::new();
     for figure in &figures.0 {
@@ -112,7 +114,8 @@ pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
             }
         }
     }
-    all
+    let own = |name: String| if FIXED.contains(&&*name) { of_robot(&name) } else { name };
+    all.into_iter().map(|(name, number)| (own(name), number)).collect()
 }
 
 /// What the robot touched, and for how long altogether, seconds.

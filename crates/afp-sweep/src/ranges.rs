@@ -160,6 +160,9 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
         Some((to, step)) => (to, Some(step)),
         None => (to, None),
     };
+    if let Some(all) = whole_range(from, to, step)? {
+        return Ok(all);
+    }
     let (first, unit) = number(from)?;
     let (last, other) = number(to)?;
     // `20..60cm` says it once for both.
@@ -177,7 +180,7 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
     };
     let steps = (last - first) / step;
     if step > 0.0 && steps >= MOST {
-        return Err(format!("'{from}..{to}' has more than {MOST} values; write a wider step"));
+        return Err(too_many(from, to));
     }
     if !(step > 0.0 && steps >= 0.0) {
         return Err(format!("no values lie in '{from}..{to}' in steps of {}", written(step, unit)));
@@ -185,6 +188,26 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
     // A step that should end at the last value does, whatever the division lost.
     let count = (steps + 1e-9).floor() as u64 + 1;
     Ok((0..count).map(|n| written(first + n as f64 * step, unit)).collect())
+}
+
+/// A range of whole numbers without a unit, which are counted exactly; none of others.
+fn whole_range(from: &str, to: &str, step: Option<&str>) -> Result<Option<Vec<String>>, String> {
+    let whole = |text: &str| text.trim().parse::<i64>().ok();
+    let (Some(first), Some(last)) = (whole(from), whole(to)) else { return Ok(None) };
+    let Some(step) = step.map_or(Some(1), whole) else { return Ok(None) };
+    let steps = match last.checked_sub(first) {
+        Some(distance) if step > 0 && distance >= 0 => distance / step,
+        // Too far apart for what counts, or none: as those say it that are not whole.
+        _ => return Ok(None),
+    };
+    if steps as f64 >= MOST {
+        return Err(too_many(from, to));
+    }
+    Ok(Some((0..=steps).map(|n| (first + n * step).to_string()).collect()))
+}
+
+fn too_many(from: &str, to: &str) -> String {
+    format!("'{from}..{to}' has more than {MOST} values; write a wider step")
 }
 
 /// A number and its unit.
@@ -221,6 +244,9 @@ mod tests {
         assert_eq!(texts("d=0.1m..0.3m:0.1m"), ["0.1m", "0.2m", "0.3m"]);
         assert_eq!(texts("n=1..4"), ["1", "2", "3", "4"]);
         assert_eq!(texts("n=-1.5..0.5:1"), ["-1.5", "-0.5", "0.5"]);
+        assert_eq!(texts("n=-3..4:3"), ["-3", "0", "3"]);
+        let large = texts("n=1000000000000001..1000000000000003");
+        assert_eq!(large, ["1000000000000001", "1000000000000002", "1000000000000003"]);
         assert_eq!(texts("side=left, right"), ["left", "right"]);
         assert_eq!(texts("d=5 m/s"), ["5 m/s"]);
     }

@@ -12,7 +12,7 @@ use afp_session::{AnySession, Loader};
 
 use crate::grid::{Axis, Point, Row, Sweep, WorldChoice};
 
-/// More runs than this are a mistake, and no list could hold them.
+/// More runs than this are a mistake: a sweep keeps its outcomes in memory, too, some hundred bytes each.
 const MOST: u64 = 10_000_000;
 /// So many combinations of values of a world are tried before anything runs.
 const TRIED: usize = 1000;
@@ -69,19 +69,26 @@ impl<'a> Setting<'a> {
                 let message = format!("'{}' is varied twice", axis.name);
                 return Err(RunError::usage(message, "say it once, with all of its values"));
             }
+            let mut whole = Vec::new();
             match change::key(&axis.name) {
                 Some(key) => self.check_worlds(key, &mut axis.points)?,
                 None => {
                     for point in &mut axis.points {
-                        point.si = match inputs::set(&mut *session, &axis.name, &point.text)? {
+                        let value = inputs::set(&mut *session, &axis.name, &point.text)?;
+                        point.si = match value {
                             Value::Float(value) => Some(value),
                             Value::Int(value) => Some(value as f64),
                             _ => None,
                         };
+                        whole.extend(if let Value::Int(value) = value {
+                            Some(value)
+                        } else {
+                            None
+                        });
                     }
                 }
             }
-            different_values(axis)?;
+            different_values(axis, &whole)?;
         }
         self.check_together(&sweep.axes)
     }
@@ -184,16 +191,17 @@ fn different_worlds(worlds: &[WorldChoice]) -> Result<(), RunError> {
     })
 }
 
-/// Refuses a value that is there twice, in another unit, too.
-fn different_values(axis: &Axis) -> Result<(), RunError> {
+/// Refuses a value that is there twice, in another unit, too; `whole` are the values where they are whole numbers.
+fn different_values(axis: &Axis, whole: &[i64]) -> Result<(), RunError> {
     let mut known = HashSet::new();
-    let value = |point: &Point| match point.si {
+    let value = |(number, point): &(usize, &Point)| match (whole.get(*number), point.si) {
+        (Some(whole), _) => whole.to_string(),
         // Both zeros are one value.
-        Some(si) => (si + 0.0).to_bits().to_string(),
-        None => point.text.clone(),
+        (None, Some(si)) => (si + 0.0).to_bits().to_string(),
+        (None, None) => point.text.clone(),
     };
-    let twice = axis.points.iter().find(|point| !known.insert(value(point)));
-    twice.map_or(Ok(()), |point| {
+    let twice = axis.points.iter().enumerate().find(|point| !known.insert(value(point)));
+    twice.map_or(Ok(()), |(_, point)| {
         let message = format!("'{}={}' is there twice", axis.name, point.text);
         Err(RunError::usage(message, "give each value once"))
     })

@@ -132,7 +132,7 @@ fn no_line_is_lost_when_something_is_placed() {
 #[test]
 fn what_gets_a_name_that_was_left_stands_where_it_stood() {
     for left in ["a", "c"] {
-        let mut layout = read(&format!("P.b 1 2\nP.b.t 3 4\nP.{left} 5 6\n"));
+        let mut layout = read(&format!("P.b 1 2\nP.b.t 3 4\nP.{left} 5 6\nP.{left}.u 7 8\n"));
         layout.relocate(&Item::inner("P", "b"), &Item::inner("P", left));
         assert_eq!(layout.write(), format!("P.{left} 1 2\nP.{left}.t 3 4\n"));
     }

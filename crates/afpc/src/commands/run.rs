@@ -4,7 +4,7 @@ use std::path::Path;
 
 use afp_build::no_hardware;
 use afp_run::options::{OnRobot, RunOptions};
-use afp_run::{Program, RunError, toolbox_attachment};
+use afp_run::{Program, RunError, check_apart, toolbox_attachment};
 use afp_session::{AnyWorld, Settings};
 use clap::Args;
 
@@ -53,6 +53,8 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         graph => runner::become_one_for(graph.iter().map(|graph| (&file.own, graph)), linked)?,
     }
     let (file, graph) = file.checked()?;
+    let sources = file.compiled.plan_sources().map(|source| Path::new(&source.name));
+    check_apart(arguments.options.outputs(), sources)?;
     let path = file.path.display().to_string();
     let mut texts = file.compiled.plan_texts();
     texts.extend(file.own.texts().map(|(name, text)| (toolbox_attachment(name), text.to_owned())));

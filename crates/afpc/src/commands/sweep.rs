@@ -83,9 +83,6 @@ A sweep that was stopped or killed goes on with the same command.
 Exit codes: 0 done, 1 a file is wrong, 2 wrong usage, 3 a run ended in Error or could not begin,
 130 stopped before all runs were done";
 
-/// A sweep keeps its outcomes in memory too, some hundred bytes each.
-const MOST_RUNS: u64 = 20_000_000;
-
 /// The worlds of one `--world`.
 #[derive(Clone, Debug)]
 struct Worlds(Vec<String>);
@@ -158,13 +155,7 @@ impl Arguments {
             failures: self.fail.clone(),
             until: self.until,
         };
-        match sweep.len() {
-            runs if runs > MOST_RUNS => Err(RunError::usage(
-                format!("these are {runs} runs, more than {MOST_RUNS}"),
-                "vary less at once, or take several sweeps, each with seeds of its own",
-            )),
-            _ => Ok(sweep),
-        }
+        Ok(sweep)
     }
 }
 

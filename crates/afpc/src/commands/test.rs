@@ -151,7 +151,8 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
             return Err(RunError::usage(message, "name the files of the scenarios").into());
         }
         let Arguments { seed, at_least, json, .. } = *arguments;
-        return mutate::run(&read, &mutate::Wanted { seed, at_least, json }, linked);
+        let found = mutate::run(&read, &mutate::Wanted { seed, at_least, json }, linked)?;
+        return Ok(if found == EXIT_OK { code } else { found });
     }
     let cases: Vec<_> =
         read.iter().flat_map(cases).filter(|case| matches(case, &filters)).collect();

@@ -58,19 +58,24 @@ fn nothing_to_do_takes_no_time() {
 #[test]
 fn no_output_takes_the_place_of_what_is_read_or_of_another_output() {
     let place = place();
-    let before = ["p.afp", "p.mcap"].map(|name| place.bytes(name));
+    place.write("part.afp", &place.read("p.afp"));
+    let uses = "use \"part.afp\"\nplan Uses { start all subplan all: P { OK -> terminate } }\n";
+    place.write("uses.afp", uses);
+    let before = ["p.afp", "p.mcap", "part.afp"].map(|name| place.bytes(name));
     let files = place.files();
     for command in [
         "graph p.afp -o ./p.afp --format svg",
         "test --generate p.afp -o p.afp",
         "run p.afp --svg none --log p.afp",
+        "run uses.afp --svg none --log ./part.afp",
         "run --again p.mcap --svg none --log ./p.mcap",
         "run p.afp --log both.svg --svg ./both.svg",
         "log p.mcap recover -o ./p.mcap",
         "log p.mcap --svg both.svg --coverage both.svg",
     ] {
         place.afpc(command).fails(2, &["help: give "]);
-        assert_eq!(["p.afp", "p.mcap"].map(|name| place.bytes(name)), before, "{command}");
+        let now = ["p.afp", "p.mcap", "part.afp"].map(|name| place.bytes(name));
+        assert_eq!(now, before, "{command}");
         assert_eq!(place.files(), files, "{command}");
     }
 }

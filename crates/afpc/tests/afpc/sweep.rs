@@ -102,6 +102,13 @@ fn what_is_there_twice_is_refused() {
     ] {
         place.afpc(&format!("sweep wall_following.afp --until 1s {twice}")).fails(2, &[what]);
     }
+    // Numbers that only whole numbers can tell apart.
+    place.write("count.afp", "use std\nplan Count {\n    in n: int = 1\n    in seed: int = 1\n    start a\n    actor a: Wait(duration = 1 ms) { Elapsed -> terminate }\n}\n");
+    let large = "--vary n=9007199254740992,9007199254740993 --vary seed=5";
+    place.afpc(&format!("sweep count.afp {large} --output all.csv")).succeeds();
+    let rows = rows(&place, "all.csv");
+    assert!(rows[0].contains(",seed,n,n_si,in.seed,in.seed_si,"), "{rows:?}");
+    assert!(rows[2].contains(",0,9007199254740993,"), "{rows:?}");
 }
 
 #[test]
@@ -210,7 +217,7 @@ fn what_cannot_be_varied_is_said_before_anything_runs() {
         ("--vary walldist=1m --vary walldist=2m", ["varied twice", "say it once"]),
         ("--vary world.robot.charg=1", ["has no 'charg'", "write 'charge'"]),
         ("--vary walldist=20cm..1m", ["same unit", "--vary"]),
-        ("--seeds 0..99999999999", ["these are 99999999999 runs", "vary less at once"]),
+        ("--seeds 0..99999999999", ["these are 99999999999 runs", "give a part of the seeds"]),
         ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),
         ("-o a.txt", ["says no format", "'.csv' or '.parquet'"]),
         #[cfg(not(feature = "parquet"))]

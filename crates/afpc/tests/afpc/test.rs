@@ -229,3 +229,19 @@ fn mutants_are_made_and_those_that_nobody_notices_are_told() {
     assert!(better > share, "{better}");
     place.afpc("test --mutate nothing").fails(2, &["takes files", "no file 'nothing'"]);
 }
+
+#[test]
+fn what_is_wrong_is_told_beside_mutants() {
+    let place = Place::new();
+    place.write("short.afp", SHORT);
+    let scenarios = "use \"../short.afp\"\n\nscenario \"ends\" for Short { expect go -> back }\n";
+    place.write("tests/short.afp", scenarios);
+    let with_missing = place.afpc("test --mutate tests/short.afp tests/gone.afp");
+    with_missing.fails(1, &["gone.afp"]);
+    assert!(with_missing.out.contains(" mutants that change a run"), "{}", with_missing.out);
+    let wrong = format!("{scenarios}scenario \"x\" for Short {{ expect nobody active }}\n");
+    place.write("tests/short.afp", &wrong);
+    let said = place.afpc("test --mutate");
+    assert_eq!(said.code, 3, "{}", said.out);
+    assert!(said.err.contains("E0602") || said.out.contains("E0602"), "{said:?}");
+}

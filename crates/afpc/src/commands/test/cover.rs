@@ -1,8 +1,9 @@
 //! Drawings of plans with what was used of them.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use afp_draw::free_names;
 use afp_run::{PictureFormat, RunError, say};
 
 use super::Used;
@@ -24,19 +25,11 @@ pub(super) fn draw_all(plans: &[Used<'_>], output: &Path) -> Result<(), NoPlan> 
         return draw(used, output);
     }
     fs::create_dir_all(output).map_err(RunError::file("cannot make the folder", output))?;
-    for (index, used) in plans.iter().enumerate() {
-        draw(used, &file_of(plans, index, output))?;
+    let names = free_names(plans.iter().map(|used| used.coverage.plan.as_str()));
+    for (used, name) in plans.iter().zip(names) {
+        draw(used, &output.join(format!("{name}.{}", PictureFormat::Svg.ending())))?;
     }
     Ok(())
-}
-
-/// `cover/patrol.svg`; with a number where two plans have one name.
-fn file_of(plans: &[Used<'_>], index: usize, folder: &Path) -> PathBuf {
-    let name = |used: &Used<'_>| used.coverage.plan.clone();
-    let own = name(&plans[index]);
-    let before = plans[..index].iter().filter(|other| name(other) == own).count();
-    let number = if before > 0 { format!("_{}", before + 1) } else { String::new() };
-    folder.join(format!("{own}{number}.{}", PictureFormat::Svg.ending()))
 }
 
 fn draw(used: &Used<'_>, path: &Path) -> Result<(), NoPlan> {

@@ -6,7 +6,7 @@ use std::io::{IsTerminal, Write as _};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use afp_dsl::files::{Disk, Files};
-use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag};
+use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, say};
 use afp_test::mutate::{Bench, Judged, Mutant, MutantStatus, Suite, Tally, mutants};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use serde_json::json;
@@ -50,6 +50,12 @@ pub(super) fn run(files: &[PlanFile], wanted: &Wanted, linked: &Linked<'_>) -> R
         );
     }
     let mut code = EXIT_OK;
+    for file in files {
+        for invalid in &file.compiled.invalid {
+            say(invalid.errors.render(&file.compiled.sources, true));
+            code = EXIT_PLAN_ERROR;
+        }
+    }
     for (plan, suites) in plans {
         let Some(share) = one_plan(plan, &suites, wanted, linked, &stop)? else {
             return Ok(stop.exit_code().unwrap_or(EXIT_STOPPED));
