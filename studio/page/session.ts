@@ -14,7 +14,6 @@ export interface Hello {
   root: string;
   open: string | null;
   pen: boolean;
-  documents: Kept[];
   files: { uri: string; name: string }[];
   more?: boolean;
   examples: { name: string; title: string }[];

@@ -282,7 +282,7 @@ test("what the server tells while it is being greeted is newer than its greeting
     open: signal(true),
     on: (method, take) => (takers.set(method, take), () => {}),
     request: async (method: string): Promise<any> => {
-      if (method === "afp/hello") return { client: 1, root: "file:///w", open: null, pen: true, documents: [], files: [one], examples: [] };
+      if (method === "afp/hello") return { client: 1, root: "file:///w", open: null, pen: true, files: [one], examples: [] };
       await null;
       takers.get("afp/files")!({ files: [one, two] });
       return { capabilities: {} };

@@ -76,9 +76,6 @@ pub(super) fn answer(
 }
 
 fn hello(room: &Room, client: ClientId) -> Value {
-    let documents = room.documents.iter().map(|(path, document)| {
-        json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() })
-    });
     let examples = room.examples.iter().map(Example::listed);
     json!({
         "client": client,
@@ -86,7 +83,6 @@ fn hello(room: &Room, client: ClientId) -> Value {
         "open": room.open.clone().or_else(|| first_plan(room)),
         "pen": room.pen == Some(client),
         "trusted": room.trust.is_given(),
-        "documents": documents.collect::<Vec<_>>(),
         "files": room.files(),
         "more": room.listed.is_cut,
         "examples": examples.collect::<Vec<_>>(),

@@ -59,10 +59,10 @@ impl Room {
         };
         let paths: Vec<_> = self.documents.iter().filter_map(due).collect();
         let mut out = Vec::new();
-        for path in paths {
+        for path in &paths {
             // Never over what somebody else has written meanwhile.
-            out.extend(self.look_at(&path, now));
-            let Some(document) = self.documents.get_mut(&path) else { continue };
+            out.extend(self.look_at(path, now));
+            let Some(document) = self.documents.get_mut(path) else { continue };
             if !document.due().is_some_and(&wanted) {
                 continue;
             }
@@ -71,7 +71,10 @@ impl Room {
                 // It is no news that somebody else would have to be told of.
                 self.listed.files.insert(path.clone(), stamp);
             }
-            out.extend(self.tell_saved(&path, saved.map(drop)));
+            out.extend(self.tell_saved(path, saved.map(drop)));
+        }
+        if !paths.is_empty() {
+            self.forget();
         }
         out
     }
