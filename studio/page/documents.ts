@@ -4,6 +4,7 @@ import { computed, signal } from "@preact/signals";
 import { difference, withNewlines } from "./changes";
 import { conflicts, dispute, settle, type Keep } from "./conflicts";
 import { attach, clear, push, record, type Change, type Step } from "./history";
+import { tooLong } from "./limit";
 import { LOST, Refused, type Finish, type Lsp } from "./lsp";
 import * as pending from "./pending";
 import { position, type Range } from "./positions";
@@ -103,8 +104,9 @@ function take(kept: Kept): void {
 /** Tells the server what was made of a text. */
 type Say = (uri: string, told: Told[], changes: ChangeSet) => void;
 
-/** Makes changes one after the other, tells the server, and everybody who shows a text. */
+/** Makes changes one after the other, tells the server, and everybody who shows a text. Makes none where a text would get too long. */
 function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] {
+  const all = documents.peek();
   const steps: Step[] = [];
   const made = new Map<string, { before: string; told: Told[]; changes: Change[] }>();
   for (const change of changes) {
@@ -120,6 +122,12 @@ function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] 
     put({ ...document, text: before.slice(0, from) + insert + before.slice(to) });
     steps.push({ uri, from, removed: before.slice(from, to), inserted: insert });
   }
+  for (const [uri, { before }] of made) {
+    const why = maker === "outside" ? null : tooLong(before.length, text(uri));
+    if (why === null) continue;
+    documents.value = all;
+    throw new Error(why);
+  }
   for (const [uri, { before, told, changes }] of made) {
     say(uri, told, pending.together(changes, before.length));
     takers.forEach((take) => take(uri, changes, maker, told));
@@ -134,11 +142,21 @@ const own: Say = (uri, told, changes) => {
   if (lsp().open.peek()) put({ ...document, pending: pending.told(document.pending, version, changes) });
 };
 
-/** Tells a server the next version of a text; gives that. `taken` is the number of the room's change that it has in it. */
-function tell(to: Lsp, uri: string, contentChanges: readonly { range?: Range; text: string }[], taken?: number): number {
+/** Letters that a change takes in a message beside its text, about. */
+const AROUND = 100;
+/** Letters of changes that are told in any case. */
+const FEW = 100_000;
+
+/**
+ * Tells a server the next version of a text; gives that. `taken` is the number of the room's change that it has in it.
+ * Where many changes were made the text itself is shorter.
+ */
+function tell(to: Lsp, uri: string, changes: readonly { range?: Range; text: string }[], taken?: number): number {
   const document = documents.peek().get(uri)!;
   const version = document.version + 1;
   put({ ...document, version });
+  const length = changes.reduce((sum, { text }) => sum + text.length + AROUND, 0);
+  const contentChanges = length > document.text.length + FEW ? [{ text: document.text }] : changes;
   to.notify("textDocument/didChange", { textDocument: { uri, version }, contentChanges, ...(taken === undefined ? {} : { taken }) });
   return version;
 }

@@ -16,6 +16,8 @@ export interface Hello {
   pen: boolean;
   files: { uri: string; name: string }[];
   more?: boolean;
+  /** Bytes that a text may have. */
+  longest: number;
   examples: { name: string; title: string }[];
 }
 

@@ -92,6 +92,27 @@ inBrowser("lines of a file that end in several ways stay so, and what is pasted 
   await holds("plan.afp", wanted);
 });
 
+inBrowser("a long text is taken, and one that is too long is refused", { "plan.afp": PLAN }, async ({ page, holds, isSaved }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  const lines = (mebibytes: number): string => `\n// ${"x".repeat(60)}`.repeat(mebibytes * 2 ** 14);
+  const paste = (mebibytes: number) =>
+    page.evaluate((text) => {
+      const clipboardData = new DataTransfer();
+      clipboardData.setData("text/plain", text);
+      document.querySelector(".cm-content")!.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+    }, lines(mebibytes));
+  await type(page, "start go", " // here");
+  await paste(1.5);
+  await isSaved();
+  const wanted = PLAN.replace("start go", `start go // here${lines(1.5)}`);
+  await holds("plan.afp", wanted);
+  await paste(2.5);
+  await shows(page.locator(".banner.error"), /longer than 4 MiB/);
+  await isSaved();
+  await holds("plan.afp", wanted);
+});
+
 inBrowser("a file that another program removes is not saved until it is written anew", { "plan.afp": PLAN }, async ({ page, folder, holds, isSaved, read }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);

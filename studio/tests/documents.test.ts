@@ -36,6 +36,7 @@ class Room {
     notify: (method, params: any) => {
       const { uri, version } = params.textDocument;
       this.versions.set(uri, version);
+      this.last = params.contentChanges;
       if (method === "textDocument/didOpen") this.texts.set(uri, params.textDocument.text);
       for (const { range, text } of params.contentChanges ?? []) {
         const now = this.texts.get(uri)!;
@@ -43,6 +44,8 @@ class Room {
       }
     },
   };
+  /** The changes that it was told last. */
+  last: unknown;
   tell = (method: string, params: unknown) => this.takers.get(method)!(params);
   /** Another text than the page's last one is there. */
   changes = (uri: string, text: string) => this.tell("afp/changed", { uri, text, clean: true, version: this.versions.get(uri), number: ++this.told });
@@ -168,6 +171,39 @@ test("a text that a new server cannot read is not saved, and the others go on", 
   assert.equal(saved.value, "cannot read it");
   typed([{ uri: two, from: 0, to: 0, insert: "a" }]);
   assert.equal(room.texts.get(two), "a");
+});
+
+test("a change that would make a text too long is not made, by nobody and not by undo, and nothing is lost", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "ö".repeat(10));
+  await open(uri);
+  session.hello.value = { longest: 24 } as session.Hello;
+  try {
+    const put = (insert: string): void => typed([{ uri, from: 0, to: 0, insert }]);
+    assert.throws(() => put("abcdef"), /longer than .* MiB/);
+    assert.deepEqual([text(uri), room.texts.get(uri), undoLabel.value], ["ö".repeat(10), "ö".repeat(10), null]);
+    put("abcd");
+    typed([{ uri, from: 0, to: 4, insert: "" }]);
+    // What another program writes is there, however long it is, and may become shorter.
+    room.changes(uri, `${"ö".repeat(10)}123456`);
+    typed([{ uri, from: 15, to: 16, insert: "" }]);
+    assert.equal(text(uri), `${"ö".repeat(10)}12345`);
+    const label = undoLabel.value;
+    await assert.rejects(undo(), /longer/);
+    assert.deepEqual([undoLabel.value, text(uri)], [label, `${"ö".repeat(10)}12345`]);
+    assert.equal(room.texts.get(uri), text(uri));
+  } finally {
+    session.hello.value = null;
+  }
+});
+
+test("of very many changes the text is told", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "a".repeat(5000));
+  await open(uri);
+  typed(Array.from({ length: 5000 }, (_, at) => ({ uri, from: at, to: at + 1, insert: "b" })));
+  assert.deepEqual(room.last, [{ text: "b".repeat(5000) }]);
+  assert.equal(room.texts.get(uri), text(uri));
 });
 
 test("saved is what the server says, of the newest version", async () => {

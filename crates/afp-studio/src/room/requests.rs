@@ -86,6 +86,7 @@ fn hello(room: &Room, client: ClientId) -> Value {
         "files": room.files(),
         "more": room.listed.is_cut,
         "examples": examples.collect::<Vec<_>>(),
+        "longest": files::LONGEST,
     })
 }
 
