@@ -141,22 +141,24 @@ impl Room {
         self.clients.insert(client, Client { server, busy: false, following });
     }
 
-    /// A client is gone. The pen waits for it a while.
+    /// A client is gone. The pen and its jobs wait for it a while.
     pub fn leave(&mut self, client: ClientId, now: Duration) {
         self.clients.remove(&client);
         if self.pen == Some(client) {
             self.falls = Some(now + PEN_WAITS);
         }
+        self.leave_jobs(client, now);
         self.forget();
     }
 
     /// A client says who it was before its connection was lost, if it was anybody. A pen that waits is its own if it was
-    /// before; one who comes new waits for nobody who is alone here.
+    /// before; one who comes new waits for nobody who is alone here. Its jobs are its own again.
     fn greeted(&mut self, client: ClientId, before: Option<ClientId>) {
         let is_alone = before.is_none() && self.clients.len() == 1;
         if self.falls.is_some() && (before == self.pen || is_alone) {
             (self.pen, self.falls) = (Some(client), None);
         }
+        before.into_iter().for_each(|before| self.take_jobs(client, before));
     }
 
     fn server(&self) -> Server {

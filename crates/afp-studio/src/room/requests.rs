@@ -45,7 +45,9 @@ pub(super) fn answer(
             out = room.look_at_files();
             let before = params["client"].as_u64().and_then(|id| ClientId::try_from(id).ok());
             room.greeted(client, before);
-            Ok(hello(room, client))
+            let hello = hello(room, client);
+            out.extend(room.tell_done(client));
+            Ok(hello)
         }
         "afp/pen" => {
             if params["take"] == json!(true) {
@@ -86,6 +88,7 @@ fn hello(room: &Room, client: ClientId) -> Value {
         "files": room.files(),
         "more": room.listed.is_cut,
         "examples": examples.collect::<Vec<_>>(),
+        "jobs": room.jobs_of(client),
         "longest": files::LONGEST,
     })
 }

@@ -33,6 +33,7 @@ impl Room {
         }
         if now >= self.looked + LOOKS_EVERY {
             self.looked = now;
+            self.end_jobs_alone(now);
             if now >= self.walked + pause(self.listed.entries, self.walking) {
                 let begin = Instant::now();
                 self.walked = now;
