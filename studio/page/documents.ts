@@ -89,10 +89,21 @@ export function open(uri: string): Promise<void> {
   return read;
 }
 
-/** Makes a file that is not there yet, and opens it. */
+/**
+ * Makes a file that is not there yet, and opens it. Where its text is open since another program has removed a file of that
+ * name, the room tells the new one.
+ */
 export async function create(what: { uri: string; text: string } | { uri: string; example: string }): Promise<void> {
-  take(await lsp().request<Kept>("afp/create", what));
-  opening.set(what.uri, Promise.resolve());
+  const { uri } = what;
+  const before = documents.peek().has(uri);
+  if (before) expected.set(uri, words.made(nameOf(uri)));
+  const kept = await lsp().request<Kept>("afp/create", what).catch((why) => {
+    expected.delete(uri);
+    throw why;
+  });
+  if (!before) take(kept);
+  else if (kept.text === text(uri)) expected.delete(uri);
+  opening.set(uri, Promise.resolve());
 }
 
 function take(kept: Kept): void {
@@ -190,9 +201,9 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
       return arrived(uri, now, version, number);
     }
     const choose = async (keep: Keep): Promise<void> => {
-      chosen.set(uri, keep);
+      expected.set(uri, words.keep[keep]);
       await lsp().request<void>("afp/choose", { uri, keep }).catch((why) => {
-        chosen.delete(uri);
+        expected.delete(uri);
         throw why;
       });
     };
@@ -201,8 +212,8 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
   lsp().on("afp/pen", hold);
 }
 
-/** What was chosen here, while the text that comes of it is on its way. */
-const chosen = new Map<string, Keep>();
+/** What was done here, while the text that comes of it is on its way from the room. */
+const expected = new Map<string, string>();
 
 function hold({ yours }: { yours: boolean }): void {
   // Who begins to change things begins a history of his own.
@@ -241,10 +252,10 @@ function arrived(uri: string, now: string, seen: number, number: number): void {
 
 /** Makes changes that come from the room, as an entry of the history. */
 function takeOver(uri: string, changes: Change[], say: Say): void {
-  const keep = chosen.get(uri);
-  chosen.delete(uri);
+  const label = expected.get(uri);
+  expected.delete(uri);
   const steps = make(changes, "outside", say);
-  if (keep) record({ label: words.keep[keep], steps });
+  if (label !== undefined) record({ label, steps });
   else record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
 }
 

@@ -23,6 +23,7 @@ export const words = {
   stale: (what: string) => `Not done, since the text kept changing meanwhile: ${what}. Do it once more.`,
   tooLong: (bytes: number) => `Nothing was changed: the text would be longer than ${bytes / 2 ** 20} MiB, and no file as long is opened. Make a second file.`,
   changedOutside: (name: string) => `change of ${name} by another program`,
+  made: (name: string) => `new file ${name}`,
   undoForeign: "Undo a change that is not yours?",
   undoForeignBody: (label: string) => `The last thing that happened is a ${label}. You did not make it on this page.`,
   undoIt: "Undo it",

@@ -124,6 +124,28 @@ inBrowser("a file that another program removes is not saved until it is written 
   await holds("plan.afp", PLAN.replace("start go", "start go // still here"));
 });
 
+inBrowser("a plan that is made under the name of one that another program has removed is shown, and typed into", { "plan.afp": PLAN, "other.afp": PLAN }, async ({ page, folder, becomes, isSaved, read }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  await page.getByRole("button", { name: "Files" }).click();
+  await page.getByRole("menuitemradio", { name: "plan.afp" }).click();
+  await page.locator(".bar .file", { hasText: "plan.afp" }).waitFor();
+  await page.locator(".cm-line", { hasText: "start go" }).waitFor();
+  await rm(join(folder, "plan.afp"));
+  await shows(page.locator(".banner.error"), /removed 'plan.afp'/);
+  await page.getByRole("button", { name: "Files" }).click();
+  await page.getByRole("menuitem", { name: "New plan" }).click();
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("plan");
+  await page.keyboard.press("Enter");
+  await becomes("plan.afp", /plan Plan/);
+  const made = await read("plan.afp");
+  await isSaved();
+  await type(page, "plan Plan", " // here");
+  await becomes("plan.afp", /here/);
+  assert.equal(await read("plan.afp"), made.replace("plan Plan {", "plan Plan { // here"));
+});
+
 inBrowser("a full disk keeps the old bytes, and takes the new ones once it has room", { "plan.afp": PLAN }, async ({ page, folder, isSaved, read }) => {
   // A small file system of its own, where the test may make one.
   const small = join(folder, "small");

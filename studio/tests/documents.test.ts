@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { inOrder } from "../page/changes";
 import { conflicts } from "../page/conflicts";
-import { again, begin, current, onText, open, saved, text, typed, unsent, version } from "../page/documents";
+import { again, begin, create, current, onText, open, saved, text, typed, unsent, version } from "../page/documents";
 import { apply, change, Stale } from "../page/edits";
 import { undo, undoLabel } from "../page/history";
 import { Refused, type Finish, type Lsp } from "../page/lsp";
@@ -30,6 +30,11 @@ class Room {
         this.changes(params.uri, this.chooses);
         return null as any;
       }
+      if (method === "afp/create") {
+        if (this.refuses) throw new Refused(-32803, "not now");
+        if (this.texts.has(params.uri)) queueMicrotask(() => this.changes(params.uri, params.text));
+        return { uri: params.uri, text: params.text, version: 0, etag: "1" } as any;
+      }
       if (method === "afp/pen") return { holder: 1, yours: true } as any;
       throw new Error(method);
     },
@@ -44,6 +49,8 @@ class Room {
       }
     },
   };
+  /** Whether it makes no file. */
+  refuses = false;
   /** The changes that it was told last. */
   last: unknown;
   tell = (method: string, params: unknown) => this.takers.get(method)!(params);
@@ -238,6 +245,26 @@ test("a change of another program arrives, and undoing it asks", async () => {
   answers = ["Undo it"];
   await undo();
   assert.equal(text(uri), "one\ntwo\n");
+});
+
+test("a file that is made anew under the address of a text that is open has its own text, which is typed into", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "plan Old { }\n");
+  await open(uri);
+  room.refuses = true;
+  await assert.rejects(create({ uri, text: "x" }), /not now/);
+  room.refuses = false;
+  await create({ uri, text: "plan New { go }\n" });
+  await new Promise((done) => setTimeout(done));
+  assert.equal(text(uri), "plan New { go }\n");
+  typed([{ uri, from: 0, to: 0, insert: "a" }]);
+  assert.equal(room.texts.get(uri), "aplan New { go }\n");
+  assert.equal(room.versions.get(uri), version(uri));
+  // It was made here: undoing it does not ask.
+  await undo();
+  assert.match(undoLabel.value!, /^new file /);
+  await undo();
+  assert.equal(room.texts.get(uri), "plan Old { }\n");
 });
 
 test("of two changes of the same lines a person chooses; the room does it", async () => {

@@ -81,7 +81,7 @@ impl Room {
     }
 
     /// Tells the clients that have it open whether a text is saved.
-    fn tell_saved(&self, path: &str, saved: Result<(), String>) -> Out {
+    pub(super) fn tell_saved(&self, path: &str, saved: Result<(), String>) -> Out {
         let Some(document) = self.documents.get(path) else { return Vec::new() };
         let uri = uri_of(path);
         let mut out = Vec::new();
