@@ -1,5 +1,6 @@
 // What scenarios, sweeps and builds of the page came to: kept until the next ones.
 import { batch, computed, signal } from "@preact/signals";
+import { uriOf } from "./addresses";
 import { openLogAt } from "./debug/logs";
 import { world } from "./debug/run";
 import { current, nameOf, onText } from "./documents";
@@ -9,7 +10,7 @@ import { mistakes, type Mistake, type Place } from "./mistakes";
 import { report, trouble } from "./panes/files";
 import { itemAt } from "./places";
 import type { Position } from "./positions";
-import { hello, type Going, type Order } from "./session";
+import type { Going, Order } from "./session";
 import { words } from "./words";
 
 /** An expectation that was not met. */
@@ -169,13 +170,6 @@ export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1,
 
 /** A text of the command line without its colours, and without what helps at a command line alone. */
 export const plain = (text: string): string => text.replace(/\x1b\[[0-9;]*m/g, "").replace(/^For more information, try '--help'\.\s*$/m, "").trim();
-
-/** A path of the command line as a document of the folder. */
-export function uriOf(path: string): string {
-  const root = hello.peek()!.root.replace(/\/$/, "");
-  const parts = path.split("/").map(encodeURIComponent).join("/");
-  return path.startsWith("/") ? `${root.slice(0, root.indexOf("/", 7))}${parts}`.replace(/^file:\/\/[^/]*/, "file://") : `${root}/${parts}`;
-}
 
 /** Shows the moment at which a scenario failed. */
 export async function showFailure({ log, broken, file }: Result): Promise<void> {
