@@ -9,7 +9,7 @@ import { redo, redoLabel, undo, undoLabel } from "./history";
 import { Severity, Sign, type Icon } from "./icons";
 import { bottom, show } from "./layout";
 import { Menu } from "./menu";
-import { Files } from "./panes/files";
+import { Files, report } from "./panes/files";
 import { number } from "./problems";
 import { words } from "./words";
 
@@ -22,8 +22,8 @@ export function Bar() {
       <Breadcrumb />
       <Saved />
       <span class="gap" />
-      <Tool icon="undo" label={words.undo(undoLabel.value)} disabled={!undoLabel.value} run={undo} />
-      <Tool icon="redo" label={words.redo(redoLabel.value)} disabled={!redoLabel.value} run={redo} />
+      <Tool icon="undo" label={words.undo(undoLabel.value)} disabled={!undoLabel.value} run={() => undo().catch(report)} />
+      <Tool icon="redo" label={words.redo(redoLabel.value)} disabled={!redoLabel.value} run={() => redo().catch(report)} />
       <ProblemCount />
       {current.value && <Controls />}
       <Tool icon="search" label={`${words.commands} (Ctrl+K)`} run={() => (finding.value = "commands")} />

@@ -4,6 +4,7 @@ import { computed, signal } from "@preact/signals";
 import { difference, withNewlines } from "./changes";
 import { conflicts, dispute, settle, type Keep } from "./conflicts";
 import { attach, clear, push, record, type Change, type Step } from "./history";
+import { tooLong } from "./limit";
 import { LOST, Refused, type Finish, type Lsp } from "./lsp";
 import * as pending from "./pending";
 import { position, type Range } from "./positions";
@@ -88,10 +89,21 @@ export function open(uri: string): Promise<void> {
   return read;
 }
 
-/** Makes a file that is not there yet, and opens it. */
+/**
+ * Makes a file that is not there yet, and opens it. Where its text is open since another program has removed a file of that
+ * name, the room tells the new one.
+ */
 export async function create(what: { uri: string; text: string } | { uri: string; example: string }): Promise<void> {
-  take(await lsp().request<Kept>("afp/create", what));
-  opening.set(what.uri, Promise.resolve());
+  const { uri } = what;
+  const before = documents.peek().has(uri);
+  if (before) expected.set(uri, words.made(nameOf(uri)));
+  const kept = await lsp().request<Kept>("afp/create", what).catch((why) => {
+    expected.delete(uri);
+    throw why;
+  });
+  if (!before) take(kept);
+  else if (kept.text === text(uri)) expected.delete(uri);
+  opening.set(uri, Promise.resolve());
 }
 
 function take(kept: Kept): void {
@@ -103,8 +115,9 @@ function take(kept: Kept): void {
 /** Tells the server what was made of a text. */
 type Say = (uri: string, told: Told[], changes: ChangeSet) => void;
 
-/** Makes changes one after the other, tells the server, and everybody who shows a text. */
+/** Makes changes one after the other, tells the server, and everybody who shows a text. Makes none where a text would get too long. */
 function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] {
+  const all = documents.peek();
   const steps: Step[] = [];
   const made = new Map<string, { before: string; told: Told[]; changes: Change[] }>();
   for (const change of changes) {
@@ -120,6 +133,12 @@ function make(changes: Change[], maker: Maker = "page", say: Say = own): Step[] 
     put({ ...document, text: before.slice(0, from) + insert + before.slice(to) });
     steps.push({ uri, from, removed: before.slice(from, to), inserted: insert });
   }
+  for (const [uri, { before }] of made) {
+    const why = maker === "outside" ? null : tooLong(before.length, text(uri));
+    if (why === null) continue;
+    documents.value = all;
+    throw new Error(why);
+  }
   for (const [uri, { before, told, changes }] of made) {
     say(uri, told, pending.together(changes, before.length));
     takers.forEach((take) => take(uri, changes, maker, told));
@@ -134,11 +153,21 @@ const own: Say = (uri, told, changes) => {
   if (lsp().open.peek()) put({ ...document, pending: pending.told(document.pending, version, changes) });
 };
 
-/** Tells a server the next version of a text; gives that. `taken` is the number of the room's change that it has in it. */
-function tell(to: Lsp, uri: string, contentChanges: readonly { range?: Range; text: string }[], taken?: number): number {
+/** Letters that a change takes in a message beside its text, about. */
+const AROUND = 100;
+/** Letters of changes that are told in any case. */
+const FEW = 100_000;
+
+/**
+ * Tells a server the next version of a text; gives that. `taken` is the number of the room's change that it has in it.
+ * Where many changes were made the text itself is shorter.
+ */
+function tell(to: Lsp, uri: string, changes: readonly { range?: Range; text: string }[], taken?: number): number {
   const document = documents.peek().get(uri)!;
   const version = document.version + 1;
   put({ ...document, version });
+  const length = changes.reduce((sum, { text }) => sum + text.length + AROUND, 0);
+  const contentChanges = length > document.text.length + FEW ? [{ text: document.text }] : changes;
   to.notify("textDocument/didChange", { textDocument: { uri, version }, contentChanges, ...(taken === undefined ? {} : { taken }) });
   return version;
 }
@@ -172,9 +201,9 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
       return arrived(uri, now, version, number);
     }
     const choose = async (keep: Keep): Promise<void> => {
-      chosen.set(uri, keep);
+      expected.set(uri, words.keep[keep]);
       await lsp().request<void>("afp/choose", { uri, keep }).catch((why) => {
-        chosen.delete(uri);
+        expected.delete(uri);
         throw why;
       });
     };
@@ -183,8 +212,8 @@ export function begin(ask: (title: string, body: string, choices: string[]) => P
   lsp().on("afp/pen", hold);
 }
 
-/** What was chosen here, while the text that comes of it is on its way. */
-const chosen = new Map<string, Keep>();
+/** What was done here, while the text that comes of it is on its way from the room. */
+const expected = new Map<string, string>();
 
 function hold({ yours }: { yours: boolean }): void {
   // Who begins to change things begins a history of his own.
@@ -223,10 +252,10 @@ function arrived(uri: string, now: string, seen: number, number: number): void {
 
 /** Makes changes that come from the room, as an entry of the history. */
 function takeOver(uri: string, changes: Change[], say: Say): void {
-  const keep = chosen.get(uri);
-  chosen.delete(uri);
+  const label = expected.get(uri);
+  expected.delete(uri);
   const steps = make(changes, "outside", say);
-  if (keep) record({ label: words.keep[keep], steps });
+  if (label !== undefined) record({ label, steps });
   else record({ label: words.changedOutside(nameOf(uri)), steps, foreign: true });
 }
 

@@ -118,8 +118,9 @@ async function move(step: typeof stepBack, changes: typeof backward): Promise<vo
   if (next[1].foreign && !(await hands.agree(next[1].label))) return;
   // While somebody thought about it, something else may have happened.
   if (log.value !== before) return;
-  log.value = next[0];
+  // What cannot be made stays to be done.
   hands.make(changes(next[1].steps));
+  log.value = next[0];
   if (next[1].select) hands.select(next[1].select);
 }
 

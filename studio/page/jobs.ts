@@ -1,6 +1,6 @@
 // Jobs that the server does for the page: what goes on, what it has said, what it came to.
 import { signal } from "@preact/signals";
-import { lsp } from "./session";
+import { going, lsp, type Going, type Order } from "./session";
 import { trusted } from "./trust";
 import { words } from "./words";
 
@@ -31,11 +31,18 @@ const waiting = new Map<number, (done: Done) => void>();
 const early = new Map<number, Done>();
 
 /** Does a job and waits for its end; null where the folder is not trusted. */
-export async function run(title: string, order: { kind: string; [more: string]: unknown }): Promise<Done | null> {
+export async function run(title: string, order: Order): Promise<Done | null> {
   if (order.kind !== "new" && !(await trusted(order.file, order.kind === "build"))) return null;
   const { id } = await lsp().request<{ id: number }>("afp/job", order);
-  running.value = [...running.peek(), { id, title, last: "" }];
-  say([`> ${title}`]);
+  return endOf(id, title, []);
+}
+
+/** Takes up a job that the page does not know, since it was loaded anew, and waits for its end. */
+export const takeUp = ({ id, said }: Going, title: string): Promise<Done> => endOf(id, title, said ? said.split("\n") : []);
+
+async function endOf(id: number, title: string, lines: readonly string[]): Promise<Done> {
+  running.value = [...running.peek(), { id, title, last: lines.at(-1) ?? "" }];
+  say([`> ${title}`, ...lines]);
   const done = early.get(id) ?? (await new Promise<Done>((done) => waiting.set(id, done)));
   early.delete(id);
   running.value = running.peek().filter((job) => job.id !== id);
@@ -48,8 +55,8 @@ function say(lines: readonly string[]): void {
   said.value = [...said.peek(), ...lines].slice(-MOST);
 }
 
-/** Begins to hear of them. */
-export function begin(): void {
+/** Begins to hear of them; `resume` takes up those that go on though the page knows nothing of them. */
+export function begin(resume: (job: Going) => void): void {
   lsp().on("afp/jobSaid", ({ id, text }: { id: number; text: string }) => {
     const lines = text.split("\n");
     running.value = running.peek().map((job) => (job.id === id ? { ...job, last: lines.at(-1)! } : job));
@@ -61,10 +68,13 @@ export function begin(): void {
     if (wait) wait(done);
     else early.set(done.id, done);
   });
-  // Another server knows nothing of them.
-  lsp().open.subscribe((open) => {
-    if (open) return;
-    for (const [id, wait] of waiting) wait({ id, ok: false, code: null, results: [], said: words.connectionLost });
-    waiting.clear();
+  // On each connection: another server knows nothing of them, and one that has waited too long has ended them.
+  going.subscribe((jobs) => {
+    for (const [id, wait] of waiting) {
+      if (jobs.some((job) => job.id === id)) continue;
+      waiting.delete(id);
+      wait({ id, ok: false, code: null, results: [], said: words.connectionLost });
+    }
+    jobs.filter(({ id }) => !waiting.has(id)).forEach(resume);
   });
 }

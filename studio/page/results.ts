@@ -1,15 +1,16 @@
 // What scenarios, sweeps and builds of the page came to: kept until the next ones.
 import { batch, computed, signal } from "@preact/signals";
+import { uriOf } from "./addresses";
 import { openLogAt } from "./debug/logs";
 import { world } from "./debug/run";
 import { current, nameOf, onText } from "./documents";
 import { drawing } from "./drawing/model";
-import { run } from "./jobs";
+import { run, takeUp, type Done } from "./jobs";
 import { mistakes, type Mistake, type Place } from "./mistakes";
 import { report, trouble } from "./panes/files";
 import { itemAt } from "./places";
 import type { Position } from "./positions";
-import { hello } from "./session";
+import type { Going, Order } from "./session";
 import { words } from "./words";
 
 /** An expectation that was not met. */
@@ -72,45 +73,79 @@ async function doing<T>(what: string, work: () => Promise<T>): Promise<T | null>
   }
 }
 
-/** Writes scenarios for the plan that is shown. */
-export const writeSome = () =>
-  doing(words.writing, async () => {
-    const done = await run(words.writeSome, { kind: "generate", file: current.peek() });
-    if (done && !done.ok) throw new Error(plain(done.said) || words.jobFailed);
-    // What the others came to is no longer what all came to.
-    if (done) results.value = null;
-    return done !== null;
+/** What a kind of job is called, what is said meanwhile, and what is done with what it came to. */
+interface Kind {
+  title: string;
+  meanwhile: string;
+  take(done: Done, order: Order): unknown;
+}
+
+const KINDS: { readonly [kind: string]: Kind } = {
+  generate: {
+    title: words.writeSome,
+    meanwhile: words.writing,
+    take(done) {
+      if (!done.ok) throw new Error(plain(done.said) || words.jobFailed);
+      // What the others came to is no longer what all came to.
+      results.value = null;
+    },
+  },
+  test: {
+    title: words.runScenarios,
+    meanwhile: words.runningScenarios,
+    take(done) {
+      const all = done.results.filter((one): one is Result => typeof one.scenario === "string");
+      coverage.value = done.results.filter((one) => typeof one.coverage === "string");
+      results.value = all.length ? [...all.filter(({ passed }) => !passed), ...all.filter(({ passed }) => passed)] : null;
+      if (!all.length) throw new Error(plain(done.said) || words.jobFailed);
+    },
+  },
+  sweep: {
+    title: words.sweep,
+    meanwhile: words.sweeping,
+    take(done, { world }) {
+      batch(() => ([swept.value, sweptIn.value] = [done.results, typeof world === "string" ? world : null]));
+      if (!done.results.length) throw new Error(plain(done.said) || words.jobFailed);
+    },
+  },
+  build: {
+    title: words.build,
+    meanwhile: words.building,
+    async take(done) {
+      built.value = { ok: done.ok, wrong: await Promise.all(mistakes(done.results).map(placed)) };
+      textsChange ??= onText(outdate);
+    },
+  },
+};
+
+const start = (kind: string, more: object = {}): Promise<void | null> => {
+  const [{ title, meanwhile, take }, order] = [KINDS[kind]!, { kind, ...more }];
+  return doing(meanwhile, async () => {
+    const done = await run(title, order);
+    if (done) await take(done, order);
   });
+};
+
+/** Takes up a job that has gone on while the page was loaded anew. */
+export function resume(job: Going): void {
+  const kind = KINDS[job.order.kind];
+  const done = takeUp(job, kind?.title ?? words.newProject);
+  if (kind) void doing(kind.meanwhile, async () => void (await kind.take(await done, job.order)));
+}
+
+const shownPlan = () => ({ file: current.peek(), plan: drawing.peek()?.plan ?? "" });
+
+/** Writes scenarios for the plan that is shown. */
+export const writeSome = () => start("generate", { file: current.peek() });
 
 /** Runs all scenarios of the folder. */
-export const runAll = () =>
-  doing(words.runningScenarios, async () => {
-    const done = await run(words.runScenarios, { kind: "test" });
-    if (!done) return;
-    const all = done.results.filter((one): one is Result => typeof one.scenario === "string");
-    coverage.value = done.results.filter((one) => typeof one.coverage === "string");
-    results.value = all.length ? [...all.filter(({ passed }) => !passed), ...all.filter(({ passed }) => passed)] : null;
-    if (!all.length) throw new Error(plain(done.said) || words.jobFailed);
-  });
+export const runAll = () => start("test");
 
 /** Runs the plan many times, in the world that is chosen. */
 export const sweep = (seeds: string, vary: readonly string[], until: string) =>
-  doing(words.sweeping, async () => {
-    const where = world.peek();
-    const order = { kind: "sweep", file: current.peek(), plan: drawing.peek()?.plan ?? "", seeds, vary, until };
-    const done = await run(words.sweep, { ...order, ...(where === null ? {} : { world: where }) });
-    if (!done) return;
-    batch(() => ([swept.value, sweptIn.value] = [done.results, where]));
-    if (!done.results.length) throw new Error(plain(done.said) || words.jobFailed);
-  });
+  start("sweep", { ...shownPlan(), seeds, vary, until, ...(world.peek() === null ? {} : { world: world.peek() }) });
 
-export const build = () =>
-  doing(words.building, async () => {
-    const done = await run(words.build, { kind: "build", file: current.peek(), plan: drawing.peek()?.plan ?? "" });
-    if (!done) return;
-    built.value = { ok: done.ok, wrong: await Promise.all(mistakes(done.results).map(placed)) };
-    textsChange ??= onText(outdate);
-  });
+export const build = () => start("build", shownPlan());
 
 let textsChange: (() => void) | null = null;
 
@@ -135,13 +170,6 @@ export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1,
 
 /** A text of the command line without its colours, and without what helps at a command line alone. */
 export const plain = (text: string): string => text.replace(/\x1b\[[0-9;]*m/g, "").replace(/^For more information, try '--help'\.\s*$/m, "").trim();
-
-/** A path of the command line as a document of the folder. */
-export function uriOf(path: string): string {
-  const root = hello.peek()!.root.replace(/\/$/, "");
-  const parts = path.split("/").map(encodeURIComponent).join("/");
-  return path.startsWith("/") ? `${root.slice(0, root.indexOf("/", 7))}${parts}`.replace(/^file:\/\/[^/]*/, "file://") : `${root}/${parts}`;
-}
 
 /** Shows the moment at which a scenario failed. */
 export async function showFailure({ log, broken, file }: Result): Promise<void> {

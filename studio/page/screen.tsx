@@ -1,13 +1,13 @@
 // The screen: bar, palette, drawing, panes at the right and below, each where studio and browser window have room.
 import { h, type ComponentChild } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { pathOf } from "./addresses";
 import { Bar, Tool } from "./bar";
 import { Book } from "./book";
 import { Dialogs } from "./dialogs";
 import { conflicts } from "./conflicts";
 import { current, isFailed, nameOf, saved, takePen } from "./documents";
 import { EndCard } from "./debug/controls";
-import { pathOf } from "./debug/older";
 import { mountCanvas } from "./drawing/canvas";
 import { Finder } from "./finder";
 import { Sign } from "./icons";

@@ -9,14 +9,30 @@ export interface Kept {
   etag: string | null;
 }
 
+/** What a job was asked for with. */
+export interface Order {
+  kind: string;
+  [more: string]: unknown;
+}
+
+/** A job of this page that goes on. */
+export interface Going {
+  id: number;
+  order: Order;
+  /** The lines that the page was told. */
+  said: string;
+}
+
 export interface Hello {
   client: number;
   root: string;
   open: string | null;
   pen: boolean;
-  documents: Kept[];
   files: { uri: string; name: string }[];
   more?: boolean;
+  jobs: Going[];
+  /** Bytes that a text may have. */
+  longest: number;
   examples: { name: string; title: string }[];
 }
 
@@ -26,6 +42,8 @@ export const hello = signal<Hello | null>(null);
 export const files = signal<{ uri: string; name: string }[]>([]);
 /** Whether there are more files than those: the folder is too large to be looked through. */
 export const more = signal(false);
+/** The jobs that go on, as the server greets with them. */
+export const going = signal<readonly Going[]>([]);
 /** Whether this page changes texts, or watches. */
 export const pen = signal(true);
 /** The names of kinds and modifiers in semantic tokens. */
@@ -64,7 +82,7 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = 
     storage?.setItem(CLIENT, client);
     // At once: what the server tells next is newer.
     [files.value, more.value] = [said.files, said.more ?? false];
-    pen.value = said.pen;
+    [pen.value, going.value] = [said.pen, said.jobs];
     const params = { processId: null, rootUri: said.root, workspaceFolders: [{ uri: said.root, name: "root" }], capabilities: CAPABILITIES };
     const { capabilities } = await first.request<any>("initialize", params);
     first.notify("initialized", {});

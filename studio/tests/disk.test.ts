@@ -92,6 +92,27 @@ inBrowser("lines of a file that end in several ways stay so, and what is pasted 
   await holds("plan.afp", wanted);
 });
 
+inBrowser("a long text is taken, and one that is too long is refused", { "plan.afp": PLAN }, async ({ page, holds, isSaved }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  const lines = (mebibytes: number): string => `\n// ${"x".repeat(60)}`.repeat(mebibytes * 2 ** 14);
+  const paste = (mebibytes: number) =>
+    page.evaluate((text) => {
+      const clipboardData = new DataTransfer();
+      clipboardData.setData("text/plain", text);
+      document.querySelector(".cm-content")!.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+    }, lines(mebibytes));
+  await type(page, "start go", " // here");
+  await paste(1.5);
+  await isSaved();
+  const wanted = PLAN.replace("start go", `start go // here${lines(1.5)}`);
+  await holds("plan.afp", wanted);
+  await paste(2.5);
+  await shows(page.locator(".banner.error"), /longer than 4 MiB/);
+  await isSaved();
+  await holds("plan.afp", wanted);
+});
+
 inBrowser("a file that another program removes is not saved until it is written anew", { "plan.afp": PLAN }, async ({ page, folder, holds, isSaved, read }) => {
   await page.locator(".node text").first().waitFor();
   await openText(page);
@@ -101,6 +122,28 @@ inBrowser("a file that another program removes is not saved until it is written 
   await type(page, "start go", " // still here");
   await isSaved();
   await holds("plan.afp", PLAN.replace("start go", "start go // still here"));
+});
+
+inBrowser("a plan that is made under the name of one that another program has removed is shown, and typed into", { "plan.afp": PLAN, "other.afp": PLAN }, async ({ page, folder, becomes, isSaved, read }) => {
+  await page.locator(".node text").first().waitFor();
+  await openText(page);
+  await page.getByRole("button", { name: "Files" }).click();
+  await page.getByRole("menuitemradio", { name: "plan.afp" }).click();
+  await page.locator(".bar .file", { hasText: "plan.afp" }).waitFor();
+  await page.locator(".cm-line", { hasText: "start go" }).waitFor();
+  await rm(join(folder, "plan.afp"));
+  await shows(page.locator(".banner.error"), /removed 'plan.afp'/);
+  await page.getByRole("button", { name: "Files" }).click();
+  await page.getByRole("menuitem", { name: "New plan" }).click();
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("plan");
+  await page.keyboard.press("Enter");
+  await becomes("plan.afp", /plan Plan/);
+  const made = await read("plan.afp");
+  await isSaved();
+  await type(page, "plan Plan", " // here");
+  await becomes("plan.afp", /here/);
+  assert.equal(await read("plan.afp"), made.replace("plan Plan {", "plan Plan { // here"));
 });
 
 inBrowser("a full disk keeps the old bytes, and takes the new ones once it has room", { "plan.afp": PLAN }, async ({ page, folder, isSaved, read }) => {

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { inOrder } from "../page/changes";
 import { conflicts } from "../page/conflicts";
-import { again, begin, current, onText, open, saved, text, typed, unsent, version } from "../page/documents";
+import { again, begin, create, current, onText, open, saved, text, typed, unsent, version } from "../page/documents";
 import { apply, change, Stale } from "../page/edits";
 import { undo, undoLabel } from "../page/history";
 import { Refused, type Finish, type Lsp } from "../page/lsp";
@@ -30,12 +30,18 @@ class Room {
         this.changes(params.uri, this.chooses);
         return null as any;
       }
+      if (method === "afp/create") {
+        if (this.refuses) throw new Refused(-32803, "not now");
+        if (this.texts.has(params.uri)) queueMicrotask(() => this.changes(params.uri, params.text));
+        return { uri: params.uri, text: params.text, version: 0, etag: "1" } as any;
+      }
       if (method === "afp/pen") return { holder: 1, yours: true } as any;
       throw new Error(method);
     },
     notify: (method, params: any) => {
       const { uri, version } = params.textDocument;
       this.versions.set(uri, version);
+      this.last = params.contentChanges;
       if (method === "textDocument/didOpen") this.texts.set(uri, params.textDocument.text);
       for (const { range, text } of params.contentChanges ?? []) {
         const now = this.texts.get(uri)!;
@@ -43,6 +49,10 @@ class Room {
       }
     },
   };
+  /** Whether it makes no file. */
+  refuses = false;
+  /** The changes that it was told last. */
+  last: unknown;
   tell = (method: string, params: unknown) => this.takers.get(method)!(params);
   /** Another text than the page's last one is there. */
   changes = (uri: string, text: string) => this.tell("afp/changed", { uri, text, clean: true, version: this.versions.get(uri), number: ++this.told });
@@ -170,6 +180,39 @@ test("a text that a new server cannot read is not saved, and the others go on", 
   assert.equal(room.texts.get(two), "a");
 });
 
+test("a change that would make a text too long is not made, by nobody and not by undo, and nothing is lost", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "ö".repeat(10));
+  await open(uri);
+  session.hello.value = { longest: 24 } as session.Hello;
+  try {
+    const put = (insert: string): void => typed([{ uri, from: 0, to: 0, insert }]);
+    assert.throws(() => put("abcdef"), /longer than .* MiB/);
+    assert.deepEqual([text(uri), room.texts.get(uri), undoLabel.value], ["ö".repeat(10), "ö".repeat(10), null]);
+    put("abcd");
+    typed([{ uri, from: 0, to: 4, insert: "" }]);
+    // What another program writes is there, however long it is, and may become shorter.
+    room.changes(uri, `${"ö".repeat(10)}123456`);
+    typed([{ uri, from: 15, to: 16, insert: "" }]);
+    assert.equal(text(uri), `${"ö".repeat(10)}12345`);
+    const label = undoLabel.value;
+    await assert.rejects(undo(), /longer/);
+    assert.deepEqual([undoLabel.value, text(uri)], [label, `${"ö".repeat(10)}12345`]);
+    assert.equal(room.texts.get(uri), text(uri));
+  } finally {
+    session.hello.value = null;
+  }
+});
+
+test("of very many changes the text is told", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "a".repeat(5000));
+  await open(uri);
+  typed(Array.from({ length: 5000 }, (_, at) => ({ uri, from: at, to: at + 1, insert: "b" })));
+  assert.deepEqual(room.last, [{ text: "b".repeat(5000) }]);
+  assert.equal(room.texts.get(uri), text(uri));
+});
+
 test("saved is what the server says, of the newest version", async () => {
   const uri = fresh();
   await open(uri);
@@ -202,6 +245,26 @@ test("a change of another program arrives, and undoing it asks", async () => {
   answers = ["Undo it"];
   await undo();
   assert.equal(text(uri), "one\ntwo\n");
+});
+
+test("a file that is made anew under the address of a text that is open has its own text, which is typed into", async () => {
+  const uri = fresh();
+  room.texts.set(uri, "plan Old { }\n");
+  await open(uri);
+  room.refuses = true;
+  await assert.rejects(create({ uri, text: "x" }), /not now/);
+  room.refuses = false;
+  await create({ uri, text: "plan New { go }\n" });
+  await new Promise((done) => setTimeout(done));
+  assert.equal(text(uri), "plan New { go }\n");
+  typed([{ uri, from: 0, to: 0, insert: "a" }]);
+  assert.equal(room.texts.get(uri), "aplan New { go }\n");
+  assert.equal(room.versions.get(uri), version(uri));
+  // It was made here: undoing it does not ask.
+  await undo();
+  assert.match(undoLabel.value!, /^new file /);
+  await undo();
+  assert.equal(room.texts.get(uri), "plan Old { }\n");
 });
 
 test("of two changes of the same lines a person chooses; the room does it", async () => {
@@ -282,7 +345,7 @@ test("what the server tells while it is being greeted is newer than its greeting
     open: signal(true),
     on: (method, take) => (takers.set(method, take), () => {}),
     request: async (method: string): Promise<any> => {
-      if (method === "afp/hello") return { client: 1, root: "file:///w", open: null, pen: true, documents: [], files: [one], examples: [] };
+      if (method === "afp/hello") return { client: 1, root: "file:///w", open: null, pen: true, files: [one], examples: [] };
       await null;
       takers.get("afp/files")!({ files: [one, two] });
       return { capabilities: {} };

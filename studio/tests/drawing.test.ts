@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { declared, headed } from "../page/drawing/anatomy";
 import { bent, road } from "../page/drawing/bend";
 import { filtered } from "../page/drawing/choose";
-import { changed, whole } from "../page/drawing/differences";
+import { calledNow, changed, whole } from "../page/drawing/differences";
 import { hit } from "../page/drawing/hit";
 import { movable, places, snapped } from "../page/drawing/lift";
 import { home, step } from "../page/drawing/navigate";
@@ -43,6 +43,12 @@ test("a difference replaces what it names and leaves everything else the very sa
   assert.equal(after.elements.get("P.a"), before.elements.get("P.a"));
   assert.equal(after.elements.get("P.b"), moved);
   assert.equal(before.elements.size, 4);
+});
+
+test("a plan with another name is the one that stands where it did", () => {
+  const called = (name: string, ...now: string[]) => calledNow(name, ["A", "B", "C"], now);
+  assert.deepEqual([called("B", "A", "B", "C"), called("B", "B"), called("B", "A", "X", "C")], ["B", "B", "X"]);
+  assert.deepEqual([called("B", "A", "C"), called("B", "B2", "C", "A"), called("B", "A", "C", "D")], [null, null, null]);
 });
 
 test("what is under a point: exits before boxes, supervisors, edges, heads, ground", () => {

@@ -16,8 +16,8 @@ pub(crate) use line_ends::with_newlines;
 /// What is opened: plans, toolboxes and scenarios, the places of their drawings, projects.
 const ENDINGS: [&str; 3] = ["afp", "layout", "toml"];
 
-/// Texts longer than this are not opened.
-const LONGEST: u64 = 4 << 20;
+/// Texts longer than this, in bytes, are neither opened nor written.
+pub(crate) const LONGEST: usize = 4 << 20;
 
 /// As many entries of the folder are looked at.
 const MOST_ENTRIES: usize = 50_000;
@@ -150,7 +150,7 @@ pub(crate) fn is_fresh((written, _): Stamp) -> bool {
 /// It cannot be read, is no text or is too long: a sentence.
 pub(crate) fn read(path: &Path) -> Result<Kept, String> {
     let wrong = |why: String| format!("cannot read '{}': {why}", path.display());
-    let bytes = match afp_output::read_file(path, LONGEST) {
+    let bytes = match afp_output::read_file(path, LONGEST as u64) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Kept::default()),
         Err(error) => return Err(wrong(error.to_string())),
@@ -167,11 +167,17 @@ impl Kept {
     /// Writes another text the way that this one lies there, whole or not at all; gives what was written, and its stamp.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// It cannot be written, or could not be read again.
     pub(crate) fn write(&self, path: &Path, text: &str) -> Result<(Kept, Stamp), String> {
         let mark = if self.style.marked { "\u{feff}" } else { "" };
         let ends = self.style.ends.follow(&self.text, text);
         let bytes = format!("{mark}{}", ends.applied(text)).into_bytes();
+        if bytes.len() > LONGEST {
+            let most = LONGEST >> 20;
+            return Err(format!(
+                "it is longer than {most} MiB: make it shorter, or two files of it"
+            ));
+        }
         let data = afp_output::write_and_stat(path, &bytes).map_err(|why| why.to_string())?;
         let style = Style { marked: self.style.marked, ends };
         let kept = Kept { text: text.to_owned(), etag: Some(etag(&bytes)), style };
@@ -241,5 +247,20 @@ mod tests {
         fs::write(&path, [0xff, 0xfe]).unwrap();
         assert!(read(&path).unwrap_err().contains("no UTF-8"));
         assert_eq!(read(&place.path().join("none.afp")).unwrap(), Kept::default());
+    }
+
+    #[test]
+    fn nothing_is_written_that_could_not_be_read_again() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("a.afp");
+        fs::write(&path, "a\r\nb\r\n").unwrap();
+        let kept = read(&path).unwrap();
+        // Each line gets its `\r`.
+        let lines = "\n".repeat(LONGEST / 2);
+        let written = |text: &str| kept.write(&path, text).map(drop);
+        assert!(written(&format!("{lines}a")).is_err_and(|why| why.contains("4 MiB")));
+        assert_eq!(read(&path).unwrap(), kept);
+        written(&lines).unwrap();
+        assert!(read(&path).is_ok_and(|kept| kept.text == lines));
     }
 }

@@ -141,21 +141,24 @@ impl Room {
         self.clients.insert(client, Client { server, busy: false, following });
     }
 
-    /// A client is gone. The pen waits for it a while.
+    /// A client is gone. The pen and its jobs wait for it a while.
     pub fn leave(&mut self, client: ClientId, now: Duration) {
         self.clients.remove(&client);
         if self.pen == Some(client) {
             self.falls = Some(now + PEN_WAITS);
         }
+        self.leave_jobs(client, now);
+        self.forget();
     }
 
     /// A client says who it was before its connection was lost, if it was anybody. A pen that waits is its own if it was
-    /// before; one who comes new waits for nobody who is alone here.
+    /// before; one who comes new waits for nobody who is alone here. Its jobs are its own again.
     fn greeted(&mut self, client: ClientId, before: Option<ClientId>) {
         let is_alone = before.is_none() && self.clients.len() == 1;
         if self.falls.is_some() && (before == self.pen || is_alone) {
             (self.pen, self.falls) = (Some(client), None);
         }
+        before.into_iter().for_each(|before| self.take_jobs(client, before));
     }
 
     fn server(&self) -> Server {
@@ -265,15 +268,21 @@ impl Room {
         out
     }
 
-    /// Forgets a text that no client has open any more, once it is saved.
+    /// A client has closed a text.
     fn closed(&mut self, id: ClientId, uri: &str) {
         let following = self.clients.get_mut(&id).map(|client| &mut client.following);
         following.into_iter().for_each(|following| following.closed(uri));
-        let still = self.clients.values().any(|client| client.server.text(uri).is_some());
-        let path = path_of(uri);
-        if !still && self.documents.get(&path).is_some_and(Document::is_saved) {
-            self.documents.remove(&path);
-        }
+        self.forget();
+    }
+
+    /// Forgets the texts that no client has open any more and that lie in their files.
+    fn forget(&mut self) {
+        let clients = &self.clients;
+        self.documents.retain(|path, document| {
+            let uri = uri_of(path);
+            let is_open = clients.values().any(|client| client.server.text(&uri).is_some());
+            is_open || !document.is_in_file()
+        });
     }
 
     /// A text of the folder, read where nobody has it open yet.

@@ -18,12 +18,13 @@ use axum::serve::ListenerExt;
 
 use crate::access::Secret;
 use crate::debugging::{self, Debuggers};
+use crate::files::LONGEST;
 use crate::room::Room;
 use crate::sockets::{self, Sockets};
 use crate::{Debugging, page, peer};
 
-/// Frames that are longer end the connection.
-const LONGEST_FRAME: usize = 1 << 20;
+/// Frames that are longer end the connection: the longest text, all of whose letters are escaped, fits into one.
+const LONGEST_FRAME: usize = 6 * LONGEST + (1 << 20);
 
 #[derive(Clone)]
 struct Shared {

@@ -37,6 +37,8 @@ export interface Around {
 
 export class Drawing {
   private plan: string | null;
+  /** The plan that the page was told last. */
+  private told: string | null = null;
   private ready = false;
   /** What was selected here: the cursor that goes there says nothing new. */
   private own: string | null = null;
@@ -65,12 +67,18 @@ export class Drawing {
       (answer): ToPage => ({ kind: "drawing", uri: this.uri, answer }),
       (why: Error): ToPage => ({ kind: "nothing", why: why.message }),
     );
-    if (this.plan === wanted) post(message);
+    if (this.plan !== wanted) return;
+    if (message.kind === "drawing") this.told = message.answer.plan;
+    post(message);
   }
 
   /** `afp/drawingChanged`, of any document. */
   changed(change: Changed): void {
-    if (change.textDocument.uri === this.uri && this.ready) this.around.post({ kind: "changed", change });
+    if (change.textDocument.uri !== this.uri || !this.ready) return;
+    // The plan has another name, or is gone, and the first one is drawn.
+    if (this.plan !== null && this.plan === this.told) this.plan = change.plan;
+    this.told = change.plan;
+    this.around.post({ kind: "changed", change });
   }
 
   /** What a run of this document is at. */

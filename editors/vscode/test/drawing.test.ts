@@ -62,6 +62,22 @@ test("what is pressed is selected in the text, and the cursor's item in the draw
     assert.deepEqual([seen.revealed[1]?.range.start.line, seen.revealed[1]?.focus], [6, true]);
   }));
 
+test("a plan that is renamed goes on to be shown, and is asked for by its new name", () => {
+  const text = (name: string): string => `${PLAN}\nplan ${name} { start go actor go: Turn { TurnSuccessful -> go } }\n`;
+  return serving(async (talk) => {
+    const seen = drawn(talk, "Other");
+    await seen.drawing.receive({ kind: "ready" });
+    await talk.type(text("Another"));
+    const { change } = await there(() => of(seen, "changed")[0], "change");
+    assert.deepEqual([change.plan, change.plans], ["Another", ["Patrol", "Another"]]);
+    await seen.drawing.ask();
+    assert.equal(of(seen, "drawing")[1]?.answer.plan, "Another");
+    await talk.type(PLAN);
+    const { change: last } = await there(() => of(seen, "changed")[1], "change");
+    assert.equal(last.plan, "Patrol");
+  }, text("Other"));
+});
+
 test("another plan of the file is shown, and one that is not there says so", () =>
   serving(async (talk) => {
     const seen = drawn(talk, "Other");

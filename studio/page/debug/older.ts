@@ -1,12 +1,10 @@
 // Whether the run is of another text than the one that is shown.
 import { computed, type ReadonlySignal } from "@preact/signals";
+import { pathOf } from "../addresses";
 import { isOpen, text } from "../documents";
 import { files } from "../session";
 import { differs } from "../hash";
 import type { State } from "./told";
-
-/** The path of a document, as the debugger says it. */
-export const pathOf = (uri: string): string => decodeURIComponent(new URL(uri).pathname);
 
 /** Whether a document that is open has another text than the one that runs. */
 export function olderThan(state: ReadonlySignal<State | null>): ReadonlySignal<boolean> {

@@ -1,5 +1,6 @@
 // A run of the plan: launched, paused, stepped, ended; what the page knows of it.
 import { computed, effect, signal } from "@preact/signals";
+import { pathOf } from "../addresses";
 import { connect, type Dap } from "../dap";
 import { current } from "../documents";
 import { drawing, plan as shownPlan, trail, wanted } from "../drawing/model";
@@ -13,7 +14,7 @@ import { sensed, type Sensed } from "../world/sensed";
 import * as arranged from "./arranged";
 import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
-import { olderThan, pathOf } from "./older";
+import { olderThan } from "./older";
 import type { Ended, Phase, Said, State } from "./told";
 import { extended, packed, type Record } from "./trace";
 import { isWritten } from "./written";

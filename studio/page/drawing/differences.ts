@@ -15,6 +15,13 @@ export function whole(uri: string, answer: Answer): Drawing {
   };
 }
 
+/** What a plan of a file is called after a change: the one that stands where it did; null where it is gone. */
+export function calledNow(name: string, before: readonly string[], now: readonly string[]): string | null {
+  if (now.includes(name)) return name;
+  const there = before.length === now.length ? now[before.indexOf(name)] : undefined;
+  return there !== undefined && !before.includes(there) ? there : null;
+}
+
 /**
  * The drawing after a change: what is not named in it stays the very same value, so that who shows
  * it can tell by comparing.

@@ -1,8 +1,9 @@
 // The drawing as the page keeps it: asked for once, then kept by differences, held while something is dragged.
 import { batch, computed, effect, signal } from "@preact/signals";
 import { current } from "../documents";
+import { LOST, Refused } from "../lsp";
 import { lsp } from "../session";
-import { changed, whole } from "./differences";
+import { calledNow, changed, whole } from "./differences";
 import type { Answer, Changed, Drawing } from "./shapes";
 import { folded } from "./folded";
 
@@ -32,8 +33,13 @@ export function release(): void {
 function take(change: Changed): void {
   const before = drawing.peek();
   if (!before || change.textDocument.uri !== before.uri) return;
-  if (held > 0) kept.push(change);
-  else drawing.value = changed(before, change);
+  if (held > 0) return void kept.push(change);
+  batch(() => {
+    // The plan that is shown has another name, or is gone, and the server tells of the first one.
+    if (wanted.peek() === before.plan && change.plan !== before.plan) wanted.value = wanted.peek() && change.plan;
+    trail.value = trail.peek().flatMap((name) => calledNow(name, before.plans, change.plans) ?? []);
+    drawing.value = changed(before, change);
+  });
 }
 
 async function ask(uri: string, plan: string | null, folded: readonly string[]): Promise<void> {
@@ -42,6 +48,9 @@ async function ask(uri: string, plan: string | null, folded: readonly string[]):
     .request<Answer>("afp/drawing", { textDocument, ...(plan ? { plan } : {}), folded, subscribe: true })
     .catch((why: Error) => {
       console.error(why);
+      // There is no such plan any more: the first one is shown.
+      const gone = why instanceof Refused && why.code !== LOST && plan !== null && plan === wanted.peek();
+      if (gone && current.peek() === uri) batch(() => ([wanted.value, trail.value] = [null, []]));
       return null;
     });
   if (!answer || current.peek() !== uri || wanted.peek() !== plan) return;

@@ -1,5 +1,6 @@
 // The files of the folder: opened, begun, copied from examples; and what is shown while there is none.
 import { effect, signal } from "@preact/signals";
+import { uriOf } from "../addresses";
 import { create, current, isOpen, open } from "../documents";
 import { askLine } from "../dialogs";
 import { showLog } from "../debug/logs";
@@ -39,7 +40,6 @@ export async function showFirst(): Promise<void> {
   if (first) await show(first);
 }
 
-const uriOf = (name: string): string => `${hello.value!.root.replace(/\/$/, "")}/${name.split("/").map(encodeURIComponent).join("/")}`;
 const isTaken = (name: string): boolean => files.value.some((file) => file.name === name);
 const free = (name: string, ending: string): string => {
   let [own, number] = [name + ending, 1];

@@ -1,10 +1,11 @@
 // Scenarios: written and run from here, with what each came to; a failed one is shown at its moment.
 import { useState } from "preact/hooks";
+import { uriOf } from "../addresses";
 import { current } from "../documents";
 import { Severity, Sign } from "../icons";
 import { end, running } from "../jobs";
 import { reveal } from "../places";
-import { busy, coverage, results, runAll, showFailure, shown, uriOf, writeSome, type Result } from "../results";
+import { busy, coverage, results, runAll, showFailure, shown, writeSome, type Result } from "../results";
 import { files } from "../session";
 import { report } from "./files";
 import { words } from "../words";

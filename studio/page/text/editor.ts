@@ -10,6 +10,8 @@ import { effect, untracked } from "@preact/signals";
 import { sequence } from "../changes";
 import { onText, text, typed, version } from "../documents";
 import type { Change } from "../history";
+import { tooLong } from "../limit";
+import { trouble } from "../panes/files";
 import { cursorAt, shown } from "../places";
 import { offset, position } from "../positions";
 import { diagnostics, fixes, mend, said, severityOf, type Diagnostic } from "../problems";
@@ -25,6 +27,14 @@ import { theme } from "./theme";
 /** Marks changes that come from `documents.ts`, which is not told of them. */
 const fromPage = Annotation.define<boolean>();
 const highlight = StateEffect.define<{ from: number; to: number } | null>();
+
+/** Takes no change of a person that would make the text too long, and says why. */
+const short = EditorState.transactionFilter.of((each) => {
+  const why = each.docChanged && !each.annotation(fromPage) ? tooLong(each.startState.doc.length, each.newDoc) : null;
+  if (why === null) return each;
+  trouble.value = why;
+  return [];
+});
 
 /** The place of what is selected in the drawing. */
 const highlighted = StateField.define<DecorationSet>({
@@ -65,6 +75,7 @@ const behaviour: Extension = [
   bracketMatching(),
   closeBrackets(),
   indentOnInput(),
+  short,
   search({ top: true }),
   highlighted,
   seek.seeking,

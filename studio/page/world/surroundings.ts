@@ -2,7 +2,7 @@
 import { batch, effect, signal } from "@preact/signals";
 import { connect } from "../dap";
 import { putBack } from "../debug/arranged";
-import { pathOf } from "../debug/older";
+import { pathOf } from "../addresses";
 import { active, address, given, log, phase, seed, state, world } from "../debug/run";
 import { current } from "../documents";
 import { trouble } from "../panes/files";

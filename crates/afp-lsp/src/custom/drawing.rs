@@ -9,6 +9,7 @@ use afp_dsl::outline::{Outline, Plan, PlanId};
 use afp_dsl::toolbox::Toolbox;
 use afp_ide::edit::item;
 use afp_syntax::item::Item;
+use afp_syntax::source::Span;
 use lsp_server::{Message, Notification};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -40,7 +41,10 @@ pub(crate) struct Drawing {
 /// A drawing that a client has and hears the changes of.
 #[derive(Debug)]
 pub(crate) struct Subscription {
+    /// The plan that is wanted: without one, the first of the file.
     plan: Option<String>,
+    /// The plans of the file, as the client was told.
+    plans: Vec<String>,
     folded: Vec<Item>,
     /// The scene, from which the next one is made.
     scene: Arc<Scene>,
@@ -56,14 +60,21 @@ struct MadeFrom {
     reads: Reads,
 }
 
-/// The whole drawing.
+/// The whole drawing. Where there is none, the client goes on to hear of the one that it has.
 pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     let path = uri::path(&params.text_document.uri);
     let known = server.subscriptions.remove(&path);
     let before =
         known.as_ref().filter(|known| known.plan == params.plan).map(|known| &*known.scene);
     let folded: Vec<_> = params.folded.iter().filter_map(|path| item(path)).collect();
-    let drawn = draw(server, &path, params.plan.as_deref(), &folded, before)?;
+    let drawn = match draw(server, &path, params.plan.as_deref(), &folded, before) {
+        Ok(drawn) => drawn,
+        Err(why) => {
+            let known = known.filter(|_| params.subscribe != Some(false));
+            server.subscriptions.extend(known.map(|known| (path, known)));
+            return Err(why);
+        }
+    };
     let version = server.workspace.documents.get(&path).map(|document| document.version);
     let mut answer = drawn.shown().whole();
     answer["version"] = json!(version);
@@ -72,7 +83,8 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     answer["plans"] = json!(plans);
     answer["symbols"] = symbols;
     if params.subscribe.unwrap_or(known.is_some()) {
-        let subscription = Subscription { plan: params.plan, folded, scene, facts, made_from };
+        let subscription =
+            Subscription { plan: params.plan, plans, folded, scene, facts, made_from };
         server.subscriptions.insert(path, subscription);
     }
     ok(answer)
@@ -132,12 +144,39 @@ fn draw(
         None => Arc::default(),
     };
     let facts = main.map(|plan| Facts::new(plan, outline, folded)).unwrap_or_default();
-    let own = outline.plans.iter().filter(|plan| plan.file() == analysis.file);
-    let plans = own.map(|plan| plan.item.name().to_owned()).collect();
+    let plans = plans(&analysis);
     let symbols = scene.symbols.iter().map(|it| json!({ "id": it.id, "svg": it.svg })).collect();
     let plan = main.map(|plan| plan.item.name().to_owned());
     let made_from = MadeFrom { reads: reads.into_inner(), analysis: Arc::clone(&analysis) };
     Ok(Drawn { scene, facts, plan, plans, symbols, made_from })
+}
+
+/// The names of the plans of a file, as they stand in it.
+fn plans(analysis: &Analysis) -> Vec<String> {
+    let own = analysis.compiled.outline.plans.iter().filter(|plan| plan.file() == analysis.file);
+    own.map(|plan| plan.item.name().to_owned()).collect()
+}
+
+impl Subscription {
+    /// Goes on with what has come in place of a plan that is gone: the one that stands where it did and has another name, or
+    /// the first one. While the text cannot be read, or its name is another plan's, it may come back.
+    fn follow(&mut self, analysis: &Analysis) {
+        let Some(gone) = &self.plan else { return };
+        let now = plans(analysis);
+        if now.contains(gone) {
+            return;
+        }
+        let place = self.plans.iter().position(|name| name == gone);
+        let there = place.filter(|_| now.len() == self.plans.len()).and_then(|at| now.get(at));
+        let file = Span { file: analysis.file, start: 0, end: u32::MAX };
+        let is_readable = || analysis.compiled.diags.syntax_errors_within(file).next().is_none();
+        match there {
+            Some(name) if name.contains('#') => {}
+            Some(name) if !self.plans.contains(name) => self.plan = Some(name.clone()),
+            _ if is_readable() => self.plan = None,
+            _ => {}
+        }
+    }
 }
 
 /// A plan of a file by name, its first one without a name.
@@ -190,7 +229,10 @@ impl Server {
     }
 
     fn changed_drawing(&mut self, path: &str) -> Option<Message> {
-        let known = self.subscriptions.remove(path)?;
+        let mut known = self.subscriptions.remove(path)?;
+        if let Some(analysis) = self.workspace.analysis(path) {
+            known.follow(&analysis);
+        }
         let drawn = draw(self, path, known.plan.as_deref(), &known.folded, Some(&known.scene));
         // A plan that is gone while its name is typed comes back.
         let Ok(drawn) = drawn else {
@@ -198,7 +240,7 @@ impl Server {
             return None;
         };
         let before = Shown { scene: known.scene.plans.first(), facts: &known.facts };
-        let changed = drawn.shown().since(before);
+        let changed = drawn.shown().since(before, drawn.plans == known.plans);
         let Drawn { scene, facts, plan, plans, symbols, made_from } = drawn;
         let message = changed.map(|mut params| {
             let document = self.workspace.documents.get(path);
@@ -210,7 +252,7 @@ impl Server {
             Notification::new("afp/drawingChanged".to_owned(), params).into()
         });
         let Subscription { plan, folded, .. } = known;
-        let subscription = Subscription { plan, folded, scene, facts, made_from };
+        let subscription = Subscription { plan, plans, folded, scene, facts, made_from };
         self.subscriptions.insert(path.to_owned(), subscription);
         message
     }

@@ -99,8 +99,9 @@ impl<'a> Shown<'a> {
         })
     }
 
-    /// What is new or different, and the ids of what is gone; `None` where all is as it was.
-    pub fn since(self, before: Shown<'_>) -> Option<Value> {
+    /// What is new or different, and the ids of what is gone; `None` where all is as it was, and what is told beside it
+    /// `is_same`, too.
+    pub fn since(self, before: Shown<'_>, is_same: bool) -> Option<Value> {
         let (old, new) = (before.elements(), self.elements());
         let same = |one: &ElementScene| {
             old.get(&one.item).is_some_and(|known| is_same_element(known, one))
@@ -121,7 +122,7 @@ impl<'a> Shown<'a> {
         let mut left: Vec<_> = left.map(|(_, one)| id(one)).collect();
         left.sort();
         gone.extend(left);
-        let calm = elements.is_empty() && edges.is_empty() && gone.is_empty();
+        let calm = is_same && elements.is_empty() && edges.is_empty() && gone.is_empty();
         if calm && self.bounds() == before.bounds() && self.facts.entries == before.facts.entries {
             return None;
         }

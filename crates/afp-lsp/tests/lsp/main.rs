@@ -6,4 +6,5 @@ mod errors;
 mod export;
 mod killed;
 mod others;
+mod plans;
 mod random;

@@ -96,6 +96,12 @@ impl Document {
         self.due.is_none()
     }
 
+    /// Whether nothing is lost where this is forgotten: a file that was removed, or cannot be read, lies here alone.
+    pub fn is_in_file(&self) -> bool {
+        let was_never_there = self.kept.etag.is_none() && self.text.is_empty();
+        self.due.is_none() && (self.is_as_kept() || was_never_there)
+    }
+
     /// Whether somebody has to choose between this text and theirs.
     pub fn is_disputed(&self) -> bool {
         self.theirs.is_some()

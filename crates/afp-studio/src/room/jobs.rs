@@ -17,6 +17,8 @@ const MOST: usize = 4;
 const MOST_LINES: usize = 2_000;
 /// Letters of such a line.
 const MOST_LETTERS: usize = 2_000;
+/// How long a job waits for a page that is gone; then it is ended, since nobody else asks for what comes of it.
+const WAITS: Duration = Duration::from_secs(60);
 /// How long lines are collected before they are told, in one message.
 const COLLECTED: Duration = Duration::from_millis(50);
 /// Results of a job that are kept for its end; those of a run are some 600 bytes.
@@ -40,6 +42,12 @@ pub(crate) enum Order {
 #[derive(Debug, Default)]
 pub(super) struct Job {
     client: ClientId,
+    /// What was asked for.
+    order: Value,
+    /// Since when the client is gone.
+    alone: Option<Duration>,
+    /// What came of it, while the client is gone.
+    done: Option<Message>,
     results: Vec<Value>,
     /// How long they are together.
     bytes: usize,
@@ -67,7 +75,8 @@ impl Room {
     }
 
     pub(super) fn begin_job(&mut self, client: ClientId, params: &Value) -> Result<Value, String> {
-        if self.jobs.running.len() >= MOST {
+        let goes_on = |job: &&Job| job.done.is_none();
+        if self.jobs.running.values().filter(goes_on).count() >= MOST {
             return Err(format!("{MOST} jobs go on: wait until one has ended, or end it"));
         }
         let kind = params["kind"].as_str().unwrap_or_default();
@@ -75,7 +84,8 @@ impl Room {
         self.check_trust(kind, params)?;
         self.jobs.made += 1;
         let id = self.jobs.made;
-        self.jobs.running.insert(id, Job { client, ..Job::default() });
+        let order = params.clone();
+        self.jobs.running.insert(id, Job { client, order, ..Job::default() });
         self.jobs.orders.push(Order::Begin(id, arguments));
         Ok(json!({ "id": id }))
     }
@@ -85,6 +95,58 @@ impl Room {
         let id = id.filter(|id| self.jobs.running.contains_key(id));
         self.jobs.orders.push(Order::End(id.ok_or("there is no such job")?));
         Ok(Value::Null)
+    }
+
+    /// The jobs of a client that is gone wait a while for it.
+    pub(super) fn leave_jobs(&mut self, client: ClientId, now: Duration) {
+        let own = self.jobs.running.values_mut().filter(|job| job.client == client);
+        own.for_each(|job| job.alone = Some(now));
+    }
+
+    /// A client takes up the jobs of the one that it was before, unless that is still there.
+    pub(super) fn take_jobs(&mut self, client: ClientId, before: ClientId) {
+        let own = self.jobs.running.values_mut();
+        let own = own.filter(|job| job.client == before && job.alone.is_some());
+        own.for_each(|job| (job.client, job.alone) = (client, None));
+    }
+
+    /// The jobs of a client as it is greeted with them, with the lines that were told.
+    pub(super) fn jobs_of(&self, client: ClientId) -> Value {
+        let own = self.jobs.running.iter().filter(|(_, job)| job.client == client);
+        let listed = |(id, job): (&JobId, &Job)| {
+            let said = job.said.get(..job.told).unwrap_or_default().join("\n");
+            json!({ "id": id, "order": job.order, "said": said })
+        };
+        own.map(listed).collect()
+    }
+
+    /// Tells a client that was greeted which of its jobs have ended while it was gone.
+    pub(super) fn tell_done(&mut self, client: ClientId) -> Out {
+        let mut out = Out::new();
+        self.jobs.running.retain(|&id, job| {
+            let done = job.done.take_if(|_| job.client == client);
+            let is_told = done.is_some();
+            if is_told {
+                out.extend(job.tell(id));
+            }
+            out.extend(done.map(|done| (client, done)));
+            !is_told
+        });
+        out
+    }
+
+    /// Ends the jobs whose client has not come back; once more where one does not end.
+    pub(super) fn end_jobs_alone(&mut self, now: Duration) {
+        let orders = &mut self.jobs.orders;
+        self.jobs.running.retain(|&id, job| {
+            if job.alone.is_none_or(|since| now < since + WAITS) {
+                return true;
+            }
+            job.alone = Some(now);
+            let goes_on = job.done.is_none();
+            orders.extend(goes_on.then_some(Order::End(id)));
+            goes_on
+        });
     }
 
     /// What runs code of the folder waits until it is trusted.
@@ -113,7 +175,7 @@ impl Room {
 
     /// When lines of jobs are to be told.
     pub(super) fn jobs_due(&self) -> Option<Duration> {
-        let waits = |job: &Job| job.told < job.said.len();
+        let waits = |job: &Job| job.alone.is_none() && job.told < job.said.len();
         self.jobs.running.values().any(waits).then_some(self.jobs.told + COLLECTED)
     }
 
@@ -128,9 +190,16 @@ impl Room {
         let Some(mut job) = self.jobs.running.remove(&id) else { return Out::new() };
         let mut out = Out::from_iter(job.tell(id));
         let done = json!({
-            "id": id, "ok": code == Some(0), "code": code, "results": job.results, "said": job.said.join("\n"),
+            "id": id, "ok": code == Some(0), "code": code, "results": std::mem::take(&mut job.results), "said": job.said.join("\n"),
         });
-        out.push((job.client, notification("afp/jobDone", done)));
+        let done = notification("afp/jobDone", done);
+        match job.alone {
+            None => out.push((job.client, done)),
+            Some(_) => {
+                job.done = Some(done);
+                self.jobs.running.insert(id, job);
+            }
+        }
         out
     }
 }
@@ -155,8 +224,11 @@ impl Job {
         }
     }
 
-    /// Tells the lines that the client was not told, if there are any.
+    /// Tells the lines that the client was not told, if there are any and it is there.
     fn tell(&mut self, id: JobId) -> Option<(ClientId, Message)> {
+        if self.alone.is_some() {
+            return None;
+        }
         let lines = self.said.get(self.told..).filter(|lines| !lines.is_empty())?;
         let said = json!({ "id": id, "text": lines.join("\n") });
         self.told = self.said.len();
@@ -262,6 +334,85 @@ fn world_of(room: &Room, world: &str) -> Result<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A room with a client that has begun a job.
+    fn begun(folder: &tempfile::TempDir) -> Room {
+        let folder = crate::Folder::new(folder.path()).unwrap();
+        let mut room = Room::new(folder, None, Vec::new(), || Box::new(afp_lsp::NoFiles));
+        room.join(1);
+        room.begin_job(1, &json!({ "kind": "test" })).unwrap();
+        assert_eq!(room.orders().len(), 1);
+        room
+    }
+
+    /// What a client is greeted with that was another one before, and then told.
+    fn greeted(room: &mut Room, client: ClientId, before: ClientId) -> (Value, Vec<Value>) {
+        room.join(client);
+        let params = json!({ "client": before });
+        let hello = lsp_server::Request::new(1.into(), "afp/hello".to_owned(), params);
+        let out = room.handle(client, hello.into(), Duration::ZERO);
+        let said = out.into_iter().filter(|(id, _)| *id == client);
+        let mut said = said.map(|(_, message)| serde_json::to_value(message).unwrap());
+        (said.next().unwrap()["result"]["jobs"].clone(), said.collect())
+    }
+
+    #[test]
+    fn a_job_goes_on_with_the_page_that_is_loaded_anew() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut room = begun(&folder);
+        room.job_said(1, "one");
+        room.tick(COLLECTED);
+        room.job_said(1, "two");
+        room.leave(1, Duration::ZERO);
+        // What is said to nobody is not due, so that nothing is told again and again.
+        assert_eq!((room.jobs_due(), room.tick(COLLECTED * 9).len()), (None, 0));
+        let listed = json!([{ "id": 1, "order": { "kind": "test" }, "said": "one" }]);
+        assert_eq!(greeted(&mut room, 2, 1), (listed.clone(), vec![]));
+        let told = room.tell_jobs(Duration::ZERO);
+        assert_eq!(told[0].0, 2);
+        // Of two pages that were one, the one that is there keeps it.
+        assert_eq!(greeted(&mut room, 3, 2).0, json!([]));
+        // It ends while nobody is there.
+        room.leave(2, Duration::ZERO);
+        room.job_said(1, "three");
+        assert!(room.job_done(1, Some(0)).is_empty());
+        let (jobs, told) = greeted(&mut room, 4, 2);
+        assert_eq!(jobs[0]["id"], 1);
+        let methods: Vec<_> = told.iter().map(|message| message["method"].clone()).collect();
+        assert_eq!(methods, ["afp/jobSaid", "afp/jobDone"]);
+        assert_eq!(told[1]["params"]["said"], "one\ntwo\nthree");
+        assert_eq!(greeted(&mut room, 5, 4).0, json!([]));
+    }
+
+    #[test]
+    fn jobs_whose_page_does_not_come_back_are_ended_and_are_in_nobodys_way() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut room = begun(&folder);
+        room.join(2);
+        let order = json!({ "kind": "test" });
+        for _ in 1..MOST {
+            room.begin_job(1, &order).unwrap();
+        }
+        assert!(room.begin_job(2, &order).is_err());
+        room.orders();
+        room.leave(1, Duration::ZERO);
+        // This one has ended by itself.
+        room.job_done(1, Some(0));
+        assert!(room.begin_job(2, &order).is_ok());
+        room.orders();
+        room.tick(WAITS / 2);
+        assert_eq!(room.orders(), []);
+        let ended: Vec<_> = (2..).take(MOST - 1).map(Order::End).collect();
+        room.tick(WAITS);
+        assert_eq!(room.orders(), ended);
+        // Who does not end when asked is ended the second time.
+        room.job_done(2, None);
+        room.tick(WAITS * 2);
+        assert_eq!(room.orders(), ended[1..]);
+        (3..).take(MOST - 2).for_each(|id| _ = room.job_done(id, None));
+        room.tick(WAITS * 3);
+        assert_eq!(room.jobs.running.keys().collect::<Vec<_>>(), [&5]);
+    }
 
     #[test]
     fn what_a_job_says_is_told_in_one_message_and_only_so_much_of_it() {

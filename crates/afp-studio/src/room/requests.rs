@@ -45,7 +45,9 @@ pub(super) fn answer(
             out = room.look_at_files();
             let before = params["client"].as_u64().and_then(|id| ClientId::try_from(id).ok());
             room.greeted(client, before);
-            Ok(hello(room, client))
+            let hello = hello(room, client);
+            out.extend(room.tell_done(client));
+            Ok(hello)
         }
         "afp/pen" => {
             if params["take"] == json!(true) {
@@ -60,7 +62,7 @@ pub(super) fn answer(
         "afp/trust" => trust(room, params),
         "afp/job" => room.begin_job(client, params),
         "afp/endJob" => room.end_job(params),
-        "afp/create" => create(room, params),
+        "afp/create" => create(room, params, &mut out),
         "afp/rename" => rename(room, params, now, &mut out),
         "afp/remove" => remove(room, params, now, &mut out),
         "afp/choose" => choose(room, params, now).map(|path| {
@@ -76,9 +78,6 @@ pub(super) fn answer(
 }
 
 fn hello(room: &Room, client: ClientId) -> Value {
-    let documents = room.documents.iter().map(|(path, document)| {
-        json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() })
-    });
     let examples = room.examples.iter().map(Example::listed);
     json!({
         "client": client,
@@ -86,10 +85,11 @@ fn hello(room: &Room, client: ClientId) -> Value {
         "open": room.open.clone().or_else(|| first_plan(room)),
         "pen": room.pen == Some(client),
         "trusted": room.trust.is_given(),
-        "documents": documents.collect::<Vec<_>>(),
         "files": room.files(),
         "more": room.listed.is_cut,
         "examples": examples.collect::<Vec<_>>(),
+        "jobs": room.jobs_of(client),
+        "longest": files::LONGEST,
     })
 }
 
@@ -122,12 +122,14 @@ fn read(room: &mut Room, path: &str) -> Result<Value, String> {
     Ok(json!({ "uri": uri_of(path), "text": document.text, "version": 0, "etag": document.etag() }))
 }
 
-/// A new file with a text, or an example with what belongs to it; never over one that is there.
-fn create(room: &mut Room, params: &Value) -> Result<Value, String> {
+/// A new file with a text, or an example with what belongs to it; never over one that is there. Who still has a text of this
+/// address open, since another program has removed its file, is told the new one.
+fn create(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, String> {
     let path = path(params, "uri")?;
     if Path::new(&path).exists() {
         return Err(format!("there is a file '{}' already", room.folder.name(&path)));
     }
+    unless_unsaved(room, &path)?;
     match params["example"].as_str() {
         Some(name) => examples::copy(&room.examples, name, &room.folder, Path::new(&path))?,
         None => {
@@ -137,8 +139,24 @@ fn create(room: &mut Room, params: &Value) -> Result<Value, String> {
                 .map_err(|why| format!("cannot write '{}': {why}", file.display()))?;
         }
     }
-    room.documents.remove(&path);
-    read(room, &path)
+    told_anew(room, &path, out)
+}
+
+/// Refuses where a text that was changed is about to be written under an address.
+fn unless_unsaved(room: &Room, path: &str) -> Result<(), String> {
+    match room.documents.get(path).is_some_and(|document| !document.is_saved()) {
+        true => Err(format!("'{}' is about to be written anew", room.folder.name(path))),
+        false => Ok(()),
+    }
+}
+
+/// Reads what has come to lie under an address, and tells it to who has something else open there.
+fn told_anew(room: &mut Room, path: &str, out: &mut Out) -> Result<Value, String> {
+    room.documents.remove(path);
+    let text = room.document(path)?.text.clone();
+    out.extend(room.tell_all(&uri_of(path), &text));
+    out.extend(room.tell_saved(path, Ok(())));
+    read(room, path)
 }
 
 fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Result<Value, String> {
@@ -151,17 +169,11 @@ fn rename(room: &mut Room, params: &Value, now: Duration, out: &mut Out) -> Resu
     if !room.document(&from)?.is_saved() {
         return Err("it is not saved yet: wait a moment".to_owned());
     }
-    if room.documents.get(&to).is_some_and(|document| !document.is_saved()) {
-        return Err(format!("'{}' is about to be written anew", room.folder.name(&to)));
-    }
+    unless_unsaved(room, &to)?;
     std::fs::rename(&old, &new)
         .map_err(|why| format!("cannot rename '{}': {why}", old.display()))?;
     room.documents.remove(&from);
-    // What was open under this name was removed by somebody else.
-    room.documents.remove(&to);
-    let text = room.document(&to)?.text.clone();
-    out.extend(room.tell_all(&uri_of(&to), &text));
-    read(room, &to)
+    told_anew(room, &to, out)
 }
 
 /// Removes a file and gives its text, with what others have just written, so that it can be made again.

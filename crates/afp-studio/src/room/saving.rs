@@ -33,6 +33,7 @@ impl Room {
         }
         if now >= self.looked + LOOKS_EVERY {
             self.looked = now;
+            self.end_jobs_alone(now);
             if now >= self.walked + pause(self.listed.entries, self.walking) {
                 let begin = Instant::now();
                 self.walked = now;
@@ -59,10 +60,10 @@ impl Room {
         };
         let paths: Vec<_> = self.documents.iter().filter_map(due).collect();
         let mut out = Vec::new();
-        for path in paths {
+        for path in &paths {
             // Never over what somebody else has written meanwhile.
-            out.extend(self.look_at(&path, now));
-            let Some(document) = self.documents.get_mut(&path) else { continue };
+            out.extend(self.look_at(path, now));
+            let Some(document) = self.documents.get_mut(path) else { continue };
             if !document.due().is_some_and(&wanted) {
                 continue;
             }
@@ -71,13 +72,16 @@ impl Room {
                 // It is no news that somebody else would have to be told of.
                 self.listed.files.insert(path.clone(), stamp);
             }
-            out.extend(self.tell_saved(&path, saved.map(drop)));
+            out.extend(self.tell_saved(path, saved.map(drop)));
+        }
+        if !paths.is_empty() {
+            self.forget();
         }
         out
     }
 
     /// Tells the clients that have it open whether a text is saved.
-    fn tell_saved(&self, path: &str, saved: Result<(), String>) -> Out {
+    pub(super) fn tell_saved(&self, path: &str, saved: Result<(), String>) -> Out {
         let Some(document) = self.documents.get(path) else { return Vec::new() };
         let uri = uri_of(path);
         let mut out = Vec::new();

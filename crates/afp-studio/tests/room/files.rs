@@ -75,3 +75,78 @@ fn a_folder_opens_with_the_first_file_that_has_a_plan() {
     fs::remove_file(place.path("plans/b.afp")).unwrap();
     assert_eq!(hello(&mut place), Value::Null);
 }
+
+/// A text that is kept is looked at every half second; one that is not is read when somebody comes.
+#[test]
+fn texts_that_nobody_has_open_any_more_are_forgotten_once_they_lie_in_their_files() {
+    let later = format!("// later\n{PLAN}");
+    let is_forgotten = |place: &mut Place| {
+        place.outside(&later);
+        place.room.join(9);
+        let read = place.ask(9, "afp/read", json!({ "uri": place.uri("p.afp") })).unwrap();
+        read["text"] == json!(later)
+    };
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.room.leave(1, place.now);
+    assert!(is_forgotten(&mut place));
+    // Somebody else still has it open.
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    place.client(2);
+    let document = json!({ "uri": place.uri("p.afp") });
+    place.tell(1, "textDocument/didClose", json!({ "textDocument": document }));
+    assert!(!is_forgotten(&mut place));
+    // It is not saved yet, and then it is.
+    for (passes, saved) in [(0, false), (300, true)] {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.types(1, 2, &PLAN.replace("go", "stay"));
+        place.room.leave(1, place.now);
+        place.pass(passes);
+        assert_eq!(place.on_disk() != PLAN, saved);
+        assert_eq!(is_forgotten(&mut place), saved);
+    }
+    // Another program has removed the file: nobody has its text but the room.
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    fs::remove_file(place.path("p.afp")).unwrap();
+    place.pass(600);
+    place.room.leave(1, place.now);
+    place.room.join(2);
+    let read = place.ask(2, "afp/read", json!({ "uri": place.uri("p.afp") })).unwrap();
+    assert_eq!(read["text"], json!(PLAN));
+}
+
+#[test]
+fn who_has_a_text_open_whose_file_is_gone_is_told_the_one_that_is_made_in_its_place() {
+    for text in ["plan New { }\n", PLAN] {
+        let mut place = Place::new(PLAN);
+        place.client(1);
+        place.client(2);
+        fs::remove_file(place.path("p.afp")).unwrap();
+        place.pass(600);
+        let what = json!({ "uri": place.uri("p.afp"), "text": text });
+        let request = json!({ "id": 1, "method": "afp/create", "params": what });
+        let request = serde_json::from_value(request).unwrap();
+        let out = super::said(place.room.handle(1, request, place.now));
+        let out: Vec<_> =
+            out.into_iter().filter(|(_, said)| said["params"]["uri"] == what["uri"]).collect();
+        let method = if text == PLAN { "afp/saved" } else { "afp/changed" };
+        assert_eq!(super::methods(&out), [(1, method), (2, method)]);
+        assert!(out.iter().all(|(_, said)| text == PLAN || said["params"]["text"] == text));
+        assert!(out.iter().all(|(_, said)| said["params"]["failed"].is_null()));
+    }
+    // What is about to be written is not made meanwhile.
+    let mut place = Place::new(PLAN);
+    place.client(1);
+    fs::remove_file(place.path("p.afp")).unwrap();
+    place.pass(600);
+    let mine = PLAN.replace("go", "stay");
+    place.types(1, 2, &mine);
+    let what = json!({ "uri": place.uri("p.afp"), "text": "" });
+    let refused = place.ask(1, "afp/create", what).unwrap_err();
+    assert!(refused.contains("about to be written"), "{refused}");
+    place.pass(300);
+    assert_eq!(place.on_disk(), mine);
+}
