@@ -85,6 +85,8 @@ pub struct Adapter<'h> {
     asker: ClientId,
     /// Who steers.
     operator: Option<ClientId>,
+    /// When it was called last.
+    called: Wall,
     run: Option<Run<'h>>,
     breakpoints: Breakpoints,
     out: Vec<(ClientId, Value)>,
@@ -136,6 +138,7 @@ impl<'h> Adapter<'h> {
             joined: 0,
             asker: ClientId::default(),
             operator: None,
+            called: Wall::ZERO,
             run: None,
             breakpoints: Breakpoints::default(),
             out: Vec::new(),
@@ -152,12 +155,13 @@ impl<'h> Adapter<'h> {
     /// whenever.
     pub fn handle(&mut self, from: ClientId, message: &str, now: Wall) -> Vec<Outgoing> {
         self.asker = from;
+        self.listen_for_lease(now);
         // Of a key that is there twice the last one counts, whatever is read of the message.
         let message = serde_json::from_str::<Value>(message);
         let is_answer = message.as_ref().is_ok_and(|it| it["type"] == "response");
         match message.and_then(serde_json::from_value::<dapts::Request>) {
             // What it says does not matter: that it comes does.
-            _ if is_answer => self.on_lease_answer(from, now),
+            _ if is_answer => self.on_lease_answer(from),
             Ok(asked) => self.answer(asked, now),
             Err(why) => {
                 let body = output("stderr", &format!("not a request: {why}\n"));
@@ -169,6 +173,7 @@ impl<'h> Adapter<'h> {
 
     /// Lets the run go on by what has passed on the wall; what is to be told.
     pub fn tick(&mut self, now: Wall) -> Vec<Outgoing> {
+        self.listen_for_lease(now);
         self.check_lease(now);
         self.drive(now);
         self.take()

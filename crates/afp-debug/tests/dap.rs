@@ -1,7 +1,7 @@
 //! Talks with the adapter, as data: `tests/dap/*.txt` has a plan, what a client says and what it is told.
 //!
 //! `--> COMMAND ARGUMENTS` is a request, `tick` lets the run go on until it stands still or ends, `tick 40` for so many
-//! milliseconds on the wall. The answers, `<--`, are written by the test with `AFP_BLESS=1`.
+//! milliseconds on the wall at once, `wait 400` in steps of 100 ms. The answers, `<--`, are written by the test with `AFP_BLESS=1`.
 
 mod common;
 
@@ -24,6 +24,10 @@ fn answered(case: &str) -> String {
             ("-->", said) => clients.say(said),
             ("tick", "") => clients.tick(None),
             ("tick", wall) => clients.tick(Some(wall.parse().expect("milliseconds"))),
+            ("wait", wall) => {
+                let wall: u64 = wall.parse().expect("milliseconds");
+                (0..wall / 100).for_each(|_| clients.tick(Some(100)));
+            }
             ("lose", number) => clients.lose(number.parse().expect("a client")),
             (arrow, said) => {
                 let number = arrow.strip_prefix('-').and_then(|rest| rest.strip_suffix('>'));
