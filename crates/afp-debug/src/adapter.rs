@@ -90,8 +90,14 @@ pub struct Adapter<'h> {
     run: Option<Run<'h>>,
     breakpoints: Breakpoints,
     out: Vec<(ClientId, Value)>,
-    /// What clients have to know.
-    token: Option<Token>,
+    /// What clients have to know, and how many may.
+    guard: Option<Guard>,
+}
+
+/// Who is let in.
+struct Guard {
+    token: Token,
+    most: usize,
 }
 
 /// What is debugged.
@@ -142,13 +148,14 @@ impl<'h> Adapter<'h> {
             run: None,
             breakpoints: Breakpoints::default(),
             out: Vec::new(),
-            token: None,
+            guard: None,
         }
     }
 
-    /// The same for anybody who can reach it: it launches nothing without this token among the arguments.
-    pub fn guarded(host: Box<dyn Host<'h> + 'h>, token: &Token) -> Adapter<'h> {
-        Adapter { token: Some(token.clone()), ..Adapter::new(host) }
+    /// The same for anybody who can reach it: it launches nothing without this token among the arguments, and so many clients
+    /// are let in at most.
+    pub fn guarded(host: Box<dyn Host<'h> + 'h>, token: &Token, most: usize) -> Adapter<'h> {
+        Adapter { guard: Some(Guard { token: token.clone(), most }), ..Adapter::new(host) }
     }
 
     /// Answers a message of a client that has joined; what goes to whom, in order. `now` is the time on the wall, from
@@ -270,7 +277,7 @@ impl<'h> Adapter<'h> {
     fn check_part(&self, command: &str) -> Answer<()> {
         let takes_part = self.clients.get(&self.asker).is_some_and(|client| client.attached);
         let is_first = ["initialize", "launch", "attach", "disconnect"].contains(&command);
-        match &self.token {
+        match &self.guard {
             _ if takes_part || is_first => Ok(()),
             Some(_) => Err("'launch' or 'attach' comes first, with the token".into()),
             None if self.run.is_some() && command != "afp/world" => {
