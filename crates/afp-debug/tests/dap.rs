@@ -188,6 +188,44 @@ plan P {
 }
 
 #[test]
+fn breakpoints_of_another_program_do_not_hold_the_next_one() {
+    let one = "use std
+plan P {
+    start a
+    actor a: Wait(duration = 1 s) { Elapsed -> b }
+    actor b: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+";
+    let other = "use std
+plan Q {
+    start first
+    actor first: Wait(duration = 1 s) { Elapsed -> second }
+    actor second: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+";
+    let texts = [one, other].map(str::to_owned).to_vec();
+    let mut clients = Clients::new(Box::new(Edited(texts)));
+    for said in [
+        r#"launch {"program":"plan.afp"}"#,
+        r#"setFunctionBreakpoints {"breakpoints":[{"name":"b"}]}"#,
+        "configurationDone",
+    ] {
+        clients.say(said);
+    }
+    clients.tick(None);
+    assert!(clients.told.contains("b started at 1.000 s"), "{}", clients.told);
+    clients.say("terminate");
+    clients.told.clear();
+    clients.say(r#"launch {"program":"plan.afp"}"#);
+    let told = &clients.told;
+    assert!(told.contains(r#""message":"the plan has nothing called 'b'"#), "{told}");
+    clients.say("configurationDone");
+    clients.tick(None);
+    let told = &clients.told;
+    assert!(!told.contains("event stopped") && told.contains("Q ended OK"), "{told}");
+}
+
+#[test]
 fn a_run_is_held_where_edges_are_taken_without_time_passing() {
     let plan = "use std
 plan Spin {

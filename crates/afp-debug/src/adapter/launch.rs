@@ -151,6 +151,9 @@ impl Adapter<'_> {
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
         }
         self.event_to::<event::Initialized>(self.asker, &None);
+        // Some may have been set in an earlier run, of another program.
+        let program = self.run()?.target.program().clone();
+        self.find_breakpoints(&program);
         self.send_roles();
         self.begun()
     }
