@@ -275,7 +275,7 @@ impl<'h> Adapter<'h> {
 
     /// Whether the client that asks takes part in the run, or asks for something else.
     fn check_part(&self, command: &str) -> Answer<()> {
-        let takes_part = self.clients.get(&self.asker).is_some_and(|client| client.attached);
+        let takes_part = self.takes_part();
         let is_first = ["initialize", "launch", "attach", "disconnect"].contains(&command);
         match &self.guard {
             _ if takes_part || is_first => Ok(()),
@@ -285,6 +285,10 @@ impl<'h> Adapter<'h> {
             }
             None => Ok(()),
         }
+    }
+
+    fn takes_part(&self) -> bool {
+        self.clients.get(&self.asker).is_some_and(|client| client.attached)
     }
 
     /// Answers a request of the protocol.

@@ -9,7 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use afp_debug::{Host, Launch, SessionTarget, Target};
+use afp_debug::{Adapter, Host, Launch, SessionTarget, Target};
+use afp_token::Token;
 
 use common::{Clients, Texted, compiled, session};
 
@@ -223,6 +224,32 @@ plan Q {
     clients.tick(None);
     let told = &clients.told;
     assert!(!told.contains("event stopped") && told.contains("Q ended OK"), "{told}");
+}
+
+#[test]
+fn who_has_no_token_ends_no_run() {
+    let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+    let adapter = Adapter::guarded(Box::new(Texted(plan.to_owned())), &Token::from_word("open"), 2);
+    let mut clients = Clients::of(adapter);
+    clients.say(r#"launch {"program":"plan.afp","token":"open","stopOnEntry":true}"#);
+    clients.say("configurationDone");
+    clients.say_as(2, r#"disconnect {"terminateDebuggee":true}"#);
+    assert!(clients.told.ends_with("<2- disconnect\n"), "{}", clients.told);
+    clients.say("threads");
+    assert!(!clients.told.contains("terminated"), "{}", clients.told);
+    clients.say_as(3, r#"attach {"token":"open"}"#);
+    clients.say_as(3, r#"disconnect {"terminateDebuggee":true}"#);
+    assert!(clients.told.contains("<-- event terminated"), "{}", clients.told);
+    // Whoever is let in has a place until it goes, whether something runs or not.
+    clients.say_as(4, r#"attach {"token":"open"}"#);
+    assert!(
+        clients.told.contains("2 clients are there already: end one first"),
+        "{}",
+        clients.told
+    );
+    clients.lose(3);
+    clients.say_as(4, r#"launch {"program":"plan.afp","token":"open"}"#);
+    assert!(clients.told.contains("<4- event initialized"), "{}", clients.told);
 }
 
 #[test]

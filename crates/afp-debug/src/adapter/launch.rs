@@ -320,14 +320,16 @@ impl Adapter<'_> {
         Ok(Value::Null)
     }
 
-    /// A client says goodbye; the run goes on for the others, unless it wants it to end.
+    /// A client says goodbye; the run goes on for the others, unless it wants it to end and takes part in it.
     pub(super) fn disconnect(&mut self, asked: &dapts::DisconnectArguments) -> Answer<Value> {
         let asker = self.asker;
+        // Whoever reaches the port may say goodbye; it takes the token to end the run.
+        let may_end = self.guard.is_none() || self.takes_part();
         if let Some(client) = self.clients.get_mut(&asker) {
             client.over = true;
         }
         self.detach(asker);
-        if asked.terminate_debuggee == Some(true) {
+        if asked.terminate_debuggee == Some(true) && may_end {
             self.terminate()?;
         }
         Ok(Value::Null)
