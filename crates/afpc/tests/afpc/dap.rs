@@ -145,10 +145,44 @@ fn a_folder_is_the_same_however_it_is_named() {
     }
     let said = told_at(&place, "", &["dap", "--inside", "w"], &launch("other.afp"));
     assert!(said.out.contains("'other.afp' lies outside of '"), "{said:?}");
+    let said = told_at(&place, "", &["dap", "--inside", "w"], &launch("w/new.afp"));
+    assert!(said.out.contains("cannot open 'w/new.afp'"), "{said:?}");
     let said = told_at(&place, "", &["dap", "--inside", "nope"], b"");
     said.fails(1, &["cannot open the folder 'nope'"]);
     let said = told_at(&place, "", &["dap", "--inside", "other.afp"], b"");
     said.fails(2, &["'other.afp' is no folder"]);
+}
+
+#[test]
+fn what_is_run_lies_inside_of_the_folder_whatever_it_is_called() {
+    let place = Place::new();
+    place.write("w/sub/plan.afp", "use std\n");
+    let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+    place.write("other/plan.txt", plan);
+    place.write("other/plan.afp:P", plan);
+    let outside = place.path("other/plan.txt").canonicalize().unwrap().display().to_string();
+    let dots = format!("{}/../other/plan.txt:P", place.path("w").canonicalize().unwrap().display());
+    let mut named = vec![
+        dots,
+        outside.clone(),
+        format!("{outside}:P"),
+        format!("file://{outside}:P"),
+        "w/sub/../../other/plan.txt:P".to_owned(),
+        "other/plan.afp:P".to_owned(),
+    ];
+    #[cfg(unix)]
+    for (link, to) in [("w/linked", &*outside), ("w/plan.afp", "../other/plan.txt")] {
+        std::os::unix::fs::symlink(to, place.path(link)).unwrap();
+        named.extend([link.to_owned(), format!("{link}:P")]);
+    }
+    for program in named {
+        let launch = framed("launch", &format!(r#"{{"program":"{program}"}}"#));
+        let world = framed("afp/world", &format!(r#"{{"program":"{program}"}}"#));
+        for said in [launch, world] {
+            let said = told_at(&place, "", &["dap", "--inside", "w"], said.as_bytes());
+            assert!(said.out.contains("lies outside of '"), "{program}: {said:?}");
+        }
+    }
 }
 
 #[test]
