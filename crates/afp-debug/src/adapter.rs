@@ -85,11 +85,19 @@ pub struct Adapter<'h> {
     asker: ClientId,
     /// Who steers.
     operator: Option<ClientId>,
+    /// When it was called last.
+    called: Wall,
     run: Option<Run<'h>>,
     breakpoints: Breakpoints,
     out: Vec<(ClientId, Value)>,
-    /// What clients have to know.
-    token: Option<Token>,
+    /// What clients have to know, and how many may.
+    guard: Option<Guard>,
+}
+
+/// Who is let in.
+struct Guard {
+    token: Token,
+    most: usize,
 }
 
 /// What is debugged.
@@ -136,28 +144,31 @@ impl<'h> Adapter<'h> {
             joined: 0,
             asker: ClientId::default(),
             operator: None,
+            called: Wall::ZERO,
             run: None,
             breakpoints: Breakpoints::default(),
             out: Vec::new(),
-            token: None,
+            guard: None,
         }
     }
 
-    /// The same for anybody who can reach it: it launches nothing without this token among the arguments.
-    pub fn guarded(host: Box<dyn Host<'h> + 'h>, token: &Token) -> Adapter<'h> {
-        Adapter { token: Some(token.clone()), ..Adapter::new(host) }
+    /// The same for anybody who can reach it: it launches nothing without this token among the arguments, and so many clients
+    /// are let in at most.
+    pub fn guarded(host: Box<dyn Host<'h> + 'h>, token: &Token, most: usize) -> Adapter<'h> {
+        Adapter { guard: Some(Guard { token: token.clone(), most }), ..Adapter::new(host) }
     }
 
     /// Answers a message of a client that has joined; what goes to whom, in order. `now` is the time on the wall, from
     /// whenever.
     pub fn handle(&mut self, from: ClientId, message: &str, now: Wall) -> Vec<Outgoing> {
         self.asker = from;
+        self.listen_for_lease(now);
         // Of a key that is there twice the last one counts, whatever is read of the message.
         let message = serde_json::from_str::<Value>(message);
         let is_answer = message.as_ref().is_ok_and(|it| it["type"] == "response");
         match message.and_then(serde_json::from_value::<dapts::Request>) {
             // What it says does not matter: that it comes does.
-            _ if is_answer => self.on_lease_answer(from, now),
+            _ if is_answer => self.on_lease_answer(from),
             Ok(asked) => self.answer(asked, now),
             Err(why) => {
                 let body = output("stderr", &format!("not a request: {why}\n"));
@@ -169,6 +180,7 @@ impl<'h> Adapter<'h> {
 
     /// Lets the run go on by what has passed on the wall; what is to be told.
     pub fn tick(&mut self, now: Wall) -> Vec<Outgoing> {
+        self.listen_for_lease(now);
         self.check_lease(now);
         self.drive(now);
         self.take()
@@ -263,9 +275,9 @@ impl<'h> Adapter<'h> {
 
     /// Whether the client that asks takes part in the run, or asks for something else.
     fn check_part(&self, command: &str) -> Answer<()> {
-        let takes_part = self.clients.get(&self.asker).is_some_and(|client| client.attached);
+        let takes_part = self.takes_part();
         let is_first = ["initialize", "launch", "attach", "disconnect"].contains(&command);
-        match &self.token {
+        match &self.guard {
             _ if takes_part || is_first => Ok(()),
             Some(_) => Err("'launch' or 'attach' comes first, with the token".into()),
             None if self.run.is_some() && command != "afp/world" => {
@@ -273,6 +285,10 @@ impl<'h> Adapter<'h> {
             }
             None => Ok(()),
         }
+    }
+
+    fn takes_part(&self) -> bool {
+        self.clients.get(&self.asker).is_some_and(|client| client.attached)
     }
 
     /// Answers a request of the protocol.

@@ -45,11 +45,12 @@ pub struct LogTarget {
 }
 
 impl LogTarget {
-    /// The run of a program that those events tell of, at its start.
+    /// The run of a program that those events tell of, at its start. Events are taken by their times, those of one instant in
+    /// the order given.
     ///
     /// # Errors
     /// The events are those of another program: why.
-    pub fn new(program: Arc<Program>, events: Vec<RunEvent>) -> Result<LogTarget, String> {
+    pub fn new(program: Arc<Program>, mut events: Vec<RunEvent>) -> Result<LogTarget, String> {
         let known = |event: &RunEvent| match program.unit(event.component_id) {
             Some(unit) => event.component.is_empty() || unit.path == event.component,
             None => event.component_id == afp_session::OUTSIDE,
@@ -60,6 +61,7 @@ impl LogTarget {
                 "the log tells of '{name}', which its plan has not any more: the toolboxes have changed since"
             ));
         }
+        events.sort_by_key(|event| event.at);
         let mut moments: Vec<_> = events
             .windows(2)
             .zip(1..)

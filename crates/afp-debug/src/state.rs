@@ -197,7 +197,7 @@ impl State {
     /// When a supervisor that is asked so often is asked next: the grid begins where it began to watch.
     pub fn next_release(&self, id: ComponentId, every: Duration, now: Instant) -> Option<Instant> {
         let since = *self.watching.get(&id)?;
-        let (every, passed) = (every.as_nanos().max(1), now.as_nanos() - since.as_nanos());
+        let (every, passed) = (every.as_nanos().max(1), (now - since).as_nanos());
         Some(since + Duration::from_nanos((passed / every + 1).saturating_mul(every)))
     }
 

@@ -1,7 +1,7 @@
 //! Talks with the adapter, as data: `tests/dap/*.txt` has a plan, what a client says and what it is told.
 //!
 //! `--> COMMAND ARGUMENTS` is a request, `tick` lets the run go on until it stands still or ends, `tick 40` for so many
-//! milliseconds on the wall. The answers, `<--`, are written by the test with `AFP_BLESS=1`.
+//! milliseconds on the wall at once, `wait 400` in steps of 100 ms. The answers, `<--`, are written by the test with `AFP_BLESS=1`.
 
 mod common;
 
@@ -9,7 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use afp_debug::{Host, Launch, SessionTarget, Target};
+use afp_debug::{Adapter, Host, Launch, SessionTarget, Target};
+use afp_token::Token;
 
 use common::{Clients, Texted, compiled, session};
 
@@ -24,6 +25,10 @@ fn answered(case: &str) -> String {
             ("-->", said) => clients.say(said),
             ("tick", "") => clients.tick(None),
             ("tick", wall) => clients.tick(Some(wall.parse().expect("milliseconds"))),
+            ("wait", wall) => {
+                let wall: u64 = wall.parse().expect("milliseconds");
+                (0..wall / 100).for_each(|_| clients.tick(Some(100)));
+            }
             ("lose", number) => clients.lose(number.parse().expect("a client")),
             (arrow, said) => {
                 let number = arrow.strip_prefix('-').and_then(|rest| rest.strip_suffix('>'));
@@ -181,6 +186,70 @@ plan P {
         let held = r#""description":"b started at 1.000 s","hitBreakpointIds":[1,3]"#;
         assert_eq!(told.contains(held), there, "{told}");
     }
+}
+
+#[test]
+fn breakpoints_of_another_program_do_not_hold_the_next_one() {
+    let one = "use std
+plan P {
+    start a
+    actor a: Wait(duration = 1 s) { Elapsed -> b }
+    actor b: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+";
+    let other = "use std
+plan Q {
+    start first
+    actor first: Wait(duration = 1 s) { Elapsed -> second }
+    actor second: Wait(duration = 1 s) { Elapsed -> terminate }
+}
+";
+    let texts = [one, other].map(str::to_owned).to_vec();
+    let mut clients = Clients::new(Box::new(Edited(texts)));
+    for said in [
+        r#"launch {"program":"plan.afp"}"#,
+        r#"setFunctionBreakpoints {"breakpoints":[{"name":"b"}]}"#,
+        "configurationDone",
+    ] {
+        clients.say(said);
+    }
+    clients.tick(None);
+    assert!(clients.told.contains("b started at 1.000 s"), "{}", clients.told);
+    clients.say("terminate");
+    clients.told.clear();
+    clients.say(r#"launch {"program":"plan.afp"}"#);
+    let told = &clients.told;
+    assert!(told.contains(r#""message":"the plan has nothing called 'b'"#), "{told}");
+    clients.say("configurationDone");
+    clients.tick(None);
+    let told = &clients.told;
+    assert!(!told.contains("event stopped") && told.contains("Q ended OK"), "{told}");
+}
+
+#[test]
+fn who_has_no_token_ends_no_run() {
+    let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+    let adapter = Adapter::guarded(Box::new(Texted(plan.to_owned())), &Token::from_word("open"), 2);
+    let mut clients = Clients::of(adapter);
+    clients.say(r#"launch {"program":"plan.afp","token":"open","stopOnEntry":true}"#);
+    clients.say("configurationDone");
+    clients.say_as(2, r#"disconnect {"terminateDebuggee":true}"#);
+    assert!(clients.told.ends_with("<2- disconnect\n"), "{}", clients.told);
+    clients.say("threads");
+    assert!(!clients.told.contains("terminated"), "{}", clients.told);
+    clients.say_as(3, r#"attach {"token":"open"}"#);
+    clients.say_as(3, r#"disconnect {"terminateDebuggee":true}"#);
+    assert!(clients.told.contains("<-- event terminated"), "{}", clients.told);
+    // Whoever is let in has a place until it goes, whether something runs or not.
+    clients.say_as(4, r#"attach {"token":"open"}"#);
+    assert!(
+        clients.told.contains("2 clients are there already: end one first"),
+        "{}",
+        clients.told
+    );
+    clients.lose(3);
+    clients.say_as(4, r#"launch {"program":"plan.afp","token":"open"}"#);
+    assert!(clients.told.contains("<4- event initialized"), "{}", clients.told);
 }
 
 #[test]

@@ -243,6 +243,29 @@ fn a_log_that_was_cut_short_says_so() {
 }
 
 #[test]
+fn events_out_of_order_are_told_in_theirs() {
+    let mut log = recorded(SHIPPED, "plan.afp", 5, None);
+    let mut heard = Vec::new();
+    for turned in [false, true] {
+        if turned {
+            let half = Instant::ZERO + Duration::from_secs(2);
+            let half = log.events.partition_point(|event| event.at < half);
+            log.events.rotate_left(half);
+        }
+        let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log.clone())));
+        past.say(r#"launch {"log":"plan.afp"}"#);
+        past.say("configurationDone");
+        past.tick(None);
+        past.say(r#"afp/seek {"at":2}"#);
+        past.tick(None);
+        let seen = look(&mut past);
+        past.say(r#"afp/why {"path":"searchFirstWall"}"#);
+        heard.push(seen + &past.told);
+    }
+    assert_eq!(heard[0], heard[1]);
+}
+
+#[test]
 fn a_log_of_another_plan_is_refused() {
     let log = recorded(SHIPPED, "plan.afp", 1, None);
     let other = plans()[1].0.clone();

@@ -47,7 +47,7 @@ pub(crate) use name::Taken;
 pub use positions::follow;
 pub use project::used_files;
 pub use refused::Refused;
-pub use several::{Made, edit_all};
+pub use several::{Given, Made, edit_all};
 pub use wire::{item, path};
 
 /// What a port is bound to.

@@ -113,6 +113,10 @@ fn each_kind_of_claim_is_kept() {
         expect nested.way == 20 cm
         expect i == 1
         expect i <= 1 always
+        expect i < 1.5 always
+        expect i == 1.0
+        never i == 0.7
+        expect i < battery.left
         expect gone > 19 cm
         expect count -> terminate by Done
         expect end by count.Done

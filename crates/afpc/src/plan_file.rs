@@ -46,6 +46,14 @@ impl PlanText<'_> {
     /// The file cannot be read.
     pub fn read(argument: &str) -> Result<PlanText<'_>, RunError> {
         let (path, plan) = split(argument);
+        PlanText::read_at(path, plan)
+    }
+
+    /// Reads a file, of which a plan is meant.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn read_at(path: PathBuf, plan: Option<&str>) -> Result<PlanText<'_>, RunError> {
         let text = read_text(&path).map_err(unreadable(&path))?;
         Ok(PlanText { path, text, plan })
     }
@@ -198,7 +206,7 @@ pub fn path_of_log(log: &LogData, at: &Path) -> PathBuf {
 }
 
 /// `FILE:Plan` taken apart; a file whose own name holds the colon wins.
-fn split(argument: &str) -> (PathBuf, Option<&str>) {
+pub fn split(argument: &str) -> (PathBuf, Option<&str>) {
     match argument.rsplit_once(':') {
         Some((path, plan)) if !Path::new(argument).exists() && !plan.contains(['/', '\\']) => {
             (path.into(), Some(plan))

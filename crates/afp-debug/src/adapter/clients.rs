@@ -27,6 +27,8 @@ pub(super) struct Client {
     pub counting: Counting,
     /// The number of the last message to it.
     sent: i64,
+    /// Whether it knows what clients have to know.
+    pub admitted: bool,
     /// Whether it is told what happens in the run.
     pub attached: bool,
     /// Whether it wants to be told what is the case.
@@ -74,6 +76,7 @@ impl Adapter<'_> {
             name: format!("client {number}"),
             counting: Counting::default(),
             sent: 0,
+            admitted: false,
             attached: false,
             state: false,
             sensed: false,
@@ -115,6 +118,16 @@ impl Adapter<'_> {
     /// Whether a client has said goodbye.
     pub fn is_over(&self, id: ClientId) -> bool {
         self.clients.get(&id).is_none_or(|client| client.over)
+    }
+
+    /// Whether a client has been let in: it has launched a run or joined one, with the token where there is one.
+    pub fn is_admitted(&self, id: ClientId) -> bool {
+        self.clients.get(&id).is_some_and(|client| client.admitted)
+    }
+
+    /// Those who have been let in.
+    pub(super) fn admitted(&self) -> impl Iterator<Item = ClientId> + '_ {
+        self.clients.iter().filter(|(_, client)| client.admitted).map(|(id, _)| *id)
     }
 
     /// Those who are told what happens in the run.

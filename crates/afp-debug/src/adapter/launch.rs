@@ -13,7 +13,7 @@ use super::clients::Counting;
 use super::ended::By;
 use super::steer::{Mode, Pace};
 use super::stop::stopped_event;
-use super::{Adapter, Answer, Refusal, Run, parse};
+use super::{Adapter, Answer, Guard, Refusal, Run, parse};
 use crate::breakpoints::Filters;
 
 /// What is to be run, and how.
@@ -135,7 +135,7 @@ impl Adapter<'_> {
     }
 
     pub(super) fn launch(&mut self, launch: Launch, now: Wall) -> Answer<Value> {
-        self.check_token(launch.token.as_deref())?;
+        self.admit(launch.token.as_deref())?;
         if self.run.is_some() {
             return Err(
                 "a plan runs already: 'restart' begins it again, 'attach' joins those who watch it"
@@ -151,13 +151,16 @@ impl Adapter<'_> {
             self.event::<event::Capabilities>(&dapts::CapabilitiesEvent { capabilities });
         }
         self.event_to::<event::Initialized>(self.asker, &None);
+        // Some may have been set in an earlier run, of another program.
+        let program = self.run()?.target.program().clone();
+        self.find_breakpoints(&program);
         self.send_roles();
         self.begun()
     }
 
     /// Joins those who watch a run.
     pub(super) fn attach(&mut self, attach: Attach, now: Wall) -> Answer<Value> {
-        self.check_token(attach.token.as_deref())?;
+        self.admit(attach.token.as_deref())?;
         match attach.role.as_deref() {
             None | Some("observer" | "operator") => {}
             Some(other) => {
@@ -193,15 +196,23 @@ impl Adapter<'_> {
         self.begun()
     }
 
+    /// Lets the client in that asks.
+    ///
     /// # Errors
-    /// It is not the one that clients have to know.
-    fn check_token(&self, told: Option<&str>) -> Answer<()> {
-        match &self.token {
-            Some(token) if !token.is(told.unwrap_or_default()) => {
-                Err("'token' is the one that 'afpc dap' printed".into())
+    /// What it told is not what clients have to know, or too many are there already.
+    fn admit(&mut self, told: Option<&str>) -> Answer<()> {
+        if let Some(Guard { token, most }) = &self.guard {
+            if !token.is(told.unwrap_or_default()) {
+                return Err("'token' is the one that 'afpc dap' printed".into());
             }
-            _ => Ok(()),
+            if !self.is_admitted(self.asker) && self.admitted().count() >= *most {
+                return Err(Refusal(format!("{most} clients are there already: end one first")));
+            }
         }
+        if let Some(client) = self.clients.get_mut(&self.asker) {
+            client.admitted = true;
+        }
+        Ok(())
     }
 
     /// The client that asks is told what happens in the run from now on.
@@ -309,14 +320,16 @@ impl Adapter<'_> {
         Ok(Value::Null)
     }
 
-    /// A client says goodbye; the run goes on for the others, unless it wants it to end.
+    /// A client says goodbye; the run goes on for the others, unless it wants it to end and takes part in it.
     pub(super) fn disconnect(&mut self, asked: &dapts::DisconnectArguments) -> Answer<Value> {
         let asker = self.asker;
+        // Whoever reaches the port may say goodbye; it takes the token to end the run.
+        let may_end = self.guard.is_none() || self.takes_part();
         if let Some(client) = self.clients.get_mut(&asker) {
             client.over = true;
         }
         self.detach(asker);
-        if asked.terminate_debuggee == Some(true) {
+        if asked.terminate_debuggee == Some(true) && may_end {
             self.terminate()?;
         }
         Ok(Value::Null)

@@ -15,11 +15,11 @@ use super::{Adapter, Answer, ClientId, Refusal};
 
 /// How often who steers is asked whether it is there.
 const ASK: Wall = Wall::from_millis(200);
-/// How long it may be silent.
+/// How long it may leave that open, of the time in which an answer is heard.
 const SILENT: Wall = Wall::from_secs(3);
 /// How long while the run makes a step of its.
 const SILENT_IN_A_STEP: Wall = Wall::from_millis(500);
-/// How often a lease is looked at.
+/// How often a lease is looked at: what passes beyond that between two calls, the adapter or whoever calls it was busy.
 const LOOK: Wall = Wall::from_millis(100);
 
 /// What changes a run, or lets time pass.
@@ -45,11 +45,12 @@ const STEERS: &[&str] = &[
     "stepOut",
 ];
 
-/// When a client was asked last whether it is there, and when it said so.
+/// When a client was asked last whether it is there, and since when it has not said so.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lease {
     asked: Wall,
-    answered: Wall,
+    /// How long an answer could have been heard to what was asked; none where all is answered.
+    open: Option<Wall>,
 }
 
 #[derive(Deserialize)]
@@ -88,7 +89,7 @@ impl Adapter<'_> {
         let (asker, before) = (self.asker, self.operator);
         self.operator = Some(asker);
         if let Some(client) = self.clients.get_mut(&asker) {
-            client.lease = lease.then_some(Lease { asked: now, answered: now });
+            client.lease = lease.then_some(Lease { asked: now, open: None });
         }
         if before != Some(asker) {
             before.into_iter().chain([asker]).for_each(|id| self.send_capabilities(id));
@@ -171,10 +172,21 @@ impl Adapter<'_> {
     }
 
     /// A client says that it is there.
-    pub(super) fn on_lease_answer(&mut self, from: ClientId, now: Wall) {
+    pub(super) fn on_lease_answer(&mut self, from: ClientId) {
         let client = self.clients.get_mut(&from);
         if let Some(lease) = client.and_then(|client| client.lease.as_mut()) {
-            lease.answered = now;
+            lease.open = None;
+        }
+    }
+
+    /// Lets time pass in which who steers could answer: no longer than between two looks, since what has been said meanwhile
+    /// is heard after what takes long, whoever is slow.
+    pub(super) fn listen_for_lease(&mut self, now: Wall) {
+        let passed = now.saturating_sub(std::mem::replace(&mut self.called, now)).min(LOOK);
+        let client = self.operator.and_then(|operator| self.clients.get_mut(&operator));
+        let lease = client.and_then(|client| client.lease.as_mut());
+        if let Some(open) = lease.and_then(|lease| lease.open.as_mut()) {
+            *open += passed;
         }
     }
 
@@ -185,11 +197,12 @@ impl Adapter<'_> {
         let client = self.clients.get_mut(&operator);
         let Some(lease) = client.and_then(|client| client.lease.as_mut()) else { return };
         let most = if steps { SILENT_IN_A_STEP } else { SILENT };
-        if now.saturating_sub(lease.answered) > most {
+        if lease.open.is_some_and(|open| open > most) {
             return self.lose_operator("does not answer");
         }
         if now.saturating_sub(lease.asked) >= ASK {
             lease.asked = now;
+            lease.open.get_or_insert_default();
             let question = json!({"type": "request", "command": "afp/lease"});
             self.out.push((operator, question));
         }

@@ -67,7 +67,11 @@ pub struct Clients {
 
 impl Clients {
     pub fn new(host: Box<dyn Host<'static>>) -> Clients {
-        let adapter = Adapter::new(host);
+        Clients::of(Adapter::new(host))
+    }
+
+    /// Clients of an adapter that nobody has joined yet.
+    pub fn of(adapter: Adapter<'static>) -> Clients {
         Clients { adapter, all: Vec::new(), said: 0, now: Duration::ZERO, told: String::new() }
     }
 

@@ -28,6 +28,15 @@ pub(crate) fn conversion(from: &Type, to: &Type) -> Result<Option<Conversion>, (
     }))
 }
 
+/// The type that the right side of a comparison becomes: that of the left one, but a float stays one beside an int, since it
+/// would lose what it is compared for.
+pub(crate) fn compared_as(left: &Type, right: &Type) -> Type {
+    match (left, right) {
+        (Type::Int, right) if *right == Type::FLOAT => Type::FLOAT,
+        _ => left.clone(),
+    }
+}
+
 /// The formula as one of type `want`; reports what cannot be converted and what deserves a word.
 ///
 /// `text` is the formula as written, `range` has the least and the greatest value that fit, in SI units.

@@ -226,6 +226,16 @@ impl Checker<'_> {
         ty: &Type,
         diags: &mut Diagnostics,
     ) -> Option<(Formula, Constant)> {
+        self.constant_as(formula, |_| ty.clone(), diags)
+    }
+
+    /// The same of the type that is wanted in place of its own.
+    fn constant_as(
+        &self,
+        formula: &ast::Formula,
+        want: impl Fn(&Type) -> Type,
+        diags: &mut Diagnostics,
+    ) -> Option<(Formula, Constant)> {
         let entries = &self.head.entries;
         let known = |index: usize| {
             let entry = &entries[index];
@@ -241,7 +251,9 @@ impl Checker<'_> {
             text: self.context.file.text,
             record: self.context.program.record,
         };
-        let (formula, value) = scope.check(formula, Some(ty), diags)?;
+        let typed = scope.infer(formula, diags)?;
+        let want = want(&typed.ty);
+        let (formula, value) = scope.finish(typed, Some(&want), None, diags)?;
         Some((formula, value?))
     }
 

@@ -7,6 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::check::constant;
+use crate::check::convert::compared_as;
 use crate::check::entries::EntryDraft;
 use crate::check::formula::Scope;
 use crate::check::names::Indices;
@@ -62,10 +63,10 @@ impl Watch {
                     help: format!("write '{left} == {right}'"),
                 });
             }
-            return Ok(Watch { left: inside.formula(text, None)?, right: None });
+            return Ok(Watch { left: inside.formula(text, |_| None)?, right: None });
         };
-        let left = inside.formula(left, None)?;
-        let right = inside.formula(right, Some(&left.ty))?;
+        let left = inside.formula(left, |_| None)?;
+        let right = inside.formula(right, |right| Some(compared_as(&left.ty, right)))?;
         if sign.is_order() && !left.ty.is_numeric() {
             return Err(WatchError {
                 message: format!("values of '{}' have no order", left.ty),
@@ -132,7 +133,12 @@ impl Inside {
         Inside { entries: entries.collect(), indices: Indices::of(names), types }
     }
 
-    fn formula(&self, text: &str, want: Option<&Type>) -> Result<Formula, WatchError> {
+    /// A formula as one of the type that is wanted in place of its own; of whatever type without one.
+    fn formula(
+        &self,
+        text: &str,
+        want: impl Fn(&Type) -> Option<Type>,
+    ) -> Result<Formula, WatchError> {
         let whole = format!("{BEFORE}{text}{BEHIND}");
         let mut diags = Diagnostics::default();
         let read = init(&whole, &mut diags);
@@ -152,7 +158,11 @@ impl Inside {
         let ends = read.as_ref().map(|read| read.span().end as usize);
         let whole_text = |read: &ast::Formula| read.span().end as usize == end;
         let typed = read.filter(|read| !diags.has_errors() && whole_text(read));
-        let typed = typed.and_then(|formula| scope.check(&formula, want, &mut diags));
+        let typed = typed.and_then(|formula| scope.infer(&formula, &mut diags));
+        let typed = typed.and_then(|formula| {
+            let want = want(&formula.ty);
+            scope.finish(formula, want.as_ref(), None, &mut diags)
+        });
         typed.map(|(formula, _)| formula).ok_or_else(|| refused(text, ends, &diags))
     }
 }

@@ -38,11 +38,13 @@ impl Comparison {
         !matches!(self, Comparison::Equal | Comparison::NotEqual)
     }
 
-    /// Whether two values compare so; an order is known of numbers of one kind alone.
+    /// Whether two values compare so; an order is known of numbers alone, of which an int and a float compare as floats.
     pub fn holds(self, left: &Constant, right: &Constant) -> bool {
         let order = match (left, right) {
             (Constant::Int(left), Constant::Int(right)) => left.partial_cmp(right),
             (Constant::Float(left), Constant::Float(right)) => left.partial_cmp(right),
+            (Constant::Int(left), Constant::Float(right)) => (*left as f64).partial_cmp(right),
+            (Constant::Float(left), Constant::Int(right)) => left.partial_cmp(&(*right as f64)),
             _ if left == right => Some(std::cmp::Ordering::Equal),
             _ => None,
         };

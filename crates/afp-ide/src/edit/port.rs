@@ -187,6 +187,14 @@ pub(super) fn set_timing(
     Ok(())
 }
 
+/// What a component and its supervisors are bound to and timed by.
+pub(super) fn data_of(component: &Node) -> impl Iterator<Item = Node> {
+    let components =
+        tree::below(component, Kind::Element).chain(tree::below(component, Kind::Guard));
+    let bound = components.flat_map(|component| binds(&component));
+    bound.chain(tree::below(component, Kind::Timing))
+}
+
 /// The names of the entries that a formula reads.
 pub(super) fn reads(formula: &Node) -> Vec<Token> {
     let references = tree::below(formula, Kind::Ref);

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::buffer::TextBuffer;
 use super::list::{Page, Place};
 use super::project::Project;
-use super::tree::{self, Scope, below, binds, children, name_of, target};
+use super::tree::{self, Scope, children, name_of, target};
 use super::{Item, Refused, add, name, port, refer, remove};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
@@ -138,9 +138,8 @@ fn check_entries(
 ) -> Result<(), Refused> {
     let project = Project::alone(buffer);
     let known: BTreeSet<_> = children(plan, Kind::Entry).filter_map(|e| name_of(&e)).collect();
-    let components = below(component, Kind::Element).chain(below(component, Kind::Guard));
-    let binds = components.flat_map(|component| binds(&component));
-    let names = binds.flat_map(|bind| port::reads(&bind).into_iter().chain(target(&bind)));
+    let data = port::data_of(component);
+    let names = data.flat_map(|bound| port::reads(&bound).into_iter().chain(target(&bound)));
     let used: BTreeSet<_> = names.filter_map(|token| project.entry(0, &token)).collect();
     let missing: Vec<_> = used.difference(&known).map(String::as_str).collect();
     if missing.is_empty() {

@@ -29,7 +29,31 @@ pub(super) fn item(workspace: &mut Workspace, item: &Item, to: &str) -> Result<(
         return Err(Refused::new("it has no name yet"));
     }
     let home = workspace.home;
-    everywhere(workspace, |project| refer::to(project, home, item), to)
+    everywhere(workspace, |project| all_to(refer::to(project, home, item), to))
+}
+
+/// Gives items of a file other names, all at once, in a part of it alone: so many bytes before and behind stay as they are.
+pub(super) fn within(
+    workspace: &mut Workspace,
+    names: &[(Item, String)],
+    before: usize,
+    behind: usize,
+) -> Result<(), Refused> {
+    let home = workspace.home;
+    let tokens = |project: &Project| {
+        let end = usize::from(project.roots[home].text_range().end()).saturating_sub(behind);
+        let inside = |(file, token): &(usize, Token)| {
+            *file == home && (before..end).contains(&range(token).start)
+        };
+        let all = names.iter().flat_map(|(item, to)| all_to(refer::to(project, home, item), to));
+        all.filter(|(token, _)| inside(token)).collect()
+    };
+    everywhere(workspace, tokens)
+}
+
+/// The name that tokens get.
+fn all_to(tokens: Vec<(usize, Token)>, to: &str) -> Vec<((usize, Token), &str)> {
+    tokens.into_iter().map(|token| (token, to)).collect()
 }
 
 /// Renames a column of a table.
@@ -82,28 +106,25 @@ fn inner(
         let declared =
             parts.filter(|each| tree::is_named(each, name)).find_map(|it| name_token(&it));
         let uses = declared.iter().flat_map(|name| project.references(home, name));
-        uses.chain(declared.iter().map(|name| (home, name.clone()))).collect()
+        all_to(uses.chain(declared.iter().map(|name| (home, name.clone()))).collect(), to)
     };
-    everywhere(workspace, tokens, to)
+    everywhere(workspace, tokens)
 }
 
-/// Writes a name in the place of tokens, which go with their files.
-fn everywhere(
+/// Writes names in the place of tokens, which go with their files.
+fn everywhere<'n>(
     workspace: &mut Workspace,
-    tokens: impl Fn(&Project) -> Vec<(usize, Token)>,
-    to: &str,
+    tokens: impl Fn(&Project) -> Vec<((usize, Token), &'n str)>,
 ) -> Result<(), Refused> {
     let project = workspace.project();
     spell_out(workspace, &project, &tokens(&project));
     let tokens = tokens(&workspace.project());
     for (file, buffer) in workspace.buffers.iter_mut().enumerate() {
-        let own = tokens.iter().filter(|(home, _)| *home == file);
-        let splices: Vec<_> = own.map(|(_, token)| (range(token), to.to_owned())).collect();
-        if splices.is_empty() {
-            continue;
-        }
+        let own: Vec<_> = tokens.iter().filter(|((home, _), _)| *home == file).collect();
+        let Some((_, to)) = own.first() else { continue };
         let before = shape(&buffer.root());
-        buffer.splice(splices);
+        buffer
+            .splice(own.iter().map(|((_, token), to)| (range(token), (*to).to_owned())).collect());
         if shape(&buffer.root()) != before {
             return Err(Refused::new(format!("'{to}' would be read as a word of the grammar")));
         }
@@ -112,10 +133,10 @@ fn everywhere(
 }
 
 /// Tells apart the ports and the entries that one name stands for.
-fn spell_out(workspace: &mut Workspace, project: &Project, tokens: &[(usize, Token)]) {
+fn spell_out(workspace: &mut Workspace, project: &Project, tokens: &[((usize, Token), &str)]) {
     for (file, buffer) in workspace.buffers.iter_mut().enumerate() {
-        let own = tokens.iter().filter(|(home, _)| *home == file);
-        let binds = own.filter_map(|(_, token)| Some((refer::alone(token)?, token)));
+        let own = tokens.iter().filter(|((home, _), _)| *home == file);
+        let binds = own.filter_map(|((_, token), _)| Some((refer::alone(token)?, token)));
         let splices =
             binds.filter_map(|(bind, name)| project.spelled_out(file, &bind, name.text()));
         let splices: Vec<_> = splices.collect();

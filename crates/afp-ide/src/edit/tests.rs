@@ -5,6 +5,7 @@ mod data;
 mod files;
 mod flow;
 mod items;
+mod several;
 mod structure;
 mod tables;
 

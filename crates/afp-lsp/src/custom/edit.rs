@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use afp_draw::layout_file::Position;
-use afp_ide::edit::{Change, Made, edit_all, item, path};
+use afp_ide::edit::{Change, Given, Made, edit_all, item, path};
 use afp_syntax::ast::Item as AstItem;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;
@@ -53,9 +53,8 @@ fn changed(
         home.ok_or_else(|| Failure::Refused("a toolbox has no plans to change".to_owned()))?;
     let made = edit_all(&files, &analysis.set.toolboxes, home, changes);
     let made = made.map_err(|refused| Failure::Refused(refused.reason))?;
-    let Made { edits, changes: done, names, added } = made;
+    let Made { edits, changes: done, given, added } = made;
     let mut all = server.grouped(&files, edits);
-    let given: BTreeMap<_, _> = names.into_iter().collect();
     let placed = positions(places, &given)?;
     all.extend(server.placed(&home_path, |layout| {
         done.iter().for_each(|change| afp_ide::edit::follow(layout, change));
@@ -65,21 +64,14 @@ fn changed(
         "label": label(&done),
         "edit": whole(server, &all),
         "select": added.iter().map(path).collect::<Vec<_>>(),
-        "names": given,
+        "names": given.all().iter().cloned().collect::<BTreeMap<_, _>>(),
     }))
 }
 
 /// Items with their places, under the names that they were given.
-fn positions(
-    places: &Places,
-    given: &BTreeMap<String, String>,
-) -> Result<Vec<(Item, Option<Position>)>, Failure> {
+fn positions(places: &Places, given: &Given) -> Result<Vec<(Item, Option<Position>)>, Failure> {
     let place = |(path, at): (&String, &Option<[f64; 2]>)| {
-        let wanted = item(path).ok_or_else(|| no_item(path))?;
-        let item = match (&wanted, given.get(wanted.name())) {
-            (Item::Inner { plan, .. }, Some(name)) => Item::inner(plan, name),
-            _ => wanted,
-        };
+        let item = given.item(item(path).ok_or_else(|| no_item(path))?);
         let number = |value: f64| value.round() as i32;
         Ok((item, at.map(|[x, y]| Position { x: number(x), y: number(y) })))
     };
@@ -150,7 +142,7 @@ pub(crate) struct Place {
 
 /// The edit of the file of positions.
 pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
-    let placed = positions(&params.places, &BTreeMap::new())?;
+    let placed = positions(&params.places, &Given::default())?;
     let file = server.placed(&uri::path(&params.text_document.uri), |layout| put(layout, &placed));
     ok(whole(server, &file.into_iter().collect::<Vec<_>>()))
 }

@@ -1,8 +1,10 @@
 //! `afpc dap` over standard input: how it ends; and over a socket: what it says, to one client and to several.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use crate::common::{Place, Said, said};
 
@@ -143,10 +145,44 @@ fn a_folder_is_the_same_however_it_is_named() {
     }
     let said = told_at(&place, "", &["dap", "--inside", "w"], &launch("other.afp"));
     assert!(said.out.contains("'other.afp' lies outside of '"), "{said:?}");
+    let said = told_at(&place, "", &["dap", "--inside", "w"], &launch("w/new.afp"));
+    assert!(said.out.contains("cannot open 'w/new.afp'"), "{said:?}");
     let said = told_at(&place, "", &["dap", "--inside", "nope"], b"");
     said.fails(1, &["cannot open the folder 'nope'"]);
     let said = told_at(&place, "", &["dap", "--inside", "other.afp"], b"");
     said.fails(2, &["'other.afp' is no folder"]);
+}
+
+#[test]
+fn what_is_run_lies_inside_of_the_folder_whatever_it_is_called() {
+    let place = Place::new();
+    place.write("w/sub/plan.afp", "use std\n");
+    let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+    place.write("other/plan.txt", plan);
+    place.write("other/plan.afp:P", plan);
+    let outside = place.path("other/plan.txt").canonicalize().unwrap().display().to_string();
+    let dots = format!("{}/../other/plan.txt:P", place.path("w").canonicalize().unwrap().display());
+    let mut named = vec![
+        dots,
+        outside.clone(),
+        format!("{outside}:P"),
+        format!("file://{outside}:P"),
+        "w/sub/../../other/plan.txt:P".to_owned(),
+        "other/plan.afp:P".to_owned(),
+    ];
+    #[cfg(unix)]
+    for (link, to) in [("w/linked", &*outside), ("w/plan.afp", "../other/plan.txt")] {
+        std::os::unix::fs::symlink(to, place.path(link)).unwrap();
+        named.extend([link.to_owned(), format!("{link}:P")]);
+    }
+    for program in named {
+        let launch = framed("launch", &format!(r#"{{"program":"{program}"}}"#));
+        let world = framed("afp/world", &format!(r#"{{"program":"{program}"}}"#));
+        for said in [launch, world] {
+            let said = told_at(&place, "", &["dap", "--inside", "w"], said.as_bytes());
+            assert!(said.out.contains("lies outside of '"), "{program}: {said:?}");
+        }
+    }
 }
 
 #[test]
@@ -236,7 +272,7 @@ impl Server {
 
 fn connected(port: u16) -> Client<TcpStream, TcpStream> {
     let stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
-    stream.set_read_timeout(Some(std::time::Duration::from_secs(120))).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
     Client::new(stream.try_clone().unwrap(), stream)
 }
 
@@ -286,16 +322,18 @@ fn a_session_is_the_same_bytes_over_standard_output_and_over_a_socket() {
 fn several_clients_watch_one_run_and_anybody_may_end_it() {
     let place = Place::with_plan();
     let (_server, port, token) = Server::new(&place);
-    let (mut one, mut other, mut stranger) = (connected(port), connected(port), connected(port));
-    for client in [&mut one, &mut other, &mut stranger] {
-        client.ask("initialize", r#"{"adapterID":"afp"}"#);
-    }
+    let mut one = connected(port);
+    one.ask("initialize", r#"{"adapterID":"afp"}"#);
     let launch = format!(
         r#"{{"program":"wall_following.afp","speed":1,"stopOnEntry":true,"token":"{token}"}}"#
     );
     assert!(one.ask("launch", &launch).contains(r#""success":true"#));
     one.ask("configurationDone", "{}");
     one.hear(r#""event":"stopped""#);
+    let (mut other, mut stranger) = (connected(port), connected(port));
+    for client in [&mut other, &mut stranger] {
+        client.ask("initialize", r#"{"adapterID":"afp"}"#);
+    }
     let refused = stranger.ask("attach", r#"{"token":"guessed"}"#);
     assert!(refused.contains("'token' is the one that 'afpc dap' printed"), "{refused}");
     for command in ["threads", "continue", "terminate", "setBreakpoints", "afp/world", "afp/role"] {
@@ -316,6 +354,53 @@ fn several_clients_watch_one_run_and_anybody_may_end_it() {
     // A client that is gone takes nobody with it.
     drop(other);
     assert!(one.ask("launch", &launch).contains(r#""success":true"#));
+}
+
+#[test]
+fn a_client_that_says_a_lot_does_not_hold_the_run() {
+    let place = Place::with_plan();
+    let (_server, port, token) = Server::new(&place);
+    let mut one = connected(port);
+    let launch = format!(
+        r#"{{"program":"wall_following.afp","speed":1,"until":0.5,"stopOnEntry":true,"token":"{token}"}}"#
+    );
+    assert!(one.ask("launch", &launch).contains(r#""success":true"#));
+    one.ask("configurationDone", "{}");
+    let mut other = connected(port);
+    other.ask("attach", &format!(r#"{{"token":"{token}"}}"#));
+    // A message that never ends.
+    other.to.write_all(b"Content-Length: 30000\r\n\r\n").unwrap();
+    let mut to = other.to.try_clone().unwrap();
+    let talk = thread::spawn(move || {
+        for _ in 0..29_999 {
+            to.write_all(b"x").unwrap();
+            thread::sleep(Duration::from_millis(1));
+        }
+    });
+    one.say("continue", r#"{"threadId":1}"#);
+    one.hear(r#""event":"terminated""#);
+    assert!(!talk.is_finished());
+}
+
+#[test]
+fn strangers_take_no_place_and_are_sent_away() {
+    let place = Place::with_plan();
+    let (_server, port, token) = Server::new(&place);
+    let mut strangers: Vec<_> = (0..10).map(|_| connected(port)).collect();
+    strangers[0].ask("initialize", r#"{"adapterID":"afp"}"#);
+    let mut one = connected(port);
+    let launch = format!(
+        r#"{{"program":"wall_following.afp","speed":1,"stopOnEntry":true,"token":"{token}"}}"#
+    );
+    assert!(one.ask("launch", &launch).contains(r#""success":true"#));
+    one.ask("configurationDone", "{}");
+    for stranger in &mut strangers {
+        let mut rest = Vec::new();
+        // One that is cut off reads no more, however that is told.
+        let why = stranger.from.read_to_end(&mut rest).map_err(|why| why.kind());
+        assert!(!matches!(why, Err(ErrorKind::WouldBlock | ErrorKind::TimedOut)), "{why:?}");
+    }
+    assert!(one.ask("threads", "{}").contains(r#""success":true"#));
 }
 
 /// What `afp/ended` says.

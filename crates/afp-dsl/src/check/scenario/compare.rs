@@ -1,6 +1,7 @@
 //! What is compared in a scenario: entries and signals, with values and with one another.
 
 use super::Checker;
+use crate::check::convert::compared_as;
 use crate::graph::EntryKind;
 use crate::scenario::{Claim, Comparison, Operand, Subject};
 use crate::types::Type;
@@ -94,9 +95,11 @@ impl Checker<'_> {
             _ => None,
         };
         let Some(other) = other else {
-            return self.constant(formula, ty, diags).map(|(_, value)| Operand::Value(value));
+            let want = |right: &Type| compared_as(ty, right);
+            return self.constant_as(formula, want, diags).map(|(_, value)| Operand::Value(value));
         };
-        if other.ty == *ty {
+        let numbers = [ty, &other.ty].map(|ty| matches!(ty, Type::Int) || *ty == Type::FLOAT);
+        if other.ty == *ty || numbers == [true, true] {
             return Some(Operand::Subject(other.subject));
         }
         let message = format!("'{}' is of type '{ty}', and this of type '{}'", left.text, other.ty);

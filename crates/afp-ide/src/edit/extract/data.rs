@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Selection;
-use crate::edit::port::reads;
+use crate::edit::port::{data_of, reads};
 use crate::edit::tree::{self, Scope, binds, children, edges, is_named, keyword, name_of, target};
 use crate::edit::{Refused, name};
 use afp_syntax::Node;
@@ -107,10 +107,7 @@ pub(in crate::edit) fn type_of(entry: &Node) -> Option<String> {
 
 /// The entries that an element and its supervisors read.
 fn read_by(selection: &Selection, element: &Node) -> BTreeSet<String> {
-    let guards = children(element, Kind::Guard).flat_map(|guard| binds(&guard));
-    let timings = tree::below(element, Kind::Timing);
-    let bound = binds(element).into_iter().chain(guards);
-    let all = bound.filter(|bind| !selection.is_output(bind)).chain(timings);
+    let all = data_of(element).filter(|bound| !selection.is_output(bound));
     all.flat_map(|bind| reads(&bind)).filter_map(|token| selection.entry(&token)).collect()
 }
 

@@ -293,6 +293,8 @@ fn items_move_between_plans_and_owners() {
     assert!(moved.contains("supervise touch: T every 1 ms {}"), "{moved}");
     assert!(moved.ends_with("    actor b: B { Done -> b }\n\n    /// Goes back.\n    actor back: B(\n        // why\n        distance = -limit, // because\n        speed = 3 cm/s,\n    ) { Lost -> terminate }\n}\n"), "{moved}");
     refused(&two, shift(go(), "Q", None), "'Q' has no entry 'gap'");
+    let timed = two.replace("every 1 ms", "every limit").replace("in limit: length\n", "");
+    refused(&timed, shift(touch(), "Q", Some("b")), "'Q' has no entry 'limit'");
     refused(&two, shift(Item::inner("P", "gap"), "Q", None), "'gap' is used where it is");
     refused(&two, shift(back(), "P", None), "'back' is there already");
     refused(&two, shift(back(), "Q", Some("b")), "'back' is no supervisor");

@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
-use std::sync::mpsc::{
-    Receiver, RecvTimeoutError, Sender, SyncSender, TrySendError, channel, sync_channel,
-};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -15,14 +13,20 @@ use afp_run::{RunError, say};
 use afp_token::Token;
 
 use super::Simulator;
-use super::talk::read;
+use super::talk::{Clock, read, wait};
 use crate::Linked;
 
 /// So many clients at most.
 const CLIENTS: usize = 8;
+/// So many at most who have not shown the token; then the one that has waited longest is sent away.
+const STRANGERS: usize = 16;
+/// How long one may take to show it.
+const ADMISSION: Duration = Duration::from_secs(5);
+/// So much that has arrived waits to be read at most.
+const ARRIVALS: usize = 64;
 /// So many messages wait for a client at most.
 const WAITING: usize = 1024;
-/// How long the run waits for a client that does not read; then it loses its connection.
+/// How long the run waits for a client that does not read; then it loses its connection. Nobody waits for a stranger.
 const PATIENCE: Duration = Duration::from_secs(5);
 /// How often such a client is looked at.
 const LOOK: Duration = Duration::from_millis(1);
@@ -40,6 +44,7 @@ enum Arrival {
 /// A client that is connected.
 struct Peer {
     id: ClientId,
+    since: Instant,
     stream: TcpStream,
     frames: Frames,
     /// To the thread that writes.
@@ -49,10 +54,10 @@ struct Peer {
 /// All of them, by the number of their connection.
 struct Peers<'a> {
     adapter: Adapter<'a>,
-    begin: Instant,
+    clock: Clock,
     all: BTreeMap<usize, Peer>,
     connected: usize,
-    sender: Sender<Arrival>,
+    sender: SyncSender<Arrival>,
 }
 
 /// Serves clients on a port of this machine, for ever.
@@ -66,7 +71,7 @@ pub(super) fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
     let token = Token::new().map_err(RunError::file("cannot make", "a token".as_ref()))?;
     let port = listener.local_addr().map_or(port, |address| address.port());
     say(format!("listening on 127.0.0.1:{port}, token {}", token.word()));
-    let (sender, arrived) = channel();
+    let (sender, arrived) = sync_channel(ARRIVALS);
     let connected = sender.clone();
     thread::spawn(move || {
         for stream in listener.incoming().flatten() {
@@ -75,36 +80,53 @@ pub(super) fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
             }
         }
     });
-    let adapter = Adapter::guarded(Box::new(Simulator::new(linked)), &token);
+    let adapter = Adapter::guarded(Box::new(Simulator::new(linked)), &token, CLIENTS);
     let all = BTreeMap::new();
-    Peers { adapter, begin: Instant::now(), all, connected: 0, sender }.serve(&arrived);
+    Peers { adapter, clock: Clock::new(), all, connected: 0, sender }.serve(&arrived);
     Ok(())
 }
 
 impl Peers<'_> {
     fn serve(&mut self, arrived: &Receiver<Arrival>) {
         loop {
-            let arrival = match self.adapter.due() {
-                None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Some(due) => arrived.recv_timeout(due),
-            };
+            let run = self.clock.rest(&self.adapter);
+            let arrival = wait(arrived, run.into_iter().chain(self.admission_due()).min());
+            let has_arrived = arrival.is_ok();
             match arrival {
                 Ok(Arrival::Client(stream)) => self.connect(stream),
                 Ok(Arrival::Bytes(from, bytes)) => self.on_bytes(from, &bytes),
                 Ok(Arrival::Gone(from)) => self.forget(from),
-                Err(RecvTimeoutError::Timeout) => {
-                    let outgoing = self.adapter.tick(self.begin.elapsed());
-                    self.send(outgoing);
-                }
+                Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
+            }
+            let outgoing = self.clock.tick(&mut self.adapter, has_arrived);
+            self.send(outgoing);
+            // What has arrived meanwhile may have the token.
+            let patience = if has_arrived { 2 * ADMISSION } else { ADMISSION };
+            let late = self.strangers().find(|(_, peer)| peer.since.elapsed() >= patience);
+            let late = late.map(|(number, _)| number);
+            if let Some(number) = late {
+                self.send_away(number, "it has not shown the token");
             }
         }
     }
 
+    /// Those who have not shown the token, in the order in which they came.
+    fn strangers(&self) -> impl Iterator<Item = (usize, &Peer)> {
+        let all = self.all.iter().map(|(number, peer)| (*number, peer));
+        all.filter(|(_, peer)| !self.adapter.is_admitted(peer.id))
+    }
+
+    /// How long the first of them may still take.
+    fn admission_due(&self) -> Option<Duration> {
+        let (_, first) = self.strangers().next()?;
+        Some(ADMISSION.saturating_sub(first.since.elapsed()))
+    }
+
     fn connect(&mut self, stream: TcpStream) {
-        if self.all.len() >= CLIENTS {
-            say(format_args!("warning: a client was sent away: {CLIENTS} are there already"));
-            return;
+        let strangers: Vec<_> = self.strangers().map(|(number, _)| number).collect();
+        if strangers.len() >= STRANGERS {
+            self.send_away(strangers[0], "others came, and it has not shown the token");
         }
         let _ = stream.set_nodelay(true);
         let (Ok(from), Ok(back)) = (stream.try_clone(), stream.try_clone()) else { return };
@@ -117,7 +139,8 @@ impl Peers<'_> {
         });
         let (to, messages) = sync_channel(WAITING);
         thread::spawn(move || write(back, &messages));
-        let peer = Peer { id: self.adapter.join(), stream, frames: Frames::default(), to };
+        let (id, since) = (self.adapter.join(), Instant::now());
+        let peer = Peer { id, since, stream, frames: Frames::default(), to };
         self.all.insert(number, peer);
     }
 
@@ -130,7 +153,7 @@ impl Peers<'_> {
             let Some(peer) = self.all.get_mut(&from) else { return };
             match peer.frames.next_message() {
                 Ok(Some(message)) => {
-                    let outgoing = self.adapter.handle(id, &message, self.begin.elapsed());
+                    let outgoing = self.adapter.handle(id, &message, self.clock.now());
                     self.send(outgoing);
                 }
                 Ok(None) => break,
@@ -155,6 +178,15 @@ impl Peers<'_> {
         self.drop_client(from);
     }
 
+    /// Ends a connection at once.
+    fn send_away(&mut self, number: usize, why: &str) {
+        say(format_args!("warning: a client was sent away: {why}"));
+        if let Some(peer) = self.all.get(&number) {
+            let _ = peer.stream.shutdown(Shutdown::Both);
+        }
+        self.drop_client(number);
+    }
+
     /// Ends a connection; what it was told last still arrives.
     fn drop_client(&mut self, number: usize) {
         let Some(Peer { id, stream, to, .. }) = self.all.remove(&number) else { return };
@@ -170,22 +202,22 @@ impl Peers<'_> {
         for Outgoing { to, message } in outgoing {
             let found = self.all.iter().find(|(_, peer)| peer.id == to);
             let Some((&number, peer)) = found else { continue };
-            if !is_sent(&peer.to, frame(&message)) {
-                say("warning: a client was sent away: it does not read");
-                let _ = peer.stream.shutdown(Shutdown::Both);
-                self.drop_client(number);
+            let is_known = self.adapter.is_admitted(to);
+            let patience = if is_known { PATIENCE } else { Duration::ZERO };
+            if !is_sent(&peer.to, frame(&message), patience) {
+                self.send_away(number, "it does not read");
             }
         }
     }
 }
 
-/// Whether somebody has taken some bytes, sooner or later.
-fn is_sent(to: &SyncSender<Vec<u8>>, mut bytes: Vec<u8>) -> bool {
+/// Whether somebody has taken some bytes in time.
+fn is_sent(to: &SyncSender<Vec<u8>>, mut bytes: Vec<u8>, patience: Duration) -> bool {
     let since = Instant::now();
     loop {
         bytes = match to.try_send(bytes) {
             Ok(()) => return true,
-            Err(TrySendError::Full(bytes)) if since.elapsed() < PATIENCE => bytes,
+            Err(TrySendError::Full(bytes)) if since.elapsed() < patience => bytes,
             Err(_) => return false,
         };
         thread::sleep(LOOK);

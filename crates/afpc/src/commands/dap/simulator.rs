@@ -7,10 +7,10 @@ use std::sync::Arc;
 use afp_core::devices::{DeviceRow, SignalType, signals};
 use afp_debug::{Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target};
 use afp_dsl::graph::Graph;
-use afp_run::world;
+use afp_run::{RunError, world};
 use afp_session::{Pose2, Recipe};
 
-use crate::plan_file::PlanFile;
+use crate::plan_file::{self, PlanFile, PlanText};
 use crate::{Linked, runner};
 
 use super::senses::Senses;
@@ -33,12 +33,24 @@ impl<'a> Simulator<'a> {
         Simulator { linked: *linked, folder: Some(folder.to_owned()) }
     }
 
+    /// The files that a launch comes to, which may be read.
+    ///
     /// # Errors
-    /// A path leads out of the folder.
-    pub fn check_all(&self, launch: &Launch) -> Result<(), String> {
-        let world = launch.world.as_ref().filter(|world| !world.starts_with(world::RANDOM));
-        let paths = [Some(&launch.program), launch.log.as_ref(), world].into_iter().flatten();
-        paths.filter(|path| !path.is_empty()).try_for_each(|path| self.check(path))
+    /// A path leads out of the folder, or nowhere.
+    pub fn files(&self, launch: &Launch) -> Result<LaunchFiles, String> {
+        let named = launch.program.strip_prefix("file://").unwrap_or(&launch.program);
+        let (path, plan) = plan_file::split(named);
+        let inside = |path: &str| self.inside_of_folder(Path::new(path));
+        let world = match launch.world.as_deref() {
+            Some(world) if !world.starts_with(world::RANDOM) => Some(inside(world)?),
+            world => world.map(PathBuf::from),
+        };
+        Ok(LaunchFiles {
+            program: self.inside_of_folder(&path)?,
+            plan: plan.map(str::to_owned),
+            log: launch.log.as_deref().map(inside).transpose()?,
+            world,
+        })
     }
 
     /// The world that a log was recorded in.
@@ -61,25 +73,47 @@ impl<'a> Simulator<'a> {
         })
     }
 
-    fn check(&self, path: &str) -> Result<(), String> {
-        let Some(folder) = &self.folder else { return Ok(()) };
-        // The plan may be named behind the file.
-        let file =
-            path.rsplit_once(".afp:").map_or(path.to_owned(), |(file, _)| format!("{file}.afp"));
-        match Path::new(&absolute(&file)).starts_with(folder) {
-            true => Ok(()),
-            false => Err(format!("'{path}' lies outside of '{}'", folder.display())),
+    /// The path itself; where only a folder is open, from the root and without links: what is read is what was checked.
+    fn inside_of_folder(&self, path: &Path) -> Result<PathBuf, String> {
+        let Some(folder) = self.folder.as_ref().filter(|_| !path.as_os_str().is_empty()) else {
+            return Ok(path.to_owned());
+        };
+        let named = path.display();
+        let whole = path.canonicalize().map_err(|why| format!("cannot open '{named}': {why}"))?;
+        match whole.starts_with(folder) {
+            true => Ok(whole),
+            false => Err(format!("'{named}' lies outside of '{}'", folder.display())),
         }
+    }
+}
+
+/// The files that a launch comes to.
+pub struct LaunchFiles {
+    /// That of the plan; empty where none is named.
+    program: PathBuf,
+    plan: Option<String>,
+    log: Option<PathBuf>,
+    /// That of the world, or how one is made up.
+    world: Option<PathBuf>,
+}
+
+impl LaunchFiles {
+    /// Reads and compiles the plan.
+    ///
+    /// # Errors
+    /// A file cannot be read.
+    pub fn plan(&self) -> Result<PlanFile, RunError> {
+        PlanText::read_at(self.program.clone(), self.plan.as_deref())?.compile()
     }
 }
 
 impl<'a> Host<'a> for Simulator<'a> {
     fn launch(&mut self, launch: &Launch) -> Result<Box<dyn Target + 'a>, String> {
-        self.check_all(launch)?;
-        if let Some(log) = &launch.log {
-            return Ok(Box::new(recorded(Path::new(log), self.linked.robot.kind().devices())?));
+        let files = self.files(launch)?;
+        if let Some(log) = &files.log {
+            return Ok(Box::new(recorded(log, self.linked.robot.kind().devices())?));
         }
-        let file = PlanFile::read(&launch.program).map_err(|why| why.to_string())?;
+        let file = files.plan().map_err(|why| why.to_string())?;
         let shown = file.compiled.render(false);
         let graph = file.compiled.graph.clone().ok_or(shown)?;
         let linked = runner::is_linked(&file.own, &graph, &self.linked);
@@ -90,9 +124,8 @@ impl<'a> Host<'a> for Simulator<'a> {
             ));
         }
         let robot = self.linked.robot;
-        let asked = launch.world.as_deref().map(Path::new);
-        let mut found =
-            world::find(asked, &file.path, robot.kind()).map_err(|why| why.to_string())?;
+        let found = world::find(files.world.as_deref(), &file.path, robot.kind());
+        let mut found = found.map_err(|why| why.to_string())?;
         let usual = found.world.drawing().start;
         if let Some([x, y, heading]) = launch.start {
             found = found.started_at(Pose2 { x, y, heading })?;
@@ -114,26 +147,24 @@ impl<'a> Host<'a> for Simulator<'a> {
     }
 
     fn world(&mut self, launch: &Launch) -> Result<Surroundings, String> {
-        self.check_all(launch)?;
-        if let Some(log) = &launch.log {
-            return self.world_of_log(Path::new(log));
+        let files = self.files(launch)?;
+        if let Some(log) = &files.log {
+            return self.world_of_log(log);
         }
-        let path = launch
-            .program
-            .rsplit_once(".afp:")
-            .map_or_else(|| launch.program.clone(), |(file, _)| format!("{file}.afp"));
         // Before there is a plan, the world is the one that a new plan of the folder would have.
-        let path = match (&*path, &self.folder) {
-            ("", Some(folder)) => folder.join("plan.afp"),
-            _ => PathBuf::from(absolute(&path)),
+        let path = match &self.folder {
+            Some(folder) if files.program.as_os_str().is_empty() => folder.join("plan.afp"),
+            _ => PathBuf::from(absolute(&files.program.display().to_string())),
         };
         let kind = self.linked.robot.kind();
-        let asked = launch.world.as_deref().map(Path::new);
-        let found = world::find(asked, &path, kind).map_err(|why| why.to_string())?;
+        let found = world::find(files.world.as_deref(), &path, kind);
+        let found = found.map_err(|why| why.to_string())?;
         let mut worlds = world::all(&path, kind).map_err(|why| why.to_string())?;
         // What would be refused is not offered; the first one is taken without being named.
         let open = |name: &str| {
-            name.is_empty() || name.starts_with(world::RANDOM) || self.check(name).is_ok()
+            name.is_empty()
+                || name.starts_with(world::RANDOM)
+                || self.inside_of_folder(Path::new(name)).is_ok()
         };
         if let Some((first, _)) = worlds.first_mut().filter(|(name, _)| !open(name)) {
             first.clear();

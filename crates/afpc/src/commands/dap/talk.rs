@@ -5,8 +5,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use afp_debug::Adapter;
 use afp_debug::wire::{Frames, WireError, frame};
+use afp_debug::{Adapter, Outgoing};
 
 /// What there is to do next.
 pub enum Arrived {
@@ -16,6 +16,53 @@ pub enum Arrived {
     Nothing,
     /// The client is gone.
     End,
+}
+
+/// How long clients may be listened to beyond the time at which the run goes on.
+const LATE: Duration = Duration::from_millis(10);
+
+/// When a run goes on, whatever clients say meanwhile.
+pub(super) struct Clock {
+    begin: Instant,
+    /// When it went on last, or began to.
+    ticked: Instant,
+    /// Whether it waits for clients.
+    held: bool,
+}
+
+impl Clock {
+    pub(super) fn new() -> Clock {
+        let begin = Instant::now();
+        Clock { begin, ticked: begin, held: true }
+    }
+
+    /// The time that the adapter is told.
+    pub(super) fn now(&self) -> Duration {
+        self.begin.elapsed()
+    }
+
+    /// How long clients can be waited for; none where the run waits for them.
+    pub(super) fn rest(&mut self, adapter: &Adapter<'_>) -> Option<Duration> {
+        let due = adapter.due();
+        self.held = due.is_none();
+        due.map(|due| due.saturating_sub(self.ticked.elapsed()))
+    }
+
+    /// Lets the run go on if it is time, after something has `arrived` only where it is late: what has been said is heard first,
+    /// but nobody who says much holds the run.
+    pub(super) fn tick(&mut self, adapter: &mut Adapter<'_>, arrived: bool) -> Vec<Outgoing> {
+        if std::mem::take(&mut self.held) {
+            self.ticked = Instant::now();
+        }
+        let may_be_late = if arrived { LATE } else { Duration::ZERO };
+        let passed = self.ticked.elapsed();
+        if adapter.due().is_none_or(|due| passed < due + may_be_late) {
+            return Vec::new();
+        }
+        let outgoing = adapter.tick(self.now());
+        self.ticked = Instant::now();
+        outgoing
+    }
 }
 
 /// Talks with a client until it says goodbye or goes away; then the robot has stopped. `next` waits for the client, at
@@ -28,20 +75,21 @@ pub fn converse(
     mut next: impl FnMut(Option<Duration>) -> Result<Arrived, WireError>,
     mut send: impl FnMut(&[String]) -> bool,
 ) -> Result<(), WireError> {
-    let begin = Instant::now();
+    let mut clock = Clock::new();
     let client = adapter.join();
     while !adapter.is_over(client) {
-        let out = match next(adapter.due())? {
+        let (mut out, mut arrived) = (Vec::new(), false);
+        match next(clock.rest(&adapter))? {
             Arrived::Messages(messages) => {
-                let mut out = Vec::new();
                 for message in &messages {
-                    out.extend(adapter.handle(client, message, begin.elapsed()));
+                    out.extend(adapter.handle(client, message, clock.now()));
                 }
-                out
+                arrived = true;
             }
-            Arrived::Nothing => adapter.tick(begin.elapsed()),
+            Arrived::Nothing => {}
             Arrived::End => return Ok(()),
-        };
+        }
+        out.extend(clock.tick(&mut adapter, arrived));
         // There is no other client.
         let out: Vec<_> = out.into_iter().map(|told| told.message).collect();
         if !out.is_empty() && !send(&out) {
@@ -86,7 +134,7 @@ pub(super) fn serve(
 }
 
 /// Waits, at most as long as the run can.
-fn wait(arrived: &Receiver<Vec<u8>>, due: Option<Duration>) -> Result<Vec<u8>, RecvTimeoutError> {
+pub(super) fn wait<T>(arrived: &Receiver<T>, due: Option<Duration>) -> Result<T, RecvTimeoutError> {
     match due {
         None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),
         Some(due) => arrived.recv_timeout(due),

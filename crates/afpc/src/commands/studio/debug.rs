@@ -14,7 +14,7 @@ use afp_studio::{Debugging, Trusted};
 use serde_json::{Value, json};
 
 use super::super::dap::{Arrived, Simulator, converse};
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::plan_file::NoPlan;
 use crate::{Linked, runner};
 use relay::{Conversation, relay};
 
@@ -92,8 +92,7 @@ impl DebugService<'_> {
         // What makes no sense is refused by the debugger.
         let launch: Launch =
             serde_json::from_value(request["arguments"].clone()).unwrap_or_default();
-        Simulator::inside(self.linked, self.folder).check_all(&launch)?;
-        let file = PlanFile::read(&launch.program).ok();
+        let file = Simulator::inside(self.linked, self.folder).files(&launch)?.plan().ok();
         let of_folder = OwnToolboxes::of_plan(&self.folder.join("plan.afp"));
         let of_folder = of_folder.map_err(|why| why.to_string())?;
         let own = file.as_ref().map_or(&of_folder, |file| &file.own);

@@ -1,0 +1,196 @@
+//! Names that were wished for and taken: what later changes mean by them.
+
+use std::collections::BTreeMap;
+
+use super::super::project::Workspace;
+use super::super::{Binding, Change, Item, Refused};
+use super::translate;
+use afp_syntax::kind::Kind;
+
+/// The names that items were given in place of those that were wished for.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Given {
+    /// By the plan, the element of a supervisor, and the wish. What was given is no wish: each name is looked up once.
+    names: BTreeMap<(String, Option<String>, String), Name>,
+    all: Vec<(String, String)>,
+}
+
+/// The name of an item that was added.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Name {
+    given: String,
+    kind: Kind,
+}
+
+impl Given {
+    /// The names that were wished for, each with the one given instead, in the order in which they were.
+    pub fn all(&self) -> &[(String, String)] {
+        &self.all
+    }
+
+    /// The item that is meant by the names that were wished for.
+    pub fn item(&self, item: Item) -> Item {
+        match item {
+            Item::Inner { plan, name } => Item::Inner { name: self.name(&plan, name), plan },
+            Item::Local { plan, owner, name } => {
+                let owner = self.name(&plan, owner);
+                self.local(Item::local(plan, owner, name))
+            }
+            other => other,
+        }
+    }
+
+    /// A supervisor or reactions, as they are given, of an element that has its name already.
+    fn local(&self, item: Item) -> Item {
+        let supervisor = item.reacts_to().map(|to| self.name(item.plan_name(), to.to_owned()));
+        let Item::Local { plan, owner, name } = item else { return item };
+        if let Some(supervisor) = supervisor {
+            return Item::reactions(plan, owner, &supervisor);
+        }
+        let key = (plan, Some(owner), name);
+        let given = self.names.get(&key).map(|name| name.given.clone());
+        let (plan, owner, name) = key;
+        Item::local(plan, owner.unwrap_or_default(), given.unwrap_or(name))
+    }
+
+    /// A name of a plan, as it is given.
+    fn name(&self, plan: &str, name: String) -> String {
+        let key = (plan.to_owned(), None, name);
+        self.names.get(&key).map_or(key.2, |name| name.given.clone())
+    }
+
+    /// The names of a plan that were wished for, each with the one given and the kind of what has it.
+    pub(super) fn of_plan<'g>(
+        &'g self,
+        plan: &'g str,
+    ) -> impl Iterator<Item = (&'g str, &'g str, Kind)> {
+        let all =
+            self.names.iter().filter(move |((of, owner, _), _)| of == plan && owner.is_none());
+        all.map(|((.., wished), name)| (&**wished, &*name.given, name.kind))
+    }
+
+    /// An item was added under a name; from now on the wish means that one.
+    pub(super) fn insert(
+        &mut self,
+        (plan, owner): (&str, Option<&str>),
+        wished: String,
+        given: String,
+        kind: Kind,
+    ) {
+        let key = (plan.to_owned(), owner.map(str::to_owned), wished.clone());
+        if wished == given {
+            self.names.remove(&key);
+            return;
+        }
+        self.names.insert(key, Name { given: given.clone(), kind });
+        self.all.push((wished, given));
+    }
+
+    /// A change under the names that were given; not yet the text that it adds.
+    pub(super) fn in_change(
+        &self,
+        workspace: &mut Workspace,
+        change: Change,
+    ) -> Result<Change, Refused> {
+        let plan = match &change {
+            Change::Bind { component: item, .. }
+            | Change::SetTiming { supervisor: item, .. }
+            | Change::SetEntryValue { entry: item, .. } => item.plan_name().to_owned(),
+            _ => String::new(),
+        };
+        let mut formula = |text: String| translate::formula(workspace, self, &plan, text);
+        Ok(match self.in_names(change) {
+            Change::Bind { component, port, to } => {
+                let to = match to {
+                    Binding::In(text) => Binding::In(formula(text)?),
+                    Binding::Out(entry) => Binding::Out(self.name(&plan, entry)),
+                };
+                Change::Bind { component, port, to }
+            }
+            Change::SetTiming { supervisor, keyword, value } => {
+                Change::SetTiming { supervisor, keyword, value: value.map(formula).transpose()? }
+            }
+            Change::SetEntryValue { entry, value } => {
+                Change::SetEntryValue { entry, value: value.map(formula).transpose()? }
+            }
+            other => other,
+        })
+    }
+
+    /// A change whose items and names are those that were given.
+    fn in_names(&self, change: Change) -> Change {
+        use Change as C;
+
+        let in_plan = |plan: &str, name: Option<String>| name.map(|name| self.name(plan, name));
+        match change {
+            C::Add { owner, text, before, plan } => {
+                let owner = in_plan(&plan, owner);
+                let before = before.map(|before| self.beside(&plan, owner.as_deref(), before));
+                C::Add { owner, text, before, plan }
+            }
+            C::Remove { item } => C::Remove { item: self.item(item) },
+            C::Rename { item, to } => C::Rename { item: self.item(item), to },
+            C::RenameColumn { .. } | C::RenameValue { .. } => change,
+            C::Connect { from, outcome, to } => {
+                let to = self.target(from.plan_name(), to);
+                C::Connect { from: self.item(from), outcome, to }
+            }
+            C::Disconnect { from, outcome } => C::Disconnect { from: self.item(from), outcome },
+            C::SetStart { plan, to } => C::SetStart { to: self.name(&plan, to), plan },
+            C::Reorder { item, before } => {
+                let item = self.item(item);
+                let owner = match &item {
+                    Item::Local { owner, .. } => Some(&**owner),
+                    _ => None,
+                };
+                let before = before.map(|before| self.beside(item.plan_name(), owner, before));
+                C::Reorder { item, before }
+            }
+            C::Bind { component, port, to } => {
+                C::Bind { component: self.item(component), port, to }
+            }
+            C::Unbind { component, port } => C::Unbind { component: self.item(component), port },
+            C::SetTemplate { component, template } => {
+                C::SetTemplate { component: self.item(component), template }
+            }
+            C::SetTiming { supervisor, keyword, value } => {
+                C::SetTiming { supervisor: self.item(supervisor), keyword, value }
+            }
+            C::SetEntryKind { entry, keyword } => {
+                C::SetEntryKind { entry: self.item(entry), keyword }
+            }
+            C::SetEntryType { entry, ty } => C::SetEntryType { entry: self.item(entry), ty },
+            C::SetEntryValue { entry, value } => {
+                C::SetEntryValue { entry: self.item(entry), value }
+            }
+            C::SetDoc { item, text } => C::SetDoc { item: self.item(item), text },
+            C::SetNote { item, text } => C::SetNote { item: self.item(item), text },
+            C::Move { item, plan, owner } => {
+                let owner = in_plan(&plan, owner);
+                C::Move { item: self.item(item), plan, owner }
+            }
+            C::Extract { plan, elements, new_plan, element } => {
+                let elements = elements.into_iter().map(|name| self.name(&plan, name)).collect();
+                C::Extract { plan, elements, new_plan, element }
+            }
+            C::Inline { plan, element } => C::Inline { element: self.name(&plan, element), plan },
+            other @ (C::AddUse { .. } | C::AddPlan { .. }) => other,
+        }
+    }
+
+    /// Where an edge leads: to an element, or where no name of one can stand.
+    fn target(&self, plan: &str, to: String) -> String {
+        match &*to {
+            "terminate" | "fail" | "ignore" | "resume" => to,
+            _ => self.name(plan, to),
+        }
+    }
+
+    /// A name of a plan, or of a supervisor of an element that has its name already.
+    fn beside(&self, plan: &str, owner: Option<&str>, name: String) -> String {
+        match owner {
+            None => self.name(plan, name),
+            Some(owner) => self.local(Item::local(plan, owner, name)).name().to_owned(),
+        }
+    }
+}

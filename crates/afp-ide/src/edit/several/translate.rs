@@ -1,0 +1,115 @@
+//! Texts under other names than those that they were written with.
+
+use std::rc::Rc;
+
+use super::super::project::Workspace;
+use super::super::tree::{Scope, children};
+use super::super::{Item, Refused, name, rename};
+use super::given::Given;
+use afp_syntax::kind::Kind;
+use afp_syntax::source::Source;
+
+/// What stands around a text in place of its plan: an item for each name of that which the text may mean.
+struct Surroundings {
+    /// The name of the plan.
+    plan: String,
+    /// The name of an element in it.
+    host: String,
+    /// The items.
+    items: String,
+    /// Their names, with those that were given.
+    names: Vec<(Item, String)>,
+}
+
+/// A formula of a plan under the names that items of the plan were given.
+pub(super) fn formula(
+    workspace: &mut Workspace,
+    given: &Given,
+    plan: &str,
+    text: String,
+) -> Result<String, Refused> {
+    let around = Surroundings::new(workspace, given, plan, &[]);
+    let before = format!("actor {}: X(x = ", around.host);
+    around.renamed(workspace, &before, &text, ") {}")
+}
+
+/// Items that are put into a plan, or supervisors put onto an element of it, under the names that others were given;
+/// `declared` are their own names in order, each with the one that it is given.
+pub(super) fn items(
+    workspace: &mut Workspace,
+    given: &Given,
+    (plan, in_element): (&str, bool),
+    text: &str,
+    declared: &[(String, String)],
+) -> Result<String, Refused> {
+    let own: Vec<_> = declared.iter().map(|(name, _)| name.as_str()).collect();
+    let mut around = Surroundings::new(workspace, given, plan, if in_element { &[] } else { &own });
+    for (index, (name, given)) in declared.iter().enumerate().filter(|(_, (a, b))| a != b) {
+        let number = own[..index].iter().filter(|known| *known == name).count() + 1;
+        let name = format!("{name}#{number}");
+        let item = match in_element {
+            false => Item::inner(&around.plan, name),
+            true => Item::local(&around.plan, &around.host, name),
+        };
+        around.names.push((item, given.clone()));
+    }
+    let (before, after) = match in_element {
+        false => (String::new(), ""),
+        true => (format!("actor {}: X {{\n", around.host), "\n}"),
+    };
+    around.renamed(workspace, &before, text, after)
+}
+
+impl Surroundings {
+    /// Those of a text of a plan that itself declares some names.
+    fn new(workspace: &mut Workspace, given: &Given, plan: &str, own: &[&str]) -> Surroundings {
+        let others: Vec<_> =
+            given.of_plan(plan).filter(|(wished, ..)| !own.contains(wished)).collect();
+        let plan = name::fresh("Plan", &Scope::File(workspace.buffer().root()).names());
+        let taken: Vec<_> =
+            others.iter().map(|(name, ..)| *name).chain(own.iter().copied()).collect();
+        let taken: Vec<_> = taken.into_iter().map(str::to_owned).collect();
+        let host = name::fresh("host", &taken);
+        let item = |(name, _, kind): &(&str, &str, Kind)| match kind {
+            Kind::Entry => format!("var {name}: int\n"),
+            Kind::Guard => format!("supervise {name}: X {{}}\n"),
+            _ => format!("actor {name}: X {{}}\n"),
+        };
+        let items = others.iter().map(item).collect();
+        let names =
+            others.iter().map(|(name, given, _)| (Item::inner(&plan, *name), (*given).to_owned()));
+        let names = names.collect();
+        Surroundings { plan, host, items, names }
+    }
+
+    /// The text between two others under the names that were given. The rest of the files tells what it means.
+    fn renamed(
+        &self,
+        workspace: &mut Workspace,
+        before: &str,
+        text: &str,
+        after: &str,
+    ) -> Result<String, Refused> {
+        if self.names.is_empty() {
+            return Ok(text.to_owned());
+        }
+        let root = workspace.buffer().root();
+        let uses: String = children(&root, Kind::Use).map(|line| line.text().to_string()).collect();
+        let others =
+            root.children().filter(|item| !matches!(item.kind(), Kind::Use | Kind::Version));
+        let others: String = others.map(|item| item.text().to_string()).collect();
+        let before = format!("{uses}\nplan {} {{\n{}{before}", self.plan, self.items);
+        let after = format!("{after}\n}}\n{others}");
+        let sources = workspace.paths.iter().zip(&workspace.buffers);
+        let mut sources: Vec<_> =
+            sources.map(|(path, buffer)| Source::new(path, buffer.text())).collect();
+        let home = workspace.home;
+        sources[home].text = format!("{before}{text}{after}");
+        let toolboxes = Rc::clone(&workspace.buffer().toolboxes);
+        let mut apart = Workspace::new(&sources, &toolboxes, home);
+        rename::within(&mut apart, &self.names, before.len(), after.len())?;
+        let whole = apart.buffer().text();
+        let inner = whole.strip_prefix(&*before).and_then(|rest| rest.strip_suffix(&*after));
+        inner.map(str::to_owned).ok_or_else(|| Refused::new(format!("'{text}' cannot be read")))
+    }
+}
