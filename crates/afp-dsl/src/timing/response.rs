@@ -1,9 +1,9 @@
 //! The response of every supervisor, and the bound of the interruption that it causes.
 
 use crate::flow::view::View;
-use crate::graph::{Component, Supervisor, SupervisorId};
-use crate::rows::polling_order;
+use crate::graph::{Component, Element, Supervisor, SupervisorId};
 
+use super::before::{Before, before};
 use super::cost::Cost;
 use super::held::{interrupts, poll};
 use super::level::{Levels, Outside};
@@ -20,13 +20,13 @@ pub(super) fn rows(
     let mut rows = Vec::new();
     for (index, view) in views.iter().enumerate().rev() {
         let Some(outer) = &outside.before[index] else { continue };
-        let before = before(view);
+        let before = before(view, levels, index);
         for (at, supervisor) in view.plan.supervisors.iter().enumerate() {
             let Ok(id) = u16::try_from(at).map(SupervisorId) else { continue };
             if supervisor.owner.is_some_and(|owner| !view.reached[owner.index()]) {
                 continue;
             }
-            let response = response(view, id, &outer.and(&before[at]), longest_step, tick);
+            let response = response(view, id, outer, &before[at], longest_step, tick);
             let interruption = interruption(view, levels, index, id, &response);
             rows.push(SupervisorTiming {
                 plan: view.plan.name.clone(),
@@ -45,41 +45,15 @@ pub(super) fn rows(
 fn response(
     view: &View<'_>,
     id: SupervisorId,
-    before: &Cost,
+    outer: &Cost,
+    before: &Before,
     longest_step: &Cost,
     tick: u64,
 ) -> Result<Response, String> {
     let own = poll(view, id).known()?;
-    Ok(Response { tick, step: longest_step.known()?, before: before.known()?, own })
-}
-
-/// For each supervisor of a plan the most that is polled before it in one step.
-fn before(view: &View<'_>) -> Vec<Cost> {
-    let plan = view.plan;
-    let all = (0..=u16::MAX).map(SupervisorId).take(plan.supervisors.len());
-    let mut before = vec![Cost::ZERO; plan.supervisors.len()];
-    let mut globals = Cost::ZERO;
-    let mut locals = vec![Cost::ZERO; plan.elements.len()];
-    let mut most_locals = Cost::ZERO;
-    for id in polling_order(plan, all) {
-        let at = id.index();
-        let supervisor = &plan.supervisors[at];
-        let budget = poll(view, id);
-        match supervisor.owner {
-            None => {
-                before[at] = globals.and(&most_locals);
-                globals = globals.and(&budget);
-            }
-            Some(owner) if view.reached[owner.index()] => {
-                let own = &mut locals[owner.index()];
-                before[at] = globals.and(own);
-                *own = own.and(&budget);
-                most_locals = most_locals.or(own);
-            }
-            Some(_) => {}
-        }
-    }
-    before
+    let step = longest_step.known()?;
+    let polls = outer.and(&before.polls).known()?;
+    Ok(Response { tick, step, before: polls, entered: before.entered.known()?, own })
 }
 
 /// `None` when the supervisor interrupts nothing.
@@ -132,7 +106,12 @@ fn interrupted(
         let level = &levels.all[index];
         return (level.interrupt.clone(), level.stop.clone());
     };
-    match view.plan.elements[owner.index()].component {
+    interrupting(view, levels, &view.plan.elements[owner.index()])
+}
+
+/// What it costs to interrupt an element, and until that stands still.
+pub(super) fn interrupting(view: &View<'_>, levels: &Levels, element: &Element) -> (Cost, Cost) {
+    match element.component {
         Component::SubPlan(id) => {
             let level = &levels.all[id.index()];
             (level.interrupt.clone(), level.stop.clone())
