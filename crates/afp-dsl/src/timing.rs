@@ -23,6 +23,7 @@ use crate::graph::Graph;
 use afp_syntax::source::Span;
 
 use level::{Levels, Outside};
+use response::Bounds;
 
 pub(crate) use check::check_everywhere;
 pub use check::check_target;
@@ -121,7 +122,8 @@ impl Response {
 pub enum Trust {
     /// It follows from the declared budgets.
     Proved,
-    /// It holds when every deadline is kept, which does not follow from the declared budgets.
+    /// It holds when every deadline is kept, which does not follow from the declared budgets; or while nobody outside
+    /// writes an entry in which a loop of computations counts.
     Assumed,
     /// There is none, since a declaration is missing.
     Unknown,
@@ -171,7 +173,9 @@ pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
     let main = &levels.all[graph.main.index()];
     let tick = target.and_then(|target| target.tick).unwrap_or(0);
     let longest = main.longest_step.or(&main.entering);
-    let supervisors = response::rows(&views, &levels, &outside, &longest, tick);
+    let open = flow::open_to_writes(&views[graph.main.index()]);
+    let bounds = Bounds { longest_step: &longest, open, tick };
+    let supervisors = response::rows(&views, &levels, &outside, &bounds);
     let demand = match &main.demand_unknown {
         Some(reason) => Err(reason.to_string()),
         None => Ok((main.demand, levels.busiest(&views, graph.main.index()))),

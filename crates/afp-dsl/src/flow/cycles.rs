@@ -20,7 +20,7 @@ use crate::flow::{INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
-pub(crate) use counters::{Counters, components, unwind};
+pub(crate) use counters::{Counters, components, open_to_writes, unwind};
 use decided::Known;
 pub(super) use holding::standard;
 

@@ -9,13 +9,22 @@ use super::held::{interrupts, poll};
 use super::level::{Levels, Outside};
 use super::{Interruption, Response, SupervisorTiming, Trust};
 
+/// What holds for every supervisor of the plan that runs.
+pub(super) struct Bounds<'a> {
+    /// The longest step.
+    pub longest_step: &'a Cost,
+    /// An entry that makes it longer where it is written from outside.
+    pub open: Option<&'a str>,
+    /// How late the target notices a release.
+    pub tick: u64,
+}
+
 /// One row for each supervisor that can run, the main plan's first.
 pub(super) fn rows(
     views: &[View<'_>],
     levels: &Levels,
     outside: &Outside,
-    longest_step: &Cost,
-    tick: u64,
+    bounds: &Bounds<'_>,
 ) -> Vec<SupervisorTiming> {
     let mut rows = Vec::new();
     for (index, view) in views.iter().enumerate().rev() {
@@ -26,8 +35,9 @@ pub(super) fn rows(
             if supervisor.owner.is_some_and(|owner| !view.reached[owner.index()]) {
                 continue;
             }
-            let response = response(view, id, outer, &before[at], longest_step, tick);
+            let response = response(view, id, outer, &before[at], bounds);
             let interruption = interruption(view, levels, index, id, &response);
+            let interruption = interruption.map(|bound| bound.unless_written(bounds.open));
             rows.push(SupervisorTiming {
                 plan: view.plan.name.clone(),
                 path: view.supervisor_path(id),
@@ -47,13 +57,23 @@ fn response(
     id: SupervisorId,
     outer: &Cost,
     before: &Before,
-    longest_step: &Cost,
-    tick: u64,
+    bounds: &Bounds<'_>,
 ) -> Result<Response, String> {
     let own = poll(view, id).known()?;
-    let step = longest_step.known()?;
+    let (tick, step) = (bounds.tick, bounds.longest_step.known()?);
     let polls = outer.and(&before.polls).known()?;
     Ok(Response { tick, step, before: polls, entered: before.entered.known()?, own })
+}
+
+impl Interruption {
+    /// The same, assumed at most where an entry may be written from outside that makes steps longer.
+    fn unless_written(mut self, entry: Option<&str>) -> Interruption {
+        if let (Some(entry), Trust::Proved) = (entry, self.trust) {
+            self.trust = Trust::Assumed;
+            self.reason = format!("if nobody outside writes '{entry}', in which a loop counts");
+        }
+        self
+    }
 }
 
 /// `None` when the supervisor interrupts nothing.
