@@ -9,7 +9,7 @@ use crate::graph::{Component, ElementId, Plan, PlanId, SupervisorId, Target};
 
 /// The longest ways of a plan.
 pub(super) struct Ways {
-    /// How many edges lead to a node from outside of its component; none of the others' may.
+    /// How many edges lead to a node from outside of its component; `None` where none does.
     to: Vec<Option<i64>>,
     /// How many lead on from a component.
     on: Vec<i64>,
