@@ -2,10 +2,15 @@
 
 use std::fs;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use afp_codegen::{MADE_BY, Origin, RUST_MADE_BY};
-use afp_run::{RunError, write_whole};
+use afp_run::{RunError, hash, write_whole};
+
+/// The versions that cargo builds with.
+const LOCK: &str = "Cargo.lock";
+/// Says by its hash which file of a checkout they were taken from.
+const LOCK_OF: &str = "locked";
 
 /// Writes the crate of a plan into a folder of builds, which is ours alone: the files that differ from what is there, so that
 /// cargo builds only what changed. Sources of an earlier plan are removed.
@@ -14,7 +19,7 @@ use afp_run::{RunError, write_whole};
 /// The folder cannot be written.
 pub fn write_own(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(), RunError> {
     remove_old(folder, files, |_| true)?;
-    put(folder, files, origin)
+    put_own(folder, files, origin)
 }
 
 /// The same into a folder of somebody's choice; what else is there stays.
@@ -39,14 +44,24 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
         }
         Err(error) => return Err(RunError::file("cannot read", &manifest)(error)),
     }
-    put(folder, files, origin)
+    put(folder, files)?;
+    pin(folder, origin).map(drop)
 }
 
 /// Writes the files that differ from what is there into a folder that is ours alone.
 ///
 /// # Errors
 /// The folder cannot be written.
-pub(crate) fn put(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(), RunError> {
+pub(crate) fn put_own(
+    folder: &Path,
+    files: &[(&str, &str)],
+    origin: &Origin,
+) -> Result<(), RunError> {
+    put(folder, files)?;
+    pin_anew(folder, origin)
+}
+
+fn put(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
     for (name, text) in files {
         let path = folder.join(name);
         if let Some(parent) = path.parent() {
@@ -57,7 +72,15 @@ pub(crate) fn put(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Res
         }
         write_whole("cannot write", &path, text)?;
     }
-    pin(folder, origin).map(drop)
+    Ok(())
+}
+
+/// The file with the versions that the checkout was tested with; `None` where there is no checkout.
+pub(crate) fn lock_of(origin: &Origin) -> Option<PathBuf> {
+    match origin {
+        Origin::Path(root) => Some(Path::new(root).join(LOCK)),
+        Origin::Git(_) | Origin::Version(_) => None,
+    }
 }
 
 /// Writes down the versions that the checkout was tested with: another physics engine drives other paths. Gives the
@@ -66,9 +89,8 @@ pub(crate) fn put(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Res
 /// # Errors
 /// The folder cannot be written.
 pub fn pin(folder: &Path, origin: &Origin) -> Result<Option<&'static str>, RunError> {
-    const LOCK: &str = "Cargo.lock";
-    let (Origin::Path(root), lock) = (origin, folder.join(LOCK)) else { return Ok(None) };
-    match fs::read_to_string(Path::new(root).join(LOCK)) {
+    let (Some(tested), lock) = (lock_of(origin), folder.join(LOCK)) else { return Ok(None) };
+    match fs::read_to_string(tested) {
         Ok(text) if !lock.exists() => {
             write_whole("cannot write", &lock, &text)?;
             Ok(Some(LOCK))
@@ -76,6 +98,21 @@ pub fn pin(folder: &Path, origin: &Origin) -> Result<Option<&'static str>, RunEr
         // Without it cargo chooses versions by the manifests.
         _ => Ok(None),
     }
+}
+
+/// The same in a folder that is ours alone, again whenever those versions are others. Cargo adds to the file what else the
+/// crate needs, so it is remembered what it was made from.
+fn pin_anew(folder: &Path, origin: &Origin) -> Result<(), RunError> {
+    let Some(text) = lock_of(origin).and_then(|tested| fs::read_to_string(tested).ok()) else {
+        return Ok(());
+    };
+    let (lock, of, made_from) = (folder.join(LOCK), folder.join(LOCK_OF), hash(&text));
+    let is_same = fs::read_to_string(&of).is_ok_and(|known| known == made_from);
+    if !is_same || !lock.exists() {
+        write_whole("cannot write", &lock, &text)?;
+        write_whole("cannot write", &of, &made_from)?;
+    }
+    Ok(())
 }
 
 /// Whether an earlier build made a file of a crate of ours. Of what is no Rust nobody can tell: the manifest says it.
@@ -151,5 +188,25 @@ mod tests {
             "{refused}"
         );
         assert_eq!(read("src/hardware.rs").as_deref(), Some("//! Mine.\n"));
+    }
+
+    #[test]
+    fn a_folder_of_ours_takes_the_versions_of_the_checkout_anew_when_they_change() {
+        let (checkout, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let origin = Origin::Path(checkout.path().display().to_string());
+        let files = [("Cargo.toml", "# Made by 'afpc build' from x.afp.\n")];
+        let locked = |versions: &str, own: bool| {
+            fs::write(checkout.path().join(LOCK), versions).unwrap();
+            match own {
+                true => write_own(folder.path(), &files, &origin).unwrap(),
+                false => write(folder.path(), &files, &origin).unwrap(),
+            }
+            fs::read_to_string(folder.path().join(LOCK)).unwrap()
+        };
+        assert_eq!(locked("engine 1\n", true), "engine 1\n");
+        fs::write(folder.path().join(LOCK), "engine 1\nmine 1\n").unwrap();
+        assert_eq!(locked("engine 1\n", true), "engine 1\nmine 1\n", "what cargo added stays");
+        assert_eq!(locked("engine 2\n", true), "engine 2\n");
+        assert_eq!(locked("engine 3\n", false), "engine 2\n", "a folder of somebody else");
     }
 }

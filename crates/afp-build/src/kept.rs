@@ -13,6 +13,8 @@ use crate::cargo::{self, Artifact, Blame, Job};
 use crate::parts::Parts;
 use crate::{NotBuilt, crate_folder, origin};
 
+use fresh::Around;
+
 pub use folder::cache;
 
 /// What parts are linked into.
@@ -57,7 +59,7 @@ impl Product {
 pub fn product(parts: &Parts<'_>, product: Product) -> Result<PathBuf, NotBuilt> {
     let kept = Kept::new(parts, product)?;
     let files = kept.files(parts)?;
-    match fresh::program(&kept.folder, &parts.project.folder, &files) {
+    match fresh::program(&kept.folder, &kept.around(parts), &files) {
         Some(built) => Ok(built),
         None => kept.build(parts, &files),
     }
@@ -94,6 +96,12 @@ impl Kept {
         Ok(Kept { product, options, folder: kept.join(below), target: build })
     }
 
+    /// What decides how it is built besides its packages.
+    fn around<'a>(&self, parts: &Parts<'a>) -> Around<'a> {
+        let lock = crate_folder::lock_of(&self.options.origin);
+        Around { caller: &parts.project.folder, lock }
+    }
+
     /// The files of its crate.
     fn files(&self, parts: &Parts<'_>) -> Result<Vec<(String, String)>, RunError> {
         let declared: Vec<_> = parts.toolboxes.iter().map(|own| &*own.declared).collect();
@@ -118,7 +126,7 @@ impl Kept {
                     .to_owned(),
         };
         let texts: Vec<_> = files.iter().map(|(path, text)| (&**path, &**text)).collect();
-        crate_folder::put(&self.folder, &texts, &self.options.origin)?;
+        crate_folder::put_own(&self.folder, &texts, &self.options.origin)?;
         say(format_args!("building {} for {names} (once) ...", self.product.words()));
         let begun = fresh::begin(&self.folder)?;
         let built = cargo::build(Job {
@@ -135,7 +143,7 @@ impl Kept {
             tools: None,
         })?;
         let program = built.artifact.ok_or(NotBuilt::Told { first: None })?;
-        let watched = fresh::watched(&built.manifests, &parts.project.folder);
+        let watched = fresh::watched(&built.manifests, &self.around(parts));
         fresh::done(&self.folder, &program, &watched, begun)?;
         Ok(program)
     }

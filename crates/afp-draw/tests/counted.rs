@@ -49,7 +49,7 @@ fn scenes() -> Vec<PlanScene> {
     for (plans, beside) in FOLDERS {
         let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
         if !beside.is_empty() {
-            files(beside).iter().for_each(|path| toolboxes.add(source(path), "beside"));
+            files(beside).iter().for_each(|path| _ = toolboxes.add(source(path), "beside"));
         }
         for path in files(plans) {
             let compiled =

@@ -180,7 +180,7 @@ pub(crate) fn check(
     let mut checked = Checked { outline, index, ..Checked::default() };
     let Some(main) = main else { return checked };
     if checked.outline.excuses(diags) {
-        let graph = assemble::graph(&program, plans, &order, main);
+        let graph = assemble::graph(&program, |place| plans[place].take(), &order, main);
         return Checked { graph, scenarios, ..checked };
     }
     let parts = plans.into_iter().zip(inputs).map(|(plan, inputs)| Parts { plan, inputs });

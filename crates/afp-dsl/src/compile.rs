@@ -1,11 +1,12 @@
 //! The entry point of the compiler: a plan's text in; its graph, or everything that is wrong with it, out.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::check::partial::Partial;
 use crate::check::{self, Checked, Flow};
 use crate::files::{Files, below_all, normalised};
-use crate::gather;
+use crate::gather::{self, PlanFile};
 use crate::graph::Graph;
 use crate::index::Index;
 use crate::outline::Outline;
@@ -38,6 +39,10 @@ pub struct Compiled {
     pub plan_files: Range<usize>,
     /// What the parser has made of each plan file.
     trees: Vec<Parse>,
+    /// For each plan file the other paths by which it is used.
+    further: Vec<Vec<String>>,
+    /// The whole path of the folder that paths are seen from, where they lead out of it and it is known.
+    folder: Option<String>,
     /// What is known of the plan while there are errors.
     partial: Option<Partial>,
 }
@@ -75,21 +80,37 @@ impl Compiled {
 
     /// Path and text of each plan file, in the order of [`Compiled::plan_sources`]; paths are seen
     /// from the deepest folder that all of them are in, so that they still find each other when
-    /// they are put elsewhere.
+    /// they are put elsewhere. Behind them, once more, come those that are used by other paths, too.
     pub fn plan_texts(&self) -> Vec<(String, String)> {
-        texts_of(self.plan_sources().collect())
+        self.texts_of((0..self.plan_files.len()).collect())
     }
 
     /// The same for the plan of a scenario, whose file comes first.
     pub fn scenario_texts(&self, scenario: &Scenario) -> Vec<(String, String)> {
-        let is_first = |source: &&Source| source.name == scenario.plan_file;
-        let mut sources: Vec<_> = self.plan_sources().collect();
+        let names: Vec<_> = self.plan_sources().map(|source| source.name.as_str()).collect();
+        let is_first = |place: &usize| names[*place] == scenario.plan_file;
+        let mut places: Vec<_> = (0..names.len()).collect();
         // A file of scenarios is none that its plans use.
-        if !sources.first().is_some_and(is_first) && sources.iter().any(is_first) {
-            sources.remove(0);
+        if !places.first().is_some_and(is_first) && places.iter().any(is_first) {
+            places.remove(0);
         }
-        sources.sort_by_key(|source| !is_first(source));
-        texts_of(sources)
+        places.sort_by_key(|place| !is_first(place));
+        self.texts_of(places)
+    }
+
+    /// Path and text of some plan files, then again of those with further paths.
+    fn texts_of(&self, places: Vec<usize>) -> Vec<(String, String)> {
+        let sources: Vec<&Source> = self.plan_sources().collect();
+        let first = places.iter().map(|place| (normalised(&sources[*place].name), *place));
+        let further = places.iter().flat_map(|place| {
+            let paths = self.further.get(*place).into_iter().flatten();
+            paths.map(|path| (path.clone(), *place))
+        });
+        let (paths, places): (Vec<String>, Vec<usize>) = first.chain(further).unzip();
+        let paths = below_all(&paths, self.folder.as_deref()).into_iter();
+        let mut known = BTreeSet::new();
+        let texts = paths.zip(places).filter(|(path, _)| known.insert(path.clone()));
+        texts.map(|(path, place)| (path, sources[place].text.clone())).collect()
     }
 
     /// Name and text of each toolbox that a plan of these and the files that it uses name.
@@ -102,12 +123,6 @@ impl Compiled {
             Some((toolbox.name.as_str(), source.text.as_str()))
         })
     }
-}
-
-fn texts_of(sources: Vec<&Source>) -> Vec<(String, String)> {
-    let paths: Vec<_> = sources.iter().map(|source| normalised(&source.name)).collect();
-    let texts = sources.into_iter().map(|source| source.text.clone());
-    below_all(&paths).into_iter().zip(texts).collect()
 }
 
 /// Compiles the first plan of a file. `files` has the files that it uses; without any,
@@ -174,7 +189,8 @@ fn compile_with(
         false => (graph, None),
         true => (None, partial.or(graph.map(|graph| Partial { graph, wrong: Vec::new() }))),
     };
-    let trees = gathered.into_iter().map(|file| file.parse).collect();
+    let folder = gathered.iter().any(PlanFile::leads_out).then(|| files.folder()).flatten();
+    let (trees, further) = gathered.into_iter().map(|file| (file.parse, file.further)).unzip();
     Compiled {
         graph,
         scenarios,
@@ -185,6 +201,8 @@ fn compile_with(
         sources,
         plan_files,
         trees,
+        further,
+        folder,
         partial,
     }
 }

@@ -24,6 +24,11 @@ pub trait Files {
     fn identity(&self, path: &str) -> String {
         path.to_owned()
     }
+
+    /// The whole path of the folder that paths are seen from, without links; `None` where it has none.
+    fn folder(&self) -> Option<String> {
+        None
+    }
 }
 
 impl<F: Fn(&str) -> Result<String, String>> Files for F {
@@ -50,6 +55,11 @@ impl Files for Disk {
     fn identity(&self, path: &str) -> String {
         let real = self.0.join(path).canonicalize();
         real.map_or_else(|_| path.to_owned(), |real| real.to_string_lossy().into_owned())
+    }
+
+    fn folder(&self) -> Option<String> {
+        let real = self.0.join(".").canonicalize().ok()?;
+        Some(normalised(&real.to_string_lossy()))
     }
 }
 
@@ -137,13 +147,21 @@ pub fn relative(user: &str, path: &str) -> Option<String> {
 }
 
 /// The normalised paths, seen from the deepest folder that all of them are in. Where some lead out
-/// of the current folder and others do not, that one is called `here`.
-pub(crate) fn below_all(paths: &[String]) -> Vec<String> {
+/// of the folder from which they are seen and others do not, that one has its name; where `folder`, its whole path, is not
+/// known, it is called `here`.
+pub(crate) fn below_all(paths: &[String], folder: Option<&str>) -> Vec<String> {
     let ups = |path: &str| path.split('/').take_while(|part| *part == "..").count();
     let highest = paths.iter().map(|path| ups(path)).max().unwrap_or(0);
+    let names: Vec<&str> =
+        folder.unwrap_or("").split('/').filter(|name| !name.is_empty()).collect();
+    let names = match names.len().checked_sub(highest) {
+        Some(above) => names[above..].to_vec(),
+        None => vec!["here"; highest],
+    };
     let grounded = paths.iter().map(|path| {
         let up = ups(path);
-        "here/".repeat(highest - up) + &path["../".len() * up..]
+        let folders = names.iter().take(highest - up).flat_map(|name| [*name, "/"]);
+        folders.collect::<String>() + &path["../".len() * up..]
     });
     let paths: Vec<_> = grounded.collect();
     let folder = |path: &str| path.rfind('/').map_or(0, |slash| slash + 1);
@@ -221,7 +239,7 @@ mod tests {
     #[test]
     fn what_all_paths_begin_with_goes() {
         let below = |paths: &[&str]| {
-            below_all(&paths.iter().map(|path| (*path).to_owned()).collect::<Vec<_>>())
+            below_all(&paths.iter().map(|path| (*path).to_owned()).collect::<Vec<_>>(), None)
         };
         assert_eq!(below(&["x/y/a.afp"]), ["a.afp"]);
         assert_eq!(below(&["x/y/a.afp", "x/z/b.afp"]), ["y/a.afp", "z/b.afp"]);
@@ -230,6 +248,11 @@ mod tests {
         assert_eq!(below(&["x/a.afp", "../b.afp"]), ["here/x/a.afp", "b.afp"]);
         assert_eq!(below(&["/a.afp", "/x/b.afp"]), ["a.afp", "x/b.afp"]);
         assert_eq!(below(&["a.afp", "x/b.afp"]), ["a.afp", "x/b.afp"]);
+        let paths = ["x/a.afp", "../b.afp", "../../c.afp", "../y/b.afp"].map(str::to_owned);
+        let known = below_all(&paths, Some("/home/robot/plans/new"));
+        assert_eq!(known, ["plans/new/x/a.afp", "plans/b.afp", "c.afp", "plans/y/b.afp"]);
+        let shallow = below_all(&paths, Some("/new"));
+        assert_eq!(shallow, ["here/here/x/a.afp", "here/b.afp", "c.afp", "here/y/b.afp"]);
     }
 
     #[test]

@@ -26,7 +26,7 @@ use crate::toolbox::{Template, Toolbox};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 
-pub(crate) use cycles::{components, is_quick, unwind};
+pub(crate) use cycles::{components, is_quick, open_to_writes, unwind};
 use view::View;
 
 /// The plans of a compilation; [`crate::graph::Component::SubPlan`] is an index into them.

@@ -19,6 +19,8 @@ use rustc_hash::FxHashMap;
 pub(crate) struct PlanFile {
     /// Its normalised path.
     pub path: String,
+    /// The others by which it is used.
+    pub further: Vec<String>,
     /// Its text.
     pub source: Arc<Source>,
     /// What the parser has made of it.
@@ -36,6 +38,12 @@ pub(crate) struct PlanFile {
 }
 
 impl PlanFile {
+    /// Whether a path of it leads out of the folder from which paths are seen.
+    pub fn leads_out(&self) -> bool {
+        let mut paths = self.further.iter().chain([&self.path]);
+        paths.any(|path| path.starts_with("../"))
+    }
+
     /// The place of the whole text.
     pub fn whole(&self) -> Span {
         let end = u32::try_from(self.source.text.len()).unwrap_or(u32::MAX);
@@ -129,7 +137,8 @@ impl Gathering<'_> {
         let place = self.found.len();
         self.known.entry(path.clone()).or_insert(Ok(place));
         let (tree, uses, paths) = (parse.file(), Vec::new(), Vec::new());
-        let file = PlanFile { path, source, parse, tree, index, uses, paths, incomplete: false };
+        let (further, incomplete) = (Vec::new(), false);
+        let file = PlanFile { path, further, source, parse, tree, index, uses, paths, incomplete };
         self.found.push(file);
         place
     }
@@ -188,6 +197,11 @@ impl Gathering<'_> {
             Some(known) => known.clone(),
             None => {
                 let found = self.find(&path);
+                if let Ok(place) = found
+                    && self.found[place].path != path
+                {
+                    self.found[place].further.push(path.clone());
+                }
                 self.known.insert(path.clone(), found.clone());
                 found
             }

@@ -5,6 +5,7 @@
 //! deadlines. Where a declaration is missing, the result says so instead of guessing. Every search
 //! goes over sub-plans once, however often they are used, so the effort is linear.
 
+mod before;
 mod check;
 mod cost;
 mod held;
@@ -22,6 +23,7 @@ use crate::graph::Graph;
 use afp_syntax::source::Span;
 
 use level::{Levels, Outside};
+use response::Bounds;
 
 pub(crate) use check::check_everywhere;
 pub use check::check_target;
@@ -32,8 +34,8 @@ pub use target::{BUILT_IN, Budgets, BuiltIn, Target};
 pub struct Timing {
     /// The plan that runs.
     pub plan: String,
-    /// The longest that one step may take, budgets added up: supervisors, the active actor, and what
-    /// is entered behind it. `Err` names the declaration that is missing.
+    /// The longest that one step may take, that which starts the plan too, budgets added up: supervisors, the active actor,
+    /// and what is entered behind it. `Err` names the declaration that is missing.
     pub longest_step: Result<u64, String>,
     /// What that step is made of, and the path of the element that is active then; `None` where it is not known.
     pub step_parts: Option<StepParts>,
@@ -61,9 +63,9 @@ pub struct Basis {
 /// What the longest step is made of, in nanoseconds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StepParts {
-    /// The path of the element that is active when it begins; empty where the plan has none that lasts.
+    /// The path of the element that is active when it begins; empty where the step is that which starts the plan.
     pub path: String,
-    /// Polls of the supervisors.
+    /// Polls of the supervisors, and their starts where the plan starts.
     pub supervisors: u64,
     /// The poll of the active element, or what its interruption takes.
     pub active: u64,
@@ -100,6 +102,9 @@ pub struct Response {
     pub step: u64,
     /// The supervisors that are polled before.
     pub before: u64,
+    /// What an event of one of those interrupts and leads to, up to the look in which the others are asked; zero for one
+    /// that ends with what is interrupted.
+    pub entered: u64,
     /// The supervisor's own poll, with what is computed before `resume`.
     pub own: u64,
 }
@@ -107,8 +112,8 @@ pub struct Response {
 impl Response {
     /// The sum of all parts.
     pub fn total(&self) -> u64 {
-        let first = self.tick.saturating_add(self.step);
-        first.saturating_add(self.before).saturating_add(self.own)
+        let parts = [self.tick, self.step, self.before, self.entered, self.own];
+        parts.into_iter().fold(0, u64::saturating_add)
     }
 }
 
@@ -117,7 +122,8 @@ impl Response {
 pub enum Trust {
     /// It follows from the declared budgets.
     Proved,
-    /// It holds when every deadline is kept, which does not follow from the declared budgets.
+    /// It holds when every deadline is kept, which does not follow from the declared budgets; or while nobody outside
+    /// writes an entry in which a loop of computations counts.
     Assumed,
     /// There is none, since a declaration is missing.
     Unknown,
@@ -166,8 +172,10 @@ pub fn timing(graph: &Graph, target: Option<&Target>) -> Timing {
     let outside = Outside::of(&views, &levels, graph.main.index());
     let main = &levels.all[graph.main.index()];
     let tick = target.and_then(|target| target.tick).unwrap_or(0);
-    let longest = main.longest_step.clone();
-    let supervisors = response::rows(&views, &levels, &outside, &longest, tick);
+    let longest = main.longest_step.or(&main.entering);
+    let open = flow::open_to_writes(&views[graph.main.index()]);
+    let bounds = Bounds { longest_step: &longest, open, tick };
+    let supervisors = response::rows(&views, &levels, &outside, &bounds);
     let demand = match &main.demand_unknown {
         Some(reason) => Err(reason.to_string()),
         None => Ok((main.demand, levels.busiest(&views, graph.main.index()))),

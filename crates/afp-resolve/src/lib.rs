@@ -75,14 +75,16 @@ impl OwnToolboxes {
         rust_path: impl Fn(&ToolboxFile) -> String,
     ) -> Result<Toolboxes, ProjectError> {
         let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+        let mut misnamed = Vec::new();
         for file in &self.files {
-            toolboxes.add(source(file), &rust_path(file));
+            let name = toolboxes.add(source(file), &rust_path(file));
+            if name.as_ref() != Some(&file.toolbox.name) {
+                misnamed.push(self::misnamed(file));
+            }
         }
         if let Some(name) = self.of_robot() {
             toolboxes.set_robot(name);
         }
-        let missing = |file: &&ToolboxFile| toolboxes.get(&file.toolbox.name).is_none();
-        let misnamed: Vec<_> = self.files.iter().filter(missing).map(misnamed).collect();
         match misnamed.is_empty() || toolboxes.diagnostics().has_errors() {
             true => Ok(toolboxes),
             false => Err(self.project.wrong(misnamed)),
@@ -191,5 +193,48 @@ fn misnamed(file: &ToolboxFile) -> Mistake {
         span: file.toolbox.span.clone(),
         message: format!("'{}' does not begin with 'toolbox {name}'", path.display()),
         help: "write the name that stands behind 'toolbox' in the file".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// What is said of a project with these files of toolboxes.
+    fn said(project: &str, files: &[(&str, &str)]) -> Option<String> {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("afp.toml"), project).unwrap();
+        for (name, text) in files {
+            fs::write(folder.path().join(name), text).unwrap();
+        }
+        let own = OwnToolboxes::read(ProjectFile::find(folder.path()).unwrap()).unwrap();
+        match own.with_built_in() {
+            Ok(toolboxes) => {
+                assert!(!toolboxes.diagnostics().has_errors(), "{:?}", toolboxes.diagnostics());
+                None
+            }
+            Err(error) => Some(error.to_string()),
+        }
+    }
+
+    const WAIT: &str = "supervisor Late {\n    every 10 ms\n    event Due\n}\n";
+
+    #[test]
+    fn a_file_of_another_toolbox_is_told_also_where_one_of_the_name_is_there() {
+        let (a, b) = (
+            format!("toolbox a version \"1.0\"\n{WAIT}"),
+            format!("toolbox b version \"1.0\"\n{WAIT}"),
+        );
+        let files = [("a.afp", a.as_str()), ("b.afp", b.as_str())];
+        let two = |a: &str, b: &str| {
+            format!("[toolboxes]\na = {{ path = \"{a}\" }}\nb = {{ path = \"{b}\" }}\n")
+        };
+        assert_eq!(said(&two("a.afp", "b.afp"), &files), None);
+        let swapped = said(&two("b.afp", "a.afp"), &files).unwrap();
+        assert!(swapped.contains("b.afp' does not begin with 'toolbox a'"), "{swapped}");
+        assert!(swapped.contains("a.afp' does not begin with 'toolbox b'"), "{swapped}");
+        let built_in = said("[toolboxes]\ncarbot = { path = \"a.afp\" }\n", &files).unwrap();
+        assert!(built_in.contains("a.afp' does not begin with 'toolbox carbot'"), "{built_in}");
     }
 }

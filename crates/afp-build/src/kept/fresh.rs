@@ -56,15 +56,24 @@ pub fn done(
     keep().map_err(RunError::file("cannot write", &stamp))
 }
 
-/// The files that there are of those that decide how packages are built for a caller: their manifests and those around
-/// them, and the settings of cargo where it is called.
-pub fn watched(manifests: &[PathBuf], caller: &Path) -> BTreeSet<PathBuf> {
+/// What decides how packages are built besides their manifests.
+pub struct Around<'a> {
+    /// The folder in which cargo is called.
+    pub caller: &'a Path,
+    /// The versions that were tested, where there are some.
+    pub lock: Option<PathBuf>,
+}
+
+/// The files that there are of those that decide how packages are built: their manifests and those around
+/// them, the settings of cargo where it is called, and the versions that were tested.
+pub fn watched(manifests: &[PathBuf], around: &Around<'_>) -> BTreeSet<PathBuf> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".cargo")));
     let of_home =
         home.iter().flat_map(|home| ["config.toml", "config"].map(|name| home.join(name)));
     let mut all: BTreeSet<_> = of_home.collect();
-    all.extend(caller.ancestors().flat_map(|folder| SETTINGS.map(|name| folder.join(name))));
+    all.extend(around.lock.clone());
+    all.extend(around.caller.ancestors().flat_map(|folder| SETTINGS.map(|name| folder.join(name))));
     let packages: BTreeSet<_> =
         manifests.iter().flat_map(|path| path.ancestors().skip(1)).collect();
     all.extend(packages.into_iter().map(|folder| folder.join(MANIFEST)));
@@ -72,7 +81,7 @@ pub fn watched(manifests: &[PathBuf], caller: &Path) -> BTreeSet<PathBuf> {
 }
 
 /// The program kept in a folder, unless something that it was made from has changed; `files` are those of its crate.
-pub fn program(folder: &Path, caller: &Path, files: &[(String, String)]) -> Option<PathBuf> {
+pub fn program(folder: &Path, around: &Around<'_>, files: &[(String, String)]) -> Option<PathBuf> {
     let stamp = folder.join(STAMP);
     let begun = fs::metadata(&stamp).ok()?.modified().ok()?;
     let program = PathBuf::from(fs::read_to_string(&stamp).ok()?);
@@ -93,7 +102,7 @@ pub fn program(folder: &Path, caller: &Path, files: &[(String, String)]) -> Opti
         && !sources.is_empty()
         && files.iter().all(is_written)
         && of_others.chain(&kept).all(older)
-        && watched(&manifests.collect::<Vec<_>>(), caller) == kept;
+        && watched(&manifests.collect::<Vec<_>>(), around) == kept;
     fresh.then_some(program)
 }
 
@@ -139,7 +148,9 @@ mod tests {
             assert_eq!(kept.found(), None, "nothing is built");
             let begun = begin(&kept.path("runner")).unwrap() + Duration::from_secs(1);
             assert_eq!(kept.found(), None, "the build has only begun");
-            let watched = watched(&[manifest], &kept.path("project"));
+            let project = kept.path("project");
+            let lock = Some(kept.write("checkout/Cargo.lock", ""));
+            let watched = watched(&[manifest], &Around { caller: &project, lock });
             done(&kept.path("runner"), &program, &watched, begun).unwrap();
             assert_eq!(kept.found(), Some(program));
             Kept { begun, ..kept }
@@ -158,15 +169,21 @@ mod tests {
 
         fn found(&self) -> Option<PathBuf> {
             let files = [("src/main.rs".to_owned(), "fn main() {}".to_owned())];
-            program(&self.path("runner"), &self.path("project"), &files)
+            let (project, lock) = (self.path("project"), Some(self.path("checkout/Cargo.lock")));
+            program(&self.path("runner"), &Around { caller: &project, lock }, &files)
         }
     }
 
     #[test]
     fn a_program_is_fresh_until_what_it_was_made_from_changes_or_goes() {
         let kept = Kept::new();
-        let all =
-            ["ws/box/lib.rs", "ws/box/Cargo.toml", "ws/Cargo.toml", "project/.cargo/config.toml"];
+        let all = [
+            "ws/box/lib.rs",
+            "ws/box/Cargo.toml",
+            "ws/Cargo.toml",
+            "project/.cargo/config.toml",
+            "checkout/Cargo.lock",
+        ];
         for name in all {
             let file = File::options().write(true).open(kept.path(name)).unwrap();
             file.set_modified(kept.begun + Duration::from_secs(1)).unwrap();

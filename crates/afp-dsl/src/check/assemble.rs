@@ -7,22 +7,23 @@ use crate::check::names::key;
 use crate::graph::{self, Component, Graph, PlanId};
 use crate::rows;
 
-/// The graph of the plan `main`; `order` has sub-plans before their users.
+/// The graph of the plan `main`; `order` has sub-plans before their users. `plan` gives the plan of a place; it is asked for
+/// each that is needed, once.
 pub(super) fn graph(
     program: &Program<'_>,
-    mut plans: Vec<Option<graph::Plan>>,
+    mut plan: impl FnMut(usize) -> Option<graph::Plan>,
     order: &[usize],
     main: usize,
 ) -> Option<Graph> {
     let needed = needed(program, main);
     let chosen: Vec<_> = order.iter().copied().filter(|place| needed[*place]).collect();
-    let mut ids = vec![None; plans.len()];
+    let mut ids = vec![None; program.plans.len()];
     for (id, place) in (0..=u16::MAX).zip(&chosen) {
         ids[*place] = Some(PlanId(id));
     }
     let mut drawn = Vec::with_capacity(chosen.len());
     for place in &chosen {
-        let mut plan = plans[*place].take()?;
+        let mut plan = plan(*place)?;
         for element in &mut plan.elements {
             if let Component::SubPlan(sub_plan) = &mut element.component {
                 *sub_plan = ids[sub_plan.index()]?;

@@ -18,6 +18,7 @@ mod robot;
 mod signals;
 mod times;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::check::formula::Scope;
@@ -59,7 +60,7 @@ pub(super) fn check(
     plans: &Plans<'_>,
     diags: &mut Diagnostics,
 ) -> Vec<Scenario> {
-    let mut checked = Vec::new();
+    let (mut checked, mut graphs) = (Vec::new(), Graphs::new());
     let robot = Robot::of(program);
     for (index, file) in files.iter().enumerate() {
         let mut named: Vec<Name> = Vec::new();
@@ -68,7 +69,7 @@ pub(super) fn check(
             if let Some(name) = node.name() {
                 twice(&name, &mut named, diags);
             }
-            let scenario = scenario(context, (files, &robot), plans, &node, diags);
+            let scenario = scenario(context, (files, &robot), (plans, &mut graphs), &node, diags);
             checked.extend(scenario.into_iter().flatten().filter(|_| index == 0));
         }
     }
@@ -110,6 +111,9 @@ fn twice(name: &Name, named: &mut Vec<Name>, diags: &mut Diagnostics) {
     }
 }
 
+/// The graphs of the plans that scenarios are for, by their places; all scenarios of one plan share its graph.
+type Graphs = BTreeMap<usize, Option<Arc<graph::Graph>>>;
+
 /// A scenario in the making.
 struct Checker<'a> {
     /// The scenario's file.
@@ -124,7 +128,7 @@ struct Checker<'a> {
 fn scenario(
     context: Context<'_>,
     (files, robot): (&[PlanFile], &Robot<'_>),
-    plans: &Plans<'_>,
+    (plans, graphs): (&Plans<'_>, &mut Graphs),
     node: &ast::Scenario,
     diags: &mut Diagnostics,
 ) -> Option<Vec<Scenario>> {
@@ -133,8 +137,11 @@ fn scenario(
     let resolver = Resolver { program, members: plans.members };
     names::record(context, &resolver, robot, index, &node.lines());
     let (name, index) = (node.name()?, index?);
-    let graph = assemble::graph(program, plans.plans.to_vec(), plans.order, index)?;
-    let graph = Arc::new(graph);
+    let assembled = || {
+        let plan = |place: usize| plans.plans[place].clone();
+        assemble::graph(program, plan, plans.order, index).map(Arc::new)
+    };
+    let graph = graphs.entry(index).or_insert_with(assembled).clone()?;
     let head = &program.plans[index];
     let lines = readable(node.lines(), diags);
     let stretch = Stretch::of(&lines, None, diags);

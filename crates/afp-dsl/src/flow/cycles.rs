@@ -10,6 +10,7 @@ mod counters;
 mod decided;
 mod holding;
 mod instant;
+mod ways;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,7 +20,7 @@ use crate::flow::{INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
-pub(crate) use counters::{Counters, components, unwind};
+pub(crate) use counters::{Counters, components, open_to_writes, unwind};
 use decided::Known;
 pub(super) use holding::standard;
 
@@ -36,7 +37,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let mut reported = BTreeSet::new();
     for (members, inner) in sure.cycles() {
         match sure.has_exit(&members, |_| true) {
-            true => loops.check(&members, &inner, diags),
+            true => loops.check(&members, &inner, &sure.component, diags),
             false => {
                 sure.report_endless(&inner, diags);
                 reported.extend(members);

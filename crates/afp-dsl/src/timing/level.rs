@@ -17,7 +17,7 @@ pub(super) struct Level {
     pub globals: Cost,
     /// Entering the plan.
     pub entering: Cost,
-    /// The longest step while it is active, the one that ends it included.
+    /// The longest step while it is active, the one that ends it included; not the one that starts it.
     pub longest_step: Cost,
     /// The element that is active when that step begins, and what the step is made of besides what is entered: the
     /// supervisors, and the element.
@@ -68,9 +68,15 @@ impl Levels {
 }
 
 impl Levels {
-    /// What the longest step of a plan is made of.
+    /// What the longest step of a plan is made of, which may be the one that starts it.
     pub fn step_parts(&self, views: &[View<'_>], plan: usize) -> StepParts {
         let mut parts = StepParts { path: String::new(), supervisors: 0, active: 0, entered: 0 };
+        let level = &self.all[plan];
+        if level.longest.is_none() || level.entering.exceeds(&level.longest_step) {
+            parts.supervisors = level.globals.times(2).time();
+            parts.entered = level.entering.time().saturating_sub(parts.supervisors);
+            return parts;
+        }
         let (mut path, mut next) = (Vec::new(), Some(plan));
         while let Some(index) = next.take() {
             let level = &self.all[index];

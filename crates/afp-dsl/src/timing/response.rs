@@ -1,33 +1,43 @@
 //! The response of every supervisor, and the bound of the interruption that it causes.
 
 use crate::flow::view::View;
-use crate::graph::{Component, Supervisor, SupervisorId};
-use crate::rows::polling_order;
+use crate::graph::{Component, Element, Supervisor, SupervisorId};
 
+use super::before::{Before, before};
 use super::cost::Cost;
 use super::held::{interrupts, poll};
 use super::level::{Levels, Outside};
 use super::{Interruption, Response, SupervisorTiming, Trust};
+
+/// What holds for every supervisor of the plan that runs.
+pub(super) struct Bounds<'a> {
+    /// The longest step.
+    pub longest_step: &'a Cost,
+    /// An entry that makes it longer where it is written from outside.
+    pub open: Option<&'a str>,
+    /// How late the target notices a release.
+    pub tick: u64,
+}
 
 /// One row for each supervisor that can run, the main plan's first.
 pub(super) fn rows(
     views: &[View<'_>],
     levels: &Levels,
     outside: &Outside,
-    longest_step: &Cost,
-    tick: u64,
+    bounds: &Bounds<'_>,
 ) -> Vec<SupervisorTiming> {
     let mut rows = Vec::new();
     for (index, view) in views.iter().enumerate().rev() {
         let Some(outer) = &outside.before[index] else { continue };
-        let before = before(view);
+        let before = before(view, levels, index);
         for (at, supervisor) in view.plan.supervisors.iter().enumerate() {
             let Ok(id) = u16::try_from(at).map(SupervisorId) else { continue };
             if supervisor.owner.is_some_and(|owner| !view.reached[owner.index()]) {
                 continue;
             }
-            let response = response(view, id, &outer.and(&before[at]), longest_step, tick);
+            let response = response(view, id, outer, &before[at], bounds);
             let interruption = interruption(view, levels, index, id, &response);
+            let interruption = interruption.map(|bound| bound.unless_written(bounds.open));
             rows.push(SupervisorTiming {
                 plan: view.plan.name.clone(),
                 path: view.supervisor_path(id),
@@ -45,41 +55,25 @@ pub(super) fn rows(
 fn response(
     view: &View<'_>,
     id: SupervisorId,
-    before: &Cost,
-    longest_step: &Cost,
-    tick: u64,
+    outer: &Cost,
+    before: &Before,
+    bounds: &Bounds<'_>,
 ) -> Result<Response, String> {
     let own = poll(view, id).known()?;
-    Ok(Response { tick, step: longest_step.known()?, before: before.known()?, own })
+    let (tick, step) = (bounds.tick, bounds.longest_step.known()?);
+    let polls = outer.and(&before.polls).known()?;
+    Ok(Response { tick, step, before: polls, entered: before.entered.known()?, own })
 }
 
-/// For each supervisor of a plan the most that is polled before it in one step.
-fn before(view: &View<'_>) -> Vec<Cost> {
-    let plan = view.plan;
-    let all = (0..=u16::MAX).map(SupervisorId).take(plan.supervisors.len());
-    let mut before = vec![Cost::ZERO; plan.supervisors.len()];
-    let mut globals = Cost::ZERO;
-    let mut locals = vec![Cost::ZERO; plan.elements.len()];
-    let mut most_locals = Cost::ZERO;
-    for id in polling_order(plan, all) {
-        let at = id.index();
-        let supervisor = &plan.supervisors[at];
-        let budget = poll(view, id);
-        match supervisor.owner {
-            None => {
-                before[at] = globals.and(&most_locals);
-                globals = globals.and(&budget);
-            }
-            Some(owner) if view.reached[owner.index()] => {
-                let own = &mut locals[owner.index()];
-                before[at] = globals.and(own);
-                *own = own.and(&budget);
-                most_locals = most_locals.or(own);
-            }
-            Some(_) => {}
+impl Interruption {
+    /// The same, assumed at most where an entry may be written from outside that makes steps longer.
+    fn unless_written(mut self, entry: Option<&str>) -> Interruption {
+        if let (Some(entry), Trust::Proved) = (entry, self.trust) {
+            self.trust = Trust::Assumed;
+            self.reason = format!("if nobody outside writes '{entry}', in which a loop counts");
         }
+        self
     }
-    before
 }
 
 /// `None` when the supervisor interrupts nothing.
@@ -132,7 +126,12 @@ fn interrupted(
         let level = &levels.all[index];
         return (level.interrupt.clone(), level.stop.clone());
     };
-    match view.plan.elements[owner.index()].component {
+    interrupting(view, levels, &view.plan.elements[owner.index()])
+}
+
+/// What it costs to interrupt an element, and until that stands still.
+pub(super) fn interrupting(view: &View<'_>, levels: &Levels, element: &Element) -> (Cost, Cost) {
+    match element.component {
         Component::SubPlan(id) => {
             let level = &levels.all[id.index()];
             (level.interrupt.clone(), level.stop.clone())

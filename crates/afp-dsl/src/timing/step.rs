@@ -10,8 +10,44 @@ use super::level::{Level, locals};
 /// For each node the cost of entering it: its supervisors are started and asked, it is started, and
 /// so on along every edge that takes no time.
 pub(super) fn entering(view: &View<'_>, levels: &[Level]) -> Vec<Cost> {
+    let once =
+        |node| Once { look: locals_of(view, node).times(2), itself: itself(view, levels, node) };
+    costs(view, once, |edge| flow::is_quick(view, edge))
+}
+
+/// For each node what of that comes before the next look, in which the global supervisors are asked first: computations, and
+/// starts of the supervisors of what is entered.
+pub(super) fn until_look(view: &View<'_>) -> Vec<Cost> {
+    let is_watched = |node| view.element(node).is_some_and(|it| !it.supervisors.is_empty());
+    let is_computation = |node| view.element(node).is_some_and(|element| !takes_time(element));
+    let once = |node| Once {
+        look: locals_of(view, node),
+        itself: if is_computation(node) { itself(view, &[], node) } else { Cost::ZERO },
+    };
+    costs(view, once, |edge| match edge.cause {
+        Cause::State(..) => is_computation(edge.from),
+        // The start of a supervisor may fail.
+        Cause::Error(_) => is_computation(edge.from) || is_watched(edge.from),
+        _ => false,
+    })
+}
+
+/// What entering one node takes.
+struct Once {
+    /// Its supervisors.
+    look: Cost,
+    /// Its own start.
+    itself: Cost,
+}
+
+/// For each node what it takes to enter it and all behind it, along the edges that are followed at once.
+fn costs(
+    view: &View<'_>,
+    once: impl Fn(Node) -> Once,
+    follows: impl Fn(&Edge) -> bool,
+) -> Vec<Cost> {
     let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
-    let edges: Vec<Edge> = reached.filter(|edge| flow::is_quick(view, edge)).copied().collect();
+    let edges: Vec<Edge> = reached.filter(|edge| follows(edge)).copied().collect();
     let first = strong::first(view.nodes(), edges.iter().map(|edge| edge.from));
     let component = flow::components(view.nodes(), &edges);
     let times = flow::unwind(view, component.clone(), &mut edges.clone(), u64::MAX);
@@ -36,12 +72,12 @@ pub(super) fn entering(view: &View<'_>, levels: &[Level]) -> Vec<Cost> {
         let cost = match nodes.as_slice() {
             // Who is diverted by the look does not start.
             [node] if !is_cycle => {
-                let start = itself(view, levels, *node);
-                let started = start.and(&most(&mut outer().filter(|edge| !diverts(*edge))));
+                let once = once(*node);
+                let started = once.itself.and(&most(&mut outer().filter(|edge| !diverts(*edge))));
                 let diverted = most(&mut outer().filter(|edge| diverts(*edge)));
-                look(view, *node).and(&started.or(&diverted))
+                once.look.and(&started.or(&diverted))
             }
-            nodes => turns(view, levels, nodes, &times).and(&most(&mut outer())),
+            nodes => turns(view, &once, nodes, &times).and(&most(&mut outer())),
         };
         costs.push(cost);
     }
@@ -49,9 +85,15 @@ pub(super) fn entering(view: &View<'_>, levels: &[Level]) -> Vec<Cost> {
 }
 
 /// What the elements of a cycle may cost in one step, which may enter each of them so many times.
-fn turns(view: &View<'_>, levels: &[Level], nodes: &[Node], times: &[Option<u64>]) -> Cost {
+fn turns(
+    view: &View<'_>,
+    once: &impl Fn(Node) -> Once,
+    nodes: &[Node],
+    times: &[Option<u64>],
+) -> Cost {
     nodes.iter().fold(Cost::ZERO, |sum, node| {
-        let once = look(view, *node).and(&itself(view, levels, *node));
+        let Once { look, itself } = once(*node);
+        let once = look.and(&itself);
         sum.and(&match times[*node] {
             Some(times) => once.times(times),
             None => {
@@ -62,10 +104,10 @@ fn turns(view: &View<'_>, levels: &[Level], nodes: &[Node], times: &[Option<u64>
     })
 }
 
-/// Starting and asking the supervisors of an element that is entered.
-fn look(view: &View<'_>, node: Node) -> Cost {
+/// One start, or poll, of each supervisor of an element that is entered.
+fn locals_of(view: &View<'_>, node: Node) -> Cost {
     let element = view.element(node).filter(|element| takes_time(element));
-    element.map_or(Cost::ZERO, |element| locals(view, element).times(2))
+    element.map_or(Cost::ZERO, |element| locals(view, element))
 }
 
 /// Starting the element itself.

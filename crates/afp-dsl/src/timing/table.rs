@@ -15,7 +15,8 @@ impl Timing {
     pub fn text(&self) -> String {
         let head = ["supervisor", "every", "deadline", "response", "slack", "interruption", ""];
         let mut text = aligned(head, self.supervisors.iter().map(|row| self.row(row)));
-        let head = ["response", "tick", "running step", "polls before", "own poll"];
+        let head =
+            ["response", "tick", "running step", "polls before", "entered before", "own poll"];
         let parts = self.supervisors.iter().filter_map(|row| self.response(row));
         let parts: Vec<_> = parts.collect();
         if !parts.is_empty() {
@@ -46,10 +47,11 @@ impl Timing {
     }
 
     /// What a response is made of.
-    fn response(&self, row: &SupervisorTiming) -> Option<[String; 5]> {
+    fn response(&self, row: &SupervisorTiming) -> Option<[String; 6]> {
         let it = row.response.as_ref().ok()?;
-        let [tick, step, before, own] = [it.tick, it.step, it.before, it.own].map(duration);
-        Some([self.path(row), tick, step, before, own])
+        let parts = [it.tick, it.step, it.before, it.entered, it.own];
+        let [tick, step, before, entered, own] = parts.map(duration);
+        Some([self.path(row), tick, step, before, entered, own])
     }
 
     fn row(&self, row: &SupervisorTiming) -> [String; 7] {
@@ -130,18 +132,18 @@ fn aligned<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; 
     text
 }
 
-/// `, while 'go' is active: supervisors 10 us + its poll 5 us + entered behind it 20 us`
+/// ` while 'go' is active: supervisors 10 us + its poll or interruption 5 us + entered behind it 20 us`
 fn described(parts: &StepParts) -> String {
     let parts_of = [
         ("supervisors", parts.supervisors),
         ("its poll or interruption", parts.active),
-        ("entered behind it", parts.entered),
+        (if parts.path.is_empty() { "entered" } else { "entered behind it" }, parts.entered),
     ];
     let of = parts_of.into_iter().filter(|(_, time)| *time > 0);
     let sum: Vec<_> = of.map(|(name, time)| format!("{name} {}", duration(time))).collect();
     match (parts.path.is_empty(), sum.is_empty()) {
         (_, true) => String::new(),
-        (true, _) => format!(": {}", sum.join(" + ")),
+        (true, _) => format!(" when it starts: {}", sum.join(" + ")),
         (false, _) => format!(" while '{}' is active: {}", parts.path, sum.join(" + ")),
     }
 }
@@ -173,6 +175,7 @@ fn supervisor(row: &SupervisorTiming) -> Value {
             "tick_ns": response.tick,
             "step_ns": response.step,
             "before_ns": response.before,
+            "entered_ns": response.entered,
             "own_ns": response.own,
         })
     });

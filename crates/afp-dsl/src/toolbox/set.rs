@@ -24,15 +24,17 @@ pub struct Toolboxes {
 }
 
 impl Toolboxes {
-    /// Reads a toolbox file and adds it. `rust_path` is the path of the crate that implements it.
+    /// Reads a toolbox file and adds it. `rust_path` is the path of the crate that implements it. Gives the name that the file
+    /// says, if it says one.
     ///
     /// Its diagnostics are kept, see [`Toolboxes::diagnostics`]. A toolbox of a name that is there
     /// already takes the place of the earlier one.
-    pub fn add(&mut self, source: Source, rust_path: &str) {
+    pub fn add(&mut self, source: Source, rust_path: &str) -> Option<String> {
         let source = Arc::new(source);
         // With so many files, spans could no longer tell them apart.
-        let Some(file) = self.sources.add(source.clone()) else { return };
+        let file = self.sources.add(source.clone())?;
         let read = read_file(&source, file, rust_path);
+        let name = read.name.as_ref().map(|name| name.text.clone());
         match read.toolbox {
             Some(toolbox) => {
                 self.list.retain(|known| known.name != toolbox.name);
@@ -43,6 +45,7 @@ impl Toolboxes {
         self.diags.extend(read.diags);
         self.meanings.extend(read.meanings);
         self.declared.extend(read.declared);
+        name
     }
 
     /// The toolbox of that name; `None` when there is none or it has errors.

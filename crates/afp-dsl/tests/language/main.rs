@@ -9,6 +9,7 @@ mod mutations;
 mod outline;
 mod scale;
 mod support;
+mod texts;
 mod timing;
 mod totality;
 mod watch;

@@ -3,6 +3,7 @@
 use crate::support;
 
 use std::fmt::Write;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use afp_dsl::Compiled;
@@ -233,4 +234,17 @@ fn sixteen_times_the_junk_takes_about_sixteen_times_as_long() {
         // By the square it would be 256 times.
         takes_at_most(90, piece, time(125), time(2000));
     }
+}
+
+/// Each with a graph of its own, thousands of them took gigabytes.
+#[test]
+fn scenarios_of_one_plan_share_its_graph() {
+    let mut text = long(20);
+    for at in 0..5 {
+        let _ =
+            writeln!(text, "scenario \"s{at}\" for P {{\n    over seeds 0..3\n    expect end\n}}");
+    }
+    let scenarios = support::compile(&text, &support::toolboxes()).scenarios;
+    assert_eq!(scenarios.len(), 15);
+    assert!(scenarios.iter().all(|one| Arc::ptr_eq(&one.graph, &scenarios[0].graph)));
 }

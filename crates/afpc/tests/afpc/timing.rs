@@ -28,7 +28,7 @@ fn the_table_says_what_a_bound_is_made_of() {
     let said = project("").afpc("check p.afp --timing");
     let table = &said.succeeds().out;
     assert!(table.contains("no target: ticks and capacity are not checked"), "{table}");
-    let sum = "301.12 ms proved  period 1 ms + response 70 us + interrupt 50 us + stop 300 ms";
+    let sum = "301.13 ms proved  period 1 ms + response 80 us + interrupt 50 us + stop 300 ms";
     assert!(table.contains(sum), "{table}");
 }
 
@@ -38,9 +38,9 @@ fn json_has_the_same_for_tools() {
     assert_eq!(line["target"], "pi");
     let row = &line["timing"]["supervisors"][0];
     assert_eq!(row["supervisor"], "go.touch");
-    assert_eq!(row["response"]["total_ns"], 170_000);
+    assert_eq!(row["response"]["total_ns"], 180_000);
     assert_eq!(row["interruption"]["trust"], "proved");
-    assert_eq!(row["interruption"]["total_ns"], 301_220_000);
+    assert_eq!(row["interruption"]["total_ns"], 301_230_000);
 }
 
 #[test]

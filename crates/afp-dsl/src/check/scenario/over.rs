@@ -31,25 +31,30 @@ impl Over {
                     over.seeds = seeds.map(|seeds| (seeds, line.span()));
                 }
                 LineKind::OverWorlds(files) if over.worlds.is_none() && !files.is_empty() => {
-                    let worlds: Vec<_> =
-                        files.iter().flat_map(|file| expanded(file, diags)).collect();
+                    let worlds = files.iter().fold(Vec::new(), |mut worlds, file| {
+                        let room = (MOST as usize + 1).saturating_sub(worlds.len());
+                        worlds.extend(expanded(file, room, diags));
+                        worlds
+                    });
                     // What is over no worlds is told already.
                     over.worlds = Some((worlds, line.span())).filter(|(it, _)| !it.is_empty());
                 }
                 _ => {}
             }
         }
-        over.check_number(diags);
-        over
+        // With too many it is run once: what is told is enough.
+        if over.check_number(diags) { over } else { Over::default() }
     }
 
-    fn check_number(&self, diags: &mut Diagnostics) {
+    /// Whether there are not too many runs; reports it.
+    fn check_number(&self, diags: &mut Diagnostics) -> bool {
         let (seeds, worlds) = (self.seeds.as_ref(), self.worlds.as_ref());
         let count = |(range, _): &(Range<u64>, Span)| range.end - range.start;
         let runs = seeds.map_or(1, count);
         let runs = runs.saturating_mul(worlds.map_or(1, |(worlds, _)| worlds.len() as u64));
         let span = seeds.map(|(_, span)| *span).or(worlds.map(|(_, span)| *span));
-        if let (Some(span), true) = (span, runs > MOST) {
+        let fits = runs <= MOST;
+        if let (Some(span), false) = (span, fits) {
             let message = format!("the scenario would be run more than {MOST} times");
             diags.push(
                 Diagnostic::new(Code::E0224, span, message).help(
@@ -57,12 +62,13 @@ impl Over {
                 ),
             );
         }
+        fits
     }
 
     /// The runs of a scenario; as it is where it is over nothing.
     pub fn runs(self, scenario: Scenario) -> Vec<Scenario> {
         let seeds = match &self.seeds {
-            Some((seeds, _)) => seeds.clone().take(MOST as usize).map(Some).collect(),
+            Some((seeds, _)) => seeds.clone().map(Some).collect(),
             None => vec![None],
         };
         let worlds: Vec<_> = match self.worlds {
@@ -107,16 +113,46 @@ fn empty(what: &str, range: &Range<u64>, before: &str, place: Span) -> Diagnosti
     ))
 }
 
-/// The worlds that a text stands for: `random:7..9` is `random:7` and `random:8`.
-fn expanded(file: &Name, diags: &mut Diagnostics) -> Vec<String> {
+/// The worlds that a text stands for, not more than `most`: `random:7..9` is `random:7` and `random:8`.
+fn expanded(file: &Name, most: usize, diags: &mut Diagnostics) -> Vec<String> {
     let text = unquote(file, diags);
     let range = text.split_once(':').and_then(|(kind, range)| {
         let (from, to) = range.split_once("..")?;
         Some((kind, from.parse::<u64>().ok()?..to.parse::<u64>().ok()?))
     });
-    let Some((kind, range)) = range else { return vec![text] };
+    let Some((kind, range)) = range else { return Vec::from_iter((most > 0).then_some(text)) };
     if range.is_empty() {
         diags.push(empty("world", &range, &format!("{kind}:"), file.span));
     }
-    range.take(MOST as usize + 1).map(|number| format!("{kind}:{number}")).collect()
+    range.take(most).map(|number| format!("{kind}:{number}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afp_syntax::ast::Item;
+
+    /// Of how many seeds and worlds a scenario is over, and what is told.
+    fn over(lines: &str) -> (usize, usize, usize) {
+        let mut diags = Diagnostics::default();
+        let tree =
+            afp_syntax::parse(&format!("scenario \"s\" for P {{\n{lines}\n}}\n"), 0, &mut diags);
+        let items = tree.file().items();
+        let Some(Item::Scenario(scenario)) = items.first() else { panic!("{lines}") };
+        let over = Over::of(&scenario.lines(), &mut diags);
+        let seeds = over.seeds.map_or(0, |(seeds, _)| seeds.count());
+        (seeds, over.worlds.map_or(0, |(worlds, _)| worlds.len()), diags.iter().count())
+    }
+
+    #[test]
+    fn what_is_told_to_be_too_much_is_not_made() {
+        assert_eq!(over("over seeds 0..20\nover worlds \"random:0..50\""), (20, 50, 0));
+        assert_eq!(over("over seeds 0..1000\nover worlds \"random:0..1000\""), (0, 0, 1));
+        assert_eq!(over("over worlds \"random:0..1000\""), (0, 1000, 0));
+        assert_eq!(over("over worlds \"random:0..900\", \"random:0..101\""), (0, 0, 1));
+        assert_eq!(
+            over("over worlds \"random:0..900\", \"random:0..99\", \"a.toml\""),
+            (0, 1000, 0)
+        );
+    }
 }

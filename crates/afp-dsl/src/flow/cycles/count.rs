@@ -1,11 +1,13 @@
 //! Loops of computations that count further than one step may go.
 
-use std::collections::BTreeSet;
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
 
 use afp_number::MAX_TRANSITIONS_PER_STEP;
 
 use super::counters::{self, Counter};
 use super::decided::{self, Known};
+use super::ways::Ways;
 use crate::flow::view::{Edge, Node, View};
 use crate::graph::{Element, ElementId};
 use crate::toolbox::Constant;
@@ -21,24 +23,36 @@ pub(super) struct Loops<'a, 'b> {
     constants: &'a Known,
     /// How many edges may still be followed, so that the effort grows with the plan alone.
     room: usize,
+    ways: OnceCell<Ways>,
 }
 
 impl<'a, 'b> Loops<'a, 'b> {
     /// Those of a plan in which these values never change.
     pub fn new(view: &'a View<'b>, constants: &'a Known) -> Self {
-        Loops { view, constants, room: 100 * MOST as usize }
+        Loops { view, constants, room: 100 * MOST as usize, ways: OnceCell::new() }
     }
 
-    /// Warns of a cycle whose counters go round too often. `members` are its nodes, `inner` its edges.
-    pub fn check(&mut self, members: &[Node], inner: &[&Edge], diags: &mut Diagnostics) {
+    /// Warns of a cycle whose counters go round too often. `members` are its nodes, `inner` its edges, `component` numbers
+    /// the cycles.
+    pub fn check(
+        &mut self,
+        members: &[Node],
+        inner: &[&Edge],
+        component: &[u32],
+        diags: &mut Diagnostics,
+    ) {
         let view = self.view;
         let bounding = view.counters().bounding(view, inner.iter().copied());
         let [(id, counter)] = bounding.as_slice() else { return };
         let element = &view.plan.elements[id.index()];
+        let ways = self.ways.get_or_init(|| Ways::of(view, component));
+        let nodes = distances(members, inner, id.index());
+        // At least one leads out.
+        let others = ways.through(component[id.index()], nodes.into_iter()).clamp(1, MOST - 1);
         let told = if inner.len() == members.len() {
             let entered = counters::entered(view, *id, counter.entry);
-            simple(view, element, (counter, entered), inner.len())
-        } else if self.spins(members, *id, &view.counters().on(inner.iter().copied())) {
+            simple(view, element, (counter, entered), inner.len(), others)
+        } else if self.spins(members, *id, others, &view.counters().on(inner.iter().copied())) {
             let others = view.counters().on(inner.iter().copied()).into_iter();
             let others = others.map(|(other, _)| other).filter(|other| other != id);
             let all: Vec<_> = [*id].into_iter().chain(others).collect();
@@ -58,9 +72,15 @@ impl<'a, 'b> Loops<'a, 'b> {
         }
     }
 
-    /// Whether a cycle with several ways round, followed from the counter that bounds it, takes more edges than a step may,
-    /// all that its computations decide being known.
-    fn spins(&mut self, members: &[Node], from: ElementId, all: &[(ElementId, Counter)]) -> bool {
+    /// Whether a cycle with several ways round, followed from the counter that bounds it, takes more edges than a step may
+    /// with the `others` that lead to it and on from it, all that its computations decide being known.
+    fn spins(
+        &mut self,
+        members: &[Node],
+        from: ElementId,
+        others: i64,
+        all: &[(ElementId, Counter)],
+    ) -> bool {
         let mut known = self.constants.clone();
         let begins = all.iter().map(|(id, counter)| {
             let entered = counters::entered(self.view, *id, counter.entry);
@@ -69,7 +89,7 @@ impl<'a, 'b> Loops<'a, 'b> {
         known.extend(begins);
         let members: BTreeSet<Node> = members.iter().copied().collect();
         let mut node = from.index();
-        for _ in 0..MOST {
+        for _ in 0..=MOST - others {
             let Some(room) = self.room.checked_sub(1) else { return false };
             self.room = room;
             let Some(edge) = decided::next(self.view, node, &known) else { return false };
@@ -83,25 +103,44 @@ impl<'a, 'b> Loops<'a, 'b> {
     }
 }
 
-/// What is told of a cycle of so many edges with one way round, if its counter, come to with that value, goes round too often, and
-/// what is better.
+/// The nodes of a cycle, each with the number of edges to another one where there is only one way round.
+fn distances(members: &[Node], inner: &[&Edge], to: Node) -> Vec<(Node, usize)> {
+    if inner.len() != members.len() {
+        return members.iter().map(|node| (*node, 0)).collect();
+    }
+    let next: BTreeMap<Node, Node> = inner.iter().map(|edge| (edge.from, edge.to)).collect();
+    let (mut nodes, mut node) = (vec![(to, 0)], next.get(&to));
+    while let Some(at) = node.filter(|at| **at != to && nodes.len() < members.len()) {
+        nodes.push((*at, inner.len() - nodes.len()));
+        node = next.get(at);
+    }
+    nodes
+}
+
+/// What is told of a cycle of so many edges with one way round, if its counter, come to with that value, goes round too often
+/// beside the `others` that lead to it and on from it, and what is better.
 fn simple(
     view: &View<'_>,
     element: &Element,
     (counter, entered): (&Counter, i64),
     edges: usize,
+    others: i64,
 ) -> Option<(String, String)> {
     let length = i64::try_from(edges).unwrap_or(i64::MAX);
-    // The last one leads out of the cycle.
     let rounds = counter.limit.saturating_sub(entered);
-    let message = || {
-        format!(
-            "'{}' goes round {rounds} times within one step, which may take at most {MOST} edges",
-            element.name
-        )
+    let taken = rounds.saturating_mul(length);
+    let name = &element.name;
+    let message = || match taken >= MOST {
+        true => format!(
+            "'{name}' goes round {rounds} times within one step, which may take at most {MOST} edges"
+        ),
+        false => format!(
+            "'{name}' goes round {rounds} times within one step, which may take at most {MOST} edges, and {others} more \
+             lead to the loop and on from it"
+        ),
     };
-    let is_long = rounds.saturating_mul(length) >= MOST;
-    is_long.then(|| (message(), better(view, (counter, entered), (MOST - 1) / length)))
+    let is_long = taken > MOST - others;
+    is_long.then(|| (message(), better(view, (counter, entered), (MOST - others) / length)))
 }
 
 /// How a counter goes round so often at most.

@@ -10,6 +10,7 @@ use afp_number::MAX_TRANSITIONS_PER_STEP;
 
 use super::decided;
 use super::holding::standard_template;
+use super::is_quick;
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
@@ -240,11 +241,37 @@ fn assigned(view: &View<'_>, element: &Element) -> Option<i64> {
 /// strongly connected components.
 pub(crate) fn unwind(
     view: &View<'_>,
-    mut component: Vec<u32>,
+    component: Vec<u32>,
     edges: &mut Vec<Edge>,
     most: u64,
 ) -> Vec<Option<u64>> {
+    unwound(view, component, edges, most).0
+}
+
+/// An entry by which cycles that take no time are bounded, and which may be less than it counts from where somebody outside
+/// writes it: of the plan that runs, without a range that keeps it from that.
+pub(crate) fn open_to_writes<'v>(view: &View<'v>) -> Option<&'v str> {
+    let reached = view.edges.iter().filter(|edge| view.reached[edge.from]);
+    let mut quick: Vec<Edge> = reached.filter(|edge| is_quick(view, edge)).copied().collect();
+    let component = components(view.nodes(), &quick);
+    let (_, counters) = unwound(view, component, &mut quick, u64::MAX);
+    let open = counters.iter().filter_map(|id| view.counters().0.get(id)).find_map(|counter| {
+        let entry = &view.plan.entries[counter.entry.index()];
+        let is_kept = entry.range.is_some_and(|(least, _)| least >= counter.least as f64);
+        (entry.kind == EntryKind::Var && !is_kept).then_some(entry)
+    });
+    open.map(|entry| entry.name.as_str())
+}
+
+/// What [`unwind`] does; tells the counters, too.
+fn unwound(
+    view: &View<'_>,
+    mut component: Vec<u32>,
+    edges: &mut Vec<Edge>,
+    most: u64,
+) -> (Vec<Option<u64>>, BTreeSet<ElementId>) {
     let mut times = vec![1_u64; component.len()];
+    let mut counters = BTreeSet::new();
     for _ in 0..DEEPEST {
         let (factors, again) = bounded(view, &component, edges, |node| most / times[node]);
         if again.is_empty() {
@@ -256,13 +283,14 @@ pub(crate) fn unwind(
         }
         edges.retain(|edge| !matches!(edge.cause, Cause::State(id, AGAIN) if again.contains(&id)));
         component = components(component.len(), edges);
+        counters.extend(again);
     }
     let mut times: Vec<_> = times.into_iter().map(Some).collect();
     let cycles = edges.iter().filter(|edge| component[edge.from] == component[edge.to]);
     let endless: BTreeSet<u32> = cycles.map(|edge| component[edge.from]).collect();
     let unknown = component.iter().zip(&mut times).filter(|(of, _)| endless.contains(of));
     unknown.for_each(|(_, times)| *times = None);
-    times
+    (times, counters)
 }
 
 /// The strongly connected components of a graph whose edges stand in the order of its nodes.
