@@ -70,6 +70,9 @@ def test_what_is_wrong_is_said_where_it_is_added() -> None:
     hall = afp.WorldBuilder("hall", start=(1.0, 1.0)).room(4.0, 4.0)
     with pytest.raises(afp.AfpError, match="^the box 'crate': the robot starts inside of 'crate'$"):
         hall.box("crate", (1.0, 1.0), size=(0.4, 0.4), height=0.5)
+    crowded = hall.box(None, (3.0, 3.0), size=(0.4, 0.4), height=0.5)
+    with pytest.raises(afp.AfpError, match="^the box: the robot starts inside of 'box 2'$"):
+        crowded.box(None, (1.0, 1.0), size=(0.4, 0.4), height=0.5)
     with pytest.raises(afp.AfpError, match="^the polygon 'dent': "):
         hall.polygon("dent", [(2.0, 2.0), (3.0, 2.0), (2.2, 2.2), (2.0, 3.0)], height=1.0)
     with pytest.raises(afp.AfpError, match="^the patch: color: 'red' is no colour"):
@@ -84,6 +87,24 @@ def test_what_is_wrong_is_said_where_it_is_added() -> None:
         hall.box("crate", (2.0,), size=(0.4, 0.4), height=0.5)
     with pytest.raises(ValueError, match="charge is inf"):
         afp.WorldBuilder("hall", start=(1.0, 1.0), charge=math.inf)
+
+
+def test_each_thing_is_read_once_until_the_world_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
+    from afp import builder
+
+    read: list[int] = []
+
+    class Counted:
+        @staticmethod
+        def parse(text: str) -> afp.World:
+            read.append(len(text))
+            return afp.World.parse(text)
+
+    monkeypatch.setattr(builder, "World", Counted)
+    hall = afp.WorldBuilder("hall", start=(1.0, 1.0)).room(40.0, 40.0)
+    for n in range(100):
+        hall = hall.box(f"crate {n}", (2.0 + n / 4, 3.0), size=(0.1, 0.1), height=0.5)
+    assert max(read) < 400 and len(hall.build().obstacles) == 104 and max(read) > 5000
 
 
 def test_worlds_put_together_are_swept(wall_following: afp.Plan) -> None:

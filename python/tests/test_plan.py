@@ -231,6 +231,30 @@ def test_every_shipped_plan_is_in_order() -> None:
         assert afp.load(file).diagnostics == []
 
 
+def test_a_plan_keeps_its_line_ends(afpc: str, tmp_path: Path) -> None:
+    file, log = tmp_path / "p.afp", tmp_path / "p.mcap"
+    written = COMMENTED.replace("\n", "\r\n").encode()
+    for text in (written, "\ufeff".encode() + written):
+        file.write_bytes(text)
+        plan = afp.load(file)
+        assert plan.ok and plan.text.encode() == text
+        plan.save()
+        assert file.read_bytes() == text
+        afp.Simulation(plan, log=log).run(until=1.0)
+        subprocess.run([afpc, "run", str(file), "--again", str(log), "--svg", "none"], cwd=tmp_path, check=True)
+    tools = tmp_path / "tools.afp"
+    tools.write_bytes(b"toolbox tools\r\n")
+    assert afp.Toolbox.load(tools).text == "toolbox tools\r\n"
+
+
+def test_a_plan_of_other_line_ends_goes_on_with_the_journal_of_afpc(afpc: str, tmp_path: Path) -> None:
+    file, table = tmp_path / "p.afp", tmp_path / "runs.csv"
+    file.write_bytes(COMMENTED.replace("\n", "\r\n").encode())
+    runs = afp.sweep(afp.load(file), seeds=2, until=1.0, out=table)
+    assert not any("#" in row["command"] for row in runs)
+    subprocess.run([afpc, "sweep", str(file), "--seeds", "0..2", "--until", "1s", "-o", str(table)], cwd=tmp_path, check=True)
+
+
 def test_a_drawing_is_saved_as_it_is_shown(tmp_path: Path, wall_following: afp.Plan) -> None:
     wall_following.save_svg(tmp_path / "plan.svg")
     assert (tmp_path / "plan.svg").read_text(encoding="utf-8") == wall_following.svg() == wall_following._repr_svg_()

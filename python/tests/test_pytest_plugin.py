@@ -51,11 +51,19 @@ def test_a_failure_shows_the_place_the_timeline_and_the_log(project: pytest.Pyte
             'scenario "is there at once" of the plan Go',
             f"go.afp:{line}:*: expect end by OK before 100 ms",
             "*broken here",
-            "  log: *go.afp_is_there_at_once.mcap",
+            "  log: *go.afp_is_there_at_once-*.mcap",
         ]
     )
     log = next(project.path.glob("target/afp/tests/*.mcap"))
     assert afp.Log(log).events
+
+
+def test_failures_whose_names_look_alike_have_logs_of_their_own(project: pytest.Pytester) -> None:
+    one = PLAN.split("\n\n")[-1]
+    others = [one.replace("is there at once", name) for name in ("Is there: at once?", "is_there_at_once")]
+    project.path.joinpath("go.afp").write_text("\n\n".join([PLAN, *others]))
+    project.runpytest().assert_outcomes(passed=1, failed=3)
+    assert len(list(project.path.glob("target/afp/tests/*.mcap"))) == 3
 
 
 def test_words_select_scenarios(project: pytest.Pytester) -> None:

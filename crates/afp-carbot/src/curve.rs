@@ -4,9 +4,11 @@ use crate::devices::{Motion, Navigator, Odometry};
 use crate::templates;
 use crate::templates::curve::{Inputs, Live, State};
 use crate::tracking::{DRIVE_STALLED, Tracking};
-use crate::turning::{Progress, Turning};
+use crate::turning::{CLOSE, Progress, Turning};
 use afp_core::{Actor, Fault, Instant, Poll};
 
+/// The arc counts as driven when less than this is left, metres, and no more than of a turn in place.
+const CLOSE_WAY: f64 = 0.004;
 /// The way may be off the arc's length by this share of it, and by so many metres while the wheels are being steered.
 const OFF_ARC: f64 = 0.25;
 const STEERED: f64 = 0.1;
@@ -26,8 +28,9 @@ pub struct Curve {
 
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let close = CLOSE.min(CLOSE_WAY / inputs.radius.si());
         Ok(Curve {
-            turning: Turning::new(inputs.angle, env, now)?,
+            turning: Turning::new(inputs.angle, close, env, now)?,
             angle: inputs.angle.si(),
             radius: inputs.radius.si(),
             speed: inputs.speed.si(),
@@ -100,6 +103,19 @@ mod tests {
             assert!((turned.si().to_degrees() - degrees).abs() < 1.0, "{turned:?}");
             let (x, y) = (robot.motion.x.si(), robot.motion.y.si());
             assert!((x - 0.5).abs() < 0.01 && (y - 0.5 * degrees.signum()).abs() < 0.01, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn a_wide_arc_is_driven_to_its_end() {
+        for (radius, degrees) in [(10.0, 20.0), (100.0, 2.0)] {
+            let mut robot = Fake::new(&[]);
+            let (angle, speed) = (Angle::from_deg(degrees), Speed::from_si(0.2));
+            let inputs = Inputs { radius: Length::from_si(radius), angle, speed };
+            let state = robot.run::<templates::Curve, Curve>(inputs, || Live {}, 40);
+            assert!(matches!(state, Ok(Some(_))), "{state:?}");
+            let end = radius * angle.si().sin();
+            assert!((robot.motion.x.si() - end).abs() < 0.01, "{radius}: {:?}", robot.motion);
         }
     }
 

@@ -4,7 +4,7 @@ use crate::devices::{Navigator, Odometry};
 use crate::templates;
 use crate::templates::turn::{Inputs, Live, State};
 use crate::tracking::Tracking;
-use crate::turning::{Progress, Turning};
+use crate::turning::{CLOSE, Progress, Turning};
 use afp_core::{Actor, Fault, Instant, Poll};
 
 /// Turns by an angle against the heading it starts with, by odometry.
@@ -18,7 +18,7 @@ pub struct Turn {
 impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
         Ok(Turn {
-            turning: Turning::new(inputs.angle, env, now)?,
+            turning: Turning::new(inputs.angle, CLOSE, env, now)?,
             speed: inputs.speed.si(),
             tracking: Tracking::new(now),
         })

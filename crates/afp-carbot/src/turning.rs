@@ -5,13 +5,14 @@ use crate::guard::{Guard, NO_ODOMETRY};
 use afp_core::quantity::Angle;
 use afp_core::{Fault, Instant};
 
-/// The angle counts as turned when less than this is left, radians.
-const CLOSE: f64 = 0.005;
+/// A turn in place counts as done when less than this is left, radians.
+pub(crate) const CLOSE: f64 = 0.005;
 
 /// An angle to be turned against the heading at the beginning, by odometry.
 #[derive(Clone, Debug)]
 pub(crate) struct Turning {
     angle: f64,
+    close: f64,
     odometry: Guard,
     /// The heading at the beginning; none until the first reading.
     from: Option<Angle>,
@@ -29,17 +30,17 @@ pub(crate) enum Progress {
 }
 
 impl Turning {
-    /// Begins at `now`.
+    /// Begins at `now`; the angle counts as turned when less than `close` is left, radians.
     ///
     /// # Errors
     /// As [`Turning::progress`].
-    pub(crate) fn new<E>(angle: Angle, env: &E, now: Instant) -> Result<Self, Fault>
+    pub(crate) fn new<E>(angle: Angle, close: f64, env: &E, now: Instant) -> Result<Self, Fault>
     where
         E: Odometry + ?Sized,
     {
         let mut odometry = Guard::new(NO_ODOMETRY, now);
         let from = odometry.current(env.motion(), now)?.map(|motion| motion.heading);
-        Ok(Turning { angle: angle.si(), odometry, from })
+        Ok(Turning { angle: angle.si(), close, odometry, from })
     }
 
     /// How far the turn has got.
@@ -56,7 +57,7 @@ impl Turning {
         let by = motion.heading - *self.from.get_or_insert(motion.heading);
         let left = self.angle - by.si();
         let side = if self.angle < 0.0 { -1.0 } else { 1.0 };
-        if side * left < CLOSE {
+        if side * left < self.close {
             return Ok(Progress::Turned { by, stands: motion.stands() });
         }
         Ok(Progress::Left(left, motion))

@@ -38,6 +38,13 @@ struct Found {
     last: Instant,
 }
 
+impl Found {
+    /// Whether it has been heard or felt in the last minute.
+    fn is_remembered(&self, now: Instant) -> bool {
+        now.since(self.last) < REMEMBERED
+    }
+}
+
 /// What has been found, in the frame of the map.
 #[derive(Clone, Debug)]
 pub(crate) struct Finds {
@@ -64,9 +71,10 @@ impl Finds {
         Finds { found: Vec::with_capacity(MOST), bumper }
     }
 
-    /// Where something is.
-    pub(crate) fn places(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.found.iter().filter(|found| found.count >= SURE).map(|found| found.place)
+    /// Where something is; what nobody has heard again is forgotten, whether anything has been heard since or not.
+    pub(crate) fn places(&self, now: Instant) -> impl Iterator<Item = [f64; 2]> {
+        let is_there = move |found: &&Found| found.count >= SURE && found.is_remembered(now);
+        self.found.iter().filter(is_there).map(|found| found.place)
     }
 
     /// Takes in an echo: what it comes from, unless the map explains it, and what it went past.
@@ -78,7 +86,7 @@ impl Finds {
             if !found.felt && aside < THROUGH && libm::hypot(x, y) < distance - BEHIND {
                 found.count -= 1;
             }
-            found.count > 0 && now.since(found.last) < REMEMBERED
+            found.count > 0 && found.is_remembered(now)
         });
         if distance > NEAR || is_explained(heard, field) {
             return;
@@ -168,17 +176,17 @@ mod tests {
         Heard { sensor: [1.0, 2.0], direction: 0.0, distance }
     }
 
-    fn places(finds: &Finds) -> Vec<[f64; 2]> {
-        finds.places().collect()
+    fn places(finds: &Finds, now: Instant) -> Vec<[f64; 2]> {
+        finds.places(now).collect()
     }
 
     #[test]
     fn what_is_heard_twice_where_the_map_shows_nothing_is_there() {
         let (mut finds, field) = (Finds::new(&carbot()), field());
         finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
-        assert_eq!(places(&finds), [] as [[f64; 2]; 0]);
+        assert_eq!(places(&finds, ping(0)), [] as [[f64; 2]; 0]);
         finds.on_echo(&ahead(1.0), &field, ping(1));
-        let found = places(&finds);
+        let found = places(&finds, ping(1));
         assert!(found.iter().any(|[x, y]| (x - 2.0).abs() < 0.02 && (y - 2.0).abs() < 0.02));
         assert!(found.iter().all(|[x, y]| (x - 2.0).abs() < 0.05 && (y - 2.0).abs() < 0.2));
     }
@@ -204,7 +212,7 @@ mod tests {
         for n in 4..8 {
             finds.on_echo(&ahead(2.9), &field, ping(n));
         }
-        let found = places(&finds);
+        let found = places(&finds, ping(8));
         let at = |x: f64| found.iter().any(|place| (place[0] - x).hypot(place[1] - 2.0) < 0.05);
         assert!(!at(2.0) && at(1.54), "{found:?}");
     }
@@ -213,7 +221,7 @@ mod tests {
     fn what_presses_the_bumper_stands_before_the_front() {
         let mut finds = Finds::new(&body(1.0, 0.8));
         finds.on_bump(Pose2 { x: 1.0, y: 2.0, heading: 0.0 }, ping(0));
-        let found = places(&finds);
+        let found = places(&finds, ping(0));
         assert!(found.iter().all(|[x, _]| (x - 1.54).abs() < 1e-9), "{found:?}");
         let aside = |place: &[f64; 2]| place[1] - 2.0;
         let most = found.iter().map(aside).fold(0.0, f64::max);
@@ -226,10 +234,10 @@ mod tests {
         finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
         finds.on_echo(&ahead(1.0), &field, ping(1));
         let later = |secs| ping(1) + Duration::from_secs(secs);
-        let aside = Heard { sensor: [1.0, 2.0], direction: 3.1, distance: 0.9 };
-        finds.on_echo(&aside, &field, later(59));
-        assert_ne!(places(&finds), [] as [[f64; 2]; 0]);
-        finds.on_echo(&aside, &field, later(60));
-        assert_eq!(places(&finds), [] as [[f64; 2]; 0]);
+        assert_ne!(places(&finds, later(59)), [] as [[f64; 2]; 0]);
+        assert_eq!(places(&finds, later(60)), [] as [[f64; 2]; 0]);
+        // An echo from there is the first one again.
+        finds.on_echo(&ahead(1.0), &field, later(61));
+        assert_eq!(places(&finds, later(61)), [] as [[f64; 2]; 0]);
     }
 }

@@ -141,7 +141,7 @@ impl<W: Worker<SearchJob>> Planner<W> {
         let mut prepare = |job: &mut SearchJob| {
             job.from = [trip.from.0.si(), trip.from.1.si()];
             job.quest.found.clear();
-            job.quest.found.extend(finds.places());
+            job.quest.found.extend(finds.places(now));
             job.quest.to = [trip.to.0.si(), trip.to.1.si()];
             job.quest.near = trip.near.si();
         };

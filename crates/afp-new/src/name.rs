@@ -11,71 +11,48 @@ pub struct NameError {
     pub help: String,
 }
 
-/// Words of the language and of Rust, names of what comes with AFP, and modules that new projects declare themselves.
+/// Words of the language, names of what comes with AFP, and modules that new projects declare themselves.
 const TAKEN: &[&str] = &[
     "actor",
-    "as",
-    "break",
     "carbot",
     "computation",
-    "const",
     "core",
-    "crate",
     "device",
-    "else",
-    "enum",
     "event",
-    "extern",
     "fault",
-    "fn",
-    "for",
-    "if",
-    "impl",
-    "in",
     "input",
-    "let",
     "libm",
-    "loop",
-    "match",
-    "mod",
-    "move",
     "object",
     "out",
     "plan",
     "press",
-    "pub",
-    "ref",
-    "return",
     "scenario",
-    "self",
     "sensor",
     "signal",
     "sim",
     "start",
     "state",
-    "static",
     "std",
     "stop",
-    "struct",
-    "super",
     "supervisor",
     "templates",
     "test",
     "toolbox",
-    "trait",
-    "true",
     "truth",
-    "type",
-    "unsafe",
-    "use",
     "var",
     "wag",
-    "where",
-    "while",
     "work",
 ];
-/// Types that Rust has everywhere and that new projects use.
+/// Words of Rust: those that it uses, and those that it keeps for itself.
 const OF_RUST: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+/// Types that Rust has everywhere and that new projects use.
+const TYPES: &[&str] = &[
     "Box", "Clone", "Copy", "Default", "Drop", "Eq", "Err", "Fn", "From", "Into", "Iterator",
     "None", "Ok", "Option", "Ord", "Result", "Self", "Send", "Some", "String", "Sync", "Vec",
 ];
@@ -84,13 +61,16 @@ const OF_RUST: &[&str] = &[
 /// its own files.
 fn is_taken(snake: &str, camel: &str) -> bool {
     let is_afp = snake == "afp" || snake.starts_with("afp_");
-    is_afp || TAKEN.contains(&snake) || OF_RUST.contains(&camel) || is_used(camel)
+    let is_word = TAKEN.contains(&snake) || OF_RUST.contains(&snake);
+    is_afp || is_word || TYPES.contains(&camel) || is_used(camel)
 }
 
 /// Whether a type of that name is in the files of new projects.
 fn is_used(camel: &str) -> bool {
     let is_code = |line: &&str| !line.trim_start().starts_with("//");
-    let lines = super::TOOLBOX.iter().chain(super::ROBOT).flat_map(|(_, text)| text.lines());
+    let drafts = super::PLAN.iter().chain(super::TOOLBOX).chain(super::ROBOT);
+    let code = drafts.filter(|(path, _)| path.ends_with(".afp") || path.ends_with(".rs"));
+    let lines = code.flat_map(|(_, text)| text.lines());
     let is_word = |c: char| c.is_alphanumeric() || "_{}".contains(c);
     lines.filter(is_code).any(|line| line.split(|c| !is_word(c)).any(|word| word == camel))
 }

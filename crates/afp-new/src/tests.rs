@@ -63,6 +63,20 @@ fn a_manifest_takes_the_crates_from_where_it_is_told() {
 }
 
 #[test]
+fn no_word_of_rust_names_a_project() {
+    // The keywords of the 2024 edition, strict ones and reserved ones.
+    let strict = "as async await break const continue crate dyn else enum extern false fn for if impl in let loop match mod move \
+                  mut pub ref return self static struct super trait true type unsafe use where while";
+    let reserved =
+        "abstract become box do final gen macro override priv try typeof unsized virtual yield";
+    for word in strict.split_whitespace().chain(reserved.split_whitespace()) {
+        for kind in KINDS {
+            assert!(files(word, kind, &Origin::Version(String::new())).is_err(), "{word}");
+        }
+    }
+}
+
+#[test]
 fn names_that_cannot_be_are_refused_with_another() {
     for name in ["", "Rover", "2nd", "a b", "a--b", "rover-", "r\u{e4}der", "../x", "a/b"] {
         let error = files(name, Kind::Plan, &Origin::Version(String::new())).unwrap_err();
@@ -81,6 +95,8 @@ fn names_that_cannot_be_are_refused_with_another() {
         "grid",
         "length",
         "check_bumper",
+        "check-touch-sensor",
+        "forward",
         "option",
         "libm",
         "afp",

@@ -3,9 +3,10 @@
 use afp::quantity::{Angle, AngularSpeed, Speed};
 use afp::{Actor, Environment, Fault, Instant, Platform, Poll};
 use afp_carbot::devices::{
-    Beam, Body, Button, Buttons, Echo, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
-    Rotator, TouchSensor, Ultrasonic,
+    Beam, Body, Bump, Button, Buttons, Echo, Motion, Navigator, Odometry, Reading,
+    RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
 };
+use afp_carbot::trail::Trail;
 use afp_sim::Simulation;
 
 /// The shop's templates, declared in `shop.afp`.
@@ -91,9 +92,22 @@ impl Platform for Shop {
     }
 }
 
+// What the traits have defaults for is passed on, too: templates ask the robot for it.
 impl Navigator for Shop {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed, now: Instant) {
         self.robot.drive(speed, turn, now);
+    }
+
+    fn reduced(&self, speed: Speed, turn: AngularSpeed) -> (Speed, AngularSpeed) {
+        self.robot.reduced(speed, turn)
+    }
+
+    fn halt(&mut self, now: Instant) {
+        self.robot.halt(now);
+    }
+
+    fn note_blocked(&mut self, now: Instant) {
+        self.robot.note_blocked(now);
     }
 
     fn body(&self) -> Body {
@@ -104,6 +118,14 @@ impl Navigator for Shop {
 impl Odometry for Shop {
     fn motion(&self) -> Reading<Motion> {
         self.robot.motion()
+    }
+
+    fn last_bump(&self) -> Option<Bump> {
+        self.robot.last_bump()
+    }
+
+    fn trail(&self) -> Trail {
+        self.robot.trail()
     }
 }
 

@@ -1,5 +1,5 @@
 //! A robot of a few lines: it rolls without inertia through an empty rectangular room, measures
-//! without noise and never slips. It has the devices of the Carbot, so it runs the Carbot's plans
+//! all but exactly and never slips. It has the devices of the Carbot, so it runs the Carbot's plans
 //! unchanged.
 
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
@@ -15,6 +15,8 @@ const HALF: (f64, f64) = (0.2, 0.175);
 pub const ROOM: (f64, f64) = (4.0, 3.0);
 /// A command is good for this long.
 const DEAD_MAN: Duration = Duration::from_millis(200);
+/// Its ranges are off by as much at most, metres: one that repeats exactly is that of a frozen sensor.
+const RIPPLE: f64 = 0.0001;
 /// Motion is computed in steps of at most this.
 const TICK: Duration = Duration::from_millis(5);
 
@@ -148,7 +150,9 @@ impl Ultrasonic for Toy {
     fn echo(&self) -> Reading<Echo> {
         let beam = self.beam();
         let bearing = Angle::from_si(self.bearing);
-        let range = self.range(self.bearing, beam.forward.si());
+        // The same at the same time, and another one soon.
+        let ripple = RIPPLE * (1000.0 * self.now.as_secs_f64()).sin();
+        let range = self.range(self.bearing, beam.forward.si()) + ripple;
         let echo = beam.echo(range, bearing).unwrap_or(Echo { distance: None, bearing });
         Reading::valid(echo, self.now)
     }

@@ -5,6 +5,7 @@ use afp::{Ending, Instant, NamedPlan, Platform, Scheduler, Wake, trace::Names};
 use toy_robot::Toy;
 
 afp::plan!("../../plans/wall_following.afp");
+afp::plan!("tests/beside_a_wall.afp");
 
 fn seconds(seconds: f64) -> Instant {
     Instant::from_nanos((seconds * 1e9) as u64)
@@ -49,4 +50,11 @@ fn the_escape_button_ends_the_plan_and_stops_the_toy() {
     let there = toy.position;
     toy.advance(seconds(5.0));
     assert_eq!(toy.position, there);
+}
+
+#[test]
+fn a_wall_that_stays_as_far_away_is_no_frozen_sensor() {
+    let (mut toy, mut plan) = (Toy::new(), Scheduler::new(BesideAWall::new()));
+    let wake = plan.run_until(&mut toy, &mut NoTrace, seconds(20.0));
+    assert!(matches!(wake, Ok(Wake::Ended(Ending::Ok))), "{wake:?}");
 }

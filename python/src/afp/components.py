@@ -32,6 +32,7 @@ from . import _afp
 from ._afp import Robot
 from .declaration import GIVEN, Outcomes, declaration, method_of, named, start_of, text_of
 from .fingerprint import Fingerprint, fingerprint
+from .texts import read
 from .units import spelled_time
 
 __all__ = ["Toolbox", "tick"]
@@ -60,7 +61,7 @@ class Toolbox(_afp.Toolbox):
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Toolbox:
         """Reads a toolbox file; `implement` says what its templates do."""
-        return cls.parse(Path(path).read_text(encoding="utf-8"), path)
+        return cls.parse(read(path), path)
 
     @classmethod
     def parse(cls, text: str, path: str | os.PathLike[str] | None = None) -> Toolbox:

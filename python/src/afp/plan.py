@@ -11,6 +11,7 @@ from typing import Any
 from . import _afp
 from ._afp import Toolbox
 from .picture import Picture
+from .texts import read
 from .units import spelled, spelled_time
 
 __all__ = ["Plan", "load", "new_plan"]
@@ -183,7 +184,7 @@ def load(path: str | os.PathLike[str], *, plan: str | None = None, toolboxes: Se
     finds them; `toolboxes` are those written in Python.
     """
     path = Path(path)
-    return Plan(path.read_text(encoding="utf-8"), path, name=plan, toolboxes=list(toolboxes))
+    return Plan(read(path), path, name=plan, toolboxes=list(toolboxes))
 
 
 def new_plan(name: str, *, use: str | Sequence[str] = ("std", "carbot"), toolboxes: Sequence[Toolbox] = ()) -> Plan:

@@ -12,6 +12,7 @@ A `conftest.py` gives the plans their components in Python:
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from collections.abc import Generator, Iterable, Iterator, Mapping
@@ -153,7 +154,9 @@ def _log(config: pytest.Config, nodeid: str) -> Path | None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
         return None
-    return folder / (re.sub(r"[^a-z0-9.]+", "_", nodeid.lower()).strip("_.") + ".mcap")
+    readable = re.sub(r"[^a-z0-9.]+", "_", nodeid.lower()).strip("_.")
+    # Names that differ in other letters are alike by now.
+    return folder / f"{readable}-{hashlib.sha256(nodeid.encode()).hexdigest()[:8]}.mcap"
 
 
 # Fixtures

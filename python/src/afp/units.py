@@ -11,6 +11,7 @@ Entries and ports take a quantity only of their own dimension; a plain float is 
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Annotated, Any, Callable
 
 import numpy as np
@@ -250,25 +251,30 @@ def _text(value: object) -> str:
     return value
 
 
-def _unit(name: str, unit: str, scale: float, what: str) -> Callable[[float], Quantity]:
+def _in_si(value: float, scale: Fraction) -> float:
+    """A number times a scale as a literal in a plan has it: as it is written in decimals, rounded once."""
+    value = float(value)
+    return float(Fraction(repr(value)) * scale) if math.isfinite(value) else value
+
+
+def _unit(name: str, unit: str, scale: Fraction | int, what: str) -> Callable[[float], Quantity]:
     def make(value: float) -> Quantity:
-        value = _number(name, value)
-        return Quantity(value * scale if scale >= 1 else value / round(1 / scale), unit)
+        return Quantity(_in_si(_number(name, value), Fraction(scale)), unit)
 
     make.__name__ = make.__qualname__ = name
     make.__doc__ = what
     return make
 
 
-m = _unit("m", "m", 1.0, "So many metres.")
-cm = _unit("cm", "m", 0.01, "So many centimetres, in metres.")
-mm = _unit("mm", "m", 0.001, "So many millimetres, in metres.")
-s = _unit("s", "s", 1.0, "So many seconds.")
-ms = _unit("ms", "s", 0.001, "So many milliseconds, in seconds.")
-minutes = _unit("minutes", "s", 60.0, "So many minutes, in seconds.")
-rad = _unit("rad", "rad", 1.0, "So many radians.")
-m_per_s = _unit("m_per_s", "m/s", 1.0, "So many metres a second.")
-rad_per_s = _unit("rad_per_s", "rad/s", 1.0, "So many radians a second.")
+m = _unit("m", "m", 1, "So many metres.")
+cm = _unit("cm", "m", Fraction(1, 100), "So many centimetres, in metres.")
+mm = _unit("mm", "m", Fraction(1, 1000), "So many millimetres, in metres.")
+s = _unit("s", "s", 1, "So many seconds.")
+ms = _unit("ms", "s", Fraction(1, 1000), "So many milliseconds, in seconds.")
+minutes = _unit("minutes", "s", 60, "So many minutes, in seconds.")
+rad = _unit("rad", "rad", 1, "So many radians.")
+m_per_s = _unit("m_per_s", "m/s", 1, "So many metres a second.")
+rad_per_s = _unit("rad_per_s", "rad/s", 1, "So many radians a second.")
 
 
 def deg(value: float) -> Quantity:
@@ -283,7 +289,7 @@ def deg_per_s(value: float) -> Quantity:
 
 def kmh(value: float) -> Quantity:
     """So many kilometres an hour, in metres a second."""
-    return Quantity(_number("kmh", value) / 3.6, "m/s")
+    return Quantity(_in_si(_number("kmh", value), Fraction(10, 36)), "m/s")
 
 
 # Type hints for ports of components: the types of the language.

@@ -11,7 +11,7 @@ use afp_worlds::{Contact, Errand, Outcome, Pushes, run};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 /// Rooms unless told otherwise: the first seed and how many.
-const ROOMS: (u64, usize) = (1000, 12);
+const ROOMS: (u64, usize) = (1000, 24);
 
 fn rooms() -> (u64, usize) {
     if let Ok(room) = env::var("AFP_GOAL") {

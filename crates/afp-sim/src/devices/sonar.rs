@@ -88,7 +88,8 @@ impl RangeSensor {
     }
 
     /// What comes back from a ping that is sent `forward` of the body's middle, at a bearing against the heading, in
-    /// radians: the measured range in metres, or none where nothing is heard.
+    /// radians: the measured range in metres, or none where nothing is heard or it measures more than its most: such an echo comes
+    /// after it has stopped listening.
     pub fn ping(&mut self, stage: &Stage, forward: f64, bearing: f64) -> Option<f64> {
         let rays = stage.rays(forward);
         self.ping_along(rays.along(bearing), &rays)
@@ -116,7 +117,8 @@ impl RangeSensor {
             return None;
         }
         let measured = range * self.scale + error * (noise[0] + noise[1] * range);
-        Some(libm::round(measured / resolution) * resolution)
+        let rounded = libm::round(measured / resolution) * resolution;
+        (rounded <= most).then_some(rounded)
     }
 }
 

@@ -73,6 +73,22 @@ fn plane(distance: f64, slant: f64) -> (f64, f64) {
 }
 
 #[test]
+fn what_measures_more_than_its_most_is_silence_and_no_broken_sensor() {
+    let wall = the_box([FORWARD + 3.99 + 0.1, 0.0], [0.2, 20.0], 2.0);
+    let mut heard = [0, 0];
+    for seed in 0..20 {
+        let mut sim = among_with(&wall, seed);
+        wait(&mut sim, 1000);
+        for _ in 0..40 {
+            wait(&mut sim, 50);
+            let echo = sim.echo().value.expect("it listens, whatever it hears");
+            heard[usize::from(echo.distance.is_some())] += 1;
+        }
+    }
+    assert!(heard.iter().all(|count| *count > 100), "silence and echoes: {heard:?}");
+}
+
+#[test]
 fn a_wall_is_as_far_as_its_normal_is_long() {
     for (distance, bearing) in [(0.3, 0.0), (1.0, 0.0), (1.0, 12.0), (2.0, -10.0), (3.5, 0.0)] {
         let wall = the_box([FORWARD + distance + 0.1, 0.0], [0.2, 20.0], 2.0);

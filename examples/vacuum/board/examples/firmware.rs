@@ -20,6 +20,8 @@ pub struct Firmware {
     /// Told to stop, and not yet to start again.
     stopped: bool,
     told: Instant,
+    /// Whether nobody hears what it says.
+    mute: bool,
 }
 
 /// A period of what it says.
@@ -42,8 +44,8 @@ impl Firmware {
         });
         let (motion, way) = ([0.0; 2], [0.0; 2]);
         let told = Instant::now();
-        let firmware = Firmware { port, heard, motion, suction: false, way, stopped: false, told };
-        Ok((firmware, path))
+        let (suction, stopped, mute) = (false, false, false);
+        Ok((Firmware { port, heard, motion, suction, way, stopped, told, mute }, path))
     }
 
     /// A port, what holds its other end open, and the path of that.
@@ -64,6 +66,11 @@ impl Firmware {
     /// Whether the wheels turn.
     pub fn is_moving(&self) -> bool {
         self.motion != [0.0; 2]
+    }
+
+    /// From now on it hears, but is not heard: the wire from the board is broken.
+    pub fn mute(&mut self) {
+        self.mute = true;
     }
 
     /// One period; gives what it was told and had not been told before.
@@ -87,7 +94,9 @@ impl Firmware {
             *way += speed * PERIOD.as_secs_f64();
         }
         let [ahead, turned] = self.way;
-        writeln!(self.port, "{ahead:.4} {turned:.4} 0 0 0 0.0 0")?;
+        if !self.mute {
+            writeln!(self.port, "{ahead:.4} {turned:.4} 0 0 0 0.0 0")?;
+        }
         Ok(new)
     }
 

@@ -5,7 +5,8 @@
 //! second: `AHEAD TURNED LEFT RIGHT DROP DIRT BUTTON`, what the wheels have counted in m and rad, the switches as 0 or 1,
 //! the dirt from 0 to 1. Each passes over a line in which a word is none or a number no number: it was cut or disturbed. A board
 //! that has heard nothing for 200 ms stops the motors by itself; so what is asked for is said every 20 ms, whether it has changed
-//! or not, and takes 15 % of 115,200 baud. Standing still alone is said at once, before whatever waits on the line.
+//! or not, and takes 15 % of 115,200 baud. Standing still alone is said at once, before whatever waits on the line. While the board says
+//! nothing, standing still is all that is asked for.
 
 mod line;
 
@@ -73,10 +74,11 @@ impl Board {
         self.line.say(&self.wanted());
     }
 
-    /// What is asked for.
+    /// What is asked for; while the board is not heard, to stand still: as long as it hears, it would not stop by itself.
     fn wanted(&self) -> String {
-        let [speed, turn] = self.asked;
-        format!("drive {speed:.4} {turn:.4}\nsuck {}\n", u8::from(self.suction))
+        let heard = self.said().is_some();
+        let [speed, turn] = if heard { self.asked } else { [0.0; 2] };
+        format!("drive {speed:.4} {turn:.4}\nsuck {}\n", u8::from(heard && self.suction))
     }
 }
 
@@ -167,7 +169,7 @@ impl Wheels for Board {
     }
 
     fn way(&self) -> Way {
-        // Counters that are not known any more stand still, and so do the wheels: the board has stopped them.
+        // Counters that are not known any more stand still, and soon so do the wheels: the board has stopped them, or is told to.
         let heard = *self.heard.lock().unwrap_or_else(PoisonError::into_inner);
         let way = heard.map_or([0.0; 2], |(said, _)| said.way);
         Way { ahead: Length::from_si(way[0]), turned: Angle::from_si(way[1]) }

@@ -170,6 +170,31 @@ fn a_board_that_says_nothing_is_no_reading() {
 }
 
 #[test]
+fn a_board_that_hears_but_is_not_heard_stands() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    let far = thread::spawn(move || {
+        for _ in 0..20 {
+            firmware.step().unwrap();
+        }
+        let moved = firmware.is_moving();
+        firmware.mute();
+        for _ in 0..20 {
+            firmware.step().unwrap();
+        }
+        (moved, firmware)
+    });
+    let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    board.suck(true);
+    while !far.is_finished() {
+        pass(&mut board, 10);
+    }
+    let (moved, firmware) = far.join().unwrap();
+    assert!(moved && !firmware.is_moving());
+    assert!(board.bumper().value.is_err());
+}
+
+#[test]
 fn what_cannot_be_opened_says_why() {
     let why = |settings: &Settings| Board::open(settings).err().unwrap();
     assert!(why(&Settings::default()).contains("'port'"));

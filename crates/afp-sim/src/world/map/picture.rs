@@ -26,8 +26,7 @@ fn pgm(bytes: &[u8], binary: bool) -> Result<Grey, String> {
     let mut numbers = Numbers { bytes, at: 2 };
     let mut next = || numbers.next().ok_or("the map's PGM ends too early");
     let (width, height, most) = (next()?, next()?, next()?);
-    let cells = width.checked_mul(height).filter(|cells| *cells <= MOST);
-    let cells = cells.ok_or("the map's PGM is too large")?;
+    let cells = cells(width, height).ok_or("the map's PGM is too large")?;
     if !(1..=65535).contains(&most) || cells == 0 {
         return Err(format!("a PGM of {width} by {height} with values up to {most} is no map"));
     }
@@ -45,6 +44,11 @@ fn pgm(bytes: &[u8], binary: bool) -> Result<Grey, String> {
         return Err("the map's PGM ends too early".to_owned());
     }
     Ok(Grey { width, height, values })
+}
+
+/// How many cells a map of that size has, unless those are too many.
+fn cells(width: usize, height: usize) -> Option<usize> {
+    width.checked_mul(height).filter(|cells| *cells <= MOST)
 }
 
 /// Numbers of a PGM, with comments between them.
@@ -80,7 +84,8 @@ fn png(bytes: &[u8]) -> Result<Grey, String> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(wrong)?;
-    let size = reader.output_buffer_size().filter(|size| *size <= 4 * MOST);
+    let (width, height) = reader.info().size();
+    let size = cells(width as usize, height as usize).and(reader.output_buffer_size());
     let mut data = vec![0; size.ok_or("the map's PNG is too large")?];
     let info = reader.next_frame(&mut data).map_err(wrong)?;
     let samples = info.color_type.samples();
@@ -119,6 +124,17 @@ mod tests {
             encoder.set_color(color);
             encoder.write_header().unwrap().write_image_data(data).unwrap();
             assert_eq!(read(&file).unwrap().values, [0, 255]);
+        }
+    }
+
+    #[test]
+    fn pictures_of_more_cells_than_a_map_has_are_refused_before_they_take_memory() {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, 1 << 14, (1 << 12) + 1);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.write_header().unwrap().write_chunk(png::chunk::IDAT, b"").unwrap();
+        for (bytes, kind) in [(&*file, "PNG"), (b"P5\n16384 4097\n255\n", "PGM")] {
+            assert_eq!(read(bytes).err().unwrap(), format!("the map's {kind} is too large"));
         }
     }
 
