@@ -1,7 +1,7 @@
 // What the command line says is wrong, read for the page.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, writeFileSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -22,6 +22,7 @@ function built(plan: string): any[] {
   writeFileSync(join(folder, "p.afp"), plan);
   const env = { ...process.env, CARGO: join(folder, "no-cargo") };
   const { stdout } = spawnSync(AFPC, ["build", "--json", "p.afp"], { cwd: folder, env, encoding: "utf8" });
+  rmSync(folder, { recursive: true });
   return stdout.trim().split("\n").map((line) => JSON.parse(line));
 }
 

@@ -29,7 +29,9 @@ fn source(path: &Path) -> Source {
 fn toolboxes() -> (Toolboxes, Vec<Arc<Toolbox>>) {
     let mut all: Toolboxes = afp_toolboxes::sources().collect();
     let paths = files("toolboxes");
-    paths.iter().for_each(|path| all.add(source(path), "peers"));
+    for path in &paths {
+        all.add(source(path), "peers");
+    }
     let found = all.diagnostics();
     assert!(found.is_empty(), "{}", found.render(all.sources(), false));
     let name = |path: &PathBuf| path.file_stem().unwrap().to_string_lossy().into_owned();
