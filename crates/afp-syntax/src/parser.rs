@@ -38,7 +38,7 @@ pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
     let mended = braces::mend(&mut tokens, file, diags);
     let mut parser = Parser::new(&tokens, file, diags);
     parser.note_reported(&mended.reported);
-    parser.balanced = mended.balanced;
+    (parser.balanced, parser.balanced_as_written) = (mended.balanced, mended.as_written);
     parser.file();
     parser.withdraw_fixes();
     parser.builder.finish()
@@ -59,6 +59,8 @@ struct Parser<'t, 'd> {
     misplaced: bool,
     /// Whether every brace has its other one, so that none is missed.
     balanced: bool,
+    /// Whether that is so without a brace that was mended.
+    balanced_as_written: bool,
     /// Whether the file is a toolbox, as far as it is read.
     is_toolbox: bool,
     /// Whether lines of a scenario are read.
@@ -101,6 +103,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             depth: 0,
             misplaced: false,
             balanced: false,
+            balanced_as_written: false,
             is_toolbox: false,
             in_scenario: false,
             commas_separate: false,

@@ -132,11 +132,11 @@ impl Parser<'_, '_> {
         self.eat(Kind::OpenBrace).then_some(opened)
     }
 
-    /// Closes a body; where nothing opened it, nothing need close it.
+    /// Closes a body; where nothing opened it, nothing need close it, and where every brace has its other one, none does.
     pub(super) fn close_body(&mut self, body: Body) {
         match body.opened {
             Some(opened) => self.close_bracket(Kind::CloseBrace, opened),
-            None if self.closes_more() => {
+            None if !self.balanced_as_written && self.closes_more() => {
                 self.eat(Kind::CloseBrace);
             }
             None => {}
