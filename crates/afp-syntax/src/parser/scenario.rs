@@ -269,7 +269,10 @@ impl Parser<'_, '_> {
     }
 
     fn claim(&mut self) {
-        let is_path = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || self.nth(1).is_comparison();
+        let is_active = self.word(1) == "active" && !self.begins_line(1);
+        let is_path = is_active
+            || matches!(self.nth(1), Kind::Dot | Kind::Arrow)
+            || self.nth(1).is_comparison();
         if !is_path && self.at_word("running") {
             return self.keyword();
         }
