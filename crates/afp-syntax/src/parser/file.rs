@@ -35,9 +35,7 @@ impl Parser<'_, '_> {
             "object" => self.object(),
             "device" | "sensor" => self.device(),
             "robot" if self.at_device() => self.device(),
-            "actor" | "supervisor" | "computation" if self.nth(2) == Kind::OpenBrace => {
-                self.template();
-            }
+            _ if self.at_template() => self.template(),
             "supervise" if self.nth(1) == Kind::Name && self.nth(2) == Kind::OpenBrace => {
                 self.read_as("supervisor", "an item of a toolbox");
                 self.template();
