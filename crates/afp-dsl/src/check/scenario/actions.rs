@@ -22,7 +22,7 @@ impl Checker<'_> {
     pub(super) fn action(&self, node: &ast::Action, diags: &mut Diagnostics) -> Option<Action> {
         let (verb, path) = (node.verb()?, node.path()?);
         let duration = match node.duration() {
-            Some(time) => Some(timing::time(&time, "ms", diags)?),
+            Some(time) => Some(timing::time(&time, &[], diags)?),
             None => None,
         };
         self.only(node, &verb, diags)?;

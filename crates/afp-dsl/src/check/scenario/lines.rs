@@ -5,9 +5,11 @@ use std::collections::BTreeSet;
 
 use super::times::Stretch;
 use super::{Checker, seed};
+use crate::check::convert;
 use crate::graph::EntryKind;
 use crate::scenario::{Moment, MomentId, Scenario, Stimulus};
-use afp_syntax::ast::{self, Line, LineKind};
+use crate::types::Dimension;
+use afp_syntax::ast::{self, FormulaKind, Line, LineKind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
@@ -97,7 +99,14 @@ impl Checker<'_> {
             LineKind::Set(Some(path), Some(value)) => {
                 scenario.set.extend(self.set(&path, &value, &[EntryKind::In], diags));
             }
-            LineKind::Robot(formulas) => scenario.robot = self.robot(&formulas, diags),
+            LineKind::Robot(formulas) => {
+                let bare = self.places_without_a_unit(&formulas);
+                scenario.robot = match bare.is_empty() {
+                    true => self.robot(&formulas, diags),
+                    false => None,
+                };
+                bare.into_iter().for_each(|error| diags.push(error));
+            }
             LineKind::Stimulus(Some(at), Some(action)) => {
                 let at = stretch.instant(&at, diags);
                 let action = self.action(&action, diags);
@@ -115,6 +124,22 @@ impl Checker<'_> {
             LineKind::Set(..) | LineKind::Stimulus(..) => {}
             LineKind::Expect { claim: None, .. } => {}
         }
+    }
+
+    /// Reports bare numbers of a place in a world, of which people think in metres.
+    fn places_without_a_unit(&self, formulas: &[ast::Formula]) -> Vec<Diagnostic> {
+        let length = Dimension::named("length").unwrap_or_default();
+        let bare = |formula: &ast::Formula| {
+            let number = match formula.kind() {
+                FormulaKind::Negation(inner) => inner?.kind(),
+                kind => kind,
+            };
+            let is_bare = matches!(number, FormulaKind::Number { unit: None, broken: false, .. });
+            let span = formula.span();
+            let text = self.context.file.text.get(span.start as usize..span.end as usize)?;
+            is_bare.then(|| convert::bare(span, length, &[format!("{text} m")]))
+        };
+        formulas.iter().take(2).filter_map(bare).collect()
     }
 }
 
