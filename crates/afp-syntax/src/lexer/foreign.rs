@@ -72,6 +72,16 @@ impl Lexer<'_, '_> {
                 self.diags.push(error);
             }
             "?" if behind_word => self.instead(Kind::Unknown, length, "remove it", ""),
+            "!" if let Some(start) = self.only_word_of_line("expect") => {
+                let place = self.span(start, self.at + length);
+                let error = self.error(Kind::Unknown, length, "write 'never' in place of 'expect'");
+                self.diags.push(error.fix(place, "never "));
+            }
+            "&&" | "&" if self.begins_claim() => {
+                let error =
+                    self.error(Kind::Unknown, length, "write two lines, each with one claim");
+                self.diags.push(error);
+            }
             "&&" | "&" | "!" | "?" => {
                 let error = self.error(Kind::Unknown, length, CHOICE);
                 self.diags.push(error);
@@ -81,6 +91,20 @@ impl Lexer<'_, '_> {
             }
             _ => self.instead(Kind::Unknown, length, "remove it", ""),
         }
+    }
+
+    /// Where a word begins that is all of this line up to here.
+    fn only_word_of_line(&self, word: &str) -> Option<usize> {
+        let before = self.text[..self.at].trim_end_matches([' ', '\t']).strip_suffix(word)?;
+        let is_first = before.trim_end_matches([' ', '\t']).ends_with('\n');
+        is_first.then_some(before.len())
+    }
+
+    /// Whether this line begins with the word of a claim.
+    fn begins_claim(&self) -> bool {
+        let before = &self.text[..self.at];
+        let line = &before[before.rfind('\n').map_or(0, |end| end + 1)..];
+        matches!(line.split_whitespace().next(), Some("expect" | "never"))
     }
 
     /// The sign of a comment of other languages that a line begins with: words follow it, as none do in a formula.

@@ -1,5 +1,6 @@
 //! What is written as in other languages: what to write instead, and where reading goes on.
 
+mod behind;
 mod bodies;
 mod edges;
 mod heads;

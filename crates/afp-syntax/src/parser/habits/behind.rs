@@ -1,0 +1,162 @@
+//! What stands behind a claim, an action or another line of a scenario and does not belong there.
+
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+use crate::parser::Parser;
+use crate::parser::formula::begins_formula;
+use crate::source::Span;
+
+/// What claims may have behind them.
+const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 'once' or '3 times'; another claim is a line of its own";
+
+/// How often something happens elsewhere, and here.
+const OFTEN: &[(&str, &str)] = &[("twice", "2 times"), ("thrice", "3 times")];
+
+/// What is to be said of something that stands behind a line: a help, and an edit of a place where it mends all.
+struct Said(String, Option<(Span, String)>);
+
+impl Parser<'_, '_> {
+    /// Reports what stands behind a line of a scenario that begins with `first`, and reads past it.
+    pub(in crate::parser) fn nothing_behind(&mut self, first: &str) {
+        let ends = |p: &Self| {
+            !p.on_same_line()
+                || p.at_end()
+                || matches!(p.nth(0), Kind::CloseBrace | Kind::CloseParen | Kind::Comma)
+                || p.at_action()
+                || p.at_line()
+                || p.at_top_item()
+        };
+        if ends(self) {
+            return;
+        }
+        let (found, line) = (self.found(), matches!(first, "expect" | "never"));
+        let Said(help, fix) = match first {
+            "expect" | "never" => self.behind_claim(),
+            "at" => self.behind_action(),
+            "robot" if begins_formula(self.nth(0)) => {
+                let here = self.next_span().before();
+                Said("write 'heading' before it".to_owned(), Some((here, "heading ".to_owned())))
+            }
+            _ => Said("remove it, or begin a line with it".to_owned(), None),
+        };
+        let what = if line { "a claim" } else { "a line" };
+        let message = format!("{found} does not belong behind {what}");
+        let message =
+            if first == "at" { message.replace("a line", "what happens") } else { message };
+        let error = Diagnostic::new(Code::E0102, self.next_span(), message).help(help);
+        self.error(match fix {
+            Some((place, text)) => error.fix(place, text),
+            None => error,
+        });
+        self.pass_to(ends);
+    }
+
+    /// What is said of something behind a claim.
+    fn behind_claim(&self) -> Said {
+        let (word, before, here) = (self.word(0), self.word_before(), self.next_span());
+        let write = |text: &str| Said(format!("write '{text}'"), Some((here, text.to_owned())));
+        let add = |text: &str, whole: String| {
+            Said(format!("write '{whole}'"), Some((here.before(), text.to_owned())))
+        };
+        let time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
+        match (word, before) {
+            ("in", _) if time => write("within"),
+            ("for" | "during", _) if time => {
+                let time = self.text_of(1, 2 + usize::from(self.nth(2) == Kind::Unit));
+                Said(format!("write 'always within {time}', or 'within {time}' for once"), None)
+            }
+            ("is" | "equals" | "eq", _) if self.word(1) == "active" => {
+                let place = here.to(self.ahead(2));
+                Said("write 'active'".to_owned(), Some((place, "active".to_owned())))
+            }
+            ("is" | "equals" | "eq", _) => write("=="),
+            ("then" | "to" | "goto" | "becomes", _) => write("->"),
+            ("and" | "or" | "but", _) => {
+                Said(format!("a line has one claim, without '{word}': write two lines"), None)
+            }
+            ("" | "within" | "before" | "after", _) if self.at(Kind::Int) => self.times(),
+            (_, "end") if !word.is_empty() => add("by ", format!("end by {word}")),
+            (_, "commit") if !word.is_empty() => add("of ", format!("commit of {word}")),
+            (_, "interrupt") if !word.is_empty() => add("of ", format!("interrupt of {word}")),
+            _ => match OFTEN.iter().find(|(theirs, _)| *theirs == word) {
+                Some((_, ours)) => write(ours),
+                None => Said(BOUNDS.to_owned(), None),
+            },
+        }
+    }
+
+    /// `3x`, `3 time`, `3`
+    fn times(&self) -> Said {
+        let number = self.token(0).map_or("", |token| token.text);
+        let place = match self.nth(1) {
+            Kind::Name | Kind::Unit if !self.begins_line(1) => self.ahead(2),
+            _ => self.ahead(1),
+        };
+        let times = format!("{number} times");
+        Said(format!("write '{times}'"), Some((place, times)))
+    }
+
+    /// What is said of something behind an action.
+    fn behind_action(&self) -> Said {
+        let time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
+        match self.word(0) {
+            "during" | "in" | "within" if time => {
+                Said("write 'for'".to_owned(), Some((self.next_span(), "for".to_owned())))
+            }
+            _ => Said(
+                "'for' and a time may stand there; what happens next is a line of its own"
+                    .to_owned(),
+                None,
+            ),
+        }
+    }
+
+    /// `after 3 s press touch`, `wait 3 s`: reports a line that begins with another word before its time, and reads past
+    /// it. Returns whether one stands here.
+    pub(in crate::parser) fn time_first(&mut self) -> bool {
+        let word = self.word(0);
+        let known = matches!(word, "after" | "in" | "when" | "on" | "wait" | "sleep" | "delay");
+        if !known || !matches!(self.nth(1), Kind::Int | Kind::Float) || self.begins_line(1) {
+            return false;
+        }
+        let tokens = 2 + usize::from(self.nth(2) == Kind::Unit);
+        let time = self.text_of(1, tokens);
+        let colon = usize::from(self.nth(tokens) == Kind::Colon);
+        let place = self.ahead(tokens + colon);
+        let goes_on = self.nth(tokens + colon) == Kind::Name && !self.begins_line(tokens + colon);
+        let message = format!("no line of a scenario begins with '{word}'");
+        let error = Diagnostic::new(Code::E0102, place, message);
+        let ours = format!("at {time}:");
+        self.error(match goes_on {
+            true => error.help(format!("write '{ours}', counted from the start")).replace(ours),
+            false => error.help(format!(
+                "remove it; what happens has its time in front of it, such as '{ours} press touch'"
+            )),
+        });
+        self.pass(tokens + colon);
+        self.pass_to(|p| !p.on_same_line() || p.at(Kind::CloseBrace));
+        true
+    }
+
+    /// `robot at (1 m, 2 m, 90 deg)`: reports the heading within the brackets that began with `opened`, and reads it.
+    pub(in crate::parser) fn heading_in_brackets(&mut self) {
+        if !self.at(Kind::Comma) || !begins_formula(self.nth(1)) {
+            return;
+        }
+        let (comma, first) = (self.next_span(), self.at + 1);
+        self.open(Kind::Error);
+        self.bump();
+        self.formula();
+        self.close();
+        let heading = self.text_between(first, self.at);
+        let message = "the heading stands behind the brackets";
+        let alone = self.at(Kind::CloseParen) && self.word(1) != "heading";
+        let error = Diagnostic::new(Code::E0102, comma, message);
+        let better = format!(") heading {heading}");
+        let place = comma.to(self.next_span());
+        self.error(match alone {
+            true => error.help(format!("write '{better}'")).fix(place, better),
+            false => error.help("remove one of the two"),
+        });
+    }
+}
