@@ -54,54 +54,108 @@ impl Parser<'_, '_> {
     /// What is said of something behind a claim.
     fn behind_claim(&self) -> Said {
         let (word, before, here) = (self.word(0), self.word_before(), self.next_span());
-        let write = |text: &str| Said(format!("write '{text}'"), Some((here, text.to_owned())));
-        let add = |text: &str, whole: String| {
-            Said(format!("write '{whole}'"), Some((here.before(), text.to_owned())))
+        let write = |text: &str, fits: bool| {
+            Said(format!("write '{text}'"), fits.then(|| (here, text.to_owned())))
         };
-        let time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
+        let path = self.path_ends(0);
+        let add = |text: &str| {
+            let whole = format!("{before} {text} {}", self.text_of(0, path));
+            let place = (here.before(), format!("{text} "));
+            Said(format!("write '{whole}'"), self.claim_ends(path).then_some(place))
+        };
+        let has_time = self.time_behind(1);
         match (word, before) {
-            ("in", _) if time => write("within"),
-            ("for" | "during", _) if time => {
-                let time = self.text_of(1, 2 + usize::from(self.nth(2) == Kind::Unit));
+            ("in", _) if has_time.is_some() => {
+                write("within", has_time.is_some_and(|it| self.claim_ends(it)))
+            }
+            ("for" | "during", _) if let Some(end) = has_time => {
+                let time = self.text_of(1, end);
                 Said(format!("write 'always within {time}', or 'within {time}' for once"), None)
             }
             ("is" | "equals" | "eq", _) if self.word(1) == "active" => {
                 let place = here.to(self.ahead(2));
                 Said("write 'active'".to_owned(), Some((place, "active".to_owned())))
             }
-            ("is" | "equals" | "eq", _) => write("=="),
-            ("then" | "to" | "goto" | "becomes", _) => write("->"),
+            ("is" | "equals" | "eq", _) => write("==", begins_formula(self.nth(1))),
+            ("then" | "to" | "goto" | "becomes", _) => {
+                let end = self.path_ends(1);
+                write("->", end > 1 && (self.claim_ends(end) || self.word(end) == "by"))
+            }
             ("and" | "or" | "but", _) => {
                 Said(format!("a line has one claim, without '{word}': write two lines"), None)
             }
-            ("" | "within" | "before" | "after", _) if self.at(Kind::Int) => self.times(),
-            (_, "end") if !word.is_empty() => add("by ", format!("end by {word}")),
-            (_, "commit") if !word.is_empty() => add("of ", format!("commit of {word}")),
-            (_, "interrupt") if !word.is_empty() => add("of ", format!("interrupt of {word}")),
+            _ if self.at(Kind::Int) => self.times(),
+            (_, "end") if path > 0 && self.claim_ends(path) => add("by"),
+            (_, "end") if path > 0 => {
+                Said("write 'end by' and what ends the plan".to_owned(), None)
+            }
+            (_, "commit" | "interrupt") if path > 0 => add("of"),
             _ => match OFTEN.iter().find(|(theirs, _)| *theirs == word) {
-                Some((_, ours)) => write(ours),
+                Some((_, ours)) => write(ours, self.claim_ends(1)),
                 None => Said(BOUNDS.to_owned(), None),
             },
         }
     }
 
+    /// The token behind the path that begins so many tokens ahead, on its line.
+    fn path_ends(&self, ahead: usize) -> usize {
+        let is_name = |at: usize| self.nth(at) == Kind::Name && (at == 0 || !self.begins_line(at));
+        if !is_name(ahead) {
+            return ahead;
+        }
+        let mut end = ahead + 1;
+        while self.nth(end) == Kind::Dot && is_name(end + 1) {
+            end += 2;
+        }
+        end
+    }
+
+    /// The token behind the time that begins so many tokens ahead, on its line.
+    fn time_behind(&self, ahead: usize) -> Option<usize> {
+        let is_number = matches!(self.nth(ahead), Kind::Int | Kind::Float);
+        let end = ahead + 1 + usize::from(self.nth(ahead + 1) == Kind::Unit);
+        (is_number && !self.begins_line(ahead)).then_some(end)
+    }
+
+    /// Whether a claim may end so many tokens ahead.
+    fn claim_ends(&self, ahead: usize) -> bool {
+        let bound = match self.word(ahead) {
+            "within" | "before" | "after" => self.time_behind(ahead + 1).is_some(),
+            word => matches!(word, "always" | "once"),
+        };
+        let ends = matches!(self.nth(ahead), Kind::CloseBrace | Kind::Comma | Kind::End);
+        bound || ends || self.begins_line(ahead)
+    }
+
     /// `3x`, `3 time`, `3`
     fn times(&self) -> Said {
         let number = self.token(0).map_or("", |token| token.text);
-        let place = match self.nth(1) {
-            Kind::Name | Kind::Unit if !self.begins_line(1) => self.ahead(2),
-            _ => self.ahead(1),
+        let tokens = match (self.nth(1), self.word(1)) {
+            (Kind::Unit, _) => {
+                let time = self.text_of(0, 2);
+                let help = format!("write 'within', 'before' or 'after' before '{time}'");
+                return Said(help, None);
+            }
+            (_, "x" | "time" | "tims") if !self.begins_line(1) => 2,
+            _ => {
+                let help =
+                    format!("write '{number} times' for how often, '== {number}' for a value");
+                return Said(help, None);
+            }
         };
         let times = format!("{number} times");
-        Said(format!("write '{times}'"), Some((place, times)))
+        let place = (self.ahead(tokens), times.clone());
+        Said(format!("write '{times}'"), self.claim_ends(tokens).then_some(place))
     }
 
     /// What is said of something behind an action.
     fn behind_action(&self) -> Said {
-        let time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
+        let time = self.time_behind(1);
         match self.word(0) {
-            "during" | "in" | "within" if time => {
-                Said("write 'for'".to_owned(), Some((self.next_span(), "for".to_owned())))
+            "during" | "in" | "within" if let Some(end) = time => {
+                let place = (self.next_span(), "for".to_owned());
+                let ends = self.begins_line(end) || self.nth(end) == Kind::CloseBrace;
+                Said("write 'for'".to_owned(), ends.then_some(place))
             }
             _ => Said(
                 "'for' and a time may stand there; what happens next is a line of its own"
