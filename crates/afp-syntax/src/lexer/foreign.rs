@@ -54,6 +54,9 @@ impl Lexer<'_, '_> {
         {
             return self.instead(*kind, foreign.len(), &format!("write '{ours}'"), ours);
         }
+        if rest.starts_with("#include") {
+            return self.include();
+        }
         if rest.starts_with('#') && begins_comment(rest) {
             return self.foreign_comment("#");
         }
@@ -157,6 +160,25 @@ impl Lexer<'_, '_> {
         );
         let help = "keep one of the versions between '<<<<<<<' and '>>>>>>>', and remove the other one and the marks";
         self.diags.push(error.help(help));
+    }
+
+    /// `#include "walls.afp"`, `#include <carbot>`
+    fn include(&mut self) {
+        let rest = &self.text[self.at..];
+        let length = line_length(rest);
+        let what = rest["#include".len()..length].trim();
+        let name = what.trim_matches(['<', '>', '"']);
+        let is_name = !name.is_empty() && name.chars().all(is_word);
+        let better = match what.starts_with('"') && name.ends_with(".afp") {
+            true => Some(format!("use \"{name}\"")),
+            false => is_name.then(|| format!("use {name}")),
+        };
+        let span = self.push(Kind::Comment, length);
+        let error = Diagnostic::new(Code::E0101, span, "'#include' has no meaning here");
+        self.diags.push(match better {
+            Some(better) => error.help(format!("write '{better}'")).replace(better),
+            None => error.help("write 'use' and a toolbox, such as 'use carbot'"),
+        });
     }
 
     /// Reports characters that something else should be written for.

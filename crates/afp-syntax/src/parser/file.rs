@@ -127,12 +127,18 @@ impl Parser<'_, '_> {
             self.name("give the short name, such as 'use carbot as c'");
             self.close();
         }
+        self.use_of_parts();
         self.close_item();
     }
 
     fn enumeration(&mut self) {
         self.open_item(Kind::Enum);
         self.keyword();
+        let is_named = self.nth(1) == Kind::Name && !self.begins_line(1);
+        if matches!(self.word(0), "class" | "struct") && is_named {
+            let message = format!("no {} behind 'enum'", self.found());
+            self.instead(1, message, "remove it".to_owned(), "");
+        }
         self.name("give the enum a name");
         let opened = self.here();
         // The brackets of other languages.
