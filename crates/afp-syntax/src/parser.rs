@@ -69,6 +69,8 @@ struct Parser<'t, 'd> {
     commas_separate: bool,
     /// The entries of the plan as far as it is read, each with the word that declares it.
     entries: BTreeMap<&'t str, &'t str>,
+    /// The supervisors of the plans of the file.
+    globals: BTreeSet<&'t str>,
     /// The names with '-' in them.
     hyphens: BTreeSet<String>,
     marks: Marks,
@@ -96,6 +98,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         let (marks, builder) = (Marks::new(tokens, &solid), GreenNodeBuilder::new());
         Parser {
             tokens,
+            globals: globals(tokens, &solid),
             solid,
             at: 0,
             built: 0,
@@ -399,4 +402,21 @@ fn own_trivia(trivia: &[Token<'_>]) -> usize {
     let help = trivia.iter().position(|token| token.kind == Kind::Doc).unwrap_or(trivia.len());
     let before_help = trivia[..help].iter().rposition(is_blank_line).map_or(0, |index| index + 1);
     if help < after_blank { before_help } else { after_blank }
+}
+
+/// The names behind 'supervise' in the braces of plans, and in no others within them.
+fn globals<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeSet<&'t str> {
+    let (mut depth, mut found) = (0_usize, BTreeSet::new());
+    let mut solid = solid.iter().filter_map(|index| tokens.get(*index as usize)).peekable();
+    while let Some(token) = solid.next() {
+        match token.kind {
+            Kind::OpenBrace => depth += 1,
+            Kind::CloseBrace => depth = depth.saturating_sub(1),
+            Kind::Name if token.text == "supervise" && depth == 1 => {
+                found.extend(solid.peek().filter(|it| it.kind == Kind::Name).map(|it| it.text));
+            }
+            _ => {}
+        }
+    }
+    found
 }
