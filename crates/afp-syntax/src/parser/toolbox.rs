@@ -30,7 +30,7 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Template);
         self.keyword();
         self.name("give the template a name");
-        let help = match self.stands_before_brace() {
+        let help = match self.on_same_line() && !self.at_end() {
             true => "a template declares what it takes with 'in', between its braces",
             false => "put the template's parts in braces",
         };
@@ -63,11 +63,6 @@ impl Parser<'_, '_> {
         let named = matches!(self.word(0), "actor" | "supervisor" | "computation")
             && self.nth(1) == Kind::Name;
         named && (self.nth(2) == Kind::OpenBrace || self.is_toolbox)
-    }
-
-    /// Whether something stands before the brace on this line.
-    fn stands_before_brace(&self) -> bool {
-        self.ahead_on_line(Kind::OpenBrace).is_some_and(|ahead| ahead > 0)
     }
 
     /// Whether an item of a toolbox begins.

@@ -126,20 +126,31 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports bare numbers of a place in a world, of which people think in metres.
+    /// Reports bare numbers of a place in a world, of which people think in metres, and with them that of a heading.
     fn places_without_a_unit(&self, formulas: &[ast::Formula]) -> Vec<Diagnostic> {
-        let length = Dimension::named("length").unwrap_or_default();
-        let bare = |formula: &ast::Formula| {
+        let dimension = |name: &str| Dimension::named(name).unwrap_or_default();
+        let bare = |(at, formula): (usize, &ast::Formula)| {
             let number = match formula.kind() {
                 FormulaKind::Negation(inner) => inner?.kind(),
                 kind => kind,
             };
-            let is_bare = matches!(number, FormulaKind::Number { unit: None, broken: false, .. });
+            if !matches!(number, FormulaKind::Number { unit: None, broken: false, .. }) {
+                return None;
+            }
             let span = formula.span();
             let text = self.context.file.text.get(span.start as usize..span.end as usize)?;
-            is_bare.then(|| convert::bare(span, length, &[format!("{text} m")]))
+            if at < 2 {
+                let metres = [format!("{text} m")];
+                return Some((at, convert::bare(span, dimension("length"), &metres)));
+            }
+            let units = convert::likely(text, dimension("angle"), None).into_iter();
+            let better: Vec<_> = units.map(|unit| format!("{text} {unit}")).collect();
+            Some((at, convert::bare(span, dimension("angle"), &better)))
         };
-        formulas.iter().take(2).filter_map(bare).collect()
+        let found: Vec<_> = formulas.iter().enumerate().filter_map(bare).collect();
+        // A heading alone is checked with the others.
+        let of_place = found.iter().any(|(at, _)| *at < 2);
+        found.into_iter().filter(|_| of_place).map(|(_, error)| error).collect()
     }
 }
 

@@ -77,7 +77,15 @@ impl Parser<'_, '_> {
                 Said("write 'active'".to_owned(), Some((place, "active".to_owned())))
             }
             ("is" | "equals" | "eq", _) => write("==", begins_formula(self.nth(1))),
-            ("then" | "to" | "goto" | "becomes", _) => {
+            _ if matches!(self.nth(0), Kind::FatArrow | Kind::Minus) => {
+                Said("write '->' for what follows an element".to_owned(), None)
+            }
+            ("by", _) => Said(
+                "'by' stands behind 'end', 'commit', and an element with its '->'".to_owned(),
+                None,
+            ),
+            ("between", _) => Said("write 'after' and 'before', each with a time".to_owned(), None),
+            ("then" | "to" | "goto" | "becomes" | "reaches", _) => {
                 let end = self.path_ends(1);
                 write("->", end > 1 && (self.claim_ends(end) || self.word(end) == "by"))
             }
@@ -87,7 +95,7 @@ impl Parser<'_, '_> {
             _ if self.at(Kind::Int) => self.times(),
             (_, "end") if path > 0 && self.claim_ends(path) => add("by"),
             (_, "end") if path > 0 => {
-                Said("write 'end by' and what ends the plan".to_owned(), None)
+                Said("what ends the plan stands behind 'end by', a time behind 'within', 'before' or 'after'".to_owned(), None)
             }
             (_, "commit" | "interrupt") if path > 0 => add("of"),
             _ => match OFTEN.iter().find(|(theirs, _)| *theirs == word) {

@@ -24,11 +24,15 @@ impl Parser<'_, '_> {
 
     /// `expect a <> 0`: reports the signs, and reads past them. Returns whether they stand here.
     pub(in crate::parser) fn unequal_meant(&mut self) -> bool {
+        let adjacent = self.token_index(1) == self.token_index(0) + 1;
         let stands = self.at(Kind::Less) && self.nth(1) == Kind::Greater && self.on_same_line();
-        if stands {
-            self.instead(2, "no '<>' between two values".into(), "write '!='".into(), "!=");
+        if stands && adjacent {
+            let message = "no '<>' between two values";
+            let error = Diagnostic::new(Code::E0102, self.ahead(2), message);
+            self.error(error.help("write '!='").replace("!="));
+            self.bump_together(2, Kind::NotEqual);
         }
-        stands
+        stands && adjacent
     }
 
     /// `press touch at 3 s`, `idle all`: reports where the time stands, and reads past the line. Returns whether an
