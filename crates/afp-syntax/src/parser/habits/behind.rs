@@ -33,7 +33,7 @@ impl Parser<'_, '_> {
         let Said(help, fix) = match first {
             "expect" | "never" => self.behind_claim(),
             "at" => self.behind_action(),
-            "robot" if begins_formula(self.nth(0)) => {
+            "robot" if self.word_before() == ")" && self.quantity_ends_line() => {
                 let here = self.next_span().before();
                 Said("write 'heading' before it".to_owned(), Some((here, "heading ".to_owned())))
             }
@@ -123,6 +123,13 @@ impl Parser<'_, '_> {
         let is_number = matches!(self.nth(ahead), Kind::Int | Kind::Float);
         let end = ahead + 1 + usize::from(self.nth(ahead + 1) == Kind::Unit);
         (is_number && !self.begins_line(ahead)).then_some(end)
+    }
+
+    /// Whether a number stands here, perhaps with a unit, and nothing else on this line.
+    fn quantity_ends_line(&self) -> bool {
+        let sign = usize::from(self.at(Kind::Minus));
+        let end = self.time_behind(sign);
+        end.is_some_and(|end| self.begins_line(end) || self.nth(end) == Kind::CloseBrace)
     }
 
     /// Whether a claim may end so many tokens ahead.
