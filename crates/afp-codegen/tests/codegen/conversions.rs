@@ -11,6 +11,7 @@ const O: u16 = 7;
 const P: u16 = 8;
 const Q: u16 = 9;
 const R: u16 = 10;
+const S: u16 = 11;
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -183,6 +184,23 @@ fn r_inputs() -> Result<std_templates::assign::Inputs<Text>, BadValue> {
 
 /// Outputs of `r`.
 fn r_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<Text>,
+) -> Result<(), BadValue> {
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.said = Some(value_0);
+    Ok(())
+}
+
+/// Inputs of `s`.
+fn s_inputs(config: &Config) -> Result<std_templates::assign::Inputs<Text>, BadValue> {
+    Ok(std_templates::assign::Inputs {
+        value: input(0, || Ok(join(config.t(), config.first())?))?,
+    })
+}
+
+/// Outputs of `s`.
+fn s_outputs(
     staged: &mut Staged,
     outcome: std_templates::assign::State<Text>,
 ) -> Result<(), BadValue> {
