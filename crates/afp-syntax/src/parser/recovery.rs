@@ -205,6 +205,15 @@ impl Parser<'_, '_> {
         }
         let sign = kind.describe();
         let here = self.behind();
+        if let Some(slashes) = self.divided_by_a_comment() {
+            let message = format!("missing {sign}: '//' begins a comment");
+            return self.error(
+                Diagnostic::new(Code::E0103, here, message)
+                    .note(opened, "opened here")
+                    .help("write '/' to divide")
+                    .fix(slashes, "/"),
+            );
+        }
         self.error(
             Diagnostic::new(Code::E0103, here, format!("missing {sign}, found {}", self.found()))
                 .note(opened, "opened here")
