@@ -170,25 +170,7 @@ impl Types {
             }
             [] => {
                 record.unknown(name.span);
-                let mut known: Vec<&str> = Vec::new();
-                known.extend(PLAIN);
-                known.extend(self.enums.iter().map(|(_, each)| each.name.as_str()));
-                for dimension in Dimension::names() {
-                    known.push(dimension);
-                }
-                known.extend(self.objects.iter().map(|(_, each)| each.name.as_str()));
-                let mut seen = HashSet::new();
-                known.retain(|name| seen.insert(*name));
-                let message = format!("there is no type '{}'", name.text);
-                diags.push(match meant::ty(&name.text) {
-                    Some(ty) => elsewhere(reference.span(), message, ty),
-                    None => match Unit::parse(&name.text).filter(|_| home.is_none()) {
-                        Some(unit) => of_unit(reference.span(), &name.text, unit.dimension),
-                        None => {
-                            unknown(Code::E0232, reference.span(), message, &name.text, known, "")
-                        }
-                    },
-                });
+                diags.push(self.unknown(reference, name, home.is_some()));
                 None
             }
             several => {
@@ -201,6 +183,28 @@ impl Types {
                 None
             }
         }
+    }
+
+    /// Reports a name that no type has; `qualified` tells whether something stands before it.
+    fn unknown(&self, reference: &ast::Ref, name: &ast::Name, qualified: bool) -> Diagnostic {
+        let message = format!("there is no type '{}'", name.text);
+        if let Some(ty) = meant::ty(&name.text) {
+            return elsewhere(reference.span(), message, ty);
+        }
+        if let Some(unit) = Unit::parse(&name.text).filter(|_| !qualified) {
+            return of_unit(reference.span(), &name.text, unit.dimension);
+        }
+        let enums = self.enums.iter().map(|(_, each)| each.name.as_str());
+        let objects = self.objects.iter().map(|(_, each)| each.name.as_str());
+        let mut known: Vec<&str> = PLAIN.to_vec();
+        known.extend(enums);
+        for dimension in Dimension::names() {
+            known.push(dimension);
+        }
+        known.extend(objects);
+        let mut seen = HashSet::new();
+        known.retain(|name| seen.insert(*name));
+        unknown(Code::E0232, reference.span(), message, &name.text, known, "")
     }
 
     /// A factor of a product: a dimension, or a number without one.

@@ -6,7 +6,7 @@ use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic};
 use afp_syntax::source::Span;
 
-/// What a component of an object calls that elsewhere.
+/// What objects call themselves elsewhere.
 const OWN: &[&str] = &["self", "this"];
 
 /// What is said of a name that other languages have for a value.

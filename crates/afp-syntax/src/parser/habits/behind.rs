@@ -7,7 +7,8 @@ use crate::parser::formula::begins_formula;
 use crate::source::Span;
 
 /// What claims may have behind them.
-const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 'once' or '3 times'; another claim is a line of its own";
+const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 'once' or '3 times'; \
+     another claim is a line of its own";
 
 /// How often something happens elsewhere, and here.
 const OFTEN: &[(&str, &str)] = &[("twice", "2 times"), ("thrice", "3 times")];
