@@ -7,7 +7,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::plan::units_name;
-use crate::rust_type::{TypePaths, float, int, variant};
+use crate::rust_type::{TypePaths, float, int, long, variant};
 use afp_dsl::graph::{Formula, FormulaKind, Function, Operator};
 use afp_dsl::types::{Conversion, Dimension, Type};
 
@@ -227,7 +227,11 @@ impl<'a> Formulas<'a> {
                 atom(convert(self.type_paths, conversion, text))
             }
             Conversion::ToText(_) => {
-                let value = self.expr(inner).at(Bond::Atom);
+                let value = match inner.kind {
+                    // Printed as it is, nothing else says that it is no i32.
+                    FormulaKind::Int(value) => long(value),
+                    _ => self.expr(inner).at(Bond::Atom),
+                };
                 atom(convert(self.type_paths, conversion, value))
             }
             _ => atom(convert(self.type_paths, conversion, self.value(inner))),

@@ -123,6 +123,14 @@ pub fn int(value: impl Into<i64>) -> TokenStream {
     if value < 0 { quote!(-#literal) } else { quote!(#literal) }
 }
 
+/// The same with its type, for where that follows from nothing else.
+pub fn long(value: i64) -> TokenStream {
+    // The least one is no literal with a sign.
+    let Some(magnitude) = value.checked_abs() else { return quote!(i64::MIN) };
+    let literal = Literal::i64_suffixed(magnitude);
+    if value < 0 { quote!(-#literal) } else { quote!(#literal) }
+}
+
 /// The Rust name of an enum's value.
 pub fn variant(choices: &Enum, index: u16) -> proc_macro2::Ident {
     ident(&camel(choices.variants.get(usize::from(index)).map_or("", |name| name)))

@@ -41,6 +41,10 @@ pub fn all_nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>
     for candidate in alike.take(MOST_ALIKE) {
         other = letters(candidate, other);
         let score = distance(&name, &other, &mut rows);
+        // Where every letter differs it is another word.
+        if score >= name.len().max(other.len()) {
+            continue;
+        }
         if score < least {
             nearest.clear();
         }
@@ -129,6 +133,7 @@ mod tests {
         assert_eq!(nearest("Curve", names), None);
         assert_eq!(nearest("oFrward", names), Some("Forward"));
         assert_eq!(nearest("ba", ["ab", "cd"]), Some("ab"));
+        assert_eq!((nearest("s", ["n"]), nearest("S", ["s"])), (None, Some("s")));
         assert_eq!(nearest("WÄNDE", ["Turn", "wände"]), Some("wände"));
         assert_eq!(all_nearest("roundd", ["way", "rounds", "round"]), ["rounds", "round"]);
     }

@@ -38,7 +38,7 @@ pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
     let mended = braces::mend(&mut tokens, file, diags);
     let mut parser = Parser::new(&tokens, file, diags);
     parser.note_reported(&mended.reported);
-    parser.balanced = mended.balanced;
+    (parser.balanced, parser.balanced_as_written) = (mended.balanced, mended.as_written);
     parser.file();
     parser.withdraw_fixes();
     parser.builder.finish()
@@ -59,6 +59,8 @@ struct Parser<'t, 'd> {
     misplaced: bool,
     /// Whether every brace has its other one, so that none is missed.
     balanced: bool,
+    /// Whether that is so without a brace that was mended.
+    balanced_as_written: bool,
     /// Whether the file is a toolbox, as far as it is read.
     is_toolbox: bool,
     /// Whether lines of a scenario are read.
@@ -67,6 +69,8 @@ struct Parser<'t, 'd> {
     commas_separate: bool,
     /// The entries of the plan as far as it is read, each with the word that declares it.
     entries: BTreeMap<&'t str, &'t str>,
+    /// The supervisors of the plans of the file.
+    globals: BTreeSet<&'t str>,
     /// The names with '-' in them.
     hyphens: BTreeSet<String>,
     marks: Marks,
@@ -94,6 +98,7 @@ impl<'t, 'd> Parser<'t, 'd> {
         let (marks, builder) = (Marks::new(tokens, &solid), GreenNodeBuilder::new());
         Parser {
             tokens,
+            globals: globals(tokens, &solid),
             solid,
             at: 0,
             built: 0,
@@ -101,6 +106,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             depth: 0,
             misplaced: false,
             balanced: false,
+            balanced_as_written: false,
             is_toolbox: false,
             in_scenario: false,
             commas_separate: false,
@@ -396,4 +402,21 @@ fn own_trivia(trivia: &[Token<'_>]) -> usize {
     let help = trivia.iter().position(|token| token.kind == Kind::Doc).unwrap_or(trivia.len());
     let before_help = trivia[..help].iter().rposition(is_blank_line).map_or(0, |index| index + 1);
     if help < after_blank { before_help } else { after_blank }
+}
+
+/// The names behind 'supervise' in the braces of plans, and in no others within them.
+fn globals<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeSet<&'t str> {
+    let (mut depth, mut found) = (0_usize, BTreeSet::new());
+    let mut solid = solid.iter().filter_map(|index| tokens.get(*index as usize)).peekable();
+    while let Some(token) = solid.next() {
+        match token.kind {
+            Kind::OpenBrace => depth += 1,
+            Kind::CloseBrace => depth = depth.saturating_sub(1),
+            Kind::Name if token.text == "supervise" && depth == 1 => {
+                found.extend(solid.peek().filter(|it| it.kind == Kind::Name).map(|it| it.text));
+            }
+            _ => {}
+        }
+    }
+    found
 }

@@ -9,6 +9,9 @@ const K: u16 = 5;
 const N: u16 = 6;
 const O: u16 = 7;
 const P: u16 = 8;
+const Q: u16 = 9;
+const R: u16 = 10;
+const S: u16 = 11;
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -152,5 +155,56 @@ fn p_outputs(
 ) -> Result<(), BadValue> {
     let std_templates::assign::State::Done { result: value_0 } = outcome;
     staged.number = Some(output(0, || Ok(parse_int(value_0.as_str())?))?);
+    Ok(())
+}
+
+/// Inputs of `q`.
+fn q_inputs() -> Result<std_templates::assign::Inputs<Text>, BadValue> {
+    Ok(std_templates::assign::Inputs {
+        value: input(0, || Ok(join("n", Text::print(3000000000i64)?.as_str())?))?,
+    })
+}
+
+/// Outputs of `q`.
+fn q_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<Text>,
+) -> Result<(), BadValue> {
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.said = Some(value_0);
+    Ok(())
+}
+
+/// Inputs of `r`.
+fn r_inputs() -> Result<std_templates::assign::Inputs<Text>, BadValue> {
+    Ok(std_templates::assign::Inputs {
+        value: input(0, || Ok(join("n", Text::print(i64::MIN)?.as_str())?))?,
+    })
+}
+
+/// Outputs of `r`.
+fn r_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<Text>,
+) -> Result<(), BadValue> {
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.said = Some(value_0);
+    Ok(())
+}
+
+/// Inputs of `s`.
+fn s_inputs(config: &Config) -> Result<std_templates::assign::Inputs<Text>, BadValue> {
+    Ok(std_templates::assign::Inputs {
+        value: input(0, || Ok(join(config.t(), config.first())?))?,
+    })
+}
+
+/// Outputs of `s`.
+fn s_outputs(
+    staged: &mut Staged,
+    outcome: std_templates::assign::State<Text>,
+) -> Result<(), BadValue> {
+    let std_templates::assign::State::Done { result: value_0 } = outcome;
+    staged.said = Some(value_0);
     Ok(())
 }

@@ -4,9 +4,9 @@
 mod alone;
 mod generic;
 mod outputs;
+mod unknown_port;
 
 use crate::check::formula::{Scope, of_constant};
-use crate::check::names::unknown;
 use crate::check::range;
 use crate::check::signature::{Input, Signature};
 use crate::graph::{Formula, Output};
@@ -170,7 +170,7 @@ fn find_ports<'a>(
             (_, None, None) => {
                 bound_names(scope, bind);
                 ports.complete = false;
-                diags.push(unknown_port(signature, bind, port));
+                diags.push(unknown_port::report(scope, signature, binds, bind));
             }
             (Bind::In { .. }, None, Some(_)) => {
                 bound_names(scope, bind);
@@ -215,17 +215,6 @@ pub(super) fn mixed_up(sign: Span, port: &Name, is: &str, right: &str) -> Diagno
     Diagnostic::new(Code::E0227, sign, format!("'{}' is {is}", port.text))
         .help(format!("write '{right}'"))
         .replace(right)
-}
-
-fn unknown_port(signature: &Signature, bind: &Bind, port: &Name) -> Diagnostic {
-    let message = format!("'{}' has no port '{}'", signature.name, port.text);
-    let inputs = signature.inputs.iter().map(|input| &*input.name);
-    let outputs = signature.outputs.iter().map(|output| &*output.name);
-    let known: Vec<_> = match bind {
-        Bind::In { .. } => inputs.collect(),
-        Bind::Out { .. } => outputs.collect(),
-    };
-    unknown(Code::E0202, port.span, message, &port.text, known, "remove the binding")
 }
 
 fn inputs(

@@ -1,5 +1,9 @@
 //! Which types become which, and with what warning.
 
+mod unit;
+
+pub(crate) use unit::{bare, likely, unit_missing};
+
 use crate::graph::{Formula, FormulaKind};
 use crate::types::text::{self, a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
@@ -113,9 +117,8 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
     let span = formula.span;
     let expected = format!("expected {}, found {}", a_type(want), a_type(&formula.ty));
     match (&formula.ty, want) {
-        (Type::Int, Type::Quantity(dimension)) => unit_missing(formula, *dimension, text),
-        (Type::Quantity(Dimension::NONE), Type::Quantity(dimension)) => {
-            unit_missing(formula, *dimension, text)
+        (Type::Int | Type::Quantity(Dimension::NONE), Type::Quantity(dimension)) => {
+            unit_missing(formula, *dimension, Some(range), text)
         }
         (Type::Quantity(dimension), Type::Int | Type::Quantity(Dimension::NONE)) => {
             let unit = dimension.usual_unit();
@@ -157,28 +160,6 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
         (_, want) => {
             Diagnostic::new(Code::E0206, span, expected).help(format!("use {}", a_type(want)))
         }
-    }
-}
-
-/// A bare number where a quantity is needed.
-pub(crate) fn unit_missing(formula: &Formula, dimension: Dimension, text: &str) -> Diagnostic {
-    let message = format!("expected {}, found a bare number", a_dimension(dimension));
-    let unit = dimension.usual_unit();
-    let better = match formula.kind {
-        FormulaKind::Int(_) | FormulaKind::Float(_) => format!("{text} {unit}"),
-        FormulaKind::Neg(ref inner)
-            if matches!(inner.kind, FormulaKind::Int(_) | FormulaKind::Float(_)) =>
-        {
-            format!("{text} {unit}")
-        }
-        _ => format!("{} * 1 {unit}", bracketed(formula, text)),
-    };
-    let error = Diagnostic::new(Code::E0203, formula.span, message);
-    let error = error.help(format!("write '{better}'"));
-    // Of two operands either may be the wrong one, so that an entry is left to whoever reads.
-    match formula.kind {
-        FormulaKind::Entry(_) => error,
-        _ => error.replace(better),
     }
 }
 

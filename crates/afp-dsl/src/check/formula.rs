@@ -1,5 +1,6 @@
 //! Types of formulas: names become entries, conversions become nodes, dimensions are computed.
 
+mod elsewhere;
 mod function;
 mod literal;
 mod operation;
@@ -203,7 +204,7 @@ impl Typer<'_> {
                 Some(Formula { span, ..inner })
             }
             ast::FormulaKind::Call { name, operands, broken } => {
-                let function = function::named(self.scope, &name, diags);
+                let function = function::named(self.scope, &name, (&operands, span), diags);
                 let inside = !function::takes_celsius(function);
                 // Every operand is looked at, so that all errors come at once.
                 let values = operands.iter().map(|operand| self.formula(operand, inside, diags));
@@ -247,7 +248,7 @@ impl Typer<'_> {
                 self.names(&inner);
             }
             ast::FormulaKind::Call { name, operands, .. } => {
-                function::named(self.scope, &name, &mut Diagnostics::default());
+                function::named(self.scope, &name, (&[], name.span), &mut Diagnostics::default());
                 operands.iter().for_each(|operand| self.names(operand));
             }
             ast::FormulaKind::Bool(_) => self.scope.record.word(formula.span(), Word::Truth),
@@ -311,7 +312,7 @@ impl Typer<'_> {
     fn entry(&self, name: &ast::Name, diags: &mut Diagnostics) -> Option<Formula> {
         let scope = self.scope;
         let Some(index) = scope.entry(name) else {
-            diags.push(self.unknown_entry(name));
+            diags.push(elsewhere::unknown_entry(self.scope, name));
             return None;
         };
         let entry = &scope.entries[index];
@@ -327,39 +328,6 @@ impl Typer<'_> {
         let id = EntryId(u16::try_from(index).ok()?);
         let ty = entry.ty.clone()?;
         Some(Formula { kind: FormulaKind::Entry(id), ty, span: name.span })
-    }
-
-    fn unknown_entry(&self, name: &ast::Name) -> Diagnostic {
-        let scope = self.scope;
-        if let Some(table) = scope.table(name) {
-            let message = format!("'{}' is a table, not a value", name.text);
-            return Diagnostic::new(Code::E0209, name.span, message)
-                .note(table.span, "declared here")
-                .help("read its rows with 'Row' of 'std', and use what comes out");
-        }
-        let message = format!("there is no entry '{}'", name.text);
-        let home = scope.types.enums.iter().find(|(_, home)| home.variants.contains(&name.text));
-        if let Some((_, home)) = home {
-            let better = format!("{}.{}", home.name, name.text);
-            return Diagnostic::new(Code::E0209, name.span, message)
-                .help(format!("write '{better}'"))
-                .replace(better);
-        }
-        let constant = ["true", "false"].into_iter().find(|it| it.eq_ignore_ascii_case(&name.text));
-        if let Some(constant) = constant {
-            return Diagnostic::new(Code::E0209, name.span, message)
-                .help(format!("write '{constant}'"))
-                .replace(constant);
-        }
-        let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
-        let known = readable.map(|(_, entry)| entry.name.text.as_str());
-        // Toolboxes have no entries; only there are generic types.
-        let none = match scope.entries {
-            _ if scope.types.generic => "write a value",
-            [] if !scope.unreadable.is_empty() => scope.unreadable,
-            _ => "declare it in the plan",
-        };
-        unknown(Code::E0209, name.span, message, &name.text, known, none)
     }
 
     /// A value of an enum.
@@ -389,10 +357,7 @@ impl Typer<'_> {
             if self.scope.types.incomplete {
                 return None;
             }
-            let known = self.scope.types.enums.iter().map(|(_, each)| each.name.as_str());
-            let message = format!("there is no enum '{}'", home.text);
-            let none = "declare it in the file, or write the name of an entry";
-            diags.push(unknown(Code::E0239, home.span, message, &home.text, known, none));
+            diags.push(elsewhere::unknown_enum(self.scope, home, name, span));
             return None;
         };
         record.definition(home.span, found.span);

@@ -1,11 +1,12 @@
 //! Times that are written in the text: `every`, `deadline`, `budget`, `stop`.
 
+use crate::check::convert;
 use crate::check::formula::Scope;
 use crate::toolbox::Constant;
 use crate::types::text::a_dimension;
 use crate::types::text::duration;
 use crate::types::{Dimension, Type};
-use afp_syntax::ast::{Formula, FormulaKind, Timing};
+use afp_syntax::ast::{Formula, FormulaKind, Name, Timing};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::literal::Literal;
 
@@ -22,7 +23,7 @@ pub(crate) fn nanoseconds(timing: &Timing, diags: &mut Diagnostics) -> Option<u6
 }
 
 fn above_zero(value: &Formula, kind: FormulaKind, diags: &mut Diagnostics) -> Option<u64> {
-    match time_of(value, kind, "ms", diags)? {
+    match time_of(value, kind, &["ms"], diags)? {
         0 => refuse(value, "a time is longer than nothing", diags),
         time => Some(time),
     }
@@ -55,15 +56,16 @@ pub(crate) fn of_supervisor(
     }
 }
 
-/// The written time in nanoseconds, 0 to 1 h; reports what is none. People write such times in the `usual` unit.
-pub(crate) fn time(value: &Formula, usual: &str, diags: &mut Diagnostics) -> Option<u64> {
+/// The written time in nanoseconds, 0 to 1 h; reports what is none. People write such times in one of the `usual`
+/// units; without any, that depends on the number.
+pub(crate) fn time(value: &Formula, usual: &[&str], diags: &mut Diagnostics) -> Option<u64> {
     time_of(value, value.kind(), usual, diags)
 }
 
 fn time_of(
     value: &Formula,
     kind: FormulaKind,
-    usual: &str,
+    usual: &[&str],
     diags: &mut Diagnostics,
 ) -> Option<u64> {
     let span = value.span();
@@ -74,28 +76,43 @@ fn time_of(
         return None;
     }
     let Some(unit) = unit else {
-        diags.push(
-            Diagnostic::new(Code::E0203, span, "expected a duration, found a bare number")
-                .help(format!("write '{} {usual}'", number.text))
-                .replace(format!("{} {usual}", number.text)),
-        );
+        let units = match usual {
+            [] => convert::likely(&number.text, Dimension::DURATION, None),
+            usual => usual.iter().map(|unit| (*unit).to_owned()).collect(),
+        };
+        let better: Vec<_> = units.iter().map(|unit| format!("{} {unit}", number.text)).collect();
+        diags.push(convert::bare(span, Dimension::DURATION, &better));
         return None;
     };
     let literal = Literal::of_tokens(&number.text, Some(&unit.text))?;
     let dimension = literal.dimension();
     if dimension != Dimension::DURATION {
-        let message = format!("expected a duration, found {}", a_dimension(dimension));
-        diags.push(
-            Diagnostic::new(Code::E0204, unit.span, message)
-                .help("write 's', 'ms', 'us' or 'ns'")
-                .replace(usual),
-        );
+        diags.push(no_duration(value, &unit, &literal));
         return None;
     }
     match literal.nanoseconds() {
         Some(time @ 0..=LONGEST) => Some(time),
         Some(_) => refuse(value, "a time is at most one hour", diags),
         None => refuse(value, "a time is a whole number of nanoseconds of at most one hour", diags),
+    }
+}
+
+/// A quantity that is no duration. Of a rate the period is known.
+fn no_duration(value: &Formula, unit: &Name, literal: &Literal) -> Diagnostic {
+    let dimension = literal.dimension();
+    let message = format!("expected a duration, found {}", a_dimension(dimension));
+    let error = Diagnostic::new(Code::E0204, unit.span, message);
+    let rate =
+        literal.value().filter(|_| dimension.times(Dimension::DURATION) == Some(Dimension::NONE));
+    let Some(rate) = rate else { return error.help("write a time in 's', 'ms', 'us' or 'ns'") };
+    let nanos = (1e9 / rate).round();
+    if !(1.0..=LONGEST as f64).contains(&nanos) {
+        return error.help("write the time from one to the next, such as '10 ms'");
+    }
+    let period = duration(nanos as u64);
+    match nanos * rate == 1e9 {
+        true => error.help(format!("write its period: '{period}'")).fix(value.span(), period),
+        false => error.help(format!("write its period, which is about '{period}'")),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::types::{Dimension, Enum, GENERIC, Object, PLAIN, Type, is_built_in};
 use afp_syntax::ast::{self, Factor};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
+use afp_syntax::units::Unit;
 
 /// The types that a text can name: the built-in ones and these.
 #[derive(Default)]
@@ -41,6 +42,12 @@ impl Types {
         {
             return self.named(reference, record, diags);
         }
+        if let Some(error) = self.unit_for_a_type(ty, &factors) {
+            let names = factors.iter().filter_map(|factor| factor.reference.as_ref()?.name());
+            names.for_each(|name| record.unknown(name.span));
+            diags.push(error);
+            return None;
+        }
         let mut product = Some(Dimension::NONE);
         let mut named = false;
         for factor in &factors {
@@ -66,6 +73,26 @@ impl Types {
             return None;
         }
         product.map(Type::Quantity)
+    }
+
+    /// `m/s` in the place of a type, none of whose factors is one.
+    fn unit_for_a_type(&self, ty: &ast::Type, factors: &[Factor]) -> Option<Diagnostic> {
+        let mut unit = String::new();
+        for factor in factors {
+            let name = factor.reference.as_ref()?.name()?.text;
+            if is_built_in(&name) || self.enums.iter().any(|(_, each)| each.name == name) {
+                return None;
+            }
+            if !unit.is_empty() {
+                unit.push(if factor.divides { '/' } else { '*' });
+            }
+            unit += &name;
+            if let exponent @ 2.. = factor.exponent? {
+                unit += &format!("^{exponent}");
+            }
+        }
+        let dimension = Unit::parse(&unit)?.dimension;
+        Some(of_unit(ty.span(), &unit, dimension))
     }
 
     fn named(
@@ -143,20 +170,7 @@ impl Types {
             }
             [] => {
                 record.unknown(name.span);
-                let mut known: Vec<&str> = Vec::new();
-                known.extend(PLAIN);
-                known.extend(self.enums.iter().map(|(_, each)| each.name.as_str()));
-                for dimension in Dimension::names() {
-                    known.push(dimension);
-                }
-                known.extend(self.objects.iter().map(|(_, each)| each.name.as_str()));
-                let mut seen = HashSet::new();
-                known.retain(|name| seen.insert(*name));
-                let message = format!("there is no type '{}'", name.text);
-                diags.push(match meant::ty(&name.text) {
-                    Some(ty) => elsewhere(reference.span(), message, ty),
-                    None => unknown(Code::E0232, reference.span(), message, &name.text, known, ""),
-                });
+                diags.push(self.unknown(reference, name, home.is_some()));
                 None
             }
             several => {
@@ -169,6 +183,28 @@ impl Types {
                 None
             }
         }
+    }
+
+    /// Reports a name that no type has; `qualified` tells whether something stands before it.
+    fn unknown(&self, reference: &ast::Ref, name: &ast::Name, qualified: bool) -> Diagnostic {
+        let message = format!("there is no type '{}'", name.text);
+        if let Some(ty) = meant::ty(&name.text) {
+            return elsewhere(reference.span(), message, ty);
+        }
+        if let Some(unit) = Unit::parse(&name.text).filter(|_| !qualified) {
+            return of_unit(reference.span(), &name.text, unit.dimension);
+        }
+        let enums = self.enums.iter().map(|(_, each)| each.name.as_str());
+        let objects = self.objects.iter().map(|(_, each)| each.name.as_str());
+        let mut known: Vec<&str> = PLAIN.to_vec();
+        known.extend(enums);
+        for dimension in Dimension::names() {
+            known.push(dimension);
+        }
+        known.extend(objects);
+        let mut seen = HashSet::new();
+        known.retain(|name| seen.insert(*name));
+        unknown(Code::E0232, reference.span(), message, &name.text, known, "")
     }
 
     /// A factor of a product: a dimension, or a number without one.
@@ -229,5 +265,12 @@ fn too_high(factor: &Factor, diags: &mut Diagnostics) {
 
 /// Reports a type by the name that other languages have for it.
 fn elsewhere(span: Span, message: String, ours: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0232, span, message).help(format!("write '{ours}'")).replace(ours)
+}
+
+/// Reports a unit in the place of a type.
+fn of_unit(span: Span, unit: &str, dimension: Dimension) -> Diagnostic {
+    let ours = dimension.name();
+    let message = format!("there is no type '{unit}', which is a unit");
     Diagnostic::new(Code::E0232, span, message).help(format!("write '{ours}'")).replace(ours)
 }

@@ -54,6 +54,9 @@ impl Lexer<'_, '_> {
         {
             return self.instead(*kind, foreign.len(), &format!("write '{ours}'"), ours);
         }
+        if rest.starts_with("#include") {
+            return self.include();
+        }
         if rest.starts_with('#') && begins_comment(rest) {
             return self.foreign_comment("#");
         }
@@ -72,6 +75,16 @@ impl Lexer<'_, '_> {
                 self.diags.push(error);
             }
             "?" if behind_word => self.instead(Kind::Unknown, length, "remove it", ""),
+            "!" if let Some(start) = self.only_word_of_line("expect") => {
+                let place = self.span(start, self.at + length);
+                let error = self.error(Kind::Unknown, length, "write 'never' in place of 'expect'");
+                self.diags.push(error.fix(place, "never "));
+            }
+            "&&" | "&" if self.begins_claim() => {
+                let error =
+                    self.error(Kind::Unknown, length, "write two lines, each with one claim");
+                self.diags.push(error);
+            }
             "&&" | "&" | "!" | "?" => {
                 let error = self.error(Kind::Unknown, length, CHOICE);
                 self.diags.push(error);
@@ -81,6 +94,20 @@ impl Lexer<'_, '_> {
             }
             _ => self.instead(Kind::Unknown, length, "remove it", ""),
         }
+    }
+
+    /// Where a word begins that is all of this line up to here.
+    fn only_word_of_line(&self, word: &str) -> Option<usize> {
+        let before = self.text[..self.at].trim_end_matches([' ', '\t']).strip_suffix(word)?;
+        let is_first = before.trim_end_matches([' ', '\t']).ends_with('\n');
+        is_first.then_some(before.len())
+    }
+
+    /// Whether this line begins with the word of a claim.
+    fn begins_claim(&self) -> bool {
+        let before = &self.text[..self.at];
+        let line = &before[before.rfind('\n').map_or(0, |end| end + 1)..];
+        matches!(line.split_whitespace().next(), Some("expect" | "never"))
     }
 
     /// The sign of a comment of other languages that a line begins with: words follow it, as none do in a formula.
@@ -133,6 +160,25 @@ impl Lexer<'_, '_> {
         );
         let help = "keep one of the versions between '<<<<<<<' and '>>>>>>>', and remove the other one and the marks";
         self.diags.push(error.help(help));
+    }
+
+    /// `#include "walls.afp"`, `#include <carbot>`
+    fn include(&mut self) {
+        let rest = &self.text[self.at..];
+        let length = line_length(rest);
+        let what = rest["#include".len()..length].trim();
+        let name = what.trim_matches(['<', '>', '"']);
+        let is_name = !name.is_empty() && name.chars().all(is_word);
+        let better = match what.starts_with('"') && name.ends_with(".afp") {
+            true => Some(format!("use \"{name}\"")),
+            false => is_name.then(|| format!("use {name}")),
+        };
+        let span = self.push(Kind::Comment, length);
+        let error = Diagnostic::new(Code::E0101, span, "'#include' has no meaning here");
+        self.diags.push(match better {
+            Some(better) => error.help(format!("write '{better}'")).replace(better),
+            None => error.help("write 'use' and a toolbox, such as 'use carbot'"),
+        });
     }
 
     /// Reports characters that something else should be written for.

@@ -107,6 +107,8 @@ pub(super) struct Mended {
     pub reported: Vec<(u32, u32)>,
     /// Whether every brace has its other one now.
     pub balanced: bool,
+    /// Whether that is so as it is written.
+    pub as_written: bool,
 }
 
 /// Reports braces that are missing or too much. A missing one is added, without any text; one too much is passed over.
@@ -115,7 +117,7 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         |each: &&Diagnostic| each.span.file == file && each.severity == Severity::Error;
     let starts = diags.iter().filter(is_reported).map(|each| each.span.start);
     let mut reported: Vec<_> = starts.map(|start| (start, start)).collect();
-    let mut strays = Vec::new();
+    let (mut strays, before) = (Vec::new(), reported.len());
     for at in doubled(tokens) {
         strays.push((span(tokens[at], file), tokens[at].text));
         reported.push((tokens[at].start, tokens[at].start));
@@ -164,9 +166,11 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         reported.extend(lines.map(|line| (line, start)));
         tokens.insert(behind + 1, Token { kind: brace, text: "", start, breaks: 0 });
     }
+    let is_mended = !strays.is_empty() || reported.len() > before;
     report_strays(strays, diags);
     let (opened, closed) = count(tokens);
-    Mended { reported, balanced: opened == closed }
+    let balanced = opened == closed;
+    Mended { reported, balanced, as_written: balanced && !is_mended }
 }
 
 /// Reports braces that are too much; those that stand side by side are one mistake.

@@ -35,9 +35,7 @@ impl Parser<'_, '_> {
             "object" => self.object(),
             "device" | "sensor" => self.device(),
             "robot" if self.at_device() => self.device(),
-            "actor" | "supervisor" | "computation" if self.nth(2) == Kind::OpenBrace => {
-                self.template();
-            }
+            _ if self.at_template() => self.template(),
             "supervise" if self.nth(1) == Kind::Name && self.nth(2) == Kind::OpenBrace => {
                 self.read_as("supervisor", "an item of a toolbox");
                 self.template();
@@ -129,12 +127,18 @@ impl Parser<'_, '_> {
             self.name("give the short name, such as 'use carbot as c'");
             self.close();
         }
+        self.use_of_parts();
         self.close_item();
     }
 
     fn enumeration(&mut self) {
         self.open_item(Kind::Enum);
         self.keyword();
+        let is_named = self.nth(1) == Kind::Name && !self.begins_line(1);
+        if matches!(self.word(0), "class" | "struct") && is_named {
+            let message = format!("no {} behind 'enum'", self.found());
+            self.instead(1, message, "remove it".to_owned(), "");
+        }
         self.name("give the enum a name");
         let opened = self.here();
         // The brackets of other languages.

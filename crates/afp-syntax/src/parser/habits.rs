@@ -1,5 +1,6 @@
 //! What is written as in other languages: what to write instead, and where reading goes on.
 
+mod behind;
 mod bodies;
 mod edges;
 mod heads;
@@ -222,6 +223,22 @@ impl Parser<'_, '_> {
             }
             _ => None,
         }
+    }
+
+    /// `(value = n // 2)`: the place of the slashes, where what closes the brackets stands behind them in a comment.
+    pub(super) fn divided_by_a_comment(&self) -> Option<Span> {
+        let before = self.at.checked_sub(1).and_then(|at| self.solid.get(at)).copied()? as usize;
+        let between = self.tokens.get(before + 1..self.token_index(0))?;
+        let comment = between.iter().find(|token| token.kind != Kind::Whitespace)?;
+        let divisor = comment.text.strip_prefix("//")?.trim_start();
+        let is_number = divisor.starts_with(|first: char| first.is_ascii_digit());
+        let behind_value = matches!(
+            self.tokens.get(before)?.kind,
+            Kind::Name | Kind::Int | Kind::Float | Kind::Unit | Kind::CloseParen
+        );
+        let same_line = between.first().is_none_or(|first| !first.ends_line());
+        let divides = is_number && behind_value && same_line && divisor.contains(')');
+        divides.then(|| Span { end: comment.start + 2, ..self.span_of(*comment) })
     }
 
     /// `50 %`: reports the sign behind a number that nothing is divided by, and reads past it.

@@ -148,7 +148,7 @@ impl Parser<'_, '_> {
         if let Some(body) = body {
             while !self.ends_body(&body) {
                 self.repeat(|parser| {
-                    if parser.reaction_without_braces() {
+                    if parser.reaction_without_braces() || parser.reaction_as_edge() {
                         return;
                     }
                     if parser.at_word("supervise") {

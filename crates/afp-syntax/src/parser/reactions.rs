@@ -64,6 +64,23 @@ impl Parser<'_, '_> {
         true
     }
 
+    /// `esc.Pressed -> ignore`, of a supervisor of the plan: reports that the edge belongs into an 'on', and reads past it.
+    pub(super) fn reaction_as_edge(&mut self) -> bool {
+        let (supervisor, event, target) = (self.word(0), self.word(2), self.word(4));
+        let is_edge = self.nth(1) == Kind::Dot && self.nth(3) == Kind::Arrow;
+        let ends = self.nth(5) == Kind::CloseBrace || self.begins_line(5);
+        let is_whole = ends && !event.is_empty() && !target.is_empty();
+        if !is_edge || !is_whole || !self.globals.contains(supervisor) {
+            return false;
+        }
+        let better = format!("on {supervisor} {{ {event} -> {target} }}");
+        let message = "what events of the plan's supervisors do here stands in 'on'";
+        let error = Diagnostic::new(Code::E0102, self.ahead(5), message);
+        self.error(error.help(format!("write '{better}'")).replace(better));
+        self.pass(5);
+        true
+    }
+
     /// The edges of events, in braces; `help` tells who has left them out.
     pub(super) fn events(&mut self, help: &str) {
         let body = self.open_body(help, Self::begins_body);

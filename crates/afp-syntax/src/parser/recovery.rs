@@ -132,11 +132,11 @@ impl Parser<'_, '_> {
         self.eat(Kind::OpenBrace).then_some(opened)
     }
 
-    /// Closes a body; where nothing opened it, nothing need close it.
+    /// Closes a body; where nothing opened it, nothing need close it, and where every brace has its other one, none does.
     pub(super) fn close_body(&mut self, body: Body) {
         match body.opened {
             Some(opened) => self.close_bracket(Kind::CloseBrace, opened),
-            None if self.closes_more() => {
+            None if !self.balanced_as_written && self.closes_more() => {
                 self.eat(Kind::CloseBrace);
             }
             None => {}
@@ -205,6 +205,15 @@ impl Parser<'_, '_> {
         }
         let sign = kind.describe();
         let here = self.behind();
+        if let Some(slashes) = self.divided_by_a_comment() {
+            let message = format!("missing {sign}: '//' begins a comment");
+            return self.error(
+                Diagnostic::new(Code::E0103, here, message)
+                    .note(opened, "opened here")
+                    .help("write '/' to divide")
+                    .fix(slashes, "/"),
+            );
+        }
         self.error(
             Diagnostic::new(Code::E0103, here, format!("missing {sign}, found {}", self.found()))
                 .note(opened, "opened here")

@@ -2,7 +2,7 @@
 
 use super::formula::begins_formula;
 use super::{MAX_DEPTH, Parser};
-use crate::diagnostics::words;
+use crate::diagnostics::{Code, Diagnostic, words};
 use crate::keywords::LINES;
 use crate::kind::Kind;
 
@@ -40,7 +40,7 @@ impl Parser<'_, '_> {
                     let what = "a line of the scenario";
                     if parser.at_word("always") && parser.claims_behind() {
                         parser.always_first();
-                    } else if parser.action_without_its_time() {
+                    } else if parser.action_without_its_time() || parser.time_first() {
                         // It is reported.
                     } else if parser.at_line() || parser.item_meant(what, LINES) {
                         parser.line();
@@ -60,7 +60,8 @@ impl Parser<'_, '_> {
     }
 
     fn line(&mut self) {
-        match self.word(0) {
+        let first = self.word(0);
+        match first {
             "world" => {
                 self.open_item(Kind::World);
                 self.keyword();
@@ -91,6 +92,10 @@ impl Parser<'_, '_> {
                 self.quantity("write a time such as '60 s'");
             }
             _ => self.expectation(),
+        }
+        // The braces of a moment end it.
+        if first != "from" {
+            self.nothing_behind(first);
         }
         self.close_item();
     }
@@ -154,6 +159,7 @@ impl Parser<'_, '_> {
                 parser.formula();
                 parser.expect(Kind::Comma, "write the second coordinate behind a comma");
                 parser.formula();
+                parser.heading_in_brackets();
             });
             self.close_bracket(Kind::CloseParen, opened);
         }
@@ -248,7 +254,15 @@ impl Parser<'_, '_> {
         let goes_on = ["active", "always", "once", "within", "before", "after", "by"];
         let claimed = self.nth(1) == Kind::Name && !is_line(self.word(1));
         if claimed && self.on_same_line() && !goes_on.contains(&self.word(1)) {
-            self.expected("a claim", help);
+            match self.word(0) {
+                "never" | "not" => {
+                    let place = self.place_between(self.at.saturating_sub(1), self.at + 1);
+                    let message = format!("expected a claim, found {}", self.found());
+                    let error = Diagnostic::new(Code::E0102, self.next_span(), message);
+                    self.error(error.help(help).fix(place, "never"));
+                }
+                _ => self.expected("a claim", help),
+            }
             self.keyword();
         }
     }
@@ -269,7 +283,10 @@ impl Parser<'_, '_> {
     }
 
     fn claim(&mut self) {
-        let is_path = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || self.nth(1).is_comparison();
+        let is_active = self.word(1) == "active" && !self.begins_line(1);
+        let is_path = is_active
+            || matches!(self.nth(1), Kind::Dot | Kind::Arrow)
+            || self.nth(1).is_comparison();
         if !is_path && self.at_word("running") {
             return self.keyword();
         }
@@ -297,6 +314,8 @@ impl Parser<'_, '_> {
                 self.path();
             }
             self.by();
+        } else if self.unequal_meant() {
+            self.formula();
         } else if self.nth(0).is_comparison() || self.comparison_meant() {
             // A '=' stands for '=='.
             self.bump_as(if self.at(Kind::Equal) { Kind::EqualEqual } else { self.nth(0) });

@@ -30,9 +30,16 @@ impl Parser<'_, '_> {
         self.open_item(Kind::Template);
         self.keyword();
         self.name("give the template a name");
-        let opened = self.here();
-        if self.expect(Kind::OpenBrace, "put the template's parts in braces") {
-            let ends = |p: &Self| p.at(Kind::CloseBrace) || p.at_tool() && !p.at_use_for_uses();
+        let help = match self.on_same_line() && !self.at_end() {
+            true => "a template declares what it takes with 'in', between its braces",
+            false => "put the template's parts in braces",
+        };
+        let body = self.open_body(help, Self::at_part);
+        if let Some(body) = body {
+            let ends = |p: &Self| {
+                let is_tool = p.at_tool() || p.at_template();
+                p.at(Kind::CloseBrace) || is_tool && !p.at_use_for_uses()
+            };
             while !self.at_end() && !ends(self) {
                 self.repeat(|parser| {
                     let possible = if parser.word(1) == "of" { &["states"] } else { PARTS };
@@ -46,9 +53,16 @@ impl Parser<'_, '_> {
                     }
                 });
             }
-            self.close_bracket(Kind::CloseBrace, opened);
+            self.close_body(body);
         }
         self.close_item();
+    }
+
+    /// Whether a template begins: one with its brace, or in a toolbox one that something stands behind.
+    pub(super) fn at_template(&self) -> bool {
+        let named = matches!(self.word(0), "actor" | "supervisor" | "computation")
+            && self.nth(1) == Kind::Name;
+        named && (self.nth(2) == Kind::OpenBrace || self.is_toolbox)
     }
 
     /// Whether an item of a toolbox begins.

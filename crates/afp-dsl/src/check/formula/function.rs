@@ -16,7 +16,12 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
 /// The function of a name; reports one that formulas do not have.
-pub(super) fn named(scope: &Scope<'_>, name: &Name, diags: &mut Diagnostics) -> Option<Function> {
+pub(super) fn named(
+    scope: &Scope<'_>,
+    name: &Name,
+    (operands, span): (&[ast::Formula], Span),
+    diags: &mut Diagnostics,
+) -> Option<Function> {
     let function = Function::named(&name.text);
     match function {
         Some(_) => scope.record.word(name.span, Word::Function),
@@ -24,10 +29,32 @@ pub(super) fn named(scope: &Scope<'_>, name: &Name, diags: &mut Diagnostics) -> 
             scope.record.unknown(name.span);
             let known = Function::ALL.iter().map(|function| function.name());
             let message = format!("formulas have no function '{}'", name.text);
+            if let Some(better) = in_terms_of_ours(scope, &name.text, operands) {
+                let error = Diagnostic::new(Code::E0243, name.span, message);
+                diags.push(error.help(format!("write '{better}'")).fix(span, better));
+                return None;
+            }
             diags.push(unknown(Code::E0243, name.span, message, &name.text, known, ""));
         }
     }
     function
+}
+
+/// A function of other languages in terms of ours, where it has one operand.
+fn in_terms_of_ours(scope: &Scope<'_>, name: &str, operands: &[ast::Formula]) -> Option<String> {
+    let [operand] = operands else { return None };
+    let x = scope.text_of(operand.span());
+    let factor = match operand.kind() {
+        ast::FormulaKind::Chain(..) | ast::FormulaKind::Negation(_) => format!("({x})"),
+        _ => x.to_owned(),
+    };
+    Some(match name {
+        "atan" | "arctan" => format!("atan2({x}, 1)"),
+        "asin" | "arcsin" => format!("atan2({x}, sqrt(1 - {factor} * {factor}))"),
+        "acos" | "arccos" => format!("atan2(sqrt(1 - {factor} * {factor}), {x})"),
+        "tan" => format!("(sin({x}) / cos({x}))"),
+        _ => return None,
+    })
 }
 
 /// Whether degrees Celsius may be written as an operand: what only compares its operands needs no

@@ -127,6 +127,6 @@ pub(super) fn different(scope: &Scope<'_>, left: &Formula, right: &Formula) -> D
             .note(left.span, format!("this is {}", a_dimension(a)))
             .help("compute only with quantities of one dimension here");
     };
-    unit_missing(bare, dimension(other), scope.text_of(bare.span))
+    unit_missing(bare, dimension(other), None, scope.text_of(bare.span))
         .note(other.span, format!("this is {}", a_dimension(dimension(other))))
 }

@@ -1,5 +1,9 @@
 //! What happens in a scenario.
 
+mod named;
+
+pub(super) use named::Verb;
+
 use super::Checker;
 use super::paths::{Found, Part};
 use crate::check::names::unknown;
@@ -22,7 +26,7 @@ impl Checker<'_> {
     pub(super) fn action(&self, node: &ast::Action, diags: &mut Diagnostics) -> Option<Action> {
         let (verb, path) = (node.verb()?, node.path()?);
         let duration = match node.duration() {
-            Some(time) => Some(timing::time(&time, "ms", diags)?),
+            Some(time) => Some(timing::time(&time, &[], diags)?),
             None => None,
         };
         self.only(node, &verb, diags)?;
@@ -76,7 +80,7 @@ impl Checker<'_> {
     }
 
     fn fire(&self, path: &ast::Path, binds: &[Bind], diags: &mut Diagnostics) -> Option<Action> {
-        let (found, name) = self.outcome_of(path, diags)?;
+        let (found, name) = self.outcome_of(path, Verb::Fire, diags)?;
         let fails = name.text == self.paths.special(found);
         let help = match self.paths.component(found) {
             None => return self.injection(path, found, &name, binds, diags),
@@ -99,7 +103,7 @@ impl Checker<'_> {
     }
 
     fn finish(&self, path: &ast::Path, binds: &[Bind], diags: &mut Diagnostics) -> Option<Action> {
-        let (found, name) = self.outcome_of(path, diags)?;
+        let (found, name) = self.outcome_of(path, Verb::Finish, diags)?;
         let fails = name.text == self.paths.special(found);
         let help = match self.paths.component(found) {
             Some(Component::Actor(_)) if !fails => {
@@ -143,27 +147,6 @@ impl Checker<'_> {
         let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors and sub-plans");
         diags.push(error.help(help));
         None
-    }
-
-    /// A component and the name of one of its outcomes.
-    fn outcome_of(&self, path: &ast::Path, diags: &mut Diagnostics) -> Option<(Found, Name)> {
-        let names = path.names();
-        let (found, rest) =
-            self.paths.find(self.paths.main(), &names).map_err(|error| diags.push(*error)).ok()?;
-        match rest {
-            [name] => Some((found, name.clone())),
-            _ => {
-                let known =
-                    self.paths.outcomes(found).into_iter().map(|o| format!("{}.{o}", path.text()));
-                let known: Vec<_> = known.collect();
-                let example = words::list(known.iter().map(String::as_str), "or");
-                diags.push(
-                    Diagnostic::new(Code::E0210, path.span(), "a state or event is missing")
-                        .help(format!("write {example}")),
-                );
-                None
-            }
-        }
     }
 
     fn injection(

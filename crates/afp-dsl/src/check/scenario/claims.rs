@@ -1,5 +1,6 @@
 //! What a scenario expects.
 
+mod ends;
 mod left;
 
 use super::often::wanted;
@@ -8,7 +9,7 @@ use super::resolve;
 use super::{Checker, Stretch};
 use crate::check::names::unknown;
 use crate::graph::{Component, Target};
-use crate::scenario::{Cause, Claim, Destination, EndCause, Expectation, Outcome};
+use crate::scenario::{Cause, Claim, Destination, Expectation, Outcome};
 use afp_syntax::ast::{self, Bound, ClaimKind, ClaimTarget, Line, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
@@ -106,7 +107,7 @@ impl Checker<'_> {
             None => self.element(from_path, diags),
         };
         let found = match to.path() {
-            Some(path) => Some(self.element(path, diags)?),
+            Some(path) => Some(self.target(path, diags)?),
             None => None,
         };
         let from = from?;
@@ -298,6 +299,19 @@ impl Checker<'_> {
                     None
                 }
             },
+            [first, _, ..] if self.paths.outcome(found, &first.text).is_none() => {
+                let owner = self.paths.name(found);
+                let message = format!("'{owner}' has no supervisor '{}'", first.text);
+                let known = self.paths.supervisors(found);
+                let none = "name one of its states alone";
+                diags.push(match found.part {
+                    Part::Element(_) => {
+                        unknown(Code::E0602, first.span, message, &first.text, known, none)
+                    }
+                    Part::Supervisor(_) => self.no_outcome(found, first),
+                });
+                None
+            }
             [_, more, ..] => {
                 diags.push(
                     Diagnostic::new(Code::E0210, more.span, "a state or event has no parts")
@@ -308,85 +322,16 @@ impl Checker<'_> {
         }
     }
 
-    fn end(&self, by: Option<&Path>, diags: &mut Diagnostics) -> Option<Claim> {
-        let Some(path) = by else { return Some(Claim::End(None)) };
-        let names = path.names();
-        let found = self.paths.find(self.paths.main(), &names);
-        let ending = match path.text().as_str() {
-            "OK" => Some(EndCause::Ok),
-            "Interrupted" => Some(EndCause::Interrupted),
-            "Error" => Some(EndCause::Error),
-            _ => None,
-        };
-        let (found, rest) = match (found, ending) {
-            (Err(_), Some(ending)) => return Some(Claim::End(Some(ending))),
-            (Err(error), None) => {
-                diags.push(*error);
-                return None;
-            }
-            (Ok(found), _) => found,
-        };
-        let outcome = self.outcome(found, rest, diags)?;
-        self.ends(found, outcome, path, diags)?;
-        let cause = Cause { component: self.paths.number(found), outcome };
-        Some(Claim::End(Some(EndCause::Cause(cause))))
-    }
-
-    /// Reports a cause that cannot end the plan.
-    fn ends(
-        &self,
-        found: Found,
-        outcome: Option<Outcome>,
-        path: &Path,
-        diags: &mut Diagnostics,
-    ) -> Option<()> {
-        let declared = u16::try_from(self.paths.outcomes(found).len()).unwrap_or(0);
-        let all = (0..declared).map(Outcome::Declared).chain([Outcome::Special]);
-        let element = matches!(found.part, Part::Element(_));
-        let ends = |each: Outcome| {
-            let targets = self.paths.targets(found, each);
-            let unconnected = targets.is_empty() && each == Outcome::Special && element;
-            unconnected || targets.into_iter().any(ends_plan)
-        };
-        let main = found.instance == self.paths.main();
-        if main && all.filter(|each| outcome.is_none_or(|wanted| wanted == *each)).any(ends) {
-            return Some(());
-        }
-        let plan = &self.paths.graph.main().name;
-        let message = format!("'{}' does not end '{plan}'", path.text());
-        let error = Diagnostic::new(Code::E0603, path.span(), message).help(self.endings());
-        diags.push(match outcome.filter(|_| main) {
-            Some(outcome) => error.note(self.paths.edge(found, outcome), "it leads elsewhere"),
-            None => error,
-        });
-        None
-    }
-
-    /// What ends the plan, for a help.
-    fn endings(&self) -> String {
-        let paths = &self.paths;
-        let ending = paths.components().flat_map(|(name, found)| {
-            let outcomes = paths.outcomes(found).into_iter().chain([paths.special(found)]);
-            outcomes.filter_map(move |outcome| {
-                let targets = paths.targets(found, paths.outcome(found, outcome)?);
-                targets.into_iter().any(ends_plan).then(|| format!("{name}.{outcome}"))
-            })
-        });
-        let ending: Vec<_> = ending.collect();
-        match ending.is_empty() {
-            true => {
-                "nothing leads to 'terminate'; only an error ends it: 'end by Error'".to_owned()
-            }
-            false => {
-                format!("what ends it is {}", words::list(ending.iter().map(String::as_str), "or"))
-            }
-        }
-    }
-
     /// Reports that there is nothing of a name, neither in the plan nor of the robot.
     fn no_fact(&self, path: &Path, error: Diagnostic) -> Diagnostic {
         let (written, facts) = (path.text(), self.facts());
         let facts = || facts.iter().map(String::as_str);
+        if let Some(better) = ends::meant(&written) {
+            let better = format!("end by {better}");
+            let error = Diagnostic::new(error.code, error.span, error.message);
+            return error.help(format!("write '{better}'")).replace(better);
+        }
+        let error = self.owner_meant(&path.names(), None, error);
         match error.fix.is_none() && words::nearest(&written, facts()).is_some() {
             true => unknown(Code::E0602, error.span, error.message, &written, facts(), ""),
             false => error,
@@ -431,11 +376,6 @@ impl Checker<'_> {
         }
         Some(Claim::Happens(Cause { component: self.paths.number(found), outcome }))
     }
-}
-
-/// Whether an edge that leads there ends the plan.
-fn ends_plan(target: Target) -> bool {
-    matches!(target, Target::Terminate | Target::Fail(_))
 }
 
 /// A target as a claim names it.

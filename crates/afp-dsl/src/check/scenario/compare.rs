@@ -51,7 +51,7 @@ impl Checker<'_> {
             Ok((entry, _)) => entry,
             Err(_) if self.is_of_robot(&named.names) => self.measured(&named, diags)?,
             Err(error) => {
-                diags.push(*error);
+                diags.push(self.end_meant(&named, sign, value, *error));
                 return None;
             }
         };
@@ -73,6 +73,28 @@ impl Checker<'_> {
         }
         let right = self.operand(&named, &left.ty, value, diags)?;
         Some(Claim::Compare { left: left.subject, comparison, right })
+    }
+
+    /// `end == OK`
+    fn end_meant(
+        &self,
+        left: &Named,
+        sign: &Name,
+        value: &Formula,
+        error: Diagnostic,
+    ) -> Diagnostic {
+        let FormulaKind::Ref(reference) = value.kind() else { return error };
+        let right = Named::of_ref(&reference);
+        let Some(better) = self.end_compared(&left.text, &sign.text, &right.names) else {
+            return error;
+        };
+        let message = "how the plan ends is no value";
+        let place = left.span.to(right.span);
+        let error = Diagnostic::new(Code::E0604, place, message);
+        match sign.text.as_str() {
+            "==" => error.help(format!("write '{better}'")).replace(better),
+            _ => error.help(format!("write 'never {better}'")),
+        }
     }
 
     /// A value of a type, or something else that has one while the plan runs.

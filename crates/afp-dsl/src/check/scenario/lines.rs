@@ -5,9 +5,11 @@ use std::collections::BTreeSet;
 
 use super::times::Stretch;
 use super::{Checker, seed};
+use crate::check::convert;
 use crate::graph::EntryKind;
 use crate::scenario::{Moment, MomentId, Scenario, Stimulus};
-use afp_syntax::ast::{self, Line, LineKind};
+use crate::types::Dimension;
+use afp_syntax::ast::{self, FormulaKind, Line, LineKind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
@@ -97,7 +99,14 @@ impl Checker<'_> {
             LineKind::Set(Some(path), Some(value)) => {
                 scenario.set.extend(self.set(&path, &value, &[EntryKind::In], diags));
             }
-            LineKind::Robot(formulas) => scenario.robot = self.robot(&formulas, diags),
+            LineKind::Robot(formulas) => {
+                let bare = self.places_without_a_unit(&formulas);
+                scenario.robot = match bare.is_empty() {
+                    true => self.robot(&formulas, diags),
+                    false => None,
+                };
+                bare.into_iter().for_each(|error| diags.push(error));
+            }
             LineKind::Stimulus(Some(at), Some(action)) => {
                 let at = stretch.instant(&at, diags);
                 let action = self.action(&action, diags);
@@ -115,6 +124,33 @@ impl Checker<'_> {
             LineKind::Set(..) | LineKind::Stimulus(..) => {}
             LineKind::Expect { claim: None, .. } => {}
         }
+    }
+
+    /// Reports bare numbers of a place in a world, of which people think in metres, and with them that of a heading.
+    fn places_without_a_unit(&self, formulas: &[ast::Formula]) -> Vec<Diagnostic> {
+        let dimension = |name: &str| Dimension::named(name).unwrap_or_default();
+        let bare = |(at, formula): (usize, &ast::Formula)| {
+            let number = match formula.kind() {
+                FormulaKind::Negation(inner) => inner?.kind(),
+                kind => kind,
+            };
+            if !matches!(number, FormulaKind::Number { unit: None, broken: false, .. }) {
+                return None;
+            }
+            let span = formula.span();
+            let text = self.context.file.text.get(span.start as usize..span.end as usize)?;
+            if at < 2 {
+                let metres = [format!("{text} m")];
+                return Some((at, convert::bare(span, dimension("length"), &metres)));
+            }
+            let units = convert::likely(text, dimension("angle"), None).into_iter();
+            let better: Vec<_> = units.map(|unit| format!("{text} {unit}")).collect();
+            Some((at, convert::bare(span, dimension("angle"), &better)))
+        };
+        let found: Vec<_> = formulas.iter().enumerate().filter_map(bare).collect();
+        // A heading alone is checked with the others.
+        let of_place = found.iter().any(|(at, _)| *at < 2);
+        found.into_iter().filter(|_| of_place).map(|(_, error)| error).collect()
     }
 }
 

@@ -123,7 +123,21 @@ impl<'a> Paths<'a> {
 
     /// The components of the outermost plan, each with its dotted name.
     pub fn components(&self) -> impl Iterator<Item = (String, Found)> {
-        let (instance, plan) = (self.main(), self.graph.main());
+        self.components_of(self.main())
+    }
+
+    /// The sub-plan that an element is.
+    pub fn inside(&self, found: Found) -> Option<Instance> {
+        let Part::Element(id) = found.part else { return None };
+        let names = &self.names;
+        let plan_index = names.sub_plan(found.instance.plan_index, id)?;
+        let walk = Walk { trail: Vec::new(), entered: vec![id], plan: plan_index, end: Ok(()) };
+        Some(self.enter(found.instance, &walk))
+    }
+
+    /// The components of a plan, each with its dotted name in that.
+    pub fn components_of(&self, instance: Instance) -> impl Iterator<Item = (String, Found)> {
+        let plan = self.plan(instance);
         let elements = (0..).map(ElementId).zip(&plan.elements);
         let elements = elements.map(move |(id, each)| {
             (each.name.clone(), Found { instance, part: Part::Element(id) })
@@ -164,6 +178,14 @@ impl<'a> Paths<'a> {
             Part::Element(id) => &plan.elements[id.index()].name,
             Part::Supervisor(id) => &plan.supervisors[id.index()].name,
         }
+    }
+
+    /// The names of an element's own supervisors.
+    pub fn supervisors(&self, found: Found) -> Vec<&'a str> {
+        let Part::Element(id) = found.part else { return Vec::new() };
+        let plan = self.plan(found.instance);
+        let own = plan.elements[id.index()].supervisors.iter();
+        own.map(|id| plan.supervisors[id.index()].name.as_str()).collect()
     }
 
     /// What an element is made from; `None` for a supervisor.

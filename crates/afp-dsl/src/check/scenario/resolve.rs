@@ -203,7 +203,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// The plan that an element is made from, by its place.
-    fn sub_plan(&self, plan: usize, element: ElementId) -> Option<usize> {
+    pub fn sub_plan(&self, plan: usize, element: ElementId) -> Option<usize> {
         let member = self.member(plan, Part::Element(element))?;
         match self.signature(plan, Part::Element(element))?.kind {
             SignatureKind::Plan(place) if member.kind == ComponentKind::SubPlan => Some(place),

@@ -26,7 +26,7 @@ impl Stretch {
         });
         let time = written
             .as_ref()
-            .and_then(|written| timing::time(written, usual_end(written, lines), diags));
+            .and_then(|written| timing::time(written, &[usual_end(written, lines)], diags));
         // How long a run is after a moment that is still to come is not known.
         let otherwise = from.map_or(DEFAULT_UNTIL, |_| u64::MAX);
         let until_span = written.map(|written| written.span());
@@ -40,7 +40,7 @@ impl Stretch {
 
     /// An instant of the scenario.
     pub fn instant(&self, written: &Formula, diags: &mut Diagnostics) -> Option<u64> {
-        let at = timing::time(written, self.usual(written), diags)?;
+        let at = timing::time(written, &[self.usual(written)], diags)?;
         if at > self.until {
             diags.push(self.too_late(written.span()));
             return None;
@@ -92,7 +92,12 @@ impl Stretch {
                 continue;
             }
             let written = bound.time()?;
-            let usual = if word == "within" { "ms" } else { self.usual(&written) };
+            let usual: &[&str] = match word.as_str() {
+                // Answers take some milliseconds, and what a robot does some seconds.
+                "within" if as_seconds(&written) <= 60e9 => &["ms", "s"],
+                "within" => &["ms"],
+                _ => &[self.usual(&written)],
+            };
             let time = timing::time(&written, usual, diags)?;
             match word.as_str() {
                 "after" => window.from = time,
@@ -132,7 +137,7 @@ fn usual_end(written: &Formula, lines: &[Line]) -> &'static str {
     });
     // What is wrong with them is reported where they stand.
     let mut unread = Diagnostics::default();
-    let latest = times.filter_map(|time| timing::time(&time, "s", &mut unread)).max();
+    let latest = times.filter_map(|time| timing::time(&time, &["s"], &mut unread)).max();
     if as_seconds(written) < latest.unwrap_or(0) as f64 { "min" } else { "s" }
 }
 

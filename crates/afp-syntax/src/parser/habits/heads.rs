@@ -5,6 +5,29 @@ use crate::kind::Kind;
 use crate::parser::Parser;
 
 impl Parser<'_, '_> {
+    /// `use carbot, std`, `use carbot::*`, `use carbot.Forward`: reports what stands behind the name of a toolbox, and reads
+    /// past it.
+    pub(in crate::parser) fn use_of_parts(&mut self) {
+        let same_line = |p: &Self| p.on_same_line() && !p.begins_line(1);
+        while self.at(Kind::Comma) && self.nth(1) == Kind::Name && same_line(self) {
+            let name = self.word(1);
+            let message = "each toolbox has a 'use' of its own".to_owned();
+            let help = format!("write 'use {name}' on the next line");
+            let place = self.ahead(2);
+            let error = Diagnostic::new(Code::E0102, place, message);
+            self.error(error.help(help).replace(format!("\nuse {name}")));
+            self.pass(2);
+        }
+        let colons = usize::from(self.at(Kind::Colon) && self.nth(1) == Kind::Colon);
+        if !(self.at(Kind::Dot) || colons > 0) || !same_line(self) {
+            return;
+        }
+        let toolbox = self.word_before();
+        let tokens = 1 + colons + usize::from(!self.begins_line(1 + colons));
+        let help = format!("write 'use {toolbox}'; its names stand alone, or behind '{toolbox}.'");
+        self.instead(tokens, "a toolbox is used as a whole".to_owned(), help, "");
+    }
+
     /// `Turn[angle = 90 deg]`, `Turn angle = 90 deg`: reports the parentheses that are missing, and reads the ports.
     pub(in crate::parser) fn ports_without_parentheses(&mut self) {
         if !self.on_same_line() || self.at_timing() {

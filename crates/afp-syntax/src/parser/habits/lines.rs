@@ -22,12 +22,25 @@ impl Parser<'_, '_> {
         stands
     }
 
+    /// `expect a <> 0`: reports the signs, and reads past them. Returns whether they stand here.
+    pub(in crate::parser) fn unequal_meant(&mut self) -> bool {
+        let adjacent = self.token_index(1) == self.token_index(0) + 1;
+        let stands = self.at(Kind::Less) && self.nth(1) == Kind::Greater && self.on_same_line();
+        if stands && adjacent {
+            let message = "no '<>' between two values";
+            let error = Diagnostic::new(Code::E0102, self.ahead(2), message);
+            self.error(error.help("write '!='").replace("!="));
+            self.bump_together(2, Kind::NotEqual);
+        }
+        stands && adjacent
+    }
+
     /// `press touch at 3 s`, `idle all`: reports where the time stands, and reads past the line. Returns whether an
     /// action stands here.
     pub(in crate::parser) fn action_without_its_time(&mut self) -> bool {
         let tokens = self.tokens_on_line();
         let at = (1..tokens).find(|at| self.at_time(*at));
-        let is_action = ACTIONS.contains(&self.word(0)) && self.nth(1) == Kind::Name && tokens > 1;
+        let is_action = self.at_action() && tokens > 1;
         let is_set = self.word(0) == "set" && at.is_some();
         if !(is_action || is_set) {
             return false;
@@ -53,6 +66,11 @@ impl Parser<'_, '_> {
         self.error(error);
         self.pass(tokens);
         true
+    }
+
+    /// Whether something happens that stands here.
+    pub(in crate::parser) fn at_action(&self) -> bool {
+        ACTIONS.contains(&self.word(0)) && self.nth(1) == Kind::Name
     }
 
     /// `expect end never`: reports the word behind the claim of a line that begins at `first`, and reads past it.

@@ -1,0 +1,59 @@
+//! Bindings of what is no port, and what they were meant for.
+
+use crate::check::formula::Scope;
+use crate::check::names::unknown;
+use crate::check::signature::{Signature, SignatureKind};
+use crate::toolbox::TemplateKind;
+use afp_syntax::ast::Bind;
+use afp_syntax::diagnostics::{Code, Diagnostic, words};
+
+/// What is said of a binding, one of several, whose name is no port.
+pub(super) fn report(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    binds: &[Bind],
+    bind: &Bind,
+) -> Diagnostic {
+    let port = bind.port();
+    let message = format!("'{}' has no port '{}'", signature.name, port.text);
+    let inputs = signature.inputs.iter().map(|input| &*input.name);
+    let outputs = signature.outputs.iter().map(|output| &*output.name);
+    let known: Vec<_> = match bind {
+        Bind::In { .. } => inputs.collect(),
+        Bind::Out { .. } => outputs.collect(),
+    };
+    if words::nearest(&port.text, known.iter().copied()).is_none()
+        && let Bind::In { formula: Some(formula), .. } = bind
+    {
+        let value = scope.text_of(formula.span());
+        let error = Diagnostic::new(Code::E0202, port.span, &*message);
+        if let Some(better) = assignment(scope, signature, binds, bind, value) {
+            let place = port.span.to(formula.span());
+            return error.help(format!("write '{better}'")).fix(place, better);
+        }
+        let is_time = matches!(port.text.as_str(), "every" | "deadline");
+        let watches = signature.kind == SignatureKind::Template(TemplateKind::Supervisor);
+        if is_time && watches {
+            let name = &signature.name;
+            let help = format!("write '{} {value}' behind '{name}' and its brackets", port.text);
+            return error.help(help);
+        }
+    }
+    unknown(Code::E0202, port.span, message, &port.text, known, "remove the binding")
+}
+
+/// `Assign(a = 7)`, where `a` is an entry: what writes it.
+fn assignment(
+    scope: &Scope<'_>,
+    signature: &Signature,
+    binds: &[Bind],
+    bind: &Bind,
+    value: &str,
+) -> Option<String> {
+    let ([input], [output], [_]) = (&*signature.inputs, &*signature.outputs, binds) else {
+        return None;
+    };
+    let entry = &bind.port().text;
+    scope.indices.find(entry)?;
+    Some(format!("{} = {value}, {} => {entry}", input.name, output.name))
+}

@@ -1,0 +1,107 @@
+//! The unit that a bare number lacks.
+//!
+//! Nobody can tell which one was meant. Where the number or the range of what it is for leaves one alone, that is an edit;
+//! otherwise the likely ones are named, and whoever reads chooses.
+
+use super::bracketed;
+use crate::graph::{Formula, FormulaKind};
+use crate::types::Dimension;
+use crate::types::text::a_dimension;
+use afp_syntax::diagnostics::{Code, Diagnostic, words};
+use afp_syntax::literal::Literal;
+use afp_syntax::source::Span;
+use afp_syntax::units::Unit;
+
+/// Units in which people write quantities, each with the least and the greatest number that is likely in it.
+const UNITS: &[(&str, f64, f64)] = &[
+    ("cm", 1.0, f64::INFINITY),
+    ("m", 0.0, 15.0),
+    ("deg", 0.0, f64::INFINITY),
+    ("rad", 0.01, 6.3),
+    ("s", 0.0, 60.0),
+    ("ms", 10.0, f64::INFINITY),
+    ("cm/s", 1.0, f64::INFINITY),
+    ("m/s", 0.0, 3.0),
+    ("deg/s", 0.0, f64::INFINITY),
+    ("rad/s", 0.01, 6.3),
+];
+
+/// The units in which a number is likely to be meant; `range` has the least and the greatest value that fit, in SI units.
+pub(crate) fn likely(number: &str, dimension: Dimension, range: Option<(f64, f64)>) -> Vec<String> {
+    let (sign, digits) = match number.strip_prefix('-') {
+        Some(digits) => (-1.0, digits.trim_start()),
+        None => (1.0, number),
+    };
+    let value = |text: &str| Literal::parse(text).and_then(|literal| literal.value());
+    let magnitude = value(digits);
+    let of_dimension =
+        |unit: &str| Unit::parse(unit).is_some_and(|unit| unit.dimension == dimension);
+    let fits = |unit: &str| {
+        let value = value(&format!("{digits} {unit}"));
+        let (Some(value), Some((least, greatest))) = (value, range) else { return true };
+        (least..=greatest).contains(&(sign * value))
+    };
+    let usual = |(_, least, greatest): &&(&'static str, f64, f64)| {
+        magnitude.is_none_or(|magnitude| (*least..=*greatest).contains(&magnitude))
+    };
+    let all = || UNITS.iter().filter(|(unit, ..)| of_dimension(unit));
+    let fitting = || all().filter(|(unit, ..)| fits(unit));
+    let mut found: Vec<_> = fitting().filter(usual).collect();
+    if found.is_empty() {
+        found = fitting().collect();
+    }
+    if found.is_empty() {
+        found = all().collect();
+    }
+    match found.is_empty() {
+        true => vec![dimension.usual_unit()],
+        false => found.into_iter().map(|(unit, ..)| (*unit).to_owned()).collect(),
+    }
+}
+
+/// A number without a unit at a place, with what may be written there: the only one as an edit.
+pub(crate) fn bare(span: Span, dimension: Dimension, better: &[String]) -> Diagnostic {
+    let message = format!("expected {}, found a bare number", a_dimension(dimension));
+    let list = words::list(better.iter().map(String::as_str), "or");
+    let error = Diagnostic::new(Code::E0203, span, message).help(format!("write {list}"));
+    match better {
+        [better] => error.replace(better.as_str()),
+        _ => error,
+    }
+}
+
+/// A bare number where a quantity is needed; `range` is that of what it is for, and `None` for an operand.
+pub(crate) fn unit_missing(
+    formula: &Formula,
+    dimension: Dimension,
+    range: Option<Option<(f64, f64)>>,
+    text: &str,
+) -> Diagnostic {
+    let is_number =
+        |formula: &Formula| matches!(formula.kind, FormulaKind::Int(_) | FormulaKind::Float(_));
+    let literal = match formula.kind {
+        FormulaKind::Neg(ref inner) => is_number(inner),
+        _ => is_number(formula),
+    };
+    let better: Vec<_> = match literal {
+        true => {
+            let mut units = likely(text, dimension, range.flatten());
+            // Where it is no operand, which is a difference.
+            if range.is_some() && units == ["K"] {
+                units.insert(0, "degC".to_owned());
+            }
+            units.iter().map(|unit| format!("{text} {unit}")).collect()
+        }
+        false => {
+            let whole = bracketed(formula, text);
+            let units = likely("x", dimension, None);
+            units.iter().map(|unit| format!("{whole} * 1 {unit}")).collect()
+        }
+    };
+    let mut error = bare(formula.span, dimension, &better);
+    // Of two operands either may be the wrong one, so that an entry is left to whoever reads.
+    if matches!(formula.kind, FormulaKind::Entry(_)) {
+        error.fix = None;
+    }
+    error
+}

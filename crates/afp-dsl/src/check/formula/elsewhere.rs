@@ -1,0 +1,80 @@
+//! Names in formulas that nothing is called, and what other languages mean by them.
+
+use super::Scope;
+use crate::check::names::unknown;
+use afp_syntax::ast;
+use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::source::Span;
+
+/// What objects call themselves elsewhere.
+const OWN: &[&str] = &["self", "this"];
+
+/// What is said of a name that other languages have for a value.
+fn elsewhere(name: &str) -> Option<String> {
+    let help = match name {
+        "pi" | "PI" | "Pi" | "M_PI" => {
+            "write '180 deg' for the angle, '3.141592653589793' for the number"
+        }
+        "None" | "none" | "null" | "NULL" | "nil" | "nullptr" | "undefined" => {
+            "there is none: a 'var' without '=' and a value has no value until one is written"
+        }
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+/// Reports a name before a point that no enum has.
+pub(super) fn unknown_enum(
+    scope: &Scope<'_>,
+    home: &ast::Name,
+    name: &ast::Name,
+    span: Span,
+) -> Diagnostic {
+    let known = scope.types.enums.iter().map(|(_, each)| each.name.as_str());
+    let message = format!("there is no enum '{}'", home.text);
+    let error = Diagnostic::new(Code::E0239, home.span, &*message);
+    if OWN.contains(&home.text.as_str()) && scope.indices.find(&name.text).is_some() {
+        return error.help(format!("write '{}'", name.text)).fix(span, &*name.text);
+    }
+    if let Some(help) = elsewhere(&name.text) {
+        return error.help(help);
+    }
+    let none = "declare it in the file, or write the name of an entry";
+    unknown(Code::E0239, home.span, message, &home.text, known, none)
+}
+
+/// Reports a name that no entry has.
+pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
+    if let Some(table) = scope.table(name) {
+        let message = format!("'{}' is a table, not a value", name.text);
+        return Diagnostic::new(Code::E0209, name.span, message)
+            .note(table.span, "declared here")
+            .help("read its rows with 'Row' of 'std', and use what comes out");
+    }
+    let message = format!("there is no entry '{}'", name.text);
+    let home = scope.types.enums.iter().find(|(_, home)| home.variants.contains(&name.text));
+    if let Some((_, home)) = home {
+        let better = format!("{}.{}", home.name, name.text);
+        return Diagnostic::new(Code::E0209, name.span, message)
+            .help(format!("write '{better}'"))
+            .replace(better);
+    }
+    let constant = ["true", "false"].into_iter().find(|it| it.eq_ignore_ascii_case(&name.text));
+    if let Some(constant) = constant {
+        return Diagnostic::new(Code::E0209, name.span, message)
+            .help(format!("write '{constant}'"))
+            .replace(constant);
+    }
+    if let Some(help) = elsewhere(&name.text) {
+        return Diagnostic::new(Code::E0209, name.span, message).help(help);
+    }
+    let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
+    let known = readable.map(|(_, entry)| entry.name.text.as_str());
+    // Toolboxes have no entries; only there are generic types.
+    let none = match scope.entries {
+        _ if scope.types.generic => "write a value",
+        [] if !scope.unreadable.is_empty() => scope.unreadable,
+        _ => "declare it in the plan",
+    };
+    unknown(Code::E0209, name.span, message, &name.text, known, none)
+}

@@ -1,0 +1,146 @@
+//! Paths of actions: a component, and what is to come of it.
+
+use super::COMPUTES;
+use crate::check::names::unknown;
+use crate::check::scenario::Checker;
+use crate::check::scenario::paths::{Found, Instance, Part};
+use crate::graph::Component;
+use afp_syntax::ast::{Name, Path};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+
+/// So many paths are looked through for a help.
+const MOST: usize = 500;
+
+/// What brings something.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::check::scenario) enum Verb {
+    /// An event of a supervisor, or the error of an actor.
+    Fire,
+    /// A state of an actor.
+    Finish,
+}
+
+impl Checker<'_> {
+    /// A component and the name of one of its outcomes.
+    pub(super) fn outcome_of(
+        &self,
+        path: &Path,
+        verb: Verb,
+        diags: &mut Diagnostics,
+    ) -> Option<(Found, Name)> {
+        let names = path.names();
+        let error = match self.paths.find(self.paths.main(), &names) {
+            Ok((found, [name])) => return Some((found, name.clone())),
+            Ok((found, [])) => self.outcome_missing(path, found, verb),
+            Ok((found, [name, ..])) => self.too_long(path, found, name, verb),
+            Err(error) => self.owner_meant(&names, Some(verb), *error),
+        };
+        diags.push(error);
+        None
+    }
+
+    /// Reports a path that ends with a component.
+    fn outcome_missing(&self, path: &Path, found: Found, verb: Verb) -> Diagnostic {
+        let below = format!("{}.", path.text());
+        let possible = self.possible(Some(verb), &below);
+        let what = if verb == Verb::Fire { "an event" } else { "a state" };
+        let message = format!("{what} is missing behind '{}'", path.text());
+        let error = Diagnostic::new(Code::E0210, path.span(), message);
+        if possible.is_empty() {
+            let events = self.possible(Some(Verb::Fire), &below);
+            return match (self.paths.component(found), events.first()) {
+                (Some(Component::Computation(_)), _) => error.help(COMPUTES),
+                (_, Some(event)) => error.help(format!("write 'fire {event}'")),
+                (_, None) => error.help("name another component"),
+            };
+        }
+        let known = possible.iter().map(String::as_str);
+        unknown(error.code, error.span, error.message, "", known, "")
+    }
+
+    /// Reports names behind a component that are more than an outcome.
+    fn too_long(&self, path: &Path, found: Found, name: &Name, verb: Verb) -> Diagnostic {
+        let names = path.names();
+        let at = names.iter().position(|each| each.span == name.span).unwrap_or_default();
+        let text = |names: &[Name]| {
+            names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(".")
+        };
+        if self.paths.outcome(found, &name.text).is_some() {
+            let better = text(&names[..=at]);
+            let place = names.get(at + 1).map_or(name.span, |more| more.span);
+            return Diagnostic::new(Code::E0210, place, "a state or event has no parts")
+                .help(format!("write '{better}'"))
+                .fix(path.span(), better);
+        }
+        let Part::Element(_) = found.part else { return self.no_outcome(found, name) };
+        let home = text(&names[..at]);
+        let message = format!("'{home}' has no supervisor '{}'", name.text);
+        let possible = self.possible(Some(verb), &format!("{home}."));
+        let known = possible.iter().map(String::as_str);
+        unknown(Code::E0602, path.span(), message, &path.text(), known, "name another component")
+    }
+
+    /// What is said of the name of an outcome alone: the paths that end with it.
+    pub(in crate::check::scenario) fn owner_meant(
+        &self,
+        names: &[Name],
+        verb: Option<Verb>,
+        error: Diagnostic,
+    ) -> Diagnostic {
+        let [name] = names else { return error };
+        let end = format!(".{}", name.text);
+        let mut possible = self.possible(verb, "");
+        possible.retain(|path| path.ends_with(&end));
+        if possible.is_empty() {
+            return error;
+        }
+        let message = format!("whose '{}' is meant is not said", name.text);
+        let known = possible.iter().map(String::as_str);
+        let said = unknown(error.code, error.span, message, "", known, "");
+        match possible.as_slice() {
+            [path] => said.replace(path.as_str()),
+            _ => said,
+        }
+    }
+
+    /// The paths that begin with `below` and of which something can come by a verb, or by any.
+    fn possible(&self, verb: Option<Verb>, below: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        self.gather(self.paths.main(), verb, ("", below), &mut found);
+        found
+    }
+
+    fn gather(
+        &self,
+        instance: Instance,
+        verb: Option<Verb>,
+        (home, below): (&str, &str),
+        into: &mut Vec<String>,
+    ) {
+        for (name, found) in self.paths.components_of(instance) {
+            let path = format!("{home}{name}.");
+            // What lies on the way there, or behind it.
+            if into.len() >= MOST || !(path.starts_with(below) || below.starts_with(&path)) {
+                continue;
+            }
+            let outcomes = self.brought(found, verb).into_iter();
+            let outcomes = outcomes.map(|outcome| format!("{path}{outcome}"));
+            into.extend(outcomes.filter(|path| path.starts_with(below)));
+            if let Some(inner) = self.paths.inside(found) {
+                self.gather(inner, verb, (&path, below), into);
+            }
+        }
+    }
+
+    /// What a verb, or any, can bring of a component.
+    fn brought(&self, found: Found, verb: Option<Verb>) -> Vec<&str> {
+        let outcomes = || self.paths.outcomes(found);
+        match (self.paths.component(found), verb) {
+            (None, Some(Verb::Fire) | None) => outcomes(),
+            (Some(Component::Actor(_)), Some(Verb::Fire)) => vec![self.paths.special(found)],
+            (Some(Component::Actor(_)), Some(Verb::Finish) | None) => outcomes(),
+            (Some(Component::Computation(_) | Component::SubPlan(_)), None) => outcomes(),
+            _ => Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! What stands behind a claim, an action or another line of a scenario and does not belong there.
+
+use crate::diagnostics::{Code, Diagnostic};
+use crate::kind::Kind;
+use crate::parser::Parser;
+use crate::parser::formula::begins_formula;
+use crate::source::Span;
+
+/// What claims may have behind them.
+const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 'once' or '3 times'; \
+     another claim is a line of its own";
+
+/// How often something happens elsewhere, and here.
+const OFTEN: &[(&str, &str)] = &[("twice", "2 times"), ("thrice", "3 times")];
+
+/// What is to be said of something that stands behind a line: a help, and an edit of a place where it mends all.
+struct Said(String, Option<(Span, String)>);
+
+impl Parser<'_, '_> {
+    /// Reports what stands behind a line of a scenario that begins with `first`, and reads past it.
+    pub(in crate::parser) fn nothing_behind(&mut self, first: &str) {
+        let ends = |p: &Self| {
+            !p.on_same_line()
+                || p.at_end()
+                || matches!(p.nth(0), Kind::CloseBrace | Kind::CloseParen | Kind::Comma)
+                || p.at_action()
+                || p.at_line()
+                || p.at_top_item()
+        };
+        if ends(self) {
+            return;
+        }
+        let (found, line) = (self.found(), matches!(first, "expect" | "never"));
+        let Said(help, fix) = match first {
+            "expect" | "never" => self.behind_claim(),
+            "at" => self.behind_action(),
+            "robot" if self.word_before() == ")" && self.quantity_ends_line() => {
+                let here = self.next_span().before();
+                Said("write 'heading' before it".to_owned(), Some((here, "heading ".to_owned())))
+            }
+            _ => Said("remove it, or begin a line with it".to_owned(), None),
+        };
+        let what = if line { "a claim" } else { "a line" };
+        let message = format!("{found} does not belong behind {what}");
+        let message =
+            if first == "at" { message.replace("a line", "what happens") } else { message };
+        let error = Diagnostic::new(Code::E0102, self.next_span(), message).help(help);
+        self.error(match fix {
+            Some((place, text)) => error.fix(place, text),
+            None => error,
+        });
+        self.pass_to(ends);
+    }
+
+    /// What is said of something behind a claim.
+    fn behind_claim(&self) -> Said {
+        let (word, before, here) = (self.word(0), self.word_before(), self.next_span());
+        let write = |text: &str, fits: bool| {
+            Said(format!("write '{text}'"), fits.then(|| (here, text.to_owned())))
+        };
+        let path = self.path_ends(0);
+        let add = |text: &str| {
+            let whole = format!("{before} {text} {}", self.text_of(0, path));
+            let place = (here.before(), format!("{text} "));
+            Said(format!("write '{whole}'"), self.claim_ends(path).then_some(place))
+        };
+        let has_time = self.time_behind(1);
+        match (word, before) {
+            ("in", _) if has_time.is_some() => {
+                write("within", has_time.is_some_and(|it| self.claim_ends(it)))
+            }
+            ("for" | "during", _) if let Some(end) = has_time => {
+                let time = self.text_of(1, end);
+                Said(format!("write 'always within {time}', or 'within {time}' for once"), None)
+            }
+            ("is" | "equals" | "eq", _) if self.word(1) == "active" => {
+                let place = here.to(self.ahead(2));
+                Said("write 'active'".to_owned(), Some((place, "active".to_owned())))
+            }
+            ("is" | "equals" | "eq", _) => write("==", begins_formula(self.nth(1))),
+            _ if matches!(self.nth(0), Kind::FatArrow | Kind::Minus) => {
+                Said("write '->' for what follows an element".to_owned(), None)
+            }
+            ("by", _) => Said(
+                "'by' stands behind 'end', 'commit', and an element with its '->'".to_owned(),
+                None,
+            ),
+            ("between", _) => Said("write 'after' and 'before', each with a time".to_owned(), None),
+            ("then" | "to" | "goto" | "becomes" | "reaches", _) => {
+                let end = self.path_ends(1);
+                write("->", end > 1 && (self.claim_ends(end) || self.word(end) == "by"))
+            }
+            ("and" | "or" | "but", _) => {
+                Said(format!("a line has one claim, without '{word}': write two lines"), None)
+            }
+            _ if self.at(Kind::Int) => self.times(),
+            (_, "end") if path > 0 && self.claim_ends(path) => add("by"),
+            (_, "end") if path > 0 => {
+                Said("what ends the plan stands behind 'end by', a time behind 'within', 'before' or 'after'".to_owned(), None)
+            }
+            (_, "commit" | "interrupt") if path > 0 => add("of"),
+            _ => match OFTEN.iter().find(|(theirs, _)| *theirs == word) {
+                Some((_, ours)) => write(ours, self.claim_ends(1)),
+                None => Said(BOUNDS.to_owned(), None),
+            },
+        }
+    }
+
+    /// The token behind the path that begins so many tokens ahead, on its line.
+    fn path_ends(&self, ahead: usize) -> usize {
+        let is_name = |at: usize| self.nth(at) == Kind::Name && (at == 0 || !self.begins_line(at));
+        if !is_name(ahead) {
+            return ahead;
+        }
+        let mut end = ahead + 1;
+        while self.nth(end) == Kind::Dot && is_name(end + 1) {
+            end += 2;
+        }
+        end
+    }
+
+    /// The token behind the time that begins so many tokens ahead, on its line.
+    fn time_behind(&self, ahead: usize) -> Option<usize> {
+        let is_number = matches!(self.nth(ahead), Kind::Int | Kind::Float);
+        let end = ahead + 1 + usize::from(self.nth(ahead + 1) == Kind::Unit);
+        (is_number && !self.begins_line(ahead)).then_some(end)
+    }
+
+    /// Whether a number stands here, perhaps with a unit, and nothing else on this line.
+    fn quantity_ends_line(&self) -> bool {
+        let sign = usize::from(self.at(Kind::Minus));
+        let end = self.time_behind(sign);
+        end.is_some_and(|end| self.begins_line(end) || self.nth(end) == Kind::CloseBrace)
+    }
+
+    /// Whether a claim may end so many tokens ahead.
+    fn claim_ends(&self, ahead: usize) -> bool {
+        let bound = match self.word(ahead) {
+            "within" | "before" | "after" => self.time_behind(ahead + 1).is_some(),
+            word => matches!(word, "always" | "once"),
+        };
+        let ends = matches!(self.nth(ahead), Kind::CloseBrace | Kind::Comma | Kind::End);
+        bound || ends || self.begins_line(ahead)
+    }
+
+    /// `3x`, `3 time`, `3`
+    fn times(&self) -> Said {
+        let number = self.token(0).map_or("", |token| token.text);
+        let tokens = match (self.nth(1), self.word(1)) {
+            (Kind::Unit, _) => {
+                let time = self.text_of(0, 2);
+                let help = format!("write 'within', 'before' or 'after' before '{time}'");
+                return Said(help, None);
+            }
+            (_, "x" | "time" | "tims") if !self.begins_line(1) => 2,
+            _ => {
+                let help =
+                    format!("write '{number} times' for how often, '== {number}' for a value");
+                return Said(help, None);
+            }
+        };
+        let times = format!("{number} times");
+        let place = (self.ahead(tokens), times.clone());
+        Said(format!("write '{times}'"), self.claim_ends(tokens).then_some(place))
+    }
+
+    /// What is said of something behind an action.
+    fn behind_action(&self) -> Said {
+        let time = self.time_behind(1);
+        match self.word(0) {
+            "during" | "in" | "within" if let Some(end) = time => {
+                let place = (self.next_span(), "for".to_owned());
+                let ends = self.begins_line(end) || self.nth(end) == Kind::CloseBrace;
+                Said("write 'for'".to_owned(), ends.then_some(place))
+            }
+            _ => Said(
+                "'for' and a time may stand there; what happens next is a line of its own"
+                    .to_owned(),
+                None,
+            ),
+        }
+    }
+
+    /// `after 3 s press touch`, `wait 3 s`: reports a line that begins with another word before its time, and reads past
+    /// it. Returns whether one stands here.
+    pub(in crate::parser) fn time_first(&mut self) -> bool {
+        let word = self.word(0);
+        let known = matches!(word, "after" | "in" | "when" | "on" | "wait" | "sleep" | "delay");
+        if !known || !matches!(self.nth(1), Kind::Int | Kind::Float) || self.begins_line(1) {
+            return false;
+        }
+        let tokens = 2 + usize::from(self.nth(2) == Kind::Unit);
+        let time = self.text_of(1, tokens);
+        let colon = usize::from(self.nth(tokens) == Kind::Colon);
+        let place = self.ahead(tokens + colon);
+        let goes_on = self.nth(tokens + colon) == Kind::Name && !self.begins_line(tokens + colon);
+        let message = format!("no line of a scenario begins with '{word}'");
+        let error = Diagnostic::new(Code::E0102, place, message);
+        let ours = format!("at {time}:");
+        self.error(match goes_on {
+            true => error.help(format!("write '{ours}', counted from the start")).replace(ours),
+            false => error.help(format!(
+                "remove it; what happens has its time in front of it, such as '{ours} press touch'"
+            )),
+        });
+        self.pass(tokens + colon);
+        self.pass_to(|p| !p.on_same_line() || p.at(Kind::CloseBrace));
+        true
+    }
+
+    /// `robot at (1 m, 2 m, 90 deg)`: reports the heading within the brackets that began with `opened`, and reads it.
+    pub(in crate::parser) fn heading_in_brackets(&mut self) {
+        if !self.at(Kind::Comma) || !begins_formula(self.nth(1)) {
+            return;
+        }
+        let (comma, first) = (self.next_span(), self.at + 1);
+        self.open(Kind::Error);
+        self.bump();
+        self.formula();
+        self.close();
+        let heading = self.text_between(first, self.at);
+        let message = "the heading stands behind the brackets";
+        let alone = self.at(Kind::CloseParen) && self.word(1) != "heading";
+        let error = Diagnostic::new(Code::E0102, comma, message);
+        let better = format!(") heading {heading}");
+        let place = comma.to(self.next_span());
+        self.error(match alone {
+            true => error.help(format!("write '{better}'")).fix(place, better),
+            false => error.help("remove one of the two"),
+        });
+    }
+}
