@@ -82,12 +82,12 @@ export function begin(url: string, again: (lsp: Lsp) => Promise<Finish>, make = 
     storage?.setItem(CLIENT, client);
     // At once: what the server tells next is newer.
     [files.value, more.value] = [said.files, said.more ?? false];
-    [pen.value, going.value] = [said.pen, said.jobs];
+    pen.value = said.pen;
     const params = { processId: null, rootUri: said.root, workspaceFolders: [{ uri: said.root, name: "root" }], capabilities: CAPABILITIES };
     const { capabilities } = await first.request<any>("initialize", params);
     first.notify("initialized", {});
     legend.value = capabilities.semanticTokensProvider?.legend ?? legend.value;
-    hello.value = said;
+    [hello.value, going.value] = [said, said.jobs];
     if (begun) return again(first);
   };
   connection = make(url, greet);

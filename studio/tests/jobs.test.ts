@@ -83,8 +83,10 @@ inBrowser("a sweep goes on while the page is loaded anew, and is ended there", {
     await page.locator(".busy").waitFor();
     await page.reload();
     await page.locator(".node text").first().waitFor();
-    if (end) await page.getByRole("button", { name: "End it" }).click();
-    await page.getByRole("button", { name: "Run many times", disabled: false }).waitFor({ timeout: 60_000 });
+    const ends = page.getByRole("button", { name: "End it" });
+    if (end) await ends.click();
+    else await ends.waitFor();
+    await ends.waitFor({ state: "detached", timeout: 60_000 });
   }
   await page.locator(".map td button").first().waitFor();
 });

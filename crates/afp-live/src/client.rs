@@ -69,6 +69,7 @@ impl Client<'_> {
             if self.hub.is_over() {
                 let since = *over.get_or_insert_with(Wall::now);
                 if !more || since.elapsed() > GOODBYE {
+                    self.socket.get_mut().begin_turn();
                     return self.socket.close(None).and_then(|()| self.socket.flush());
                 }
             }

@@ -6,7 +6,7 @@ mod board;
 mod slow;
 
 use std::collections::BTreeMap;
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
 use std::thread;
@@ -117,6 +117,15 @@ impl Client {
                 return value;
             }
         }
+    }
+
+    /// Reads to the end; whether the server has said goodbye.
+    fn rest_to_close(&mut self) -> bool {
+        // What was read past the library leaves half a frame behind: bytes are what can be looked at.
+        let mut rest = Vec::new();
+        let MaybeTlsStream::Plain(stream) = self.socket.get_mut() else { return false };
+        let _ = stream.read_to_end(&mut rest);
+        rest.windows(2).rev().take(64).any(|bytes| bytes == [0x88, 0x00])
     }
 
     /// All messages of channels until the server says goodbye, by the number of the subscription.

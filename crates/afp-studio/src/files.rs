@@ -172,16 +172,20 @@ impl Kept {
         let mark = if self.style.marked { "\u{feff}" } else { "" };
         let ends = self.style.ends.follow(&self.text, text);
         let bytes = format!("{mark}{}", ends.applied(text)).into_bytes();
-        if bytes.len() > LONGEST {
-            let most = LONGEST >> 20;
-            return Err(format!(
-                "it is longer than {most} MiB: make it shorter, or two files of it"
-            ));
-        }
+        check_length(bytes.len())?;
         let data = afp_output::write_and_stat(path, &bytes).map_err(|why| why.to_string())?;
         let style = Style { marked: self.style.marked, ends };
         let kept = Kept { text: text.to_owned(), etag: Some(etag(&bytes)), style };
         Ok((kept, stamp_of(&data)))
+    }
+}
+
+/// Refuses bytes of which there are more than are read.
+pub(crate) fn check_length(bytes: usize) -> Result<(), String> {
+    let most = LONGEST >> 20;
+    match bytes > LONGEST {
+        true => Err(format!("it is longer than {most} MiB: make it shorter, or two files of it")),
+        false => Ok(()),
     }
 }
 

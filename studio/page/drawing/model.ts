@@ -48,8 +48,8 @@ async function ask(uri: string, plan: string | null, folded: readonly string[]):
     .request<Answer>("afp/drawing", { textDocument, ...(plan ? { plan } : {}), folded, subscribe: true })
     .catch((why: Error) => {
       console.error(why);
-      // There is no such plan any more: the first one is shown.
-      const gone = why instanceof Refused && why.code !== LOST && plan !== null && plan === wanted.peek();
+      // There is no such plan: the first one is shown. Of a file that is drawn already the server tells, since it may come back.
+      const gone = drawing.peek()?.uri !== uri && why instanceof Refused && why.code !== LOST && plan !== null && plan === wanted.peek();
       if (gone && current.peek() === uri) batch(() => ([wanted.value, trail.value] = [null, []]));
       return null;
     });

@@ -248,3 +248,21 @@ fn scenarios_of_one_plan_share_its_graph() {
     assert_eq!(scenarios.len(), 15);
     assert!(scenarios.iter().all(|one| Arc::ptr_eq(&one.graph, &scenarios[0].graph)));
 }
+
+#[test]
+fn a_name_that_nothing_has_is_not_looked_for_in_every_copy_of_a_plan() {
+    let mut text = String::from("use std\nplan P { start a subplan a: L40 { OK -> terminate } }\n");
+    text += "plan L0 { start x out a: int = 0 ";
+    text += "computation x: Assign(value = 1, result => a) { Done -> terminate } }\n";
+    for level in 1..=40 {
+        let inner = level - 1;
+        let _ = writeln!(
+            text,
+            "plan L{level} {{ start a subplan a: L{inner} {{ OK -> b }} subplan b: L{inner} {{ OK -> terminate }} }}"
+        );
+    }
+    text += "scenario \"s\" for P { at 1 s: fire Nothing  expect end }\n";
+    // What takes twice as long for each level would not end.
+    let compiled = support::compile(&text, &support::toolboxes());
+    assert!(compiled.graph.is_none());
+}

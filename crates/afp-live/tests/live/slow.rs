@@ -43,5 +43,7 @@ fn who_reads_slowly_is_heard_all_the_same() {
     let now = session.now();
     live.serve(&mut *session, now);
     assert_eq!(live.clients(), 1, "it is slow, and there");
+    let reader = thread::spawn(move || client.rest_to_close());
     live.finish();
+    assert!(reader.join().expect("the client"), "it is told that the run is over");
 }

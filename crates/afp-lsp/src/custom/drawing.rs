@@ -163,7 +163,8 @@ impl Subscription {
     fn follow(&mut self, analysis: &Analysis) {
         let Some(gone) = &self.plan else { return };
         let now = plans(analysis);
-        if now.contains(gone) {
+        // Two of one name are told apart by numbers, which say nothing of which was which.
+        if now.contains(gone) || now.iter().any(|name| name.contains('#')) {
             return;
         }
         let place = self.plans.iter().position(|name| name == gone);
@@ -171,7 +172,6 @@ impl Subscription {
         let file = Span { file: analysis.file, start: 0, end: u32::MAX };
         let is_readable = || analysis.compiled.diags.syntax_errors_within(file).next().is_none();
         match there {
-            Some(name) if name.contains('#') => {}
             Some(name) if !self.plans.contains(name) => self.plan = Some(name.clone()),
             _ if is_readable() => self.plan = None,
             _ => {}

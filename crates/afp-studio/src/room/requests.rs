@@ -135,6 +135,7 @@ fn create(room: &mut Room, params: &Value, out: &mut Out) -> Result<Value, Strin
         None => {
             let file = room.folder.inside(&path)?;
             let text = params["text"].as_str().unwrap_or_default();
+            files::check_length(text.len())?;
             afp_output::write_whole(&file, text.as_bytes())
                 .map_err(|why| format!("cannot write '{}': {why}", file.display()))?;
         }

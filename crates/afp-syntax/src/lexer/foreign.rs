@@ -54,7 +54,8 @@ impl Lexer<'_, '_> {
         {
             return self.instead(*kind, foreign.len(), &format!("write '{ours}'"), ours);
         }
-        if rest.starts_with("#include") {
+        let behind = rest.strip_prefix("#include").map(|behind| behind.chars().next());
+        if behind.is_some_and(|next| next.is_none_or(|next| !is_word(next))) {
             return self.include();
         }
         if rest.starts_with('#') && begins_comment(rest) {
@@ -103,11 +104,18 @@ impl Lexer<'_, '_> {
         is_first.then_some(before.len())
     }
 
-    /// Whether this line begins with the word of a claim.
+    /// Whether this line begins with the word of a claim, unless it is longer than people write.
     fn begins_claim(&self) -> bool {
-        let before = &self.text[..self.at];
-        let line = &before[before.rfind('\n').map_or(0, |end| end + 1)..];
-        matches!(line.split_whitespace().next(), Some("expect" | "never"))
+        const LINE: usize = 1000;
+        let from = self.at.saturating_sub(LINE);
+        let end = self.text.as_bytes()[from..self.at].iter().rposition(|byte| *byte == b'\n');
+        let begin = match end {
+            Some(end) => from + end + 1,
+            None if from == 0 => 0,
+            None => return false,
+        };
+        let first = self.text[begin..self.at].split_whitespace().next();
+        matches!(first, Some("expect" | "never"))
     }
 
     /// The sign of a comment of other languages that a line begins with: words follow it, as none do in a formula.

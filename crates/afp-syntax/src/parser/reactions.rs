@@ -76,7 +76,14 @@ impl Parser<'_, '_> {
         let better = format!("on {supervisor} {{ {event} -> {target} }}");
         let message = "what events of the plan's supervisors do here stands in 'on'";
         let error = Diagnostic::new(Code::E0102, self.ahead(5), message);
-        self.error(error.help(format!("write '{better}'")).replace(better));
+        let error = error.help(format!("write '{better}'"));
+        // Several of one supervisor stand in one.
+        let is_other = |first: Option<usize>| {
+            let text = |at: usize| self.solid.get(at).map(|at| self.tokens[*at as usize].text);
+            first.is_some_and(|at| text(at) == Some(supervisor) && text(at + 1) == Some("."))
+        };
+        let is_alone = !is_other(Some(self.at + 5)) && !is_other(self.at.checked_sub(5));
+        self.error(if is_alone { error.replace(better) } else { error });
         self.pass(5);
         true
     }

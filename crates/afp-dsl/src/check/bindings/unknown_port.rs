@@ -3,6 +3,7 @@
 use crate::check::formula::Scope;
 use crate::check::names::unknown;
 use crate::check::signature::{Signature, SignatureKind};
+use crate::graph::EntryKind;
 use crate::toolbox::TemplateKind;
 use afp_syntax::ast::Bind;
 use afp_syntax::diagnostics::{Code, Diagnostic, words};
@@ -54,6 +55,9 @@ fn assignment(
         return None;
     };
     let entry = &bind.port().text;
-    scope.indices.find(entry)?;
+    let kind = scope.entries.get(scope.indices.find(entry)?)?.kind;
+    if !matches!(kind, EntryKind::Var | EntryKind::Out) {
+        return None;
+    }
     Some(format!("{} = {value}, {} => {entry}", input.name, output.name))
 }

@@ -3,7 +3,7 @@
 use super::Scope;
 use crate::check::names::unknown;
 use afp_syntax::ast;
-use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::diagnostics::{Code, Diagnostic, words};
 use afp_syntax::source::Span;
 
 /// What objects call themselves elsewhere.
@@ -36,7 +36,9 @@ pub(super) fn unknown_enum(
     if OWN.contains(&home.text.as_str()) && scope.indices.find(&name.text).is_some() {
         return error.help(format!("write '{}'", name.text)).fix(span, &*name.text);
     }
-    if let Some(help) = elsewhere(&name.text) {
+    if words::nearest(&home.text, known.clone()).is_none()
+        && let Some(help) = elsewhere(&name.text)
+    {
         return error.help(help);
     }
     let none = "declare it in the file, or write the name of an entry";
@@ -65,11 +67,13 @@ pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
             .help(format!("write '{constant}'"))
             .replace(constant);
     }
-    if let Some(help) = elsewhere(&name.text) {
-        return Diagnostic::new(Code::E0209, name.span, message).help(help);
-    }
     let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
     let known = readable.map(|(_, entry)| entry.name.text.as_str());
+    if !known.clone().any(|entry| entry.eq_ignore_ascii_case(&name.text))
+        && let Some(help) = elsewhere(&name.text)
+    {
+        return Diagnostic::new(Code::E0209, name.span, message).help(help);
+    }
     // Toolboxes have no entries; only there are generic types.
     let none = match scope.entries {
         _ if scope.types.generic => "write a value",

@@ -326,7 +326,9 @@ impl Checker<'_> {
     fn no_fact(&self, path: &Path, error: Diagnostic) -> Diagnostic {
         let (written, facts) = (path.text(), self.facts());
         let facts = || facts.iter().map(String::as_str);
-        if let Some(better) = ends::meant(&written) {
+        if error.fix.is_none()
+            && let Some(better) = ends::meant(&written)
+        {
             let better = format!("end by {better}");
             let error = Diagnostic::new(error.code, error.span, error.message);
             return error.help(format!("write '{better}'")).replace(better);

@@ -13,6 +13,11 @@ const BOUNDS: &str = "write 'within', 'before' or 'after' and a time, 'always', 
 /// How often something happens elsewhere, and here.
 const OFTEN: &[(&str, &str)] = &[("twice", "2 times"), ("thrice", "3 times")];
 
+/// Whether a plan can end so.
+fn is_end(word: &str) -> bool {
+    ["OK", "Interrupted", "Error"].into_iter().any(|end| end.eq_ignore_ascii_case(word))
+}
+
 /// What is to be said of something that stands behind a line: a help, and an edit of a place where it mends all.
 struct Said(String, Option<(Span, String)>);
 
@@ -66,9 +71,7 @@ impl Parser<'_, '_> {
         };
         let has_time = self.time_behind(1);
         match (word, before) {
-            ("in", _) if has_time.is_some() => {
-                write("within", has_time.is_some_and(|it| self.claim_ends(it)))
-            }
+            ("in", _) if has_time.is_some_and(|it| self.claim_ends(it)) => write("within", true),
             ("for" | "during", _) if let Some(end) = has_time => {
                 let time = self.text_of(1, end);
                 Said(format!("write 'always within {time}', or 'within {time}' for once"), None)
@@ -78,6 +81,9 @@ impl Parser<'_, '_> {
                 Said("write 'active'".to_owned(), Some((place, "active".to_owned())))
             }
             ("is" | "equals" | "eq", _) => write("==", begins_formula(self.nth(1))),
+            _ if self.at(Kind::FatArrow) && matches!(self.nth(1), Kind::Int | Kind::Float) => {
+                write(">=", true)
+            }
             _ if matches!(self.nth(0), Kind::FatArrow | Kind::Minus) => {
                 Said("write '->' for what follows an element".to_owned(), None)
             }
@@ -94,15 +100,15 @@ impl Parser<'_, '_> {
                 Said(format!("a line has one claim, without '{word}': write two lines"), None)
             }
             _ if self.at(Kind::Int) => self.times(),
-            (_, "end") if path > 0 && self.claim_ends(path) => add("by"),
+            _ if let Some((_, ours)) = OFTEN.iter().find(|(theirs, _)| *theirs == word) => {
+                write(ours, self.claim_ends(1))
+            }
+            (_, "end") if self.claim_ends(path) && (path > 1 || is_end(word)) => add("by"),
             (_, "end") if path > 0 => {
                 Said("what ends the plan stands behind 'end by', a time behind 'within', 'before' or 'after'".to_owned(), None)
             }
             (_, "commit" | "interrupt") if path > 0 => add("of"),
-            _ => match OFTEN.iter().find(|(theirs, _)| *theirs == word) {
-                Some((_, ours)) => write(ours, self.claim_ends(1)),
-                None => Said(BOUNDS.to_owned(), None),
-            },
+            _ => Said(BOUNDS.to_owned(), None),
         }
     }
 

@@ -1,8 +1,8 @@
 //! What is debugged: plans of files on the robot that is linked in, simulated, and logs.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::{fs, io};
 
 use afp_core::devices::{DeviceRow, SignalType, signals};
 use afp_debug::{Host, Launch, LogTarget, Program, SessionTarget, Surroundings, Target};
@@ -45,8 +45,13 @@ impl<'a> Simulator<'a> {
             Some(world) if !world.starts_with(world::RANDOM) => Some(inside(world)?),
             world => world.map(PathBuf::from),
         };
+        // What a log holds is read from there alone.
+        let program = match launch.log {
+            Some(_) => self.inside_of_folder(&path).unwrap_or_default(),
+            None => self.inside_of_folder(&path)?,
+        };
         Ok(LaunchFiles {
-            program: self.inside_of_folder(&path)?,
+            program,
             plan: plan.map(str::to_owned),
             log: launch.log.as_deref().map(inside).transpose()?,
             world,
@@ -79,11 +84,22 @@ impl<'a> Simulator<'a> {
             return Ok(path.to_owned());
         };
         let named = path.display();
-        let whole = path.canonicalize().map_err(|why| format!("cannot open '{named}': {why}"))?;
+        let whole = whole(path).map_err(|why| format!("cannot open '{named}': {why}"))?;
         match whole.starts_with(folder) {
             true => Ok(whole),
             false => Err(format!("'{named}' lies outside of '{}'", folder.display())),
         }
+    }
+}
+
+/// A path from the root, without links. Of a file that is not there its folder is looked at: another program may have it away
+/// for a moment.
+fn whole(path: &Path) -> io::Result<PathBuf> {
+    match (path.canonicalize(), path.parent(), path.file_name()) {
+        (Err(_), Some(folder), Some(name)) if path.symlink_metadata().is_err() => {
+            Ok(folder.canonicalize()?.join(name))
+        }
+        (whole, ..) => whole,
     }
 }
 

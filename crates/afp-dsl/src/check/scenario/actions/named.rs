@@ -8,8 +8,8 @@ use crate::graph::Component;
 use afp_syntax::ast::{Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
-/// So many paths are looked through for a help.
-const MOST: usize = 500;
+/// So many components are looked at for a help.
+const MOST: usize = 2000;
 
 /// What brings something.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -18,6 +18,16 @@ pub(in crate::check::scenario) enum Verb {
     Fire,
     /// A state of an actor.
     Finish,
+}
+
+/// A search for what could be meant.
+struct Search<'a> {
+    verb: Option<Verb>,
+    /// What the paths begin with.
+    below: &'a str,
+    /// How many components may still be looked at: plans within plans have any number of them.
+    left: usize,
+    found: Vec<String>,
 }
 
 impl Checker<'_> {
@@ -89,7 +99,7 @@ impl Checker<'_> {
     ) -> Diagnostic {
         let [name] = names else { return error };
         let end = format!(".{}", name.text);
-        let mut possible = self.possible(verb, "");
+        let (mut possible, is_whole) = self.search(verb, "");
         possible.retain(|path| path.ends_with(&end));
         if possible.is_empty() {
             return error;
@@ -98,36 +108,39 @@ impl Checker<'_> {
         let known = possible.iter().map(String::as_str);
         let said = unknown(error.code, error.span, message, "", known, "");
         match possible.as_slice() {
-            [path] => said.replace(path.as_str()),
+            [path] if is_whole => said.replace(path.as_str()),
             _ => said,
         }
     }
 
     /// The paths that begin with `below` and of which something can come by a verb, or by any.
     fn possible(&self, verb: Option<Verb>, below: &str) -> Vec<String> {
-        let mut found = Vec::new();
-        self.gather(self.paths.main(), verb, ("", below), &mut found);
-        found
+        self.search(verb, below).0
     }
 
-    fn gather(
-        &self,
-        instance: Instance,
-        verb: Option<Verb>,
-        (home, below): (&str, &str),
-        into: &mut Vec<String>,
-    ) {
+    /// The same of the first [`MOST`] components, and whether these are all.
+    fn search(&self, verb: Option<Verb>, below: &str) -> (Vec<String>, bool) {
+        let mut search = Search { verb, below, left: MOST, found: Vec::new() };
+        self.gather(self.paths.main(), "", &mut search);
+        (search.found, search.left > 0)
+    }
+
+    fn gather(&self, instance: Instance, home: &str, search: &mut Search<'_>) {
         for (name, found) in self.paths.components_of(instance) {
+            if search.left == 0 {
+                return;
+            }
+            search.left -= 1;
             let path = format!("{home}{name}.");
             // What lies on the way there, or behind it.
-            if into.len() >= MOST || !(path.starts_with(below) || below.starts_with(&path)) {
+            if !(path.starts_with(search.below) || search.below.starts_with(&path)) {
                 continue;
             }
-            let outcomes = self.brought(found, verb).into_iter();
+            let outcomes = self.brought(found, search.verb).into_iter();
             let outcomes = outcomes.map(|outcome| format!("{path}{outcome}"));
-            into.extend(outcomes.filter(|path| path.starts_with(below)));
+            search.found.extend(outcomes.filter(|path| path.starts_with(search.below)));
             if let Some(inner) = self.paths.inside(found) {
-                self.gather(inner, verb, (&path, below), into);
+                self.gather(inner, &path, search);
             }
         }
     }

@@ -32,6 +32,11 @@ impl Checker<'_> {
         let (Some(meant), Err(error)) = (meant, self.paths.find(self.paths.main(), &names)) else {
             return self.element(path, diags);
         };
+        // What is nearly called so is meant, as in an edge.
+        if error.fix.is_some() {
+            diags.push(*error);
+            return None;
+        }
         let error = Diagnostic::new(error.code, error.span, error.message);
         diags.push(error.help(format!("write '{meant}'")).replace(meant));
         None
@@ -61,7 +66,7 @@ impl Checker<'_> {
         let (found, rest) = match (found, ending) {
             (Err(_), Some(ending)) => return Some(Claim::End(Some(ending))),
             (Err(error), None) => {
-                diags.push(match meant(&path.text()) {
+                diags.push(match meant(&path.text()).filter(|_| error.fix.is_none()) {
                     Some(better) => Diagnostic::new(error.code, error.span, error.message)
                         .help(format!("write '{better}'"))
                         .replace(better),
