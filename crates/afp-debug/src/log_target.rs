@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::ComponentId;
 use afp_core::{Duration, Instant};
-use afp_session::{EventKind, Pose2, Request, RunEvent};
+use afp_session::{Pose2, Request, RunEvent};
 
 use crate::program::Program;
 use crate::sensed::Sensed;
@@ -149,13 +149,6 @@ impl LogTarget {
         let last = passed.checked_sub(1).and_then(|last| self.moments.get(last));
         last.and_then(|end| self.events.get(end - 1)).map_or(Instant::ZERO, |event| event.at)
     }
-
-    /// Whether at an instant somebody stopped the run, as the first of what happened in a moment.
-    fn is_stopped(&self, moment: usize, at: Instant) -> bool {
-        let begin = moment.checked_sub(1).and_then(|before| self.moments.get(before));
-        let first = self.events.get(begin.copied().unwrap_or_default());
-        first.is_some_and(|event| event.at == at && event.kind == EventKind::StopRequested)
-    }
 }
 
 impl Target for LogTarget {
@@ -201,10 +194,7 @@ impl Target for LogTarget {
         match to {
             Position::Step(step) => self.go(usize::try_from(step).unwrap_or(usize::MAX)),
             Position::At(at) => {
-                // Who comes to where a run was stopped sees what was stopped.
-                let passed = over(at);
-                let stopped = passed.checked_sub(1).filter(|last| self.is_stopped(*last, at));
-                self.go(stopped.unwrap_or(passed));
+                self.go(over(at));
                 self.now = at.min(self.at(self.moments.len()));
             }
         }
