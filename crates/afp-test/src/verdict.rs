@@ -27,7 +27,7 @@ pub struct Verdict {
     pub activations: Vec<Activation>,
     /// The timeline, line by line; with colours.
     pub timeline: Vec<(Instant, String)>,
-    /// The hash of the trace: the same for the same scenario, on every machine.
+    /// The hash of the trace: the same for the same scenario, on every machine. That of its log has the stop at the end in it.
     pub trace: u64,
 }
 
