@@ -25,7 +25,9 @@ use comments::{doc, note};
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Operator, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions, Start};
-pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
+pub use scenario::{
+    Action, Bound, Claim, ClaimKind, ClaimTarget, ENDS, Line, LineKind, Path, Scenario,
+};
 pub use table::{Column, Row, Table};
 pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
 

@@ -7,6 +7,7 @@ use afp_dsl::graph::EntryKind;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_dsl::outline::ComponentKind;
 use afp_syntax::Node;
+use afp_syntax::ast::ENDS;
 use afp_syntax::kind::Kind;
 
 /// Lines of a scenario, or those of them that may count from one of its moments.
@@ -52,7 +53,7 @@ pub(super) fn paths(list: &mut List, word: &str, offset: u32) {
             of_plan(list, offset, |kind| is_component(kind, false));
         }
         "end by" => {
-            list.keywords_alone(&["OK", "Interrupted", "Error"], 1);
+            list.keywords_alone(&ENDS, 1);
             of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_)));
         }
         _ => of_plan(list, offset, |kind| matches!(kind, DefinitionKind::Component(_))),

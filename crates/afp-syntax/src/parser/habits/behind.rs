@@ -1,5 +1,6 @@
 //! What stands behind a claim, an action or another line of a scenario and does not belong there.
 
+use crate::ast::ENDS;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::parser::Parser;
@@ -15,7 +16,7 @@ const OFTEN: &[(&str, &str)] = &[("twice", "2 times"), ("thrice", "3 times")];
 
 /// Whether a plan can end so.
 fn is_end(word: &str) -> bool {
-    ["OK", "Interrupted", "Error"].into_iter().any(|end| end.eq_ignore_ascii_case(word))
+    ENDS.into_iter().any(|end| end.eq_ignore_ascii_case(word))
 }
 
 /// What is to be said of something that stands behind a line: a help, and an edit of a place where it mends all.

@@ -6,21 +6,18 @@ use crate::check::meant as words_of_ends;
 use crate::check::scenario::paths::{Found, Part};
 use crate::graph::Target;
 use crate::scenario::{Cause, Claim, EndCause, Outcome};
-use afp_syntax::ast::{Name, Path};
+use afp_syntax::ast::{ENDS, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
-
-/// How a plan ends, in claims.
-const ENDS: &[&str] = &["OK", "Interrupted", "Error"];
 
 /// The end of a plan that was meant by a word.
 pub(super) fn meant(word: &str) -> Option<&'static str> {
-    let same = |end: &&&str| end.eq_ignore_ascii_case(word);
+    let same = |end: &&str| end.eq_ignore_ascii_case(word);
     let ours = || match words_of_ends::target(word, Leads::Edge).unwrap_or(word) {
         "terminate" => Some("OK"),
         "fail" => Some("Error"),
         _ => None,
     };
-    ENDS.iter().find(same).copied().or_else(ours)
+    ENDS.into_iter().find(same).or_else(ours)
 }
 
 impl Checker<'_> {
