@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use tokio::sync::{Semaphore, mpsc};
 
 use crate::Debugging;
-use crate::outbox::is_sent;
+use crate::outbox::{Pulse, is_sent};
 use crate::sockets::MOST_CLIENTS;
 
 /// So many messages wait for a client; then who sends more waits.
@@ -42,8 +42,14 @@ pub(crate) async fn talk(mut socket: WebSocket, debuggers: Debuggers) {
     if debuggers.to.send(Debugging { said, told }).is_err() {
         return;
     }
+    let mut pulse = Pulse::new();
     loop {
         tokio::select! {
+            () = pulse.due() => {
+                if !pulse.is_felt(&mut socket).await {
+                    break;
+                }
+            }
             tell = tells.recv() => {
                 let Some(tell) = tell else { break };
                 if !is_sent(&mut socket, tell).await {
@@ -51,6 +57,7 @@ pub(crate) async fn talk(mut socket: WebSocket, debuggers: Debuggers) {
                 }
             }
             heard = socket.recv() => {
+                pulse.heard();
                 let text = match heard {
                     Some(Ok(Message::Text(text))) => text.to_string(),
                     Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,

@@ -1,5 +1,6 @@
 //! What is under way to a client. Messages come in bursts, so their number says nothing: the connection ends where the
-//! client reads nothing for a while, or leaves more unread than there should be memory for.
+//! client reads nothing for a while, leaves more unread than there should be memory for, or does not answer when it is asked
+//! whether it is there.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,10 +8,13 @@ use std::time::Duration;
 
 use axum::extract::ws::{Message, WebSocket};
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender, unbounded_channel};
-use tokio::time::timeout;
+use tokio::time::{Instant, Interval, MissedTickBehavior, interval_at, timeout};
 
 /// How long a client may read nothing.
 const PATIENCE: Duration = Duration::from_secs(5);
+
+/// How often a client is asked whether it is there. Behind a tunnel nobody else tells when it is gone.
+const PULSE: Duration = Duration::from_secs(20);
 
 /// So many bytes may wait for a client.
 const MOST: usize = 64 << 20;
@@ -55,7 +59,47 @@ impl Outgoing {
 
 /// Sends a message; whether the client reads it.
 pub(crate) async fn is_sent(socket: &mut WebSocket, message: String) -> bool {
-    matches!(timeout(PATIENCE, socket.send(Message::Text(message.into()))).await, Ok(Ok(())))
+    is_taken(socket, Message::Text(message.into())).await
+}
+
+async fn is_taken(socket: &mut WebSocket, message: Message) -> bool {
+    matches!(timeout(PATIENCE, socket.send(message)).await, Ok(Ok(())))
+}
+
+/// Asks a client now and then whether it is still there. Browsers answer by themselves.
+#[derive(Debug)]
+pub(crate) struct Pulse {
+    every: Interval,
+    /// Whether nothing was heard since it was asked last.
+    is_silent: bool,
+}
+
+impl Pulse {
+    pub fn new() -> Pulse {
+        let mut every = interval_at(Instant::now() + PULSE, PULSE);
+        every.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        Pulse { every, is_silent: false }
+    }
+
+    /// Waits until it is time to ask.
+    pub async fn due(&mut self) {
+        self.every.tick().await;
+    }
+
+    /// Whether the client has answered since last time and can be asked again.
+    pub async fn is_felt(&mut self, socket: &mut WebSocket) -> bool {
+        self.may_ask() && is_taken(socket, Message::Ping(Vec::new().into())).await
+    }
+
+    /// Who was silent since it was asked last is not asked again.
+    fn may_ask(&mut self) -> bool {
+        !std::mem::replace(&mut self.is_silent, true)
+    }
+
+    /// The client has said something.
+    pub fn heard(&mut self) {
+        self.is_silent = false;
+    }
 }
 
 #[cfg(test)]
@@ -76,6 +120,18 @@ mod tests {
         let large = "x".repeat(MOST / 4);
         assert!((0..4).all(|_| to.put(large.clone())));
         assert!(!to.put("x".to_owned()));
+    }
+
+    #[test]
+    fn who_does_not_answer_is_asked_once() {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
+        let mut pulse = runtime.block_on(async { Pulse::new() });
+        for _ in 0..3 {
+            assert!(pulse.may_ask());
+            pulse.heard();
+        }
+        assert!(pulse.may_ask());
+        assert!(!pulse.may_ask());
     }
 
     #[test]

@@ -11,7 +11,7 @@ use afp_lsp::Message;
 use axum::extract::ws::{self, WebSocket};
 
 use crate::jobs::Runner;
-use crate::outbox::{Outbox, is_sent, outbox};
+use crate::outbox::{Outbox, Pulse, is_sent, outbox};
 use crate::room::{ClientId, JobId, Out, Room};
 
 /// More clients than this are turned away.
@@ -59,8 +59,14 @@ pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
     if sockets.events.send(Event::Joined(id, out)).is_err() {
         return;
     }
+    let mut pulse = Pulse::new();
     loop {
         tokio::select! {
+            () = pulse.due() => {
+                if !pulse.is_felt(&mut socket).await {
+                    break;
+                }
+            }
             answer = answers.next() => {
                 // No more answers: it has read too little, or there are too many clients.
                 let Some(answer) = answer else { break };
@@ -69,6 +75,7 @@ pub(crate) async fn talk(mut socket: WebSocket, sockets: Sockets) {
                 }
             }
             said = socket.recv() => {
+                pulse.heard();
                 let Some(Ok(said)) = said else { break };
                 let text = match &said {
                     ws::Message::Text(text) => text.as_str(),
