@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 
-use crate::toolbox::Toolbox;
+use crate::toolbox::Ready;
 use call::PyTemplate;
 pub use components::Components;
 pub use depth::{may_run, may_sweep};
@@ -29,24 +29,15 @@ pub use registry::AnyRegistry;
 pub type Object = Arc<PyHandle>;
 
 /// Adds the implementations of a toolbox to a registry.
-///
-/// # Errors
-/// The toolbox can no longer be read.
-fn register(
-    py: Python<'_>,
-    toolbox: &Toolbox,
-    host: &Arc<Host>,
-    registry: &mut dyn AnyRegistry,
-) -> PyResult<()> {
-    let declared = toolbox.declared()?;
+fn register(py: Python<'_>, toolbox: &Ready, host: &Arc<Host>, registry: &mut dyn AnyRegistry) {
+    let Ready { declared, makers, .. } = toolbox;
     for object in &declared.objects {
         registry.add_object(&declared.name, &object.name);
     }
-    for (name, maker) in toolbox.makers(py) {
-        let index = declared.templates.iter().position(|template| template.name == name);
+    for (name, maker) in makers {
+        let index = declared.templates.iter().position(|template| template.name == *name);
         let Some(index) = index else { continue };
-        let template = PyTemplate::new(host, &declared, index, maker);
-        registry.add(&declared.name, &name, declared.templates[index].kind, template);
+        let template = PyTemplate::new(host, declared, index, maker.clone_ref(py));
+        registry.add(&declared.name, name, declared.templates[index].kind, template);
     }
-    Ok(())
 }

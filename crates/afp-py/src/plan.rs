@@ -65,7 +65,7 @@ impl Plan {
     /// The name of the plan that runs.
     #[getter]
     fn name(&self, py: Python<'_>) -> PyResult<String> {
-        let compiled = self.compiled(py);
+        let compiled = self.compiled(py)?;
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
         Ok(graph.main().name.clone())
     }
@@ -78,14 +78,14 @@ impl Plan {
 
     /// Everything the compiler has to say, in the order of the text.
     #[getter]
-    fn diagnostics(&self, py: Python<'_>) -> Vec<Diagnostic> {
-        diagnostics(&self.compiled(py))
+    fn diagnostics(&self, py: Python<'_>) -> PyResult<Vec<Diagnostic>> {
+        Ok(diagnostics(&*self.compiled(py)?))
     }
 
     /// Whether there are no errors; warnings do not count.
     #[getter]
-    fn ok(&self, py: Python<'_>) -> bool {
-        self.compiled(py).graph.is_some()
+    fn ok(&self, py: Python<'_>) -> PyResult<bool> {
+        Ok(self.compiled(py)?.graph.is_some())
     }
 
     /// The scenarios of the file; none while it has errors.
@@ -95,13 +95,13 @@ impl Plan {
     }
 
     /// The scenarios that cannot be run, while nothing else has errors: name, line and what is wrong.
-    fn _invalid(&self, py: Python<'_>) -> Vec<(String, usize, String)> {
-        scenario::invalid(&self.compiled(py))
+    fn _invalid(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, String)>> {
+        Ok(scenario::invalid(&*self.compiled(py)?))
     }
 
     /// Raises `PlanError` if the plan has errors.
     fn check(&self, py: Python<'_>) -> PyResult<()> {
-        let compiled = self.compiled(py);
+        let compiled = self.compiled(py)?;
         match compiled.graph {
             Some(_) => Ok(()),
             None => Err(plan_error(py, &compiled)),
@@ -110,14 +110,15 @@ impl Plan {
 
     /// The diagnostics as `afpc check` prints them.
     #[pyo3(signature = (*, color=false))]
-    fn report(&self, py: Python<'_>, color: bool) -> String {
-        self.compiled(py).render(color)
+    fn report(&self, py: Python<'_>, color: bool) -> PyResult<String> {
+        Ok(self.compiled(py)?.render(color))
     }
 
     /// The text in canonical form; the plan stays as it is.
     fn formatted(&self, py: Python<'_>) -> PyResult<String> {
         let text = self.text();
-        afp_format::format(&text).map_err(|_| plan_error(py, &self.compiled(py)))
+        let compiled = self.compiled(py)?;
+        afp_format::format(&text).map_err(|_| plan_error(py, &compiled))
     }
 
     /// Brings the text into canonical form.
@@ -145,7 +146,7 @@ impl Plan {
                 return Err(PyValueError::new_err(text));
             }
         };
-        let (compiled, icon) = (self.compiled(py), self.icons());
+        let (compiled, icon) = (self.compiled(py)?, self.icons());
         in_background(py, move || {
             let options =
                 Options { theme, sub_plans: !fold, data, icons: Some(&icon), ..Options::default() };
@@ -195,7 +196,7 @@ impl Plan {
 
     /// The flow of action as State Chart XML.
     fn scxml(&self, py: Python<'_>) -> PyResult<String> {
-        let compiled = self.compiled(py);
+        let compiled = self.compiled(py)?;
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
         let options = Options { sources: Some(&compiled.sources), ..Options::default() };
         Ok(afp_draw::scxml(graph, &options))
@@ -258,9 +259,13 @@ impl Plan {
         }
     }
 
-    /// What became of the text, compiled anew only after a change.
-    pub fn compiled(&self, py: Python<'_>) -> Arc<Compiled> {
-        py.detach(|| self.lock().compiled())
+    /// What became of the text, compiled anew only after a change of it or of a toolbox.
+    ///
+    /// # Errors
+    /// As [`Workspace::compiled`].
+    pub fn compiled(&self, py: Python<'_>) -> PyResult<Arc<Compiled>> {
+        let compiled = py.detach(|| self.lock().compiled(&self.toolboxes));
+        compiled.map_err(|why| run_error(&why))
     }
 
     /// What it is made of, for pickles and copies.
@@ -303,17 +308,22 @@ impl Plan {
     /// # Errors
     /// The plan has errors.
     fn checked(&self, py: Python<'_>) -> PyResult<Arc<Compiled>> {
-        let compiled = self.compiled(py);
+        let compiled = self.compiled(py)?;
         match compiled.graph {
             Some(_) => Ok(compiled),
             None => Err(plan_error(py, &compiled)),
         }
     }
 
+    fn compiled_in(&self, workspace: &mut Workspace) -> PyResult<Arc<Compiled>> {
+        workspace.compiled(&self.toolboxes).map_err(|why| run_error(&why))
+    }
+
     fn change(&self, change: &Change, fits: bool) -> PyResult<()> {
         let mut workspace = self.lock();
         let before = (workspace.text().to_owned(), workspace.others().clone());
-        let files: Vec<Source> = workspace.compiled().plan_sources().cloned().collect();
+        let files: Vec<Source> =
+            self.compiled_in(&mut workspace)?.plan_sources().cloned().collect();
         let edits = edit::edit(&files, workspace.known(), 0, change).map_err(error)?;
         let mut written = Vec::new();
         for (number, source) in (0..=u16::MAX).zip(&files) {
@@ -327,7 +337,7 @@ impl Plan {
         if !fits {
             return Ok(());
         }
-        let compiled = workspace.compiled();
+        let compiled = self.compiled_in(&mut workspace)?;
         let mut errors = compiled.diags.iter().filter(|it| it.severity == Severity::Error);
         let is_new = |span: Span| {
             let name = compiled.sources.get(span.file).map(|source| &source.name);

@@ -86,7 +86,7 @@ impl Scenario {
         fits(&self.file)?;
         let setting = Setting::find(checked, &self.file, link().kind());
         let setting = setting.map_err(|why| run_error(&why))?;
-        let components = Components::new(py, &self.toolboxes)?;
+        let components = Components::new(py, &self.toolboxes, &self.compiled)?;
         let more = |registry: &mut dyn AnyRegistry| components.register(registry);
         let robot = link().loader(&more);
         let (mut pause, mut raised) = (Pause::of_signals(), None);
@@ -152,7 +152,7 @@ impl Scenario {
 
 /// The scenarios of a plan's file.
 pub fn scenarios(py: Python<'_>, plan: &Plan) -> PyResult<Vec<Scenario>> {
-    let compiled = plan.compiled(py);
+    let compiled = plan.compiled(py)?;
     let source = plan.state(py).into_py_any(py)?;
     let one = |index| Scenario {
         compiled: Arc::clone(&compiled),

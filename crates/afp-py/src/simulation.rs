@@ -76,11 +76,11 @@ impl Runner {
         log: Option<PathBuf>,
         camera: bool,
     ) -> PyResult<Self> {
-        let compiled = plan.compiled(py);
+        let compiled = plan.compiled(py)?;
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
         let (file, toolboxes) = (plan.file(), plan.python_toolboxes(py));
         fits(&file)?;
-        let components = Components::new(py, &toolboxes)?;
+        let components = Components::new(py, &toolboxes, &compiled)?;
         let more = |registry: &mut dyn AnyRegistry| components.register(registry);
         let world = &world.loaded;
         let session = link().loader(&more).session(graph, &*world.world, seed, &[]);

@@ -79,7 +79,7 @@ impl Sweeper {
         metrics: Vec<String>,
         parts: Parts,
     ) -> PyResult<Self> {
-        let compiled = plan.compiled(py);
+        let compiled = plan.compiled(py)?;
         if compiled.graph.is_none() {
             return Err(plan_error(py, &compiled));
         }
@@ -98,7 +98,7 @@ impl Sweeper {
             seeds: seeds.seeds()?,
             until: Duration::from_secs_f64(until),
         };
-        let header = with_setting(py, &toolboxes, |robot| {
+        let header = with_setting(py, &toolboxes, &compiled, |robot| {
             let graph = graph(&compiled)?;
             let names = PlanNames::new(graph);
             let axes = vary.into_iter().map(|(name, values)| values.axis(&names, name));
@@ -236,7 +236,7 @@ impl Sweeper {
     ) -> PyResult<(Runner, World)> {
         let row = self.row(run)?;
         let graph = graph(&self.compiled)?;
-        let components = Components::new(py, &self.toolboxes)?;
+        let components = Components::new(py, &self.toolboxes, &self.compiled)?;
         let (session, loaded) = {
             let more = |registry: &mut dyn AnyRegistry| components.register(registry);
             let loader = link().loader(&more);
@@ -338,9 +338,10 @@ impl Done {
 fn with_setting<T>(
     py: Python<'_>,
     toolboxes: &[Py<Toolbox>],
+    compiled: &Compiled,
     use_it: impl FnOnce(&dyn Loader) -> PyResult<T>,
 ) -> PyResult<T> {
-    let components = Components::new(py, toolboxes)?;
+    let components = Components::new(py, toolboxes, compiled)?;
     let more = |registry: &mut dyn AnyRegistry| components.register(registry);
     let used = use_it(&*link().loader(&more));
     components.raised(py)?;

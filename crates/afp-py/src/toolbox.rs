@@ -26,6 +26,15 @@ struct Inner {
     /// The templates that were declared later, by name.
     declared: Vec<(String, String)>,
     makers: Vec<(String, Py<PyAny>)>,
+    /// How often its text has become another one.
+    revision: u64,
+}
+
+/// A toolbox at one moment: its text, what that declares, and what makes the components, by template.
+pub struct Ready {
+    pub text: String,
+    pub declared: Arc<Declared>,
+    pub makers: Vec<(String, Py<PyAny>)>,
 }
 
 #[pymethods]
@@ -35,7 +44,7 @@ impl Toolbox {
     fn new(text: String, path: Option<PathBuf>) -> PyResult<Self> {
         let file = path.map_or("toolbox".to_owned(), |path| path.display().to_string());
         parse(&file, &text)?;
-        let inner = Inner { file, text, declared: Vec::new(), makers: Vec::new() };
+        let inner = Inner { file, text, declared: Vec::new(), makers: Vec::new(), revision: 0 };
         Ok(Toolbox { inner: Mutex::new(inner) })
     }
 
@@ -73,7 +82,10 @@ impl Toolbox {
             None => declared.push((name.to_owned(), text)),
         }
         parse(&inner.file, &whole(&inner.text, &declared))?;
-        inner.declared = declared;
+        if inner.declared != declared {
+            inner.declared = declared;
+            inner.revision += 1;
+        }
         Ok(())
     }
 
@@ -137,10 +149,23 @@ impl Toolbox {
         parse(&inner.file, &inner.whole())
     }
 
-    /// What makes the components, by template.
-    pub fn makers(&self, py: Python<'_>) -> Vec<(String, Py<PyAny>)> {
+    /// How often its text has become another one, as when a cell of a notebook is run again.
+    pub fn revision(&self) -> u64 {
+        self.lock().revision
+    }
+
+    /// The toolbox as it is now.
+    ///
+    /// # Errors
+    /// Its text can no longer be read.
+    pub fn ready(&self, py: Python<'_>) -> PyResult<Ready> {
         let inner = self.lock();
-        inner.makers.iter().map(|(name, maker)| (name.clone(), maker.clone_ref(py))).collect()
+        let source = Source::new(&*inner.file, inner.whole());
+        let text = source.text.clone();
+        let declared = read(source)?;
+        let makers = inner.makers.iter();
+        let makers = makers.map(|(name, maker)| (name.clone(), maker.clone_ref(py))).collect();
+        Ok(Ready { text, declared, makers })
     }
 }
 
@@ -161,8 +186,12 @@ fn whole(text: &str, declared: &[(String, String)]) -> String {
 }
 
 fn parse(file: &str, text: &str) -> PyResult<Arc<Declared>> {
+    read(Source::new(file, text))
+}
+
+fn read(source: Source) -> PyResult<Arc<Declared>> {
     let mut set = Toolboxes::default();
-    set.add(Source::new(file, text), "python");
+    set.add(source, "python");
     if set.diagnostics().has_errors() {
         return Err(error(set.diagnostics().render(set.sources(), false).trim_end()));
     }

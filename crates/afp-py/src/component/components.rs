@@ -2,30 +2,34 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use afp_dsl::Compiled;
 use pyo3::prelude::*;
 
 use super::{AnyRegistry, Host, register};
+use crate::errors::error;
 use crate::link::link;
 use crate::pause::attached;
-use crate::toolbox::Toolbox;
+use crate::toolbox::{Ready, Toolbox};
 
 /// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.
 pub struct Components {
-    toolboxes: Vec<Py<Toolbox>>,
+    toolboxes: Vec<Ready>,
     hosts: Mutex<Vec<Arc<Host>>>,
     broken: Mutex<Option<PyErr>>,
 }
 
 impl Components {
-    /// For the plans of these toolboxes.
+    /// For plans that were compiled with these toolboxes: as they are now, for all of the plans.
     ///
     /// # Errors
-    /// A toolbox that can no longer be read.
-    pub fn new(py: Python<'_>, toolboxes: &[Py<Toolbox>]) -> PyResult<Self> {
-        for toolbox in toolboxes {
-            toolbox.bind(py).get().declared()?;
-        }
-        let toolboxes = toolboxes.iter().map(|toolbox| toolbox.clone_ref(py)).collect();
+    /// A toolbox declares something else than it did when the plan was compiled, or can no longer be read.
+    pub fn new(py: Python<'_>, toolboxes: &[Py<Toolbox>], compiled: &Compiled) -> PyResult<Self> {
+        let ready = |toolbox: &Py<Toolbox>| {
+            let ready = toolbox.get().ready(py)?;
+            let is_known = compiled.sources.iter().any(|source| source.text == ready.text);
+            if is_known { Ok(ready) } else { Err(changed(&ready.declared.name)) }
+        };
+        let toolboxes = toolboxes.iter().map(ready).collect::<PyResult<_>>()?;
         Ok(Components { toolboxes, hosts: Mutex::default(), broken: Mutex::default() })
     }
 
@@ -37,7 +41,7 @@ impl Components {
         let registered = attached(|py| {
             let host = Arc::new(Host::new(link().robot(py)?));
             for toolbox in &self.toolboxes {
-                register(py, toolbox.get(), &host, registry)?;
+                register(py, toolbox, &host, registry);
             }
             Ok(host)
         });
@@ -91,4 +95,11 @@ impl Components {
         let hosts = self.hosts.lock().unwrap_or_else(PoisonError::into_inner);
         hosts.iter().find_map(|host| host.aborted(py)).map_or(Ok(()), Err)
     }
+}
+
+/// What to say of a toolbox of which what was compiled knows another text.
+fn changed(name: &str) -> PyErr {
+    error(format!(
+        "the toolbox '{name}' declares something else than it did for this scenario or sweep\n  help: take plan.scenarios again, or sweep again"
+    ))
 }

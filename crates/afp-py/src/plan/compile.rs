@@ -25,6 +25,8 @@ pub struct Workspace {
     /// Which plan of the file runs.
     name: Option<String>,
     known: Toolboxes,
+    /// How often the text of each toolbox of Python had become another one when it got to be known.
+    revisions: Vec<u64>,
     own: Option<Arc<OwnToolboxes>>,
     /// Texts of other files that a change has reached, by path.
     others: BTreeMap<String, String>,
@@ -32,7 +34,7 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// The toolboxes that it can use.
+    /// The toolboxes that it could use when it was compiled.
     pub fn known(&self) -> &Toolboxes {
         &self.known
     }
@@ -45,14 +47,21 @@ impl Workspace {
         toolboxes: &[Py<Toolbox>],
     ) -> Result<Workspace, RunError> {
         let own = path.as_deref().map(OwnToolboxes::of_plan).transpose()?;
-        let mut known = match &own {
-            Some(own) => own.with_built_in()?,
-            None => afp_toolboxes::sources().collect(),
-        };
-        add_all(&mut known, toolboxes)?;
-        let others = BTreeMap::new();
-        let own = own.map(Arc::new);
-        Ok(Workspace { text, path, name, known, own, others, compiled: None })
+        let revisions = revisions(toolboxes);
+        let known = known(own.as_ref(), toolboxes)?;
+        let (others, own) = (BTreeMap::new(), own.map(Arc::new));
+        Ok(Workspace { text, path, name, known, revisions, own, others, compiled: None })
+    }
+
+    /// Reads the toolboxes again if one of them has changed.
+    fn refresh(&mut self, toolboxes: &[Py<Toolbox>]) -> Result<(), RunError> {
+        // Before their texts: what changes in between is read once more.
+        let revisions = revisions(toolboxes);
+        if revisions != self.revisions {
+            self.known = known(self.own.as_deref(), toolboxes)?;
+            (self.revisions, self.compiled) = (revisions, None);
+        }
+        Ok(())
     }
 
     /// The toolboxes of its project; `None` for a plan without a file.
@@ -104,10 +113,14 @@ impl Workspace {
         }
     }
 
-    /// What became of the texts.
-    pub fn compiled(&mut self) -> Arc<Compiled> {
+    /// What became of the texts, with the toolboxes as they are now.
+    ///
+    /// # Errors
+    /// One of the toolboxes is now another one of the same name as one that is built in or of the project.
+    pub fn compiled(&mut self, toolboxes: &[Py<Toolbox>]) -> Result<Arc<Compiled>, RunError> {
+        self.refresh(toolboxes)?;
         if let Some(compiled) = &self.compiled {
-            return Arc::clone(compiled);
+            return Ok(Arc::clone(compiled));
         }
         let source = Source::new(self.file().display().to_string(), &self.text);
         let read = |path: &str| match self.others.get(path) {
@@ -117,7 +130,7 @@ impl Workspace {
         let compiled = compile_plan(&source, &self.known, &read, self.name.as_deref());
         let compiled = Arc::new(compiled);
         self.compiled = Some(Arc::clone(&compiled));
-        compiled
+        Ok(compiled)
     }
 
     /// Writes what has changed.
@@ -137,6 +150,20 @@ impl Workspace {
         }
         Ok(())
     }
+}
+
+fn revisions(toolboxes: &[Py<Toolbox>]) -> Vec<u64> {
+    toolboxes.iter().map(|toolbox| toolbox.get().revision()).collect()
+}
+
+/// The toolboxes that are built in, of the project and of Python.
+fn known(own: Option<&OwnToolboxes>, toolboxes: &[Py<Toolbox>]) -> Result<Toolboxes, RunError> {
+    let mut known = match own {
+        Some(own) => own.with_built_in()?,
+        None => afp_toolboxes::sources().collect(),
+    };
+    add_all(&mut known, toolboxes)?;
+    Ok(known)
 }
 
 /// Adds toolboxes of Python. One of a name that is known must have the same text: its components are in Python then.

@@ -51,7 +51,7 @@ impl Sweeper {
         let graph = graph(&self.compiled)?;
         let mut job = Job {
             compiled: Arc::clone(&self.compiled),
-            components: Arc::new(Components::new(py, &self.toolboxes)?),
+            components: Arc::new(Components::new(py, &self.toolboxes, &self.compiled)?),
             sweep: self.sweep.clone(),
             file: self.file.clone(),
             runs: runs.to_vec(),
@@ -62,7 +62,7 @@ impl Sweeper {
         let Some(judge) = judge else { return drive(py, job, each) };
         let kept = Arc::new(Kept::default());
         job.kept = Some(Arc::clone(&kept));
-        with_setting(py, &self.toolboxes, |robot| {
+        with_setting(py, &self.toolboxes, &self.compiled, |robot| {
             let mut sweep = self.sweep.clone();
             let setting = Setting::new(&mut sweep, graph, &self.file, robot);
             let setting = &setting.map_err(|why| run_error(&why))?;
