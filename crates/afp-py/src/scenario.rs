@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use afp_dsl::Compiled;
 use afp_dsl::scenario::{InvalidScenario, Scenario as Checked};
+use afp_run::check_apart;
 use afp_session::shell_word;
 use afp_syntax::source::Span;
 use afp_test::{Recording, Setting};
@@ -21,6 +22,7 @@ use crate::errors::{error, run_error};
 use crate::link::{fits, link};
 use crate::pause::{Halt, Pause};
 use crate::plan::Plan;
+use crate::simulation::read_of;
 use crate::toolbox::Toolbox;
 use crate::value::Pickled;
 
@@ -86,6 +88,11 @@ impl Scenario {
         fits(&self.file)?;
         let setting = Setting::find(checked, &self.file, link().kind());
         let setting = setting.map_err(|why| run_error(&why))?;
+        if let Some(log) = &log {
+            let read =
+                read_of(&self.compiled).chain([&*self.file]).chain(setting.world.path.as_deref());
+            check_apart([&**log], read).map_err(|why| run_error(&why))?;
+        }
         let components = Components::new(py, &self.toolboxes, &self.compiled)?;
         let more = |registry: &mut dyn AnyRegistry| components.register(registry);
         let robot = link().loader(&more);

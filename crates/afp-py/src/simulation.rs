@@ -45,7 +45,7 @@ pub use keeper::Keeper;
 pub use names::Names;
 pub use session::Run;
 use session::no_pose;
-pub use setting::Setting;
+pub use setting::{Setting, read_of};
 pub use stimuli::{control, fault};
 use time::some;
 pub use time::{duration, instant};
@@ -82,6 +82,7 @@ impl Runner {
         fits(&file)?;
         let components = Components::new(py, &toolboxes, &compiled)?;
         let more = |registry: &mut dyn AnyRegistry| components.register(registry);
+        let world_file = world.read.as_deref();
         let world = &world.loaded;
         let session = link().loader(&more).session(graph, &*world.world, seed, &[]);
         let session = session.map_err(|why| no_session(&why))?;
@@ -93,8 +94,17 @@ impl Runner {
         }
         let (file, log) = (&*file, log.as_deref());
         let (compiled_as, settings) = (&compiled, &*settings);
-        let setting =
-            Setting { compiled: compiled_as, graph, world, seed, settings, file, log, camera };
+        let setting = Setting {
+            compiled: compiled_as,
+            graph,
+            world,
+            seed,
+            settings,
+            file,
+            world_file,
+            log,
+            camera,
+        };
         let mut run = Run::logged(session, &setting)?;
         for (given, name) in inputs {
             let entry = run.entry(&name)?;

@@ -253,9 +253,11 @@ impl Sweeper {
             row.values.iter().map(|(name, point)| ((*name).to_owned(), point.text.clone()));
         let settings = &*settings.collect::<Vec<_>>();
         let seed = row.seed;
-        let setting = Begun { compiled, graph, world, seed, settings, file, log, camera };
+        let world_file = world.path.as_deref();
+        let setting =
+            Begun { compiled, graph, world, seed, settings, file, world_file, log, camera };
         let runner = Runner::new(Run::logged(session, &setting)?, host, &self.compiled);
-        Ok((runner, World { loaded }))
+        Ok((runner, World::new(loaded)))
     }
 
     /// Writes the table, if it is written anywhere, and closes the journal; its paths.

@@ -20,6 +20,8 @@ type Facts<'a> = (&'a str, Option<&'a Path>, Option<(f64, f64, f64)>);
 #[pyclass(module = "afp", frozen)]
 pub struct World {
     pub loaded: LoadedWorld,
+    /// The file of which it was read, whatever was changed in it since.
+    pub read: Option<PathBuf>,
 }
 
 #[pymethods]
@@ -28,7 +30,7 @@ impl World {
     #[staticmethod]
     fn load(path: PathBuf) -> PyResult<World> {
         let loaded = find(Some(&path), &path, link().kind()).map_err(|why| run_error(&why))?;
-        Ok(World { loaded })
+        Ok(World::new(loaded))
     }
 
     /// A room made up from a seed, as `--world random:7` is.
@@ -36,7 +38,7 @@ impl World {
     fn random(seed: u64) -> PyResult<World> {
         let name = PathBuf::from(format!("random:{seed}"));
         let loaded = find(Some(&name), &name, link().kind()).map_err(|why| run_error(&why))?;
-        Ok(World { loaded })
+        Ok(World::new(loaded))
     }
 
     /// Reads a world from the text of its file.
@@ -49,7 +51,7 @@ impl World {
             }
             None => error(why.message),
         })?;
-        Ok(World { loaded: LoadedWorld { world, text, path: None, start: None } })
+        Ok(World::new(LoadedWorld { world, text, path: None, start: None }))
     }
 
     /// The world that `afpc run` would take for the plan of this file.
@@ -57,7 +59,7 @@ impl World {
     fn of_plan(path: PathBuf) -> PyResult<World> {
         fits(&path)?;
         let loaded = find(None, &path, link().kind()).map_err(|why| run_error(&why))?;
-        Ok(World { loaded })
+        Ok(World::new(loaded))
     }
 
     /// The same with values of its file changed, `robot.charge`, and with another start of the robot.
@@ -78,7 +80,7 @@ impl World {
         }
         // It is not that of the file any more.
         loaded.path = None;
-        Ok(World { loaded })
+        Ok(World { loaded, read: self.read.clone() })
     }
 
     /// What it is called.
@@ -148,13 +150,22 @@ impl World {
         start: Option<(f64, f64, f64)>,
     ) -> PyResult<World> {
         let mut world = World::parse(text)?._changed(Vec::new(), start)?;
-        world.loaded.path = path;
+        world.loaded.path.clone_from(&path);
+        world.read = path;
         Ok(world)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Pickled<'py, Facts<'_>> {
         let start = self.loaded.start.map(|Pose2 { x, y, heading }| (x, y, heading));
         Ok((py.get_type::<World>().getattr("_again")?, (self.text(), self.path(), start)))
+    }
+}
+
+impl World {
+    /// A world as it was loaded.
+    pub fn new(loaded: LoadedWorld) -> World {
+        let read = loaded.path.clone();
+        World { loaded, read }
     }
 }
 

@@ -184,6 +184,8 @@ class WorldBuilder:
 
     def save(self, path: str | os.PathLike[str]) -> World:
         """Writes the world's file, for `afpc run --world` and the like, and reads it."""
+        if os.path.splitext(os.fspath(path))[1] != ".toml":
+            raise ValueError(f"a world is saved as .toml, not as {os.fspath(path)!r}")
         with open(path, "w", encoding="utf-8", newline="\n") as file:
             file.write(self.toml)
         return World.load(path)

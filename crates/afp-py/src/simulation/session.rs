@@ -75,6 +75,7 @@ impl Run {
             let text = "what the camera sees goes into the log, and there is none: give log=\"run.mcap\", too";
             return Err(PyValueError::new_err(text));
         }
+        setting.log.map_or(Ok(()), |log| setting.check_log(log)).map_err(|why| run_error(&why))?;
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
             let (about, names) = (setting.about(), OwnedNames::new(session.names()));

@@ -6,9 +6,10 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_log::About;
 use afp_resolve::own_toolbox_texts;
-use afp_run::hashes;
 use afp_run::world::LoadedWorld;
+use afp_run::{RunError, check_apart, hashes};
 use afp_session::{Build, Recipe, TextFile};
+use afp_syntax::source::Source;
 
 /// What a run begins with.
 pub struct Setting<'a> {
@@ -19,12 +20,23 @@ pub struct Setting<'a> {
     /// What was set before the start, as people write it.
     pub settings: &'a [(String, String)],
     pub file: &'a Path,
+    /// The file of which the world was read, whatever was changed in it since.
+    pub world_file: Option<&'a Path>,
     pub log: Option<&'a Path>,
     /// Whether the log gets what the camera sees.
     pub camera: bool,
 }
 
 impl Setting<'_> {
+    /// Refuses a log that would take the place of what is read.
+    ///
+    /// # Errors
+    /// The log is the plan's file, the world's or one that the plan uses.
+    pub fn check_log(&self, log: &Path) -> Result<(), RunError> {
+        let read = read_of(self.compiled).chain([self.file]).chain(self.world_file);
+        check_apart([log], read)
+    }
+
     /// What the log says of the run.
     pub fn about(&self) -> About {
         let LoadedWorld { world, text, start, .. } = self.world;
@@ -46,6 +58,13 @@ impl Setting<'_> {
         about.facts.push(("clock".to_owned(), "virtual".to_owned()));
         about
     }
+}
+
+/// The files that a plan was compiled of.
+pub fn read_of(compiled: &Compiled) -> impl Iterator<Item = &Path> {
+    let built_in = |source: &Source| afp_toolboxes::ALL.iter().any(|it| it.text == source.text);
+    let files = compiled.sources.iter().filter(move |source| !built_in(source));
+    files.map(|source| Path::new(&source.name))
 }
 
 fn text_files(

@@ -73,7 +73,7 @@ impl Judging<'_> {
         let row = self.sweep.row(outcome.run);
         let loaded = self.setting.world(&row).map_err(|why| run_error(&why))?;
         let runner = Runner::new(run, None, self.compiled);
-        let figures = self.judge.call1(py, (runner, World { loaded }, row.seed))?;
+        let figures = self.judge.call1(py, (runner, World::new(loaded), row.seed))?;
         let figures: BTreeMap<String, Option<f64>> = figures.extract(py)?;
         if let Some(name) = figures.keys().find(|name| outcome.figures.contains_key(*name)) {
             let text = format!("there is a figure '{name}' of every run; choose another name");

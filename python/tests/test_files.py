@@ -1,0 +1,50 @@
+"""What is read and written: nothing that is read is written over, and what goes wrong names the file."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import afp
+from conftest import ROOT
+
+GO = 'use "parts.afp"\nplan P { start go plan go: Part { Error -> terminate } }\nscenario "once" for P { world "room.toml" expect end }\n'
+PART = "use carbot\nplan Part { start go actor go: Forward(distance = 10 cm) { ForwardSuccessful -> terminate } }\n"
+
+
+@pytest.fixture
+def plan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> afp.Plan:
+    """A plan that uses another file, with a world, in the current folder."""
+    monkeypatch.chdir(tmp_path)
+    Path("go.afp").write_text(GO)
+    Path("parts.afp").write_text(PART)
+    shutil.copy(ROOT / "worlds/wall_following.toml", "room.toml")
+    return afp.load("go.afp")
+
+
+def test_a_log_takes_the_place_of_nothing_that_is_read(plan: afp.Plan) -> None:
+    (scenario,) = plan.scenarios
+    runs = afp.sweep(plan, worlds="room.toml", vary={"world.robot.charge": [0.5]}, progress=False)
+    world = afp.World.load("room.toml")
+    before = {path: path.read_bytes() for path in Path().iterdir()}
+    tries: list[Callable[[str], object]] = [
+        lambda log: afp.Simulation(plan, world, log=log),
+        lambda log: afp.Simulation(plan, "room.toml", set={"world.robot.charge": 0.5}, log=log),
+        lambda log: scenario.run(log=log),
+        lambda log: runs.simulation(0, log=log),
+    ]
+    for begin in tries:
+        for log in ("go.afp", "parts.afp", "../" + Path.cwd().name + "/room.toml"):
+            with pytest.raises(afp.AfpError, match="is read, so nothing can be written there"):
+                begin(log)
+    assert {path: path.read_bytes() for path in Path().iterdir()} == before
+    assert scenario.run(log="run.mcap").passed and Path("run.mcap").is_file()
+
+
+def test_a_world_is_saved_as_one(plan: afp.Plan) -> None:
+    with pytest.raises(ValueError, match="a world is saved as .toml, not as 'go.afp'"):
+        afp.WorldBuilder("hall", start=(1.0, 1.0)).save("go.afp")
+    assert Path("go.afp").read_text() == GO
