@@ -129,6 +129,17 @@ def test_changes_reach_other_files(tmp_path: Path) -> None:
     assert "start part" in main.read_text()
 
 
+def test_another_file_is_used_by_its_path_in_quotes(tmp_path: Path) -> None:
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts/explore.afp").write_text("use carbot\nplan Explore { start go actor go: Forward { ForwardSuccessful -> terminate } }\n")
+    plan = afp.Plan("plan P { start look subplan look: Explore { OK -> terminate } }\n", tmp_path / "plan.afp")
+    assert not plan.ok
+    plan.use('"parts/explore.afp"')
+    assert plan.ok and plan.text.startswith('use "parts/explore.afp"\n\nplan P')
+    with pytest.raises(afp.AfpError, match="is a file, which has no short name"):
+        plan.use('"parts/explore.afp"', "e")
+
+
 def test_files_that_are_not_there() -> None:
     with pytest.raises(FileNotFoundError):
         afp.load("nowhere.afp")

@@ -69,7 +69,7 @@ pub enum Binding {
 pub enum Change {
     /// Adds `use toolbox as alias` below the other `use` lines.
     AddUse {
-        /// The toolbox.
+        /// The toolbox, or the path of another plan file in quotes.
         toolbox: String,
         /// Its short name.
         alias: Option<String>,

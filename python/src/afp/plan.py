@@ -60,7 +60,7 @@ class Plan(_afp.Plan):
         return Picture(self._coverage(log))
 
     def use(self, toolbox: str, alias: str | None = None) -> None:
-        """Adds `use toolbox as alias`; of another plan file with its path in quotes."""
+        """Adds `use toolbox as alias`; of another plan file with its path in quotes: `use('"parts/explore.afp"')`."""
         self._change("use", {"toolbox": toolbox, "alias": alias})
 
     def add_plan(self, text: str) -> None:

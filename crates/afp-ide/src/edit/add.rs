@@ -8,16 +8,31 @@ use super::{Refused, TextEdit, fragment};
 use afp_syntax::Node;
 use afp_syntax::kind::Kind;
 
-/// Adds a `use` line below the others.
+/// Adds a `use` line below the others: of a toolbox, or of another plan file by its path in quotes.
 pub(super) fn line_of_use(
     buffer: &mut TextBuffer,
     toolbox: &str,
     alias: Option<&str>,
 ) -> Result<(), Refused> {
-    name::check(toolbox)?;
+    match path_in_quotes(toolbox) {
+        Some(_) if alias.is_some() => {
+            return Err(Refused::new(format!("{toolbox} is a file, which has no short name")));
+        }
+        Some(path) if !path.ends_with(".afp") => {
+            return Err(Refused::new(format!("{toolbox} is no plan file: those end in '.afp'")));
+        }
+        Some(_) => {}
+        None => name::check(toolbox)?,
+    }
     alias.map_or(Ok(()), name::check)?;
     let alias = alias.map(|alias| format!(" as {alias}")).unwrap_or_default();
     line(buffer, &format!("use {toolbox}{alias}"))
+}
+
+/// What stands between the quotes, of a text that is one literal.
+fn path_in_quotes(text: &str) -> Option<&str> {
+    let path = text.strip_prefix('"')?.strip_suffix('"')?;
+    (!path.contains(['"', '\\', '\n', '\r'])).then_some(path)
 }
 
 /// The edit that brings a toolbox into view of a file; nothing where it is.

@@ -62,6 +62,13 @@ fn items_are_added_to_empty_plans_and_files() {
     let plan = after(&plan, with_alias.clone());
     assert_eq!(plan, "use std\nuse carbot as c\n\nplan P {\n    actor a: A {}\n}\n");
     assert_eq!(after(&plan, with_alias), plan);
+    let file = Change::AddUse { toolbox: r#""parts/explore.afp""#.into(), alias: None };
+    let used = after(&plan, file.clone());
+    assert_eq!(
+        used,
+        "use std\nuse carbot as c\nuse \"parts/explore.afp\"\n\nplan P {\n    actor a: A {}\n}\n"
+    );
+    assert_eq!(after(&used, file), used);
     let start = Change::SetStart { plan: "P".into(), to: "a".into() };
     let plan = after(&plan, start);
     let edge = Change::Connect {
@@ -91,6 +98,13 @@ plan P {
 
 #[test]
 fn what_cannot_be_added_is_refused() {
+    let used = |path: &str, alias: Option<&str>| Change::AddUse {
+        toolbox: path.into(),
+        alias: alias.map(str::to_owned),
+    };
+    refused(PLAN, used(r#""a.toml""#, None), r#""a.toml" is no plan file: those end in '.afp'"#);
+    refused(PLAN, used(r#""a.afp""#, Some("a")), r#""a.afp" is a file, which has no short name"#);
+    refused(PLAN, used(r#""a" "b.afp""#, None), r#"'"a" "b.afp"' cannot be a name"#);
     refused(PLAN, add("actor go: A {}", None, None), "'go' is already there");
     refused(PLAN, add("actor GO: A {}", None, None), "'GO' and 'go' differ only in case or '_'");
     refused(
