@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -11,7 +12,7 @@ import pytest
 import afp
 from conftest import ROOT
 
-GO = 'use "parts.afp"\nplan P { start go plan go: Part { Error -> terminate } }\nscenario "once" for P { world "room.toml" expect end }\n'
+GO = 'use "parts.afp"\nplan P { start go subplan go: Part { OK -> terminate } }\nscenario "once" for P { world "room.toml" expect end }\n'
 PART = "use carbot\nplan Part { start go actor go: Forward(distance = 10 cm) { ForwardSuccessful -> terminate } }\n"
 
 
@@ -48,3 +49,41 @@ def test_a_world_is_saved_as_one(plan: afp.Plan) -> None:
     with pytest.raises(ValueError, match="a world is saved as .toml, not as 'go.afp'"):
         afp.WorldBuilder("hall", start=(1.0, 1.0)).save("go.afp")
     assert Path("go.afp").read_text() == GO
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="what never ends is a device of Linux")
+def test_what_never_ends_is_read_with_a_bound() -> None:
+    for read in (afp.load, afp.Toolbox.load):
+        with pytest.raises(OSError, match="it is longer than 64 MiB"):
+            read("/dev/full")
+
+
+def test_what_cannot_be_read_or_written_is_named(plan: afp.Plan) -> None:
+    Path("run.mcap").write_bytes(b"\x89MCAP0\xff")
+    with pytest.raises(OSError, match="cannot read the plan: it is no text in UTF-8: 'run.mcap'"):
+        afp.load("run.mcap")
+    with pytest.raises(OSError, match="cannot read the toolbox: it is no text in UTF-8: 'run.mcap'"):
+        afp.Toolbox.load("run.mcap")
+    with pytest.raises(FileNotFoundError, match="cannot read the plan: No such file or directory: ''"):
+        afp.load("")
+    hall = afp.WorldBuilder("hall", start=(1.0, 1.0))
+    Path("folder.toml").mkdir()
+    Path("folder.svg").mkdir()
+    tries: list[tuple[Callable[[], object], str]] = [
+        (lambda: plan.save("."), "."),
+        (lambda: afp.Simulation(plan, log="."), "."),
+        (lambda: afp.load("."), "."),
+        (lambda: hall.save("folder.toml"), "folder.toml"),
+        (lambda: afp.Picture("<svg/>").save("folder.svg"), "folder.svg"),
+    ]
+    for attempt, name in tries:
+        with pytest.raises(IsADirectoryError) as error:
+            attempt()
+        assert (error.value.errno, error.value.filename) == (errno.EISDIR, name)
+
+
+def test_a_drawing_that_cannot_be_written_leaves_the_old_one(plan: afp.Plan) -> None:
+    afp.Picture("<svg/>").save("hall.svg")
+    with pytest.raises(UnicodeEncodeError):
+        afp.Picture("\ud800").save("hall.svg")
+    assert Path("hall.svg").read_text() == "<svg/>"

@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use pyo3::create_exception;
-use pyo3::exceptions::{PyException, PyFileNotFoundError, PyOSError, PyPermissionError};
+use pyo3::exceptions::{PyException, PyOSError};
 use pyo3::prelude::*;
 
 use afp_dsl::Compiled;
@@ -42,22 +42,28 @@ pub fn log_error(why: &LogError) -> PyErr {
 }
 
 /// Python chooses the kind of `OSError` by the number.
-fn os_error(what: &str, path: &Path, why: &io::Error) -> PyErr {
+pub fn os_error(what: &str, path: &Path, why: &io::Error) -> PyErr {
     let text = why.to_string();
     // Python tells the number itself.
     let text = text.split(" (os error").next().unwrap_or_default();
-    match why.raw_os_error() {
+    match why.raw_os_error().or_else(|| number_of(why.kind())) {
         Some(number) => {
             PyOSError::new_err((number, format!("{what}: {text}"), path.display().to_string()))
         }
-        None => {
-            let text = format!("{what}: {text}: '{}'", path.display());
-            match why.kind() {
-                io::ErrorKind::NotFound => PyFileNotFoundError::new_err(text),
-                io::ErrorKind::PermissionDenied => PyPermissionError::new_err(text),
-                _ => PyOSError::new_err(text),
-            }
-        }
+        None => PyOSError::new_err(format!("{what}: {text}: '{}'", path.display())),
+    }
+}
+
+/// The number of what was found out without asking the system; it is the same on all.
+fn number_of(kind: io::ErrorKind) -> Option<i32> {
+    match kind {
+        io::ErrorKind::NotFound => Some(2),
+        io::ErrorKind::PermissionDenied => Some(13),
+        io::ErrorKind::ResourceBusy => Some(16),
+        io::ErrorKind::IsADirectory => Some(21),
+        io::ErrorKind::InvalidInput => Some(22),
+        io::ErrorKind::FileTooLarge => Some(27),
+        _ => None,
     }
 }
 

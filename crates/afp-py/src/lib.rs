@@ -11,6 +11,7 @@
 mod carbot;
 mod component;
 mod errors;
+mod files;
 mod forks;
 mod link;
 mod log;
@@ -70,6 +71,8 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_class::<sweep::Sweeper>()?;
     module.add_class::<toolbox::Toolbox>()?;
     module.add_class::<world::World>()?;
+    module.add_function(wrap_pyfunction!(files::read_text, module)?)?;
+    module.add_function(wrap_pyfunction!(files::write_text, module)?)?;
     module.add_function(wrap_pyfunction!(log::draw_log, module)?)?;
     module.add_function(wrap_pyfunction!(log::read_log, module)?)?;
     module.add_function(wrap_pyfunction!(log::read_recipe, module)?)?;

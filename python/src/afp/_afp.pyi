@@ -35,7 +35,9 @@ __all__ = [
     "own_robot",
     "read_log",
     "read_recipe",
+    "read_text",
     "target",
+    "write_text",
 ]
 
 def extension(folder: str | os.PathLike[str]) -> str | None:
@@ -59,3 +61,9 @@ def read_log(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 def read_recipe(path: str | os.PathLike[str]) -> tuple[list[tuple[str, str]], str, World, int]:
     """What the run of a log was made of."""
+
+def read_text(what: str, path: str | os.PathLike[str]) -> str:
+    """The text of a file with its own line ends; `what` says what cannot be done where it cannot be read."""
+
+def write_text(what: str, path: str | os.PathLike[str], text: str) -> None:
+    """Writes a text to a file that appears under its name only when it is whole."""

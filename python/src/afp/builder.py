@@ -8,7 +8,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ._afp import AfpError, World
+from ._afp import AfpError, World, write_text
 from .units import number_in
 
 __all__ = ["WorldBuilder"]
@@ -186,8 +186,7 @@ class WorldBuilder:
         """Writes the world's file, for `afpc run --world` and the like, and reads it."""
         if os.path.splitext(os.fspath(path))[1] != ".toml":
             raise ValueError(f"a world is saved as .toml, not as {os.fspath(path)!r}")
-        with open(path, "w", encoding="utf-8", newline="\n") as file:
-            file.write(self.toml)
+        write_text("cannot write the world", path, self.toml)
         return World.load(path)
 
     def _with(self, kind: str, table: Mapping[str, Any]) -> WorldBuilder:

@@ -29,10 +29,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from . import _afp
-from ._afp import Robot
+from ._afp import Robot, read_text
 from .declaration import GIVEN, Outcomes, declaration, method_of, named, start_of, text_of
 from .fingerprint import Fingerprint, fingerprint
-from .texts import read
 from .units import spelled_time
 
 __all__ = ["Toolbox", "tick"]
@@ -61,7 +60,7 @@ class Toolbox(_afp.Toolbox):
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Toolbox:
         """Reads a toolbox file; `implement` says what its templates do."""
-        return cls.parse(read(path), path)
+        return cls.parse(read_text("cannot read the toolbox", path), path)
 
     @classmethod
     def parse(cls, text: str, path: str | os.PathLike[str] | None = None) -> Toolbox:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import os
 
+from ._afp import write_text
+
 __all__ = ["Picture", "address"]
 
 
@@ -22,8 +24,7 @@ class Picture:
         ending = os.path.splitext(os.fspath(path))[1].lower()
         if ending not in ("", ".svg"):
             raise ValueError(f"a picture is saved as .svg, not as '{ending}'; 'afpc log' and 'afpc graph' write .png")
-        with open(path, "w", encoding="utf-8", newline="\n") as file:
-            file.write(self.svg)
+        write_text("cannot write the picture", path, self.svg)
 
     def _repr_svg_(self) -> str:
         return self.svg

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from . import _afp
-from ._afp import Toolbox
+from ._afp import Toolbox, read_text
 from .picture import Picture
-from .texts import read
 from .units import spelled, spelled_time
 
 __all__ = ["Plan", "load", "new_plan"]
@@ -183,8 +182,8 @@ def load(path: str | os.PathLike[str], *, plan: str | None = None, toolboxes: Se
     `plan` names the plan that runs, where it is not the first one. Toolboxes of an `afp.toml` are found as `afpc`
     finds them; `toolboxes` are those written in Python.
     """
-    path = Path(path)
-    return Plan(read(path), path, name=plan, toolboxes=list(toolboxes))
+    text = read_text("cannot read the plan", path)
+    return Plan(text, Path(path), name=plan, toolboxes=list(toolboxes))
 
 
 def new_plan(name: str, *, use: str | Sequence[str] = ("std", "carbot"), toolboxes: Sequence[Toolbox] = ()) -> Plan:

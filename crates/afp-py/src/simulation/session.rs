@@ -2,10 +2,10 @@
 //!
 //! Between steps anybody may look and write; what a run does depends only on the times at which that was.
 
-use std::mem;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
+use std::{io, mem};
 
 use afp::load::PlanNames;
 use afp_core::devices::find_signal;
@@ -16,14 +16,14 @@ use afp_log::{OwnedNames, SessionLog, WhenFull};
 use afp_run::RunError;
 use afp_run::inputs::missing;
 use afp_session::{AnySession, Go, Observer, Pose2, Request, SampleRef, Track, refusal};
-use pyo3::exceptions::{PyIsADirectoryError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use super::glance::{Glance, Seen};
 use super::keeper::Keeper;
 use super::setting::Setting;
 use crate::component::{ENDED_ALL, RAISED};
-use crate::errors::{error, log_error, run_error};
+use crate::errors::{error, log_error, os_error, run_error};
 use crate::forks;
 use crate::pause::{Halt, Pause};
 
@@ -68,8 +68,8 @@ impl Run {
     /// Its log cannot be written.
     pub fn logged(session: Box<dyn AnySession>, setting: &Setting<'_>) -> PyResult<Run> {
         if let Some(folder) = setting.log.filter(|path| path.is_dir()) {
-            let text = format!("cannot write the log: it is a folder: '{}'", folder.display());
-            return Err(PyIsADirectoryError::new_err(text));
+            let why = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
+            return Err(os_error("cannot write the log", folder, &why));
         }
         if setting.camera && setting.log.is_none() {
             let text = "what the camera sees goes into the log, and there is none: give log=\"run.mcap\", too";
