@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
-use afp_core::trace::{EntryName, TraceEntryId};
+use afp_core::trace::{EntryName, Names, TraceEntryId};
 use afp_core::{Fault, TEXT_CAPACITY, Text, Value, ValueRef};
 use afp_dsl::types::Type;
 use afp_session::AnySession;
 use afp_syntax::diagnostics::words::a;
+use afp_syntax::units::Unit;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyException, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -85,18 +86,24 @@ impl Given {
     /// # Errors
     /// It does not fit.
     pub fn for_entry(self, session: &dyn AnySession, entry: u16) -> PyResult<Value> {
-        let about = session.names().entry(TraceEntryId(entry.into()));
+        let id = TraceEntryId(entry.into());
+        let about = session.names().entry(id);
         let wrong = |what: String| unfit(about, &what);
         match self {
             Given::Text(text) => session.read_text(entry, &text).map_err(|why| {
                 if why == Fault::TOO_LONG {
                     PyValueError::new_err(format!("'{}': {}", about.path, too_long(&text)))
                 } else {
-                    wrong(short(format!("{text:?}")))
+                    let help = of_text(session.names(), id, &text);
+                    unfit(about, &(short(format!("{text:?}")) + &help))
                 }
             }),
             Given::Plain(_, Some(unit)) if unit != about.unit => {
                 Err(wrong(format!("a quantity in {unit}")))
+            }
+            Given::Plain(Value::Float(number), _) if !number.is_finite() => {
+                let text = format!("'{}' is {number}; give a finite number", about.path);
+                Err(PyValueError::new_err(text.replace("NaN", "nan")))
             }
             Given::Plain(value, _) => {
                 let is_number = about.ty == "float" || !about.unit.is_empty();
@@ -108,7 +115,7 @@ impl Given {
                 };
                 if fits { Ok(value) } else { Err(wrong(what)) }
             }
-            Given::Other(name) => Err(wrong(name)),
+            Given::Other(name) => Err(wrong(name + &such(about.unit))),
         }
     }
 }
@@ -118,6 +125,61 @@ pub fn unfit(about: EntryName<'_>, what: &str) -> PyErr {
     let (path, ty, unit) = (about.path, about.ty, about.unit);
     let link = if unit.is_empty() { "" } else { " in " };
     PyTypeError::new_err(format!("'{path}' is {}{link}{unit}, not {what}", a(ty)))
+}
+
+/// What to give an entry instead of a text that stands for none of its values.
+fn of_text(names: &dyn Names, id: TraceEntryId, text: &str) -> String {
+    let choices = (0..u16::MAX).map(|value| names.choice(id, value));
+    let choices: Vec<_> = choices.take_while(|choice| !choice.is_empty()).collect();
+    let unit = names.entry(id).unit;
+    match unit {
+        _ if !choices.is_empty() => format!("; there are: {}", choices.join(", ")),
+        "" => String::new(),
+        _ if text.trim().parse::<f64>().is_ok() => {
+            let handy = match unit {
+                "m" => "cm",
+                "rad" => "deg",
+                "rad/s" => "deg/s",
+                unit => unit,
+            };
+            format!("; write its unit, as in \"{} {handy}\"", text.trim())
+        }
+        unit => such(unit),
+    }
+}
+
+/// What a quantity in a unit is made of.
+fn such(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        "m" => "; give one such as afp.cm(30)".to_owned(),
+        "rad" => "; give one such as afp.deg(90)".to_owned(),
+        "s" => "; give one such as afp.s(3)".to_owned(),
+        "m/s" => "; give one such as afp.m_per_s(0.2)".to_owned(),
+        "rad/s" => "; give one such as afp.deg_per_s(30)".to_owned(),
+        unit => format!("; give a plain number, which is in {unit}"),
+    }
+}
+
+/// The number in SI units that a text stands for, where its unit is one of that kind: `30 cm` is 0.3 in metres.
+#[pyfunction]
+pub fn number_of(text: &str, unit: &str) -> Option<f64> {
+    let of_kind = |name| {
+        let known = Unit::parse(name).filter(|known| known.dimension.si_unit() == unit)?;
+        Some(afp_number::Unit { name, scale: known.scale() })
+    };
+    match unit {
+        "" => afp_number::parse_float(text).ok(),
+        _ => afp_number::parse_quantity(text, Unit::symbols().filter_map(of_kind)).ok(),
+    }
+}
+
+/// A seed; what is none is told as everywhere in the package.
+///
+/// # Errors
+/// It is none.
+pub fn seed_of(seed: &Bound<'_, PyAny>) -> PyResult<u64> {
+    seed.py().import("afp.seeds")?.call_method1("seed_of", (seed,))?.extract()
 }
 
 /// A truth value, of Python or numpy.

@@ -47,7 +47,10 @@ def _pose(start: Sequence[float]) -> tuple[float, float, float]:
 
 
 def _shown(value: Any) -> str:
-    text = spelled(value) if isinstance(plain(value), (str, int, float)) else str(value)
+    try:
+        text = spelled(value) if isinstance(plain(value), (str, int, float)) else str(value)
+    except ValueError:
+        text = str(value)
     # What is no text for a plan is told by it.
     return text.encode("utf-8", "replace").decode()
 

@@ -235,6 +235,8 @@ def spelled(value: object) -> str:
     value = plain(value)
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"a value is {float(value)}; give a finite number")
     if isinstance(value, Quantity):
         return f"{float(value)!r} {value.unit}"
     return repr(value) if isinstance(value, (int, float)) else _text(value)
@@ -242,7 +244,12 @@ def spelled(value: object) -> str:
 
 def spelled_time(value: str | float) -> str:
     """A time as it stands in a plan: a text such as `20 ms`, or seconds."""
-    return value if isinstance(value, str) else f"{seconds('a time', value)!r} s"
+    if isinstance(value, str):
+        return value
+    time = seconds("a time", value)
+    if not math.isfinite(time):
+        raise ValueError(f"a time is {time}; give a finite number of seconds")
+    return f"{time!r} s"
 
 
 def _text(value: object) -> str:
