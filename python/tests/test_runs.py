@@ -137,6 +137,28 @@ def test_runs_are_cut_and_filtered() -> None:
     assert "afpc run" in runs._repr_html_()
 
 
+def test_runs_are_found_by_the_value_that_was_varied() -> None:
+    runs = swept(seeds=2, vary={"way": [afp.cm(10), "0.2 m", 0.3]})
+    for way in (afp.cm(20), afp.mm(200), 0.2, np.float64(0.2), "0.2 m", "20cm", "20 cm", "200 mm"):
+        assert [row["seed"] for row in runs.where(way=way)] == [0, 1], way
+    assert len(runs.where(way=afp.cm(20), seed=1)) == 1 and len(runs.where(way=afp.cm(25))) == 0
+    assert len(runs.where(way="3 s")) == len(runs.where(way="far")) == 0
+    for given, said in (
+        ({"way": afp.s(3)}, "'way' is in m, not in s"),
+        ({"way": [0.1]}, "has values such as '0.1m', not .0.1.; filter"),
+        ({"seed": [0, 1]}, "the column 'seed' has values such as 0, not"),
+        ({"seed": "1"}, "the column 'seed' has values such as 0, not '1'"),
+        ({"ending": 3}, "the column 'ending' has values such as 'ok', not 3"),
+    ):
+        with pytest.raises(TypeError, match=said):
+            runs.where(given)
+    charges = afp.sweep(afp.Plan(GO), vary={"world.robot.charge": [0.5, 1.0]}, until=5.0, progress=False)
+    assert len(charges.where({"world.robot.charge": 0.5})) == len(charges.where({"world.robot.charge": "0.50"})) == 1
+    flag = "use std plan P { in on: bool = true in n: int = 0 var got: int start c computation c: Assign(value = n, result => got) { Done -> terminate } }"
+    flags = afp.sweep(afp.Plan(flag), vary={"on": [True, False], "n": [1, 2]}, progress=False)
+    assert [row["n"] for row in flags.where(on=True)] == ["1", "2"] and len(flags.where(n=2)) == len(flags.where(n="2")) == 2
+
+
 def test_a_notebook_shows_the_first_run_of_each_group() -> None:
     runs = swept(worlds=["random:1"], vary={"way": [0.1, 20.0], "world.robot.charge": [0.5]})
     assert [group["ending"] for group in runs.groups] == ["ok", "time_limit"]

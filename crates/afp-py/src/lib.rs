@@ -78,6 +78,7 @@ pub fn fill(module: &Bound<'_, PyModule>, link: impl AnyLink + 'static) -> PyRes
     module.add_function(wrap_pyfunction!(log::read_recipe, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::faults, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::alike, module)?)?;
+    module.add_function(wrap_pyfunction!(value::number_of, module)?)?;
     // Its robot takes the place of the common one.
     #[cfg(feature = "carbot")]
     if is_carbot {

@@ -32,6 +32,7 @@ __all__ = [
     "draw_log",
     "extension",
     "faults",
+    "number_of",
     "own_robot",
     "read_log",
     "read_recipe",
@@ -55,6 +56,9 @@ def draw_log(path: str | os.PathLike[str], what: str) -> str:
 
 def faults() -> list[tuple[str, str]]:
     """Every fault that `fail` knows: device and kind."""
+
+def number_of(text: str, unit: str) -> float | None:
+    """The number in SI units that a text stands for, where its unit is one of that kind: `30 cm` is 0.3 in metres."""
 
 def read_log(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Reads a log, as far as it goes, into a dictionary."""

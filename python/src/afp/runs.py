@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import html
 import json
+import math
 import operator
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, overload
 
 from . import plots, tables
-from ._afp import Plan, Sweeper, alike
+from ._afp import Plan, Sweeper, alike, number_of
 from .picture import address
 from .result import Result
 from .simulation import Simulation
-from .units import UNITS
+from .units import UNITS, Quantity, plain, spelled
 
 __all__ = ["Runs"]
 
@@ -77,12 +78,35 @@ class Runs:
     def where(self, columns: Mapping[str, Any] | None = None, /, **more: Any) -> Runs:
         """The runs with these values in these columns: `where(ending="error", seed=3)`.
 
-        Columns whose names are no names of Python go into a dictionary: `where({"world.robot.charge": "0.5"})`.
+        What was varied is found by its value, however it was written: `where(walldist=afp.cm(30))`, `where(walldist=0.3)`
+        in SI units, `where(walldist="30 cm")`. Columns whose names are no names of Python go into a dictionary:
+        `where({"world.robot.charge": 0.5})`.
         """
         wanted = {**(columns or {}), **more}
-        for name in wanted:
-            self._column(name)
-        return self.filter(lambda row: all(row[name] == value for name, value in wanted.items()))
+        tests = [self._test(name, plain(value)) for name, value in wanted.items()]
+        return self.filter(lambda row: all(test(row) for test in tests))
+
+    def _test(self, name: str, value: Any) -> Callable[[dict[str, Any]], bool]:
+        """Whether a row has a value in a column."""
+        cells, kind, number = self._column(name), self._kinds[name], f"{name}_si"
+        if kind == "text" and isinstance(value, int) and (isinstance(value, bool) or str(value) in cells):
+            value = spelled(value)
+        if number in self.columns and (found := self._found(name, value)) is not None:
+            return lambda row: row[number] is not None and math.isclose(row[number], found, rel_tol=1e-12)
+        of_kind = isinstance(value, str) if kind == "text" else isinstance(value, (int, float)) and not isinstance(value, bool)
+        if value is not None and not of_kind:
+            such = next((cell for cell in cells if cell is not None), "" if kind == "text" else 0)
+            raise TypeError(f"the column '{name}' has values such as {such!r}, not {value!r}; filter() takes any condition")
+        return lambda row: bool(row[name] == value)
+
+    def _found(self, name: str, value: Any) -> float | None:
+        """The number that is looked for in what was varied; `None` where the text of the column is."""
+        unit = self._units.get(name.removeprefix("in."))
+        if isinstance(value, Quantity) and unit is not None and value.unit != unit:
+            raise TypeError(f"'{name}' is in {unit}, not in {value.unit}")
+        if isinstance(value, str):
+            return None if value in self.columns[name] else number_of(value, unit or "")
+        return float(value) if isinstance(value, (int, float)) else None
 
     def filter(self, keep: Callable[[dict[str, Any]], Any]) -> Runs:
         """The runs for whose rows `keep` is true."""
