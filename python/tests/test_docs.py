@@ -15,7 +15,7 @@ from conftest import ROOT
 NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))
 PAGES = [ROOT / "docs/python.md", ROOT / "docs/research.md"]
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
+FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
