@@ -109,8 +109,12 @@ def test_an_exception_becomes_error_with_its_traceback() -> None:
     [error] = result.errors
     assert error.template == "Breaks" and 0.1 < error.time < 0.12
     assert "on purpose" in error.traceback and "test_components.py" in error.traceback
-    with pytest.raises(ZeroDivisionError):
-        result.check()
+    depths = []
+    for _ in range(3):
+        with pytest.raises(ZeroDivisionError) as raised:
+            result.check()
+        depths.append(len(raised.traceback))
+    assert depths[0] == depths[1] == depths[2], "each raise is told from the component on"
     caught = run(tools, "start go actor go: Breaks { Done -> terminate Error -> terminate }")
     assert caught.ending == "ok" and len(caught.errors) == 1
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import html
 import pickle
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from types import TracebackType
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,7 @@ class ComponentError:
     """The exception."""
     traceback: str
     """How Python prints it."""
+    _frames: TracebackType | None = field(default=None, repr=False, compare=False)
 
     def __reduce__(self) -> tuple[Any, ...]:
         try:
@@ -126,7 +128,9 @@ class Result(tables.Events):
         Gives the result otherwise.
         """
         if self.fault == "python-exception" and self.errors:
-            raise self.errors[-1].error
+            last = self.errors[-1]
+            # Each raise puts frames of its own in front.
+            raise last.error.with_traceback(last._frames)
         if self.fault is not None:
             raise AfpError(f"the plan ended in Error after {self.time:.3f} s: {self.fault_text} ({self.fault})")
         return self

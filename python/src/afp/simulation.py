@@ -286,7 +286,7 @@ class Simulation(Driven):
         """The exceptions of components written in Python, in the order in which they were raised."""
         for time, element, template, error in self._runner.failures(len(self._failures)):
             lines = "".join(traceback.format_exception(type(error), error, error.__traceback__))
-            self._failures.append(ComponentError(time, element, template, error, lines))
+            self._failures.append(ComponentError(time, element, template, error, lines, error.__traceback__))
         return list(self._failures)
 
     def __repr__(self) -> str:
