@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import statistics
+from datetime import timedelta
 from functools import partial
 from typing import Any, Optional
 
@@ -72,6 +73,29 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("plan.save_svg('plan.png')", ValueError, "a picture is saved as .svg, not as '.png'"),
     ("afp.Plan('', toolboxes=[tools, afp.Toolbox('tools')])", afp.AfpError, "two toolboxes are called 'tools'"),
     ("afp.Plan('', toolboxes=[afp.Toolbox('carbot')])", afp.AfpError, "there is another toolbox 'carbot', built in or of the project"),
+    ("afp.Plan('', toolboxes=tools)", TypeError, "toolboxes is a list, also of one: toolboxes=[tools]"),
+    ("afp.Plan('', toolboxes='a')", TypeError, "toolboxes is a list of Toolbox, not 'a'"),
+    ("afp.Plan('', toolboxes=['a'])", TypeError, "toolboxes has Toolbox in it, not 'a'"),
+    ("afp.Plan(None)", TypeError, "a plan is a text, not None"),
+    ("simulate(camera='no')", TypeError, "camera is True or False, not 'no'"),
+    ("plan.rename(None, 'x')", TypeError, "item is a text, not None"),
+    ("plan.rename('escape', 3)", TypeError, "to is a text, not 3"),
+    ("simulate(set={1: 1})", TypeError, "a name in set is a text, not 1"),
+    ("sim.press(3)", TypeError, "a control is a text, not 3"),
+    ("sim[3]", TypeError, "an entry is a text, not 3"),
+    ("sim.fire(3, 'Seen')", TypeError, "an actor or supervisor is a text, not 3"),
+    ("afp.World.random(-1)", ValueError, "-1 is no seed; seeds go from 0 to 2**64 - 1"),
+    ("afp.World.random('a')", TypeError, "a seed is a whole number, not 'a'"),
+    ("afp.Carbot(afp.World.random(1), seed=-1)", ValueError, "-1 is no seed"),
+    ("simulate(set={'walldist': '35'})", TypeError, "'walldist' is a length in m, not \"35\"; write its unit, as in \"35 cm\""),
+    ("simulate(set={'walldist': 'far'})", TypeError, "not \"far\"; give one such as afp.cm(30)"),
+    ("simulate(set={'walldist': [1]})", TypeError, "not a list; give one such as afp.cm(30)"),
+    ("simulate(set={'walldist': float('nan')})", ValueError, "'walldist' is nan; give a finite number"),
+    ("simulate(set={'walldist': -math.inf})", ValueError, "'walldist' is -inf; give a finite number"),
+    ("sim.set('walldist', afp.m(math.inf))", ValueError, "'walldist' is inf; give a finite number"),
+    ("plan.set_entry_value('walldist', math.nan)", ValueError, "a value is nan; give a finite number"),
+    ("plan.bind('backupCollision', 'distance', afp.m(math.inf))", ValueError, "a value is inf; give a finite number"),
+    ("plan.set_every('searchFirstWall.touch', math.inf)", ValueError, "a time is inf; give a finite number of seconds"),
     ("tools.implement(3)", TypeError, "a component is a class or a function, not 3"),
 ]
 
@@ -91,12 +115,23 @@ def test_an_error_says_what_to_do(tried: str, kind: type[Exception], said: str, 
     async def maybe(robot: afp.Robot, far: Optional[float]) -> None: ...
 
     components = {"looks": looks, "yields": yields, "hidden": hidden, "maybe": maybe, "partial": partial(looks, 1)}
-    names = components | {"afp": afp, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
+    names = components | {"afp": afp, "math": math, "plan": wall_following, "sim": simulate(), "simulate": simulate, "tools": afp.Toolbox("tools")}
     names["hall"] = afp.WorldBuilder("Hall", start=(1.0, 1.0)).room(4.0, 4.0)
     names["carbot"] = afp.Carbot(afp.World.random(1))
     with pytest.raises(kind) as error:
         eval(tried, names)
     assert said in str(error.value)
+
+
+def test_an_entry_says_which_values_it_has() -> None:
+    text = "enum Mood { Calm, Wild } plan P { in mood: Mood = Mood.Calm in long: duration = 1 s in n: int = 0 var got: int start c computation c: Assign(value = n, result => got) { Done -> terminate } }"
+    plan = afp.Plan(f"use std {text}")
+    with pytest.raises(TypeError, match="'mood' is a Mood, not \"wild\"; there are: Calm, Wild"):
+        afp.Simulation(plan, set={"mood": "wild"})
+    with pytest.raises(TypeError, match=r"not a timedelta; give one such as afp\.s\(3\)"):
+        afp.Simulation(plan, set={"long": timedelta(seconds=3)})
+    with pytest.raises(TypeError, match="'n' is an int, not \"x\"$"):
+        afp.Simulation(plan, set={"n": "x"})
 
 
 def test_times_and_values_are_taken_as_people_have_them(wall_following: afp.Plan) -> None:

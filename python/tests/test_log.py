@@ -98,3 +98,13 @@ def test_a_log_holds_the_toolboxes_that_its_plan_uses_beyond_the_built_in_ones(t
     hint = r"the log has the declarations of 'tools' but not the components: write log.simulation\(toolboxes=\[tools\]\)"
     with pytest.raises(ValueError, match=hint):
         log.simulation()
+
+
+def test_a_log_of_a_plan_without_entries_says_so(tmp_path: Path) -> None:
+    text = "use carbot plan P { start go actor go: Forward(distance = 1 cm) { ForwardSuccessful -> terminate } }"
+    with afp.Simulation(afp.Plan(text), log=tmp_path / "run.mcap") as simulation:
+        simulation.run()
+        with pytest.raises(KeyError, match="the plan has no entry 'x'; it has none at all"):
+            simulation["x"]
+    with pytest.raises(KeyError, match="the log has no entry 'x'; it has none at all"):
+        afp.Log(tmp_path / "run.mcap").entry("x")

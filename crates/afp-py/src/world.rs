@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};
 use crate::link::{fits, link};
-use crate::value::Pickled;
+use crate::value::{Pickled, seed_of};
 
 /// What a world is pickled as: its text, its path, and where the robot starts instead of where the text says.
 type Facts<'a> = (&'a str, Option<&'a Path>, Option<(f64, f64, f64)>);
@@ -35,7 +35,8 @@ impl World {
 
     /// A room made up from a seed, as `--world random:7` is.
     #[staticmethod]
-    fn random(seed: u64) -> PyResult<World> {
+    fn random(seed: &Bound<'_, PyAny>) -> PyResult<World> {
+        let seed = seed_of(seed)?;
         let name = PathBuf::from(format!("random:{seed}"));
         let loaded = find(Some(&name), &name, link().kind()).map_err(|why| run_error(&why))?;
         Ok(World::new(loaded))

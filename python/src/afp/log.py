@@ -58,7 +58,8 @@ class Log(tables.Events):
         """The times and values of an entry: when it got its first value, and whenever it changed."""
         known = sorted({name for _, values in self.configurations for name in values})
         if name not in known:
-            raise KeyError(f"the log has no entry '{name}'; there are: {', '.join(known)}")
+            others = f"there are: {', '.join(known)}" if known else "it has none at all"
+            raise KeyError(f"the log has no entry '{name}'; {others}")
         rows: list[tuple[float, Any]] = []
         for time, values in self.configurations:
             value = values.get(name)
@@ -77,7 +78,7 @@ class Log(tables.Events):
         at = seconds("at", at)
         files, name, world, seed = read_recipe(self.file)
         path, text = files[0]
-        plan = Plan(text, path, name=name, toolboxes=list(toolboxes))
+        plan = Plan(text, path, name=name, toolboxes=toolboxes)
         plan._set_others(dict(files[1:]))
         try:
             simulation = Simulation(plan, world, seed=seed)

@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import _afp
+from . import _afp, checks
 from ._afp import Toolbox, read_text
+from .checks import toolboxes_of
 from .picture import Picture
 from .units import spelled, spelled_time
 
@@ -31,6 +32,16 @@ class Plan(_afp.Plan):
     >>> "start ahead" in plan.text
     True
     """
+
+    def __new__(
+        cls,
+        text: str,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        name: str | None = None,
+        toolboxes: Sequence[Toolbox] = (),
+    ) -> Plan:
+        return super().__new__(cls, checks.text("a plan", text), path, name=name, toolboxes=toolboxes_of(toolboxes))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), *self._state())
@@ -166,7 +177,7 @@ def _again(
     others: dict[str, str],
 ) -> Plan:
     """A plan as it was pickled or copied."""
-    plan = kind(text, path, name=name, toolboxes=list(toolboxes))
+    plan = kind(text, path, name=name, toolboxes=toolboxes)
     plan._set_others(others)
     return plan
 
@@ -183,7 +194,7 @@ def load(path: str | os.PathLike[str], *, plan: str | None = None, toolboxes: Se
     finds them; `toolboxes` are those written in Python.
     """
     text = read_text("cannot read the plan", path)
-    return Plan(text, Path(path), name=plan, toolboxes=list(toolboxes))
+    return Plan(text, Path(path), name=plan, toolboxes=toolboxes)
 
 
 def new_plan(name: str, *, use: str | Sequence[str] = ("std", "carbot"), toolboxes: Sequence[Toolbox] = ()) -> Plan:
@@ -197,4 +208,4 @@ def new_plan(name: str, *, use: str | Sequence[str] = ("std", "carbot"), toolbox
     """
     heads = "".join(f"use {toolbox}\n" for toolbox in ([use] if isinstance(use, str) else use))
     gap = "\n" if heads else ""
-    return Plan(f"{heads}{gap}plan {name} {{\n}}\n", toolboxes=list(toolboxes))
+    return Plan(f"{heads}{gap}plan {name} {{\n}}\n", toolboxes=toolboxes)

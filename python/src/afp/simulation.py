@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._afp import Driven, Event, Plan, Runner, World
+from .checks import flag, keys, text
 from .picture import Picture
 from .places import Place, changed, place_of
 from .result import ComponentError, Result
@@ -53,12 +54,12 @@ class Simulation(Driven):
         world = place if isinstance(place, World) else World.load(place)
         if not isinstance(set, (Mapping, type(None))):
             raise TypeError(f"set gives entries their values, such as {{'walldist': afp.cm(35)}}, not {set!r}")
-        world, entries, settings = changed(world, dict(set or {}), start)
+        world, entries, settings = changed(world, keys("set", set or {}), start)
         self.plan = plan
         self.world = world
         self.seed = seed
         self._failures: list[ComponentError] = []
-        self._runner = Runner(plan, world, seed_of(seed), entries, settings, log, camera)
+        self._runner = Runner(plan, world, seed_of(seed), entries, settings, log, flag("camera", camera))
 
     @classmethod
     def _of(cls, runner: Runner, plan: Plan, world: World, seed: int) -> Simulation:
@@ -201,7 +202,7 @@ class Simulation(Driven):
 
     def sense(self, sensor: str) -> Any:
         """What a sensor says: see `afp.Robot`. Arrays are copies."""
-        return self._runner.sense(sensor)
+        return self._runner.sense(text("a sensor", sensor))
 
     @property
     def camera(self) -> NDArray[np.uint8] | None:
@@ -212,13 +213,13 @@ class Simulation(Driven):
     # Entries
 
     def __getitem__(self, entry: str) -> Any:
-        return self._runner.get(entry)
+        return self._runner.get(text("an entry", entry))
 
     def __contains__(self, entry: object) -> bool:
         return entry in self._runner.entries()
 
     def __setitem__(self, entry: str, value: Any) -> None:
-        self._runner.set(entry, value)
+        self._runner.set(text("an entry", entry), value)
 
     @property
     def entries(self) -> dict[str, Any]:
@@ -227,7 +228,7 @@ class Simulation(Driven):
 
     def set(self, entry: str, value: Any, *, at: float | None = None) -> None:
         """Writes an entry, now (at the next step) or at a time to come."""
-        self._runner.set(entry, value, moment("at", at))
+        self._runner.set(text("an entry", entry), value, moment("at", at))
 
     # Stimuli
 
@@ -236,6 +237,7 @@ class Simulation(Driven):
 
         The Carbot has the button `escape` and the bumper, `touch`.
         """
+        control = None if control is None else text("a control", control)
         self._runner.hold(control, moment("at", at), seconds("hold", hold))
 
     def bump(self, *, at: float | None = None, hold: float = 0.2) -> None:
@@ -255,13 +257,15 @@ class Simulation(Driven):
         `outputs` are the values that come with it, one for each output of it that the plan has connected:
         `fire("find", "WallFound", {"angle": afp.deg(10)})`.
         """
-        self._runner.fire(component, outcome, dict(outputs or {}), moment("at", at))
+        component, outcome = text("an actor or supervisor", component), text("an outcome", outcome)
+        self._runner.fire(component, outcome, keys("outputs", outputs or {}), moment("at", at))
 
     def idle(self, element: str | None = None, *, at: float | None = None) -> None:
         """Lets an actor, those of a sub-plan, or all actors do nothing from their next start on, as in scenarios.
 
         They are active until they are interrupted, or `fire` lets them report a state.
         """
+        element = None if element is None else text("an element", element)
         self._runner.idle(element, moment("at", at))
 
     def fail(
@@ -279,7 +283,7 @@ class Simulation(Driven):
         `delay` is for `delayed` and `slow`, `share` for `slip` and `low`; `afp.faults()` has all pairs.
         """
         times = (moment("at", at), moment("lasting", lasting), moment("delay", delay))
-        self._runner.fail(device, kind, *times, share)
+        self._runner.fail(text("a device", device), text("a kind", kind), *times, share)
 
     @property
     def errors(self) -> list[ComponentError]:

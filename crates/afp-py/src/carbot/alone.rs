@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use crate::errors::error;
 use crate::link::link;
 use crate::pause::{Halt, Pause};
-use crate::value::{measured, no_pickle};
+use crate::value::{measured, no_pickle, seed_of};
 use crate::world::World;
 
 /// Commands are repeated this often, well within the robot's dead-man time.
@@ -28,8 +28,9 @@ pub struct Carbot {
 #[pymethods]
 impl Carbot {
     #[new]
-    #[pyo3(signature = (world, seed=0))]
-    fn new(world: &World, seed: u64) -> PyResult<Self> {
+    #[pyo3(signature = (world, seed=None), text_signature = "(world, seed=0)")]
+    fn new(world: &World, seed: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let seed = seed.map_or(Ok(0), seed_of)?;
         let other = || error("the world is that of another robot");
         let room = world.loaded.world.as_any().downcast_ref::<Room>().ok_or_else(other)?;
         let sim = Simulation::new(room, seed).map_err(|why| error(why.message))?;

@@ -33,13 +33,15 @@ struct Parts<'a, 'py> {
 impl Parts<'_, '_> {
     fn maybe(&self, key: &str) -> PyResult<Option<String>> {
         match self.parts.get_item(key)? {
-            Some(value) if !value.is_none() => Ok(Some(value.extract()?)),
+            Some(value) if !value.is_none() => Ok(Some(text(key, &value)?)),
             _ => Ok(None),
         }
     }
 
     fn part(&self, key: &str) -> PyResult<String> {
-        self.maybe(key)?.ok_or_else(|| PyKeyError::new_err(format!("the change needs '{key}'")))
+        let value = self.parts.get_item(key)?;
+        let value = value.ok_or_else(|| PyKeyError::new_err(format!("no part '{key}'")))?;
+        text(key, &value)
     }
 
     /// The plan that is named, or the first one.
@@ -75,6 +77,16 @@ impl Parts<'_, '_> {
             ))),
         }
     }
+}
+
+/// A part of a change, which is a text.
+fn text(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let text = value.extract();
+    let repr = |_| match value.repr() {
+        Ok(shown) => PyTypeError::new_err(format!("{key} is a text, not {shown}")),
+        Err(why) => why,
+    };
+    text.map_err(repr)
 }
 
 /// Reads a change; `text` is that of the plan's file.

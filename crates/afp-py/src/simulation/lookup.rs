@@ -48,8 +48,11 @@ impl Run {
         let known = self.own_entries();
         let found = (0..).zip(&known).find(|(_, known)| *known == name);
         found.map(|(number, _)| number).ok_or_else(|| {
-            let known = known.join(", ");
-            PyKeyError::new_err(format!("the plan has no entry '{name}'; there are: {known}"))
+            let none = format!("the plan has no entry '{name}'");
+            PyKeyError::new_err(match known.is_empty() {
+                true => format!("{none}; it has none at all"),
+                false => format!("{none}; there are: {}", known.join(", ")),
+            })
         })
     }
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .._afp import Judge, World, target
 from ..plan import load
+from ..seeds import seed_of
 from ..simulation import Simulation
 from .setting import STEP, Given, Setting, gymnasium
 from .tasks import Task, task_of
@@ -62,7 +63,7 @@ def evaluate(
     It gets the observations of all episodes, a row each, and gives an action for each. `settings` are those of the
     environment.
     """
-    task, seeds = task_of(task), [int(seed) for seed in seeds]
+    task, seeds = task_of(task), _several(seeds)
     most = round(task.seconds / STEP)
     env = CarbotVectorEnv(
         len(seeds), world, task=task, max_episode_steps=most, autoreset_mode=gymnasium.vector.AutoresetMode.NEXT_STEP, **settings
@@ -94,8 +95,18 @@ def run_plan(task: Task | str, seeds: Iterable[int] = range(100), *, world: Give
         raise ValueError(f"there is no plan for '{task.name}'")
     setting = Setting.of(world, task, None, None, None, None, None, (), False, None)
     plan = load(PLANS / task.plan)
-    rewards, steps, ended = zip(*(_run(plan, setting, seed) for seed in seeds), strict=True)
+    rewards, steps, ended = zip(*(_run(plan, setting, seed) for seed in _several(seeds)), strict=True)
     return Score(np.array(rewards), np.array(steps, np.int64), np.array(ended, np.bool_))
+
+
+def _several(seeds: Iterable[int]) -> list[int]:
+    """Seeds, at least one."""
+    if not isinstance(seeds, Iterable) or isinstance(seeds, str):
+        raise TypeError(f"seeds are several whole numbers, such as range(10), not {seeds!r}")
+    these = [seed_of(seed) for seed in seeds]
+    if not these:
+        raise ValueError(f"there are no seeds in {seeds!r}")
+    return these
 
 
 def _run(plan: Any, setting: Setting, seed: int) -> tuple[float, int, bool]:

@@ -1,0 +1,43 @@
+"""What callers give, refused in their words where it is of another type."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import _afp
+from .units import plain
+
+__all__ = ["flag", "keys", "text", "toolboxes_of"]
+
+
+def text(what: str, value: Any) -> str:
+    """A text, which `what` names."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what} is a text, not {value!r}")
+    return value
+
+
+def flag(what: str, value: Any) -> bool:
+    """A truth value."""
+    truth = plain(value)
+    if not isinstance(truth, bool):
+        raise TypeError(f"{what} is True or False, not {value!r}")
+    return truth
+
+
+def keys(what: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """What has names."""
+    return {text(f"a name in {what}", name): value for name, value in values.items()}
+
+
+def toolboxes_of(toolboxes: Any) -> list[_afp.Toolbox]:
+    """Toolboxes, several of them."""
+    if isinstance(toolboxes, _afp.Toolbox):
+        raise TypeError(f"toolboxes is a list, also of one: toolboxes=[{toolboxes.name}]")
+    if isinstance(toolboxes, str) or not isinstance(toolboxes, Sequence):
+        raise TypeError(f"toolboxes is a list of Toolbox, not {toolboxes!r}")
+    for toolbox in toolboxes:
+        if not isinstance(toolbox, _afp.Toolbox):
+            raise TypeError(f"toolboxes has Toolbox in it, not {toolbox!r}")
+    return list(toolboxes)
