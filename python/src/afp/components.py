@@ -24,13 +24,14 @@ import functools
 import inspect
 import os
 import types
-from collections.abc import Awaitable, Callable, Generator, Sequence, Set
+from collections.abc import Awaitable, Callable, Generator, Mapping, Sequence, Set
 from pathlib import Path
 from typing import Any, TypeVar
 
 from . import _afp
 from ._afp import Robot, read_text
-from .declaration import GIVEN, Outcomes, declaration, method_of, named, start_of, text_of
+from .checks import text
+from .declaration import GIVEN, Outcomes, declaration, method_of, named, outcomes_of, parameters_of, start_of, text_of
 from .fingerprint import Fingerprint, fingerprint
 from .units import spelled_time
 
@@ -53,8 +54,9 @@ class Toolbox(_afp.Toolbox):
     """A toolbox whose templates are implemented in Python: a new one by name, or `Toolbox.load(path)`."""
 
     def __new__(cls, name: str, *, version: str | None = None, doc: str = "") -> Toolbox:
-        lines = "".join(f"/// {line}\n" for line in doc.splitlines())
-        head = f'{lines}toolbox {name}{f" version {text_of(version)}" if version else ""}\n'
+        lines = "".join(f"/// {line}\n" for line in text("doc", doc).splitlines())
+        known = text("version", version or "")
+        head = f"{lines}toolbox {text('the name of a toolbox', name)}{f' version {text_of(known)}' if known else ''}\n"
         return super().__new__(cls, head)
 
     @classmethod
@@ -76,11 +78,12 @@ class Toolbox(_afp.Toolbox):
     def implement(self, component: Component, template: str | None = None) -> Component:
         """Names the class or function that implements a template, by its own name unless told otherwise.
 
-        It may be used as a decorator. Parameters are the template's inputs by name, and `robot`; `poll` takes those
-        that are live.
+        It may be used as a decorator. Parameters are the template's inputs by name, and `robot`, which computations do
+        not have; `poll` takes those that are live.
         """
-        name = template or _name(component)
+        name = _name(component) if template is None else text("a template", template)
         about = self._template(name)
+        _fits(about["kind"], name, component)
         self._implement(name, _maker(about["kind"], component, about["inputs"], about["live"]))
         self._components = {**getattr(self, "_components", {}), name: component}
         return component
@@ -136,23 +139,21 @@ class Toolbox(_afp.Toolbox):
     def _declarer(
         self, kind: str, outcomes: Outcomes, name: str | None, uses: str | Sequence[str], timing: str, icon: str | None
     ) -> Callable[[Component], Component]:
-        if isinstance(outcomes, str):
-            raise TypeError(f"'{outcomes}' is one name; states and events are a list: [{outcomes!r}]")
-        twice = [outcome for outcome in outcomes if list(outcomes).count(outcome) > 1]
-        if twice:
-            raise ValueError(f"'{twice[0]}' is there twice among {list(outcomes)}")
+        outcomes = outcomes_of(outcomes)
+        devices = [text("a device", device) for device in ([uses] if isinstance(uses, str) else uses)]
+        icon = None if icon is None else text("icon", icon)
 
         def declare(component: Component) -> Component:
-            template = name or _name(component)
+            template = _name(component) if name is None else text("name", name)
             if not template.isidentifier():
                 raise ValueError(f"{template!r} is no name of a template; give letters, digits and '_'")
             _fits(kind, template, component)
-            devices = [uses] if isinstance(uses, str) else uses
-            text = declaration(kind, template, component, outcomes, devices, timing, icon)
+            declared = declaration(kind, template, component, outcomes, devices, timing, icon)
+            _maker(kind, component, *_own_ports(kind, component))
             try:
-                self._declare(template, text)
+                self._declare(template, declared)
             except _afp.AfpError as why:
-                raise _afp.AfpError(f"the {kind} '{template}' cannot be declared so:\n{self._alone(text, why)}") from None
+                raise _afp.AfpError(f"the {kind} '{template}' cannot be declared so:\n{self._alone(declared, why)}") from None
             return self.implement(component, template)
 
         return declare
@@ -194,14 +195,35 @@ def _name(component: Callable[..., Any]) -> str:
 
 def _fits(kind: str, name: str, component: Callable[..., Any]) -> None:
     """Says so at once if a component can never work."""
-    steps = component.__dict__.get("poll", component) if isinstance(component, type) else component
+    if not callable(component):
+        raise TypeError(f"a component is a class or a function, not {component!r}")
+    is_class = isinstance(component, type)
+    if is_class and kind == "computation":
+        raise TypeError(f"the computation '{name}' is a class; a computation is a function")
+    steps = getattr(component, "poll", component) if is_class else component
     if inspect.isasyncgenfunction(steps):
         raise TypeError(f"'{name}' yields; an 'async def' actor awaits afp.tick() and returns its state")
     if inspect.isgeneratorfunction(steps):
         raise TypeError(f"'{name}' yields; a component returns what it has to say")
-    if inspect.iscoroutinefunction(steps) and (kind != "actor" or isinstance(component, type)):
-        what = "a 'poll'" if isinstance(component, type) else f"a {kind}"
+    if inspect.iscoroutinefunction(steps) and (kind != "actor" or is_class):
+        what = "a 'poll'" if is_class else f"a {kind}"
         raise TypeError(f"'{name}' is 'async def'; {what} is a plain function, called at each poll")
+    if is_class and kind == "actor":
+        _fits_interrupt(name, getattr(component, "interrupt", None))
+
+
+def _fits_interrupt(name: str, stop: Any) -> None:
+    """Says so at once if an actor would not hear that it is interrupted."""
+    if stop is None:
+        return
+    if not callable(stop):
+        raise TypeError(f"the 'interrupt' of '{name}' is a method, not {stop!r}")
+    lazy = (inspect.iscoroutinefunction, inspect.isgeneratorfunction, inspect.isasyncgenfunction)
+    if any(is_lazy(stop) for is_lazy in lazy):
+        raise TypeError(f"the 'interrupt' of '{name}' is 'async def' or yields; it is a plain function, called once")
+    taken = [name for name in inspect.signature(stop).parameters if name != "self"]
+    if len(taken) > 1:
+        raise TypeError(f"the 'interrupt' of '{name}' takes {', '.join(taken)}; it gets the robot, or nothing")
 
 
 def _timing(**times: str | float | None) -> str:
@@ -215,7 +237,7 @@ def _timing(**times: str | float | None) -> str:
 def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
     """What the native half calls to make a component."""
     if kind == "computation":
-        takes = _takes(component, inputs, ())
+        takes = _takes(component, inputs, (), dict.fromkeys(GIVEN, "a computation has its inputs alone"))
         return lambda values: component(**{name: values[name] for name in takes})
     if isinstance(component, type):
         return _class_maker(kind, component, inputs, live)
@@ -223,17 +245,37 @@ def _maker(kind: str, component: Callable[..., Any], inputs: Sequence[str], live
         return _function_maker(component, inputs, live)
     if not inspect.iscoroutinefunction(component):
         raise TypeError(f"the actor '{named(component)}' must be a class with 'poll', or 'async def'")
-    return _coroutine_maker(component, inputs)
+    return _coroutine_maker(component, inputs, live)
 
 
-def _takes(function: Callable[..., Any], ports: Sequence[str], given: Sequence[str]) -> list[str]:
-    """The parameters of a function, each of which must be a port or given."""
-    names = [name for name in inspect.signature(function).parameters if name != "self"]
-    unknown = [name for name in names if name not in ports and name not in given]
-    if unknown:
-        known = ", ".join([*given, *ports])
-        raise TypeError(f"'{named(function)}' takes '{unknown[0]}', but there are only: {known}")
+_AN_ACTOR = {"wanted": "only supervisors are told what is wanted"}
+"""What an actor cannot take, and why."""
+
+
+def _takes(
+    function: Callable[..., Any], ports: Sequence[str], given: Sequence[str], others: Mapping[str, str]
+) -> list[str]:
+    """The parameters of a function, each of which must be a port or given; `others` says why some are neither."""
+    names = [name for name in parameters_of(function) if name != "self"]
+    for name in names:
+        if name in ports or name in given:
+            continue
+        known = [*given, *ports]
+        there = f"there are only: {', '.join(known)}" if known else "it has nothing to take"
+        raise TypeError(f"'{named(function)}' takes '{name}', but {others.get(name, there)}")
     return names
+
+
+def _own_ports(kind: str, component: Callable[..., Any]) -> tuple[list[str], list[str]]:
+    """The inputs that a component declares by its parameters: those that are read once, and those that are live."""
+    if isinstance(component, type):
+        start = start_of(component)
+        return _ports(start) if start else [], _ports(method_of(component, "poll"))
+    return ([], _ports(component)) if kind == "supervisor" else (_ports(component), [])
+
+
+def _ports(function: Callable[..., Any]) -> list[str]:
+    return [name for name in parameters_of(function) if name != "self" and name not in GIVEN]
 
 
 class _Running:
@@ -260,8 +302,11 @@ def _poll(method: Callable[..., Any], takes: Sequence[str], robot: Robot, has_li
 
 def _class_maker(kind: str, component: type, inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
     begins = start_of(component)
-    start = _takes(begins, inputs, GIVEN) if begins else []
-    poll = _takes(method_of(component, "poll"), live, ("robot",))
+    given = GIVEN if kind == "supervisor" else ("robot",)
+    no_start = _AN_ACTOR | dict.fromkeys(live, "it is live: 'poll' takes it")
+    no_poll = _AN_ACTOR | dict.fromkeys([*inputs, *given], "it is there from the start: '__init__' takes it")
+    start = _takes(begins, inputs, given, no_start) if begins else []
+    poll = _takes(method_of(component, "poll"), live, ("robot",), no_poll)
 
     def make(robot: Robot, values: dict[str, Any], wanted: Set[str] = frozenset()) -> _Running:
         all = {"robot": robot, "wanted": wanted, **values}
@@ -287,7 +332,7 @@ def _nothing() -> None:
 
 
 def _function_maker(function: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
-    takes = _takes(function, [*inputs, *live], GIVEN)
+    takes = _takes(function, [*inputs, *live], GIVEN, {})
 
     def make(robot: Robot, values: dict[str, Any], wanted: Set[str] = frozenset()) -> _Running:
         all = {"robot": robot, "wanted": wanted, **values}
@@ -300,8 +345,9 @@ def _function_maker(function: Callable[..., Any], inputs: Sequence[str], live: S
     return make
 
 
-def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str]) -> Callable[..., Any]:
-    takes = _takes(function, inputs, ("robot",))
+def _coroutine_maker(function: Callable[..., Any], inputs: Sequence[str], live: Sequence[str]) -> Callable[..., Any]:
+    no_port = _AN_ACTOR | dict.fromkeys(live, "it is live: a class takes it in its 'poll'")
+    takes = _takes(function, inputs, ("robot",), no_port)
 
     def make(robot: Robot, values: dict[str, Any]) -> _Running:
         all = {"robot": robot, **values}

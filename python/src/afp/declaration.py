@@ -5,13 +5,13 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, get_type_hints
 
 from . import _afp
 from .units import UNITS, Quantity, plain
 
-__all__ = ["GIVEN", "Outcomes", "declaration", "method_of", "named", "start_of", "text_of"]
+__all__ = ["GIVEN", "Outcomes", "declaration", "method_of", "named", "outcomes_of", "parameters_of", "start_of", "text_of"]
 
 Outcomes = Sequence[str] | Mapping[str, Mapping[str, Any]]
 
@@ -60,6 +60,26 @@ def declaration(
     return f"{doc}{kind} {name} {{\n{body}}}\n"
 
 
+def outcomes_of(given: Any) -> Outcomes:
+    """States or events as they were given, read once."""
+    if isinstance(given, str):
+        raise TypeError(f"'{given}' is one name; states and events are a list: [{given!r}]")
+    if not isinstance(given, Iterable):
+        raise TypeError(f"states and events are a list of names, not {given!r}")
+    names = list(given)
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"the name of a state or event is a text, not {name!r}")
+        if names.count(name) > 1:
+            raise ValueError(f"'{name}' is there twice among {names}")
+    if not isinstance(given, Mapping):
+        return [str.__str__(name) for name in names]
+    for name, outputs in given.items():
+        if not isinstance(outputs, Mapping) or not all(isinstance(port, str) for port in outputs):
+            raise TypeError(f"the outputs of '{name}' are ports with their types, such as {{'x': float}}, not {outputs!r}")
+    return {str.__str__(name): outputs for name, outputs in given.items()}
+
+
 def start_of(component: type) -> Callable[..., Any] | None:
     """What makes an instance, if the class says so itself."""
     start: Callable[..., Any] = getattr(component, "__init__")
@@ -76,7 +96,7 @@ def method_of(component: type, name: str) -> Callable[..., Any]:
 
 def named(component: Any) -> str:
     """The name of a component without that of the function in which it was written."""
-    return re.sub(r".*<locals>\.", "", component.__qualname__)
+    return re.sub(r".*<locals>\.", "", getattr(component, "__qualname__", None) or repr(component))
 
 
 def _type(hint: Any, where: str) -> str:
@@ -138,16 +158,23 @@ def _hints(function: Callable[..., Any]) -> dict[str, Any]:
         raise TypeError(f"{what}: import it outside of 'if TYPE_CHECKING'") from None
 
 
+def parameters_of(function: Callable[..., Any]) -> Mapping[str, inspect.Parameter]:
+    """The parameters of a function, each of which can be given by its name."""
+    parameters = inspect.signature(function).parameters
+    for name, parameter in parameters.items():
+        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+            raise TypeError(f"'{named(function)}' takes *{name}; its parameters are ports and need names")
+        if parameter.kind == parameter.POSITIONAL_ONLY and name != "self":
+            raise TypeError(f"'{named(function)}' takes '{name}' by position alone; ports are given by name: leave out the '/'")
+    return parameters
+
+
 def _ports(function: Callable[..., Any], live: bool) -> list[str]:
     hints = _hints(function)
     lines = []
-    for name, parameter in inspect.signature(function).parameters.items():
+    for name, parameter in parameters_of(function).items():
         if name in GIVEN or name == "self":
             continue
-        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
-            raise TypeError(f"'{named(function)}' takes *{name}; its parameters are ports and need names")
-        if parameter.kind == parameter.POSITIONAL_ONLY:
-            raise TypeError(f"'{named(function)}' takes '{name}' by position alone; ports are given by name: leave out the '/'")
         where = f"the parameter '{name}' of '{named(function)}'"
         type = _type(hints.get(name), where)
         default = parameter.default
