@@ -402,3 +402,10 @@ def test_a_picture_is_a_png() -> None:
     picture = np.random.default_rng(0).integers(0, 256, (7, 5, 3)).astype(np.uint8)
     read = image.imread(io.BytesIO(png(picture)), format="png")
     assert (np.round(read[:, :, :3] * 255) == picture).all()
+
+
+def test_episodes_have_seeds() -> None:
+    for judge in (lambda seeds: afp.gym.run_plan("WallFollow", seeds), lambda seeds: afp.gym.evaluate(None, "WallFollow", seeds)):
+        for seeds, kind, said in (([], ValueError, r"there are no seeds in \[\]"), (3, TypeError, "seeds are several whole numbers"), ([-1], ValueError, "-1 is no seed")):
+            with pytest.raises(kind, match=said):
+                judge(seeds)

@@ -12,6 +12,7 @@ from typing import Any, overload
 
 from . import plots, tables
 from ._afp import Plan, Sweeper, alike, number_of
+from .checks import flag
 from .picture import address
 from .result import Result
 from .simulation import Simulation
@@ -142,7 +143,7 @@ class Runs:
         if self._again is None:
             raise RuntimeError("runs that were pickled are a table only: sweep again, or make the simulation from the row")
         row = operator.index(row)
-        return self._again.simulation(self.columns["run"][row], self.columns["seed"][row], log, camera)
+        return self._again.simulation(self.columns["run"][row], self.columns["seed"][row], log, flag("camera", camera))
 
     def result(self, row: int) -> Result:
         """The run of a row done again: its path, events and entries, which a table has no place for."""
