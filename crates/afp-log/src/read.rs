@@ -36,7 +36,7 @@ pub struct LogData {
     pub events: Vec<RunEvent>,
     /// The configuration at the start and after each commit.
     pub configurations: Vec<Configured>,
-    /// What devices said, by `DEVICE/SIGNAL`, whenever they said something else.
+    /// What devices said, by `DEVICE/SIGNAL`, whenever they said something else; unset from when on they said nothing.
     pub samples: BTreeMap<String, Vec<(Instant, Datum)>>,
     /// Where the robot was.
     pub poses: Vec<(Instant, Pose2)>,

@@ -26,8 +26,8 @@ const SCENES: Duration = Duration::from_secs(1);
 /// Records a session: its trace, and what its robot signals.
 pub struct SessionLog {
     recorder: Recorder,
-    /// The signals of the robot, what they are, and what was last written of them.
-    signals: Vec<(Signal, SignalType, Option<Datum>)>,
+    /// The signals of the robot.
+    signals: Vec<Followed>,
     /// The frame whose place has a channel of its own.
     body: Option<SignalId>,
     started: bool,
@@ -45,6 +45,16 @@ pub struct SessionLog {
     moved: Vec<Shape>,
     /// When all of the scene is sent anew; never into a file, which has its beginning.
     scene_again: Instant,
+}
+
+/// A signal of the robot.
+struct Followed {
+    signal: Signal,
+    ty: SignalType,
+    /// What was last written of it.
+    written: Option<Datum>,
+    /// Whether it said something among these samples.
+    is_heard: bool,
 }
 
 impl SessionLog {
@@ -93,7 +103,7 @@ impl SessionLog {
         recorder.scene(Instant::ZERO, scene.clone());
         SessionLog {
             recorder,
-            signals: signals(devices).map(|(_, device, row)| channel(device, row)).collect(),
+            signals: signals(devices).map(|(_, device, row)| Followed::new(device, row)).collect(),
             body: afp_core::devices::find_signal(devices, "robot", "pose"),
             started: false,
             frames: Vec::new(),
@@ -128,15 +138,27 @@ impl SessionLog {
 
     /// Notes what a device says, if it said something else before.
     fn signal(&mut self, at: Instant, id: SignalId, value: Datum) {
-        let Some((signal, _, last)) = self.signals.get_mut(usize::from(id.0)) else { return };
-        if last.as_ref() != Some(&value) {
-            *last = Some(value.clone());
-            self.recorder.sample(at, *signal, value);
+        let Some(followed) = self.signals.get_mut(usize::from(id.0)) else { return };
+        followed.is_heard = true;
+        if followed.written.as_ref() != Some(&value) {
+            followed.written = Some(value.clone());
+            self.recorder.sample(at, followed.signal, value);
+        }
+    }
+
+    /// Notes which devices say nothing any more.
+    fn silence(&mut self, at: Instant) {
+        for followed in &mut self.signals {
+            let is_heard = std::mem::take(&mut followed.is_heard);
+            if !is_heard && followed.written.as_ref().is_some_and(|last| *last != Datum::Unset) {
+                followed.written = Some(Datum::Unset);
+                self.recorder.sample(at, followed.signal, Datum::Unset);
+            }
         }
     }
 
     fn device(&self, id: SignalId) -> &'static str {
-        self.signals.get(usize::from(id.0)).map_or("", |(signal, ..)| signal.device)
+        self.signals.get(usize::from(id.0)).map_or("", |it| it.signal.device)
     }
 
     /// Notes where something is, if it has moved since.
@@ -183,7 +205,7 @@ impl Observer for SessionLog {
 
     fn wants(&self, at: Instant, signal: SignalId) -> bool {
         match self.signals.get(usize::from(signal.0)) {
-            Some((_, SignalType::Image, _)) => at >= self.camera,
+            Some(Followed { ty: SignalType::Image, .. }) => at >= self.camera,
             other => other.is_some(),
         }
     }
@@ -218,6 +240,7 @@ impl Observer for SessionLog {
     }
 
     fn after_samples(&mut self, at: Instant) {
+        self.silence(at);
         if std::mem::take(&mut self.has_picture) {
             self.camera = at + FILM;
         }
@@ -236,8 +259,11 @@ impl Observer for SessionLog {
     }
 }
 
-fn channel(device: &DeviceRow, row: &SignalRow) -> (Signal, SignalType, Option<Datum>) {
-    (Signal { device: device.name, name: row.name, unit: row.ty.unit() }, row.ty, None)
+impl Followed {
+    fn new(device: &DeviceRow, row: &SignalRow) -> Self {
+        let signal = Signal { device: device.name, name: row.name, unit: row.ty.unit() };
+        Followed { signal, ty: row.ty, written: None, is_heard: false }
+    }
 }
 
 /// What people who read the log as text want to know, and how much it matters.

@@ -2,6 +2,7 @@
 
 mod cameras;
 mod damaged;
+mod signals;
 
 use std::fs;
 use std::path::{Path, PathBuf};
