@@ -144,11 +144,21 @@ impl LogData {
         self.attachments.contains_key(WORLD)
     }
 
-    /// When somebody stopped the run, or when its log breaks off.
+    /// When somebody stopped the run, or when its log breaks off or begins to miss something.
     fn stopped(&self) -> Option<Instant> {
         let stopped = self.events.iter().find(|event| event.kind == EventKind::StopRequested);
+        let stopped = stopped.map(|event| event.at);
+        if let Some(missing) = self.missing.first() {
+            let gap = missing.after.unwrap_or(Instant::ZERO);
+            return Some(stopped.map_or(gap, |stopped| stopped.min(gap)));
+        }
         let cut = self.cut_short.as_ref().and(self.span).map(|(_, last)| last);
-        stopped.map(|event| event.at).or(cut)
+        stopped.or(cut)
+    }
+
+    /// The hash of the run's trace; none where its log breaks off or misses something.
+    pub fn trace(&self) -> Option<&str> {
+        self.end.get("trace").filter(|_| self.cut_short.is_none()).map(String::as_str)
     }
 
     /// What was asked for and did not come before the end.
