@@ -35,7 +35,7 @@ pub struct LogData {
     pub names: OwnedNames,
     /// What happened, in order.
     pub events: Vec<RunEvent>,
-    /// The configuration at the start and after each commit.
+    /// The configuration at the start, after each commit, and after a loss.
     pub configurations: Vec<Configured>,
     /// What devices said, by `DEVICE/SIGNAL`, whenever they said something else; unset from when on they said nothing.
     pub samples: BTreeMap<String, Vec<(Instant, Datum)>>,
@@ -66,7 +66,7 @@ pub struct LogData {
 pub struct Configured {
     /// When.
     pub at: Instant,
-    /// Who wrote, or `outside`; empty at the start.
+    /// Who wrote, or `outside`; empty at the start and after a loss.
     pub author: String,
     /// The paths of the entries and their values.
     pub entries: Vec<(String, Datum)>,

@@ -51,8 +51,8 @@ pub struct SessionLog {
 struct Followed {
     signal: Signal,
     ty: SignalType,
-    /// What was last written of it.
-    written: Option<Datum>,
+    /// What was last said of it.
+    said: Option<Datum>,
     /// Whether it said something among these samples.
     is_heard: bool,
 }
@@ -128,6 +128,9 @@ impl SessionLog {
     /// The first failure of the writer.
     pub fn finish(mut self, session: &dyn AnySession) -> Result<Written, LogError> {
         let now = session.now();
+        // The robot stands: nobody is kept waiting.
+        self.recorder.wait_when_full();
+        self.after_loss(now);
         for (at, _, what) in session.pending() {
             let request = Requested { at, what, done: Done::NotReached };
             self.recorder.event(RunEvent::requested(now, request));
@@ -140,8 +143,8 @@ impl SessionLog {
     fn signal(&mut self, at: Instant, id: SignalId, value: Datum) {
         let Some(followed) = self.signals.get_mut(usize::from(id.0)) else { return };
         followed.is_heard = true;
-        if followed.written.as_ref() != Some(&value) {
-            followed.written = Some(value.clone());
+        if followed.said.as_ref() != Some(&value) {
+            followed.said = Some(value.clone());
             self.recorder.sample(at, followed.signal, value);
         }
     }
@@ -150,11 +153,25 @@ impl SessionLog {
     fn silence(&mut self, at: Instant) {
         for followed in &mut self.signals {
             let is_heard = std::mem::take(&mut followed.is_heard);
-            if !is_heard && followed.written.as_ref().is_some_and(|last| *last != Datum::Unset) {
-                followed.written = Some(Datum::Unset);
+            if !is_heard && followed.said.as_ref().is_some_and(|last| *last != Datum::Unset) {
+                followed.said = Some(Datum::Unset);
                 self.recorder.sample(at, followed.signal, Datum::Unset);
             }
         }
+    }
+
+    /// Says everything again that the log may lack, where something of it got lost.
+    fn after_loss(&mut self, at: Instant) {
+        if !self.recorder.has_told_of_loss(at) {
+            return;
+        }
+        for Followed { signal, said, .. } in &self.signals {
+            if let Some(said) = said {
+                self.recorder.sample(at, *signal, said.clone());
+            }
+        }
+        self.recorder.scene(at, self.shapes.clone());
+        self.echoes.clear();
     }
 
     fn device(&self, id: SignalId) -> &'static str {
@@ -256,13 +273,14 @@ impl Observer for SessionLog {
         if !self.moved.is_empty() {
             self.recorder.scene(at, std::mem::take(&mut self.moved));
         }
+        self.after_loss(at);
     }
 }
 
 impl Followed {
     fn new(device: &DeviceRow, row: &SignalRow) -> Self {
         let signal = Signal { device: device.name, name: row.name, unit: row.ty.unit() };
-        Followed { signal, ty: row.ty, written: None, is_heard: false }
+        Followed { signal, ty: row.ty, said: None, is_heard: false }
     }
 }
 

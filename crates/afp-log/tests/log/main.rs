@@ -2,6 +2,7 @@
 
 mod cameras;
 mod damaged;
+mod lost;
 mod signals;
 
 use std::fs;
