@@ -127,7 +127,7 @@ def test_the_world_is_changed_and_the_start_chosen_as_on_the_command_line(wall_f
     world, facts = simulation.world, afp.Log(log).facts
     assert world.path is None and world.start == start and "charge = 0.5" in world.text and result.entries["walldist"] == 0.35
     assert world != afp.World.random(1) and pickle.loads(pickle.dumps(world)) == world
-    assert facts["set"].splitlines() == ["world.robot.charge=0.5", "walldist=0.35 m"]
+    assert [facts["set.0"], facts["set.1"]] == ["world.robot.charge=0.5", "walldist=0.35 m"]
     assert len(facts["plan_hash"]) == len(facts["world_hash"]) == 16
     assert afp.Log(log).simulation().run(until=1.0).trace_hash == result.trace_hash
     with pytest.raises(afp.AfpError, match="has no 'nope'"):

@@ -1,13 +1,15 @@
 //! What waits for a client to read it: bounded, so that nobody waits for the client.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::btree_map::{BTreeMap, Entry};
+use std::collections::{BTreeSet, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tungstenite::Message;
 
 use crate::protocol;
 
-/// So many messages of channels, and so many bytes of them, wait at most; then the oldest are dropped.
+/// So many messages of channels, and so many bytes of them, wait at most; then the oldest are dropped, but never the last one
+/// of a channel: what holds until something else is said must not stay wrong.
 const MESSAGES: usize = 1024;
 const BYTES: usize = 8 << 20;
 /// So many answers, and so many bytes of them beside the first one, wait at most; a client that leaves more unread has lost
@@ -31,6 +33,8 @@ struct Waiting {
     answers: VecDeque<Message>,
     answer_bytes: usize,
     messages: VecDeque<(u32, Sent)>,
+    /// How many of them are of each channel, by the client's number.
+    of_channel: BTreeMap<u32, usize>,
     bytes: usize,
     dropped: u64,
     /// Whether too many answers were left unread.
@@ -62,11 +66,10 @@ impl Queue {
     pub fn message(&self, channel: u32, sent: &Sent) {
         let mut waiting = self.get();
         let Some(subscription) = waiting.wanted.get(&channel).copied() else { return };
-        waiting.bytes += sent.payload.len();
-        waiting.messages.push_back((subscription, sent.clone()));
+        waiting.push(subscription, sent.clone());
         while waiting.messages.len() > MESSAGES || waiting.bytes > BYTES {
-            let Some((_, oldest)) = waiting.messages.pop_front() else { return };
-            waiting.bytes -= oldest.payload.len();
+            let Some(oldest) = waiting.oldest_with_later() else { return };
+            waiting.take(oldest);
             waiting.dropped += 1;
         }
     }
@@ -83,8 +86,7 @@ impl Queue {
             let text = format!("{count} messages were dropped: this client reads too slowly");
             return Some(protocol::status(1, &text).into());
         }
-        let (subscription, Sent { at, payload }) = waiting.messages.pop_front()?;
-        waiting.bytes -= payload.len();
+        let (subscription, Sent { at, payload }) = waiting.take(0)?;
         Some(protocol::message(subscription, at, &payload).into())
     }
 
@@ -95,12 +97,17 @@ impl Queue {
 
     /// The client wants a channel, by a number of its own.
     pub fn subscribe(&self, channel: u32, subscription: u32) {
-        self.get().wanted.insert(channel, subscription);
+        let mut waiting = self.get();
+        if let Some(before) = waiting.wanted.insert(channel, subscription) {
+            waiting.forget(before);
+        }
     }
 
     /// The client does not want a channel any more.
     pub fn unsubscribe(&self, subscription: u32) {
-        self.get().wanted.retain(|_, known| *known != subscription);
+        let mut waiting = self.get();
+        waiting.wanted.retain(|_, known| *known != subscription);
+        waiting.forget(subscription);
     }
 
     /// The client wants to be told of these parameters when they change.
@@ -120,6 +127,39 @@ impl Queue {
     /// Whether the client wants to be told of a parameter.
     pub fn watches(&self, name: &str) -> bool {
         self.get().parameters.contains(name)
+    }
+}
+
+impl Waiting {
+    fn push(&mut self, subscription: u32, sent: Sent) {
+        self.bytes += sent.payload.len();
+        *self.of_channel.entry(subscription).or_default() += 1;
+        self.messages.push_back((subscription, sent));
+    }
+
+    fn take(&mut self, index: usize) -> Option<(u32, Sent)> {
+        let (subscription, sent) = self.messages.remove(index)?;
+        self.bytes -= sent.payload.len();
+        if let Entry::Occupied(mut count) = self.of_channel.entry(subscription) {
+            *count.get_mut() -= 1;
+            if *count.get() == 0 {
+                count.remove();
+            }
+        }
+        Some((subscription, sent))
+    }
+
+    /// Nobody reads the messages of a channel any more.
+    fn forget(&mut self, subscription: u32) {
+        self.messages.retain(|(of, _)| *of != subscription);
+        self.bytes = self.messages.iter().map(|(_, sent)| sent.payload.len()).sum();
+        self.of_channel.remove(&subscription);
+    }
+
+    /// Where the oldest message is that has a later one of its channel; as far to the front as there are channels.
+    fn oldest_with_later(&self) -> Option<usize> {
+        let has_later = |(of, _): &(u32, Sent)| self.of_channel.get(of).is_some_and(|it| *it > 1);
+        self.messages.iter().position(has_later)
     }
 }
 
@@ -150,6 +190,28 @@ mod tests {
             queue.message(3, &sent(1, 1));
             assert!(queue.next().is_none());
         }
+    }
+
+    #[test]
+    fn the_last_message_of_a_channel_is_never_dropped() {
+        let queue = Queue::default();
+        (1..=3).for_each(|channel| queue.subscribe(channel, channel * 10));
+        queue.message(1, &sent(7, 1));
+        queue.message(1, &sent(8, 1));
+        queue.message(2, &sent(9, 1));
+        (100..5000).for_each(|number| queue.message(3, &sent(number, BYTES / 16)));
+        let all = std::iter::from_fn(|| queue.next()).skip(1).map(Message::into_data);
+        let all: Vec<_> = all.map(|data| (data[1], data[5])).collect();
+        assert_eq!(all[..2], [(10, 8), (20, 9)]);
+        let others = 15..=16;
+        assert!(others.contains(&(all.len() - 2)) && all[2..].iter().all(|(of, _)| *of == 30));
+        // Who comes and goes leaves nothing waiting.
+        (40..5000).for_each(|subscription| {
+            queue.subscribe(1, subscription);
+            queue.message(1, &sent(1, BYTES / 4));
+            queue.unsubscribe(subscription);
+        });
+        assert!(queue.next().is_none());
     }
 
     #[test]

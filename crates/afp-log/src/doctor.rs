@@ -6,7 +6,7 @@ use std::path::Path;
 use mcap::records::{MessageHeader, Record, Statistics};
 
 use crate::error::LogError;
-use crate::read::read_any;
+use crate::read::read_all;
 use crate::scan::{load, scan};
 
 /// Everything that is wrong with a log; empty for a sound one.
@@ -20,8 +20,9 @@ pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
         doctor.look(record);
         Ok(())
     });
-    // Reading decodes AFP's own messages and knows why a log was cut short.
-    let log = read_any(path)?;
+    // Reading decodes AFP's own messages and knows why a log was cut short. What was lost before it was recovered is nothing
+    // that is wrong with the file.
+    let (log, _) = read_all(path)?;
     match (log.cut_short, scanned) {
         (Some(cut), _) => doctor.found.push(cut),
         (None, Err(error)) => doctor.found.push(error.to_string()),

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use afp_core::Instant;
 use afp_core::trace::{Author, Names, Record, TraceEntryId};
+use afp_core::{Instant, Value};
 use afp_session::{EventKind, RunEvent, author as author_of};
 use prost::Message;
 
@@ -166,7 +166,10 @@ impl Encoder {
                 self.send(Topic::Events, event.at, &event::encode(*event))
             }
             Item::Started(at) => self.configuration(at, String::new()),
-            Item::Lost { at, count } => self.lost(at, count),
+            Item::Lost { at, count, entries } => {
+                self.lost(at, count)?;
+                self.set_all(at, &entries)
+            }
             Item::Transforms { at, transforms } => {
                 self.send(Topic::Transforms, at, &foxglove::transforms(at, &transforms))
             }
@@ -217,6 +220,15 @@ impl Encoder {
         if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
             *kept = new;
         }
+    }
+
+    /// Takes over what all entries hold, and says so: commits are missing, perhaps parts of the open one.
+    fn set_all(&mut self, at: Instant, values: &[Value]) -> Result<(), LogError> {
+        self.commit = None;
+        for (id, value) in (0..).zip(values) {
+            self.set(TraceEntryId(id), value.borrow());
+        }
+        self.configuration(at, String::new())
     }
 
     fn close_commit(&mut self) -> Result<(), LogError> {

@@ -18,6 +18,7 @@ use crate::proto::foxglove::{
     CompressedImage, FrameTransform, FrameTransforms, LaserScan, Pose, PoseInFrame, Quaternion,
     SceneEntity, SceneUpdate, Vector3,
 };
+use crate::recover::{Missing, RECOVERED, missing};
 use crate::robot::Pose2;
 use crate::scan::{load, scan};
 
@@ -34,9 +35,9 @@ pub struct LogData {
     pub names: OwnedNames,
     /// What happened, in order.
     pub events: Vec<RunEvent>,
-    /// The configuration at the start and after each commit.
+    /// The configuration at the start, after each commit, and after a loss.
     pub configurations: Vec<Configured>,
-    /// What devices said, by `DEVICE/SIGNAL`, whenever they said something else.
+    /// What devices said, by `DEVICE/SIGNAL`, whenever they said something else; unset from when on they said nothing.
     pub samples: BTreeMap<String, Vec<(Instant, Datum)>>,
     /// Where the robot was.
     pub poses: Vec<(Instant, Pose2)>,
@@ -54,8 +55,10 @@ pub struct LogData {
     pub bytes: u64,
     /// The first and the last message.
     pub span: Option<(Instant, Instant)>,
-    /// Why the log ends before its end, when it does.
+    /// Why the log ends before its end, or what it misses, when it does.
     pub cut_short: Option<String>,
+    /// The stretches of time of which messages are missing from a log that was recovered, in their order.
+    pub missing: Vec<Missing>,
 }
 
 /// All entries after a commit.
@@ -63,7 +66,7 @@ pub struct LogData {
 pub struct Configured {
     /// When.
     pub at: Instant,
-    /// Who wrote, or `outside`; empty at the start.
+    /// Who wrote, or `outside`; empty at the start and after a loss.
     pub author: String,
     /// The paths of the entries and their values.
     pub entries: Vec<(String, Datum)>,
@@ -99,11 +102,14 @@ pub struct TopicInfo {
 /// The file cannot be opened, is no MCAP file from the first byte on, is not the log of a run, or is compressed in a way
 /// that cannot be read.
 pub fn read(path: &Path) -> Result<LogData, LogError> {
-    let (log, says_run) = read_all(path)?;
+    let (mut log, says_run) = read_all(path)?;
     // What says of which run a log is comes first.
     let begun = log.cut_short.is_none() || !log.topics.is_empty();
     match says_run || !begun {
-        true => Ok(log),
+        true => {
+            log.note_missing();
+            Ok(log)
+        }
         false => Err(LogError::NoRun { path: path.to_owned() }),
     }
 }
@@ -113,11 +119,13 @@ pub fn read(path: &Path) -> Result<LogData, LogError> {
 /// # Errors
 /// As [`read`], but for what the file is of.
 pub fn read_any(path: &Path) -> Result<LogData, LogError> {
-    read_all(path).map(|(log, _)| log)
+    let (mut log, _) = read_all(path)?;
+    log.note_missing();
+    Ok(log)
 }
 
-/// What a file holds, and whether it says of which run it is.
-fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
+/// What a file holds, cut short where it is itself, and whether it says of which run it is.
+pub(crate) fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
     let bytes = load(path)?;
     let mut reader = Reader::default();
     let scanned = scan(&bytes, |record| {
@@ -126,6 +134,7 @@ fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
     });
     let mut log = reader.log;
     log.bytes = bytes.len() as u64;
+    log.missing.sort();
     if let Err(error) = scanned {
         let cut = match (reader.footer, error) {
             (_, error @ LogError::Compressed(_)) => return Err(error),
@@ -137,6 +146,18 @@ fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
         log.cut_short.get_or_insert(cut);
     }
     Ok((log, reader.says_run))
+}
+
+impl LogData {
+    /// What was lost before the log was recovered is missing from it all the same.
+    fn note_missing(&mut self) {
+        let stretches: Vec<_> = self.missing.iter().map(Missing::to_string).collect();
+        if !stretches.is_empty() {
+            let stretches = stretches.join(" and ");
+            let said = format!("it was recovered, and misses what was {stretches}");
+            self.cut_short.get_or_insert(said);
+        }
+    }
 }
 
 /// What all entries hold, as a message of `/plan/configuration` says; none for other bytes.
@@ -196,6 +217,9 @@ impl Reader {
             }
             Record::Metadata(metadata) if metadata.name == "afp.end" => {
                 self.log.end = metadata.metadata;
+            }
+            Record::Metadata(metadata) if metadata.name == RECOVERED => {
+                self.log.missing.extend(missing(&metadata.metadata));
             }
             Record::Attachment { header, data, .. } => {
                 if let Ok(text) = String::from_utf8(data.into_owned()) {

@@ -41,13 +41,19 @@ pub fn attached_toolbox(attachment: &str) -> Option<&str> {
     attachment.strip_prefix(TOOLBOX).filter(|name| !name.contains(['.', '/']))
 }
 
+/// What the facts begin with that each hold a setting; a value may have line breaks.
+const SETTING: &str = "set.";
+
 const TEXT: &str = "text/plain";
 
 impl About {
     /// What a log says of a run before it begins: what came from outside stands among its events.
     pub fn new(recipe: &Recipe) -> About {
         let until = recipe.until.map_or_else(String::new, |until| until.as_nanos().to_string());
-        let set = recipe.settings.iter().map(|(name, value)| format!("{name}={value}"));
+        let set = |(n, (name, value)): (usize, &(String, String))| {
+            (format!("{SETTING}{n}"), format!("{name}={value}"))
+        };
+        let settings = recipe.settings.iter().enumerate().map(set);
         let start = recipe.start.map_or_else(String::new, written);
         let mut facts = vec![
             ("plan", recipe.plan.clone()),
@@ -59,7 +65,6 @@ impl About {
             ),
             ("robot", recipe.robot.clone()),
             ("seed", recipe.seed.to_string()),
-            ("set", set.collect::<Vec<_>>().join("\n")),
             ("world", recipe.world.name.clone()),
             ("start_m_rad", start),
             ("measures", recipe.measures.join("\n")),
@@ -73,8 +78,9 @@ impl About {
         let toolboxes =
             recipe.toolboxes.iter().map(|it| (toolbox_attachment(&it.name), TEXT, it.text.clone()));
         let world = (WORLD.to_owned(), TEXT, recipe.world.text.clone());
+        let facts = facts.into_iter().map(|(key, value)| (key.to_owned(), value));
         About {
-            facts: facts.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+            facts: facts.chain(settings).collect(),
             attachments: texts.chain(toolboxes).chain([world]).collect(),
         }
     }
@@ -85,10 +91,6 @@ impl LogData {
     pub fn recipe(&self) -> Recipe {
         let fact = |key: &str| self.facts.get(key).map_or("", String::as_str);
         let lines = |key: &str| fact(key).lines().map(str::to_owned).collect::<Vec<_>>();
-        let pair = |line: String| {
-            let (name, value) = line.split_once('=')?;
-            Some((name.to_owned(), value.to_owned()))
-        };
         let world = self.attachments.get(WORLD).cloned().unwrap_or_default();
         Recipe {
             plan: fact("plan").to_owned(),
@@ -100,7 +102,7 @@ impl LogData {
             start: read(fact("start_m_rad")),
             seed: fact("seed").parse().unwrap_or_default(),
             measures: lines("measures"),
-            settings: lines("set").into_iter().filter_map(pair).collect(),
+            settings: self.settings(),
             until: self
                 .stopped()
                 .or_else(|| fact("until_ns").parse().ok().map(Instant::from_nanos)),
@@ -133,6 +135,14 @@ impl LogData {
         self.attachments.iter().filter_map(toolbox).collect()
     }
 
+    /// Those of an older log stand in one fact, a line each.
+    fn settings(&self) -> Vec<(String, String)> {
+        let older = self.facts.get("set").into_iter().flat_map(|all| all.lines());
+        let each = (0..).map_while(|n| self.facts.get(&format!("{SETTING}{n}")));
+        let pairs = older.chain(each.map(String::as_str)).filter_map(|it| it.split_once('='));
+        pairs.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
+    }
+
     /// What came from outside, in the order in which it was done.
     fn requests(&self) -> Vec<(Instant, afp_session::Stimulus)> {
         let made = self.events.iter().filter_map(|event| event.request.clone());
@@ -144,11 +154,21 @@ impl LogData {
         self.attachments.contains_key(WORLD)
     }
 
-    /// When somebody stopped the run, or when its log breaks off.
+    /// When somebody stopped the run, or when its log breaks off or begins to miss something.
     fn stopped(&self) -> Option<Instant> {
         let stopped = self.events.iter().find(|event| event.kind == EventKind::StopRequested);
+        let stopped = stopped.map(|event| event.at);
+        if let Some(missing) = self.missing.first() {
+            let gap = missing.after.unwrap_or(Instant::ZERO);
+            return Some(stopped.map_or(gap, |stopped| stopped.min(gap)));
+        }
         let cut = self.cut_short.as_ref().and(self.span).map(|(_, last)| last);
-        stopped.map(|event| event.at).or(cut)
+        stopped.or(cut)
+    }
+
+    /// The hash of the run's trace; none where its log breaks off or misses something.
+    pub fn trace(&self) -> Option<&str> {
+        self.end.get("trace").filter(|_| self.cut_short.is_none()).map(String::as_str)
     }
 
     /// What was asked for and did not come before the end.

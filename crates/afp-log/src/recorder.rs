@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration as Span, Instant as Wall};
 
-use afp_core::Instant;
-use afp_core::trace::{Record, Sink};
+use afp_core::trace::{Names, Record, Sink, TraceEntryId};
+use afp_core::{Instant, Value, ValueRef};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::encode::{Encoder, Messages};
@@ -26,6 +26,8 @@ pub const FRAMES: usize = 4;
 
 /// Items that the queue holds: a second of a busy plan.
 const CAPACITY: usize = 8192;
+/// So many must be free before a loss is told of: what is said again after it shall not be lost at once.
+const ROOM: usize = 256;
 /// How often the file is brought up to date, so that a crash loses little.
 const FLUSH_EVERY: Span = Span::from_millis(250);
 /// How long the writer rests when there is nothing to do.
@@ -67,16 +69,52 @@ pub(crate) type Transforms = [Option<Transform>; FRAMES];
 pub(crate) enum Item {
     Record(OwnedRecord),
     Started(Instant),
-    Lost { at: Instant, count: u64 },
-    Transforms { at: Instant, transforms: Transforms },
-    Pose { at: Instant, frame: &'static str, pose: Pose2 },
-    Ranging { at: Instant, device: &'static str, ranging: Ranging, height: f64 },
-    Image { at: Instant, device: &'static str, image: Image },
-    Sample { at: Instant, signal: Signal, value: Datum },
+    /// Items were dropped; what all entries hold stands beside, since commits may be among them.
+    Lost {
+        at: Instant,
+        count: u64,
+        entries: Box<[Value]>,
+    },
+    Transforms {
+        at: Instant,
+        transforms: Transforms,
+    },
+    Pose {
+        at: Instant,
+        frame: &'static str,
+        pose: Pose2,
+    },
+    Ranging {
+        at: Instant,
+        device: &'static str,
+        ranging: Ranging,
+        height: f64,
+    },
+    Image {
+        at: Instant,
+        device: &'static str,
+        image: Image,
+    },
+    Sample {
+        at: Instant,
+        signal: Signal,
+        value: Datum,
+    },
     Event(Box<RunEvent>),
-    End { at: Instant, facts: Vec<(String, String)> },
-    Scene { at: Instant, shapes: Box<[Shape]> },
-    Text { at: Instant, level: Level, name: &'static str, text: Box<str> },
+    End {
+        at: Instant,
+        facts: Vec<(String, String)>,
+    },
+    Scene {
+        at: Instant,
+        shapes: Box<[Shape]>,
+    },
+    Text {
+        at: Instant,
+        level: Level,
+        name: &'static str,
+        text: Box<str>,
+    },
 }
 
 /// A signal of a device that has a channel of its own.
@@ -119,6 +157,10 @@ pub struct Recorder {
     lost: u64,
     /// Of those, the ones that the log does not mention yet.
     unreported: u64,
+    /// Whether a loss was told of since somebody asked.
+    reported: bool,
+    /// What all entries hold, by number; none where nothing is dropped.
+    entries: Vec<Value>,
     end: Arc<End>,
     thread: Option<JoinHandle<Outcome>>,
     /// Whether the plan has started.
@@ -173,6 +215,10 @@ impl Recorder {
         when_full: WhenFull,
         path: &Path,
     ) -> Result<Self, LogError> {
+        let entries = match when_full {
+            WhenFull::Drop => vec![Value::Unset; names.entries() as usize],
+            WhenFull::Wait => Vec::new(),
+        };
         let file = Encoder::new(to, names)?;
         let (queue, items) = RingBuffer::new(CAPACITY);
         let end = Arc::new(End::default());
@@ -184,9 +230,18 @@ impl Recorder {
                 move || write_all(file, items, &seen).map_err(|error| error.writing(&path))
             })
             .map_err(|error| LogError::Create { path: path.to_owned(), error })?;
-        let thread = Some(thread);
-        let (lost, unreported, started, kept) = (0, 0, false, None);
-        Ok(Recorder { queue, when_full, lost, unreported, end, thread, started, kept })
+        Ok(Recorder {
+            queue,
+            when_full,
+            lost: 0,
+            unreported: 0,
+            reported: false,
+            entries,
+            end,
+            thread: Some(thread),
+            started: false,
+            kept: None,
+        })
     }
 
     /// Writes the configuration that the plan starts with.
@@ -243,6 +298,18 @@ impl Recorder {
         self.push(Item::Text { at, level, name, text: text.into() }, at);
     }
 
+    /// From now on nothing is dropped: the run is over, and nobody is kept waiting.
+    pub fn wait_when_full(&mut self) {
+        self.when_full = WhenFull::Wait;
+    }
+
+    /// Whether the log has been told of a loss since the last time, and so may lack what was said before: it is to be said
+    /// again. Tells it of one that it can be told of now.
+    pub fn has_told_of_loss(&mut self, at: Instant) -> bool {
+        self.tell_of_loss(at);
+        std::mem::take(&mut self.reported)
+    }
+
     /// Items dropped so far because the writer could not keep up.
     pub fn lost(&self) -> u64 {
         self.lost
@@ -263,11 +330,21 @@ impl Recorder {
     }
 
     fn push(&mut self, item: Item, at: Instant) {
-        if self.unreported > 0 && self.queue.slots() > 1 {
+        self.tell_of_loss(at);
+        self.put(item);
+    }
+
+    /// Tells the log of what got lost, as soon as there is room.
+    fn tell_of_loss(&mut self, at: Instant) {
+        let has_room = self.when_full == WhenFull::Wait || self.queue.slots() > ROOM;
+        if self.unreported > 0 && has_room {
             let count = std::mem::take(&mut self.unreported);
-            // There is room: only this thread fills the queue.
-            let _ = self.queue.push(Item::Lost { at, count });
+            self.reported = true;
+            self.put(Item::Lost { at, count, entries: self.entries.as_slice().into() });
         }
+    }
+
+    fn put(&mut self, item: Item) {
         let mut item = item;
         while let Err(PushError::Full(back)) = self.queue.push(item) {
             if self.when_full == WhenFull::Drop || self.queue.is_abandoned() {
@@ -277,6 +354,13 @@ impl Recorder {
             }
             item = back;
             thread::sleep(REST / 4);
+        }
+    }
+
+    /// An entry holds something else from now on.
+    fn set(&mut self, entry: TraceEntryId, value: ValueRef<'_>) {
+        if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
+            *kept = value.to_owned();
         }
     }
 
@@ -292,6 +376,9 @@ impl Recorder {
 impl Sink for Recorder {
     fn record(&mut self, at: Instant, record: &Record<'_>) {
         self.push(Item::Record(OwnedRecord::new(at, record)), at);
+        if let Record::Committed { entry, new, .. } = *record {
+            self.set(entry, new);
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use afp_core::Instant;
 use afp_output::Output;
-use mcap::records::{self, Record};
+use mcap::records::{self, Metadata, Record};
 use mcap::{Attachment, Summary};
 
 use crate::error::LogError;
@@ -28,7 +28,7 @@ pub struct Recovered {
 }
 
 /// A stretch of time of which messages are lost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Missing {
     /// The last message before it; none from the beginning on.
     pub after: Option<Instant>,
@@ -47,7 +47,16 @@ pub fn recovered_name(path: &Path) -> PathBuf {
     bare.with_extension("recovered.mcap")
 }
 
-/// Copies everything that is intact in a log into a new, whole one.
+/// The metadata record that says what a log has lost before it was recovered.
+pub(crate) const RECOVERED: &str = "afp.recovered";
+/// Its key that says what was wrong, and what the ones begin with of the stretches that are missing.
+const DAMAGE: &str = "damage";
+const MISSING: &str = "missing.";
+/// What stands there in place of a time where nothing is left before the stretch, or behind it.
+const START: &str = "start";
+const END: &str = "end";
+
+/// Copies everything that is intact in a log into a new, whole one, which says what is missing from it.
 ///
 /// # Errors
 /// The old log cannot be opened or is compressed in a way that cannot be read, the new one cannot be written. There is no new one then.
@@ -70,12 +79,29 @@ fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
         Ok(record) => copy.take(record),
         Err(damage) => copy.pass(damage),
     })?;
-    let Copy { writer, messages, missing, mut damage, .. } = copy;
-    let (output, _) = end(writer)?;
-    output.finish().map_err(failed)?;
+    let Copy { mut writer, messages, missing, mut damage, .. } = copy;
     // What is wrong outside of what was copied.
     damage = damage.or_else(|| scan(&bytes, |_| Ok(())).err().map(|why| why.to_string()));
+    if let Some(damage) = &damage {
+        writer.write_metadata(&told(damage, &missing))?;
+    }
+    let (output, _) = end(writer)?;
+    output.finish().map_err(failed)?;
     Ok(Recovered { path: to.to_owned(), messages, damage, missing })
+}
+
+/// What a recovered log says of what it has lost.
+fn told(damage: &str, missing: &[Missing]) -> Metadata {
+    let stretch = |(n, missing): (usize, &Missing)| (format!("{MISSING}{n}"), missing.written());
+    let stretches = missing.iter().enumerate().map(stretch);
+    let damage = (DAMAGE.to_owned(), damage.to_owned());
+    Metadata { name: RECOVERED.to_owned(), metadata: stretches.chain([damage]).collect() }
+}
+
+/// The stretches of time that are missing, as the metadata record of a recovered log says.
+pub(crate) fn missing(told: &BTreeMap<String, String>) -> impl Iterator<Item = Missing> {
+    let stretches = told.iter().filter(|(key, _)| key.starts_with(MISSING));
+    stretches.filter_map(|(_, stretch)| Missing::read(stretch))
 }
 
 struct Copy<'a> {
@@ -174,6 +200,25 @@ impl<'a> Copy<'a> {
             self.schemas.insert(id, new);
         }
         Ok(self.schemas.get(&id).copied().unwrap_or(0))
+    }
+}
+
+impl Missing {
+    /// As a log has it: both ends in nanoseconds.
+    fn written(self) -> String {
+        let time = |at: Option<Instant>, none: &str| {
+            at.map_or_else(|| none.to_owned(), |at| at.as_nanos().to_string())
+        };
+        format!("{} {}", time(self.after, START), time(self.before, END))
+    }
+
+    fn read(text: &str) -> Option<Missing> {
+        let time = |text: &str, none: &str| match text == none {
+            true => Some(None),
+            false => Some(Some(Instant::from_nanos(text.parse().ok()?))),
+        };
+        let (after, before) = text.split_once(' ')?;
+        Some(Missing { after: time(after, START)?, before: time(before, END)? })
     }
 }
 

@@ -26,8 +26,8 @@ const SCENES: Duration = Duration::from_secs(1);
 /// Records a session: its trace, and what its robot signals.
 pub struct SessionLog {
     recorder: Recorder,
-    /// The signals of the robot, what they are, and what was last written of them.
-    signals: Vec<(Signal, SignalType, Option<Datum>)>,
+    /// The signals of the robot.
+    signals: Vec<Followed>,
     /// The frame whose place has a channel of its own.
     body: Option<SignalId>,
     started: bool,
@@ -45,6 +45,16 @@ pub struct SessionLog {
     moved: Vec<Shape>,
     /// When all of the scene is sent anew; never into a file, which has its beginning.
     scene_again: Instant,
+}
+
+/// A signal of the robot.
+struct Followed {
+    signal: Signal,
+    ty: SignalType,
+    /// What was last said of it.
+    said: Option<Datum>,
+    /// Whether it said something among these samples.
+    is_heard: bool,
 }
 
 impl SessionLog {
@@ -93,7 +103,7 @@ impl SessionLog {
         recorder.scene(Instant::ZERO, scene.clone());
         SessionLog {
             recorder,
-            signals: signals(devices).map(|(_, device, row)| channel(device, row)).collect(),
+            signals: signals(devices).map(|(_, device, row)| Followed::new(device, row)).collect(),
             body: afp_core::devices::find_signal(devices, "robot", "pose"),
             started: false,
             frames: Vec::new(),
@@ -118,6 +128,9 @@ impl SessionLog {
     /// The first failure of the writer.
     pub fn finish(mut self, session: &dyn AnySession) -> Result<Written, LogError> {
         let now = session.now();
+        // The robot stands: nobody is kept waiting.
+        self.recorder.wait_when_full();
+        self.after_loss(now);
         for (at, _, what) in session.pending() {
             let request = Requested { at, what, done: Done::NotReached };
             self.recorder.event(RunEvent::requested(now, request));
@@ -128,15 +141,41 @@ impl SessionLog {
 
     /// Notes what a device says, if it said something else before.
     fn signal(&mut self, at: Instant, id: SignalId, value: Datum) {
-        let Some((signal, _, last)) = self.signals.get_mut(usize::from(id.0)) else { return };
-        if last.as_ref() != Some(&value) {
-            *last = Some(value.clone());
-            self.recorder.sample(at, *signal, value);
+        let Some(followed) = self.signals.get_mut(usize::from(id.0)) else { return };
+        followed.is_heard = true;
+        if followed.said.as_ref() != Some(&value) {
+            followed.said = Some(value.clone());
+            self.recorder.sample(at, followed.signal, value);
         }
     }
 
+    /// Notes which devices say nothing any more.
+    fn silence(&mut self, at: Instant) {
+        for followed in &mut self.signals {
+            let is_heard = std::mem::take(&mut followed.is_heard);
+            if !is_heard && followed.said.as_ref().is_some_and(|last| *last != Datum::Unset) {
+                followed.said = Some(Datum::Unset);
+                self.recorder.sample(at, followed.signal, Datum::Unset);
+            }
+        }
+    }
+
+    /// Says everything again that the log may lack, where something of it got lost.
+    fn after_loss(&mut self, at: Instant) {
+        if !self.recorder.has_told_of_loss(at) {
+            return;
+        }
+        for Followed { signal, said, .. } in &self.signals {
+            if let Some(said) = said {
+                self.recorder.sample(at, *signal, said.clone());
+            }
+        }
+        self.recorder.scene(at, self.shapes.clone());
+        self.echoes.clear();
+    }
+
     fn device(&self, id: SignalId) -> &'static str {
-        self.signals.get(usize::from(id.0)).map_or("", |(signal, ..)| signal.device)
+        self.signals.get(usize::from(id.0)).map_or("", |it| it.signal.device)
     }
 
     /// Notes where something is, if it has moved since.
@@ -183,7 +222,7 @@ impl Observer for SessionLog {
 
     fn wants(&self, at: Instant, signal: SignalId) -> bool {
         match self.signals.get(usize::from(signal.0)) {
-            Some((_, SignalType::Image, _)) => at >= self.camera,
+            Some(Followed { ty: SignalType::Image, .. }) => at >= self.camera,
             other => other.is_some(),
         }
     }
@@ -218,6 +257,7 @@ impl Observer for SessionLog {
     }
 
     fn after_samples(&mut self, at: Instant) {
+        self.silence(at);
         if std::mem::take(&mut self.has_picture) {
             self.camera = at + FILM;
         }
@@ -233,11 +273,15 @@ impl Observer for SessionLog {
         if !self.moved.is_empty() {
             self.recorder.scene(at, std::mem::take(&mut self.moved));
         }
+        self.after_loss(at);
     }
 }
 
-fn channel(device: &DeviceRow, row: &SignalRow) -> (Signal, SignalType, Option<Datum>) {
-    (Signal { device: device.name, name: row.name, unit: row.ty.unit() }, row.ty, None)
+impl Followed {
+    fn new(device: &DeviceRow, row: &SignalRow) -> Self {
+        let signal = Signal { device: device.name, name: row.name, unit: row.ty.unit() };
+        Followed { signal, ty: row.ty, said: None, is_heard: false }
+    }
 }
 
 /// What people who read the log as text want to know, and how much it matters.

@@ -18,7 +18,7 @@ pub(crate) struct Again {
     pub(crate) path: PathBuf,
     /// All that it takes.
     pub(crate) recipe: Recipe,
-    /// The hash of its trace; none where its log breaks off.
+    /// The hash of its trace; none where its log breaks off or misses something.
     trace: Option<String>,
 }
 
@@ -44,7 +44,7 @@ impl Again {
         if let Some(cut) = &log.cut_short {
             warn(&format!("'{}' is not whole: {cut}", path.display()));
         }
-        Ok(Again { path: path.to_owned(), recipe, trace: log.end.get("trace").cloned() })
+        Ok(Again { path: path.to_owned(), recipe, trace: log.trace().map(str::to_owned) })
     }
 
     /// The world of the run.

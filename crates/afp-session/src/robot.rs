@@ -65,7 +65,8 @@ pub trait Robot: Platform {
         Err(RequestError::Refused)
     }
 
-    /// Says what its signals are now. What is dear to compute is asked for with [`Samples::wants`].
+    /// Says what its signals are now; one that is not said has no value now, whatever it said before. What is dear to compute is
+    /// asked for with [`Samples::wants`].
     fn sample(&self, to: &mut Samples<'_, '_>);
 
     /// The same robot at the same instant, with a clock of its own; none where there is no such thing.

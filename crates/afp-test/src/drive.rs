@@ -169,6 +169,7 @@ impl Observer for Judge<'_> {
     }
 
     fn after_samples(&mut self, at: Instant) {
+        self.watch.after_samples();
         self.judge_instant(at);
     }
 

@@ -187,6 +187,11 @@ impl<'a> Watch<'a> {
         self.state.signals.set(signal, value);
     }
 
+    /// All signals of an instant have been heard.
+    pub(crate) fn after_samples(&mut self) {
+        self.state.signals.after_samples();
+    }
+
     /// The step at this instant is over: what holds now holds until the next one.
     pub(crate) fn after_step(&mut self, at: Instant) {
         self.moments.after_step(at.as_nanos(), &self.state);
@@ -341,7 +346,7 @@ impl<'a> Watch<'a> {
 
 impl State {
     /// What an entry holds or a signal says; nothing inside for an unset entry, an object, or a signal that measured
-    /// nothing; none at all for a signal that said nothing yet.
+    /// nothing or fell silent; none at all for a signal that said nothing yet.
     fn held(&self, subject: &Subject) -> Option<Option<Constant>> {
         match subject {
             Subject::Entry(entry) => Some(self.entries.get(*entry as usize).and_then(constant)),

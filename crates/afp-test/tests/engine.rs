@@ -148,6 +148,24 @@ fn each_kind_of_claim_is_kept() {
 }
 
 #[test]
+fn a_signal_that_falls_silent_has_no_value_any_more() {
+    const PLAN: &str = r#"
+use carbot
+use std
+plan Ahead {
+    start beep
+    actor beep: Signal(tone = 880 Hz, times = 1) { Signalled -> rest }
+    actor rest: Wait(duration = 10 s) { Elapsed -> terminate }
+}
+"#;
+    let verdict = |lines: &str| run_of(PLAN, lines);
+    let kept = verdict("expect signals.tone == 880 Hz\n never signals.tone > 800 Hz after 2 s");
+    assert!(kept.passed(), "{}", kept.report());
+    let broken = verdict("expect signals.tone > 800 Hz after 5 s").broken;
+    assert!(broken[0].why.contains("in the end it is nothing"), "{broken:?}");
+}
+
+#[test]
 fn each_kind_of_claim_breaks() {
     breaks("expect go -> back before 100 ms\n until 1 s", "did not happen", 0.099_999_999);
     breaks("expect back active before 1 s", "did not happen", 0.999_999_999);

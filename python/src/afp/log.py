@@ -40,7 +40,7 @@ class Log(tables.Events):
     path: NDArray[np.float64]
     """Where the robot was: rows of time, x, y, heading."""
     cut_short: str | None
-    """Why the log ends before its end, when it does."""
+    """Why the log ends before its end, or what it misses, when it does."""
 
     def __init__(self, file: str | os.PathLike[str]) -> None:
         self.file = os.fspath(file)

@@ -410,7 +410,7 @@ pub mod request {
         }
     }
 }
-/// What a device says, whenever it says something else; on /robot/DEVICE/SIGNAL.
+/// What a device says, whenever it says something else, without a value once it says nothing any more; on /robot/DEVICE/SIGNAL.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Sample {
     #[prost(message, optional, tag = "1")]
@@ -462,12 +462,12 @@ pub struct Entry {
     #[prost(message, optional, tag = "4")]
     pub value: ::core::option::Option<Value>,
 }
-/// All entries after a commit; on /plan/configuration.
+/// All entries after a commit, and after a loss; on /plan/configuration.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Configuration {
     #[prost(message, optional, tag = "1")]
     pub time: ::core::option::Option<::prost_types::Timestamp>,
-    /// The component that wrote, or `outside`; empty at the start.
+    /// The component that wrote, or `outside`; empty at the start and after a loss.
     #[prost(string, tag = "2")]
     pub author: ::prost::alloc::string::String,
     #[prost(message, repeated, tag = "3")]

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use afp_core::Instant;
 use afp_core::trace::{ComponentId, Record, Sink, Verdict};
 use afp_log::{LogError, doctor, read, read_any, recover};
 
@@ -45,7 +46,42 @@ fn what_is_behind_a_damaged_chunk_is_saved() {
             assert_eq!(missing.before.is_none(), number + 1 == chunks.len(), "byte {at}");
             assert!(missing.before.is_none_or(|before| missing.after < Some(before)));
             assert_eq!(doctor(&saved.path).unwrap(), [""; 0], "byte {at}");
+            let log = read(&saved.path).unwrap();
+            assert_eq!(log.missing, [missing], "byte {at}");
+            assert_eq!(log.recipe().until, Some(missing.after.unwrap_or(Instant::ZERO)));
         }
+    }
+}
+
+#[test]
+fn a_recovered_log_repeats_its_run_up_to_what_it_misses() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let mut log = create(&path);
+    for n in 1..=14_000 {
+        log.record(at(n), &Record::Polled { supervisor: ComponentId(2), verdict: Verdict::Clear });
+    }
+    log.record(at(14_000), &Record::StopRequested);
+    log.end(at(14_000), vec![("trace".to_owned(), "12ab".to_owned())]);
+    log.finish().unwrap();
+    let whole = read(&path).unwrap();
+    assert_eq!((whole.recipe().until, whole.trace()), (Some(at(14_000)), Some("12ab")));
+    let (bytes, chunks) = (fs::read(&path).unwrap(), chunks(&fs::read(&path).unwrap()));
+    let [bad, saved, again] = ["bad.mcap", "b.mcap", "c.mcap"].map(|name| dir.path().join(name));
+    let (begin, length) = chunks[1];
+    let mut damaged = bytes.clone();
+    damaged[begin + length / 2] ^= 0x10;
+    for (bytes, until_the_end) in [(&damaged[..], false), (&bytes[..begin + length / 2], true)] {
+        fs::write(&bad, bytes).unwrap();
+        let last = read(&bad).unwrap().span.unwrap().1;
+        recover(&bad, &saved).unwrap();
+        // What it misses stays known when it is recovered once more.
+        recover(&saved, &again).unwrap();
+        let log = read(&again).unwrap();
+        assert_eq!((log.recipe().until, log.trace()), (Some(last), None));
+        let said = log.cut_short.unwrap();
+        assert!(said.starts_with("it was recovered, and misses what was from "), "{said}");
+        assert_eq!(said.ends_with(" to the end"), until_the_end, "{said}");
     }
 }
 

@@ -2,6 +2,8 @@
 
 mod cameras;
 mod damaged;
+mod lost;
+mod signals;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +18,8 @@ use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
 use afp_log::statistics::statistics;
 use afp_log::{
-    About, LogError, OwnedNames, Recorder, Signal, WhenFull, doctor, read, recover, recovered_name,
+    About, LogData, LogError, OwnedNames, Recorder, Signal, WhenFull, doctor, read, recover,
+    recovered_name,
 };
 use afp_session::{
     Build, Datum, Done, EventKind, Put, Recipe, Requested, RunEvent, Stimulus, TextFile,
@@ -232,7 +235,7 @@ fn a_recipe_comes_back_as_it_was_written() {
         start: Some(Pose2 { x: 0.1, y: -1.0 / 3.0, heading: 2.5 }),
         seed: u64::MAX,
         measures: vec!["wall".to_owned()],
-        settings: vec![("side".to_owned(), "right".to_owned())],
+        settings: (0..12).map(|n| (format!("side{n}"), "right\nhand=1".to_owned())).collect(),
         until: Some(at(60_000)),
         requests: requests.iter().map(|what| (at(1), what.clone())).collect(),
         build: Build { version: "0.1.0".to_owned(), commit: Some("abc".to_owned()) },
@@ -259,6 +262,14 @@ fn a_recipe_comes_back_as_it_was_written() {
     assert_eq!(log.topics["/robot/battery/left"].schema, "afp.Sample");
     assert_eq!(log.end["trace"], "12ab");
     assert_eq!(doctor(&path).unwrap(), [""; 0]);
+}
+
+#[test]
+fn the_settings_of_an_older_log_are_read() {
+    let facts = [("set".to_owned(), "side=right\nfar=0.3 m".to_owned())].into();
+    let settings = LogData { facts, ..LogData::default() }.recipe().settings;
+    let expected = [("side", "right"), ("far", "0.3 m")];
+    assert_eq!(settings, expected.map(|(name, value)| (name.to_owned(), value.to_owned())));
 }
 
 #[test]

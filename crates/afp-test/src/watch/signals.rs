@@ -5,7 +5,7 @@ use afp_dsl::scenario::{Claim, Field, Operand, Part, Scenario, Subject};
 use afp_dsl::toolbox::Constant;
 use afp_session::{Datum, SampleRef};
 
-/// The signals that expectations and moments are about, with what they said last.
+/// The signals that expectations and moments are about, with what they say.
 #[derive(Default)]
 pub(crate) struct Signals(Vec<Followed>);
 
@@ -16,13 +16,15 @@ struct Followed {
     /// The SI unit, empty for what is no quantity.
     unit: &'static str,
     said: Said,
+    /// Whether it said something at this instant.
+    is_heard: bool,
 }
 
 /// What a signal said last.
 enum Said {
     /// It said nothing yet.
     Nothing,
-    /// There was nothing to measure, such as an echo.
+    /// There was nothing to measure, such as an echo, or it says nothing any more.
     Empty,
     Value(Constant),
 }
@@ -44,7 +46,8 @@ impl Signals {
             let id = find_signal(table, &signal.device, &signal.name);
             let id = id.ok_or_else(|| signal.clone())?;
             let unit = unit(table, id, field);
-            all.push(Followed { signal: signal.clone(), field, id, unit, said: Said::Nothing });
+            let (signal, said, is_heard) = (signal.clone(), Said::Nothing, false);
+            all.push(Followed { signal, field, id, unit, said, is_heard });
         }
         Ok(Signals(all))
     }
@@ -63,10 +66,21 @@ impl Signals {
     pub(crate) fn set(&mut self, id: SignalId, value: SampleRef<'_>) {
         for each in self.0.iter_mut().filter(|each| each.id == id) {
             each.said = said(value, each.field);
+            each.is_heard = true;
         }
     }
 
-    /// What a signal said last; nothing inside where it measured nothing, none at all where it said nothing yet.
+    /// All signals of an instant have been heard: one that was silent says nothing any more.
+    pub(crate) fn after_samples(&mut self) {
+        for each in &mut self.0 {
+            let is_heard = std::mem::take(&mut each.is_heard);
+            if !is_heard && matches!(each.said, Said::Value(_)) {
+                each.said = Said::Empty;
+            }
+        }
+    }
+
+    /// What a signal says; nothing inside where it measured nothing or fell silent, none at all where it said nothing yet.
     pub(super) fn said(&self, signal: &Part, field: Option<Field>) -> Option<Option<Constant>> {
         match &self.find(signal, field)?.said {
             Said::Nothing => None,

@@ -194,6 +194,10 @@ fn a_log_that_was_cut_short_is_saved() {
     said.succeeds();
     assert_eq!(said.out.lines().last(), Some("b.recovered.mcap"));
     assert_eq!(place.afpc("log b.recovered.mcap doctor").succeeds().out, "sound\n");
+    let again = place.afpc("run --again b.recovered.mcap --log none --svg none");
+    again.succeeds();
+    let missed = "'b.recovered.mcap' is not whole: it was recovered, and misses what was from ";
+    assert!(again.err.contains(missed) && !again.err.contains("trace"), "{}", again.err);
     place.afpc("log a.mcap recover -o a.mcap").fails(2, &["into itself"]);
 }
 

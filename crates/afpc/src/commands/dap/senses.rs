@@ -37,7 +37,7 @@ impl Senses {
             Said::Values(all) => {
                 let later = all.partition_point(|(when, _)| *when <= at);
                 let (_, value) = all.get(later.checked_sub(1)?)?;
-                Some(Sensed::value(device, row, value))
+                (*value != Datum::Unset).then(|| Sensed::value(device, row, value))
             }
             Said::Ranges(all) => {
                 let later = all.partition_point(|heard| heard.at <= at);
@@ -54,12 +54,22 @@ impl Senses {
 mod tests {
     use super::*;
 
-    const fn range(name: &'static str) -> DeviceRow {
-        const ECHO: &[SignalRow] =
-            &[SignalRow { name: "echo", ty: SignalType::Range, truth: false, help: "" }];
-        DeviceRow { name, help: "", controls: &[], faults: &[], signals: ECHO }
+    const ECHO: &[SignalRow] = &[row("echo", SignalType::Range)];
+    const TONE: &[SignalRow] = &[row("tone", SignalType::Float("Hz"))];
+
+    const fn row(name: &'static str, ty: SignalType) -> SignalRow {
+        SignalRow { name, ty, truth: false, help: "" }
     }
 
+    const fn device(name: &'static str, signals: &'static [SignalRow]) -> DeviceRow {
+        DeviceRow { name, help: "", controls: &[], faults: &[], signals }
+    }
+
+    const fn range(name: &'static str) -> DeviceRow {
+        device(name, ECHO)
+    }
+
+    static SPEAKER: [DeviceRow; 1] = [device("signals", TONE)];
     static TABLE: [DeviceRow; 2] = [range("front"), range("back")];
 
     #[test]
@@ -81,5 +91,14 @@ mod tests {
         assert_eq!(said(0), [""; 0]);
         assert_eq!(said(3), ["front.echo 1.5 m", "back.echo 50 cm"]);
         assert_eq!(said(9), ["front.echo 1.5 m", "back.echo 2 m"]);
+    }
+    #[test]
+    fn what_is_silent_says_nothing() {
+        let second = |second: u64| Instant::from_nanos(second * 1_000_000_000);
+        let said = vec![(second(1), Datum::Number(880.0)), (second(2), Datum::Unset)];
+        let samples = [("signals/tone".to_owned(), said)].into();
+        let senses = Senses::take(&mut LogData { samples, ..LogData::default() }, &SPEAKER);
+        assert_eq!(senses.at(second(1), None).len(), 1);
+        assert_eq!(senses.at(second(2), None), []);
     }
 }

@@ -1,0 +1,41 @@
+//! What is written of signals.
+
+use afp_core::Instant;
+use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType};
+use afp_core::trace::Record;
+use afp_log::{About, OwnedNames, SessionLog, WhenFull, read};
+use afp_session::{Datum, NamedRecord, Observer, SampleRef};
+
+use super::{Names1, at};
+
+const SAYS: [SignalRow; 1] =
+    [SignalRow { name: "tone", ty: SignalType::Float("Hz"), truth: false, help: "" }];
+const DEVICES: [DeviceRow; 1] =
+    [DeviceRow { name: "signals", help: "", controls: &[], faults: &[], signals: &SAYS }];
+
+/// The samples of an instant, as a session gives them.
+fn sample(log: &mut SessionLog, at: Instant, tone: Option<f64>) {
+    if let Some(tone) = tone {
+        log.on_sample(at, SignalId(0), SampleRef::Float(tone));
+    }
+    log.after_samples(at);
+}
+
+#[test]
+fn when_a_signal_falls_silent_is_logged() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let names = OwnedNames::new(&Names1);
+    let about = About::default();
+    let mut log =
+        SessionLog::create(&path, &about, names, &DEVICES, vec![], true, WhenFull::Wait).unwrap();
+    let record = &Record::StopRequested;
+    log.on_record(&NamedRecord { at: at(0), record, names: &Names1, line: "0 stop" });
+    let tones = [None, Some(880.0), Some(880.0), None, None, Some(880.0)];
+    tones.iter().zip(0..).for_each(|(tone, turn)| sample(&mut log, at(turn * 20), *tone));
+    drop(log);
+    let said = read(&dir.path().join("a.mcap.part")).unwrap().samples;
+    let tone = Datum::Number(880.0);
+    let expected = [(at(20), tone.clone()), (at(60), Datum::Unset), (at(100), tone)];
+    assert_eq!(said["signals/tone"], expected);
+}
