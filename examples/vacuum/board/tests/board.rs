@@ -11,6 +11,7 @@ use afp::{Duration, Environment};
 use afp_hardware::{Hardware, Settings};
 use vacuum::{Nozzle, Senses, Wheels};
 use vacuum_board::Board;
+use vacuum_protocol::{Command, Line, Report};
 
 #[path = "../examples/firmware.rs"]
 #[allow(dead_code)]
@@ -64,7 +65,7 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     let says = thread::spawn(move || {
         for _ in 0..20 {
             thread::sleep(std::time::Duration::from_millis(10));
-            says.write_all(b"0 0 0 0 0 0.0 0\n").unwrap();
+            write!(says, "{}", Line(Report::default())).unwrap();
         }
     });
     let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
@@ -77,7 +78,7 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
     // What this end of a terminal has taken already cannot be taken back.
     let mut told = Vec::new();
-    while !told.ends_with(b"?\nstop\n") {
+    while !told.ends_with(b"?\nstop*7AC7\n") {
         let mut part = [0; 1 << 12];
         let read = port.read(&mut part).unwrap();
         told.extend_from_slice(&part[..read]);
@@ -85,17 +86,23 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     }
 }
 
+/// Says something on a port.
+fn tell(path: &str, text: &str) {
+    File::options().write(true).open(path).unwrap().write_all(text.as_bytes()).unwrap();
+}
+
 /// Says lines on a port until it takes no more.
 fn full(path: &str) {
     let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
     let mut port = File::options().write(true).custom_flags(flags).open(path).unwrap();
-    while port.write(b"drive 0.1 0.1\n").is_ok() {}
+    let line = Line(Command::Drive { speed: 0.1, turn: 0.1 }).to_string();
+    while port.write(line.as_bytes()).is_ok() {}
 }
 
 #[test]
 fn what_was_cut_is_no_command() {
     let (mut firmware, path) = Firmware::new().unwrap();
-    File::options().write(true).open(&path).unwrap().write_all(b"drive 0.2 -1").unwrap();
+    tell(&path, "drive 0.2 -1");
     let far = thread::spawn(move || (0..10).for_each(|_| drop(firmware.step().unwrap())));
     let board = Board::open(&Settings::new([("port", &*path)])).unwrap();
     far.join().unwrap();
@@ -137,7 +144,7 @@ fn after_a_stop_another_run_begins_with_start() {
         let mut stops = 0;
         for _ in 0..60 {
             let told = firmware.step().unwrap();
-            stops += told.iter().filter(|line| *line == "stop").count();
+            stops += told.iter().filter(|command| **command == Command::Stop).count();
         }
         stops
     });
@@ -199,5 +206,5 @@ fn what_cannot_be_opened_says_why() {
     let why = |settings: &Settings| Board::open(settings).err().unwrap();
     assert!(why(&Settings::default()).contains("'port'"));
     assert!(why(&Settings::new([("port", "/no/such/port")])).contains("/no/such/port"));
-    assert!(why(&Settings::new([("port", "/dev/null"), ("baud", "9600")])).contains("19200"));
+    assert!(why(&Settings::new([("port", "/dev/null"), ("baud", "9600")])).contains("38400"));
 }
