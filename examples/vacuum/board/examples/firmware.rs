@@ -95,7 +95,7 @@ impl Firmware {
             *way += speed * PERIOD.as_secs_f64();
         }
         if !self.mute {
-            let report = Report { way: self.way, ..Report::default() };
+            let report = Report { way: self.way, stopped: self.stopped, ..Report::default() };
             write!(self.port, "{}", Line(report))?;
         }
         Ok(new)

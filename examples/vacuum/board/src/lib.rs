@@ -66,6 +66,21 @@ impl Board {
         }
     }
 
+    /// Tells the board to start, again and again, since a word may be lost, until it says that it obeys.
+    fn begin(&mut self) -> Result<(), &'static str> {
+        let patience = self.time.now() + Duration::from_secs(1);
+        loop {
+            self.line.say(&[Command::Start]);
+            self.time.sleep_until(self.time.now() + OFTEN);
+            match self.said() {
+                Some((Report { stopped: false, .. }, _)) => return Ok(()),
+                _ if self.time.now() <= patience => {}
+                Some(_) => return Err("the board says that it is stopped, whatever it is told"),
+                None => return Err("the board says nothing"),
+            }
+        }
+    }
+
     fn tell(&mut self) {
         self.told = self.time.now();
         self.line.say(&self.wanted());
@@ -109,15 +124,7 @@ impl Hardware for Board {
         thread::spawn(move || listen(ear, time, hears));
         let told = time.now();
         let mut board = Board { time, line, heard, asked: [0.0; 2], suction: false, told };
-        let patience = time.now() + Duration::from_secs(1);
-        while board.said().is_none() {
-            if time.now() > patience {
-                return Err(format!("'{port}': the board says nothing"));
-            }
-            // Again, since a word may be lost.
-            board.line.say(&[Command::Start]);
-            time.sleep_until(time.now() + OFTEN);
-        }
+        board.begin().map_err(|error| format!("'{port}': {error}"))?;
         Ok(board)
     }
 

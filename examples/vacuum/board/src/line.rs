@@ -41,6 +41,8 @@ pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
         modes.make_raw();
         modes.set_speed(baud)?;
         tcsetattr(&to, OptionalActions::Now, &modes)?;
+        // What the board said before is over.
+        tcflush(&to, QueueSelector::IFlush)?;
     }
     let ear = Ear { port: from, line: Vec::new(), at_beginning: false };
     Ok((Line { port: to, whole: false }, ear))

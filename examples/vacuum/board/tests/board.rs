@@ -1,7 +1,7 @@
 //! The robot over its serial line, with a stand-in at the other end.
 
 use std::fs::File;
-use std::io::{Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::thread;
 
@@ -160,10 +160,47 @@ fn after_a_stop_another_run_begins_with_start() {
 }
 
 #[test]
+fn start_is_said_until_the_board_says_that_it_obeys() {
+    let (mut port, _end, path) = Firmware::port().unwrap();
+    let lines = BufReader::new(port.try_clone().unwrap());
+    let far = thread::spawn(move || {
+        let told = lines.lines().map_while(Result::ok).filter_map(|line| Command::read(&line));
+        let mut starts = 0;
+        for command in told {
+            starts += u32::from(command == Command::Start);
+            // It hears the third one alone.
+            let report = Report { stopped: starts < 3, ..Report::default() };
+            write!(port, "{}", Line(report)).unwrap();
+            if command == Command::Stop {
+                break;
+            }
+        }
+        starts
+    });
+    let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    board.emergency_stop();
+    assert!(far.join().unwrap() >= 3);
+}
+
+#[test]
+fn a_board_that_does_not_start_is_not_open() {
+    let (mut port, _end, path) = Firmware::port().unwrap();
+    let far = thread::spawn(move || {
+        let stopped = Line(Report { stopped: true, ..Report::default() });
+        (0..70).for_each(|_| {
+            thread::sleep(std::time::Duration::from_millis(20));
+            write!(port, "{stopped}").unwrap();
+        });
+    });
+    let why = Board::open(&Settings::new([("port", &*path)])).err().unwrap();
+    assert!(why.contains("stopped"), "{why}");
+    far.join().unwrap();
+}
+
+#[test]
 fn the_last_resort_needs_nobody_else() {
     let (board, far) = begin();
-    let mut resort = board.last_resort().unwrap();
-    thread::spawn(move || resort()).join().unwrap();
+    thread::spawn(board.last_resort().unwrap()).join().unwrap();
     assert!(far.join().unwrap().is_stopped());
 }
 

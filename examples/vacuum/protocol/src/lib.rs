@@ -2,8 +2,8 @@
 //!
 //! What is said is text, a line for each thing. To the board, [`Command`]: `drive SPEED TURN` in m/s and rad/s, `suck 0` or
 //! `suck 1`, `stop`, after which it obeys nobody until it hears `start`, with which a run begins. From the board, fifty times a
-//! second, [`Report`]: `AHEAD TURNED LEFT RIGHT DROP DIRT BUTTON`, what the wheels have counted in m and rad, the
-//! switches as 0 or 1, the dirt from 0 to 1.
+//! second, [`Report`]: `AHEAD TURNED LEFT RIGHT DROP DIRT BUTTON STOPPED`, what the wheels have counted in m and rad, the
+//! switches as 0 or 1, the dirt from 0 to 1, and whether it was told to stop and has not been told to start since.
 //!
 //! Each line ends in a [checksum](checksum). A line that is cut or disturbed says nothing: neither does one without its checksum, nor
 //! one of which a word is none or a number no number.
@@ -49,6 +49,8 @@ pub struct Report {
     pub dirt: f64,
     /// Whether the button is down.
     pub button: bool,
+    /// Whether it was told to stop and has not been told to start since.
+    pub stopped: bool,
 }
 
 impl fmt::Display for Command {
@@ -66,8 +68,8 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Report { way: [ahead, turned], dirt, .. } = self;
         let [left, right] = self.bumper.map(u8::from);
-        let [drop, button] = [self.drop, self.button].map(u8::from);
-        write!(f, "{ahead:.4} {turned:.4} {left} {right} {drop} {dirt:.2} {button}")
+        let [drop, button, stopped] = [self.drop, self.button, self.stopped].map(u8::from);
+        write!(f, "{ahead:.4} {turned:.4} {left} {right} {drop} {dirt:.2} {button} {stopped}")
     }
 }
 
@@ -96,6 +98,7 @@ impl Report {
             drop: switch(words.next())?,
             dirt: number(words.next()).filter(|share| (0.0..=1.0).contains(share))?,
             button: switch(words.next())?,
+            stopped: switch(words.next())?,
         };
         words.next().is_none().then_some(report)
     }
@@ -122,8 +125,14 @@ mod tests {
 
     use super::*;
 
-    const REPORT: Report =
-        Report { way: [5.25, -1.5], bumper: [true, false], drop: false, dirt: 0.3, button: true };
+    const REPORT: Report = Report {
+        way: [5.25, -1.5],
+        bumper: [true, false],
+        drop: false,
+        dirt: 0.3,
+        button: true,
+        stopped: false,
+    };
 
     fn commands() -> [Command; 5] {
         let drive = Command::Drive { speed: -0.15, turn: 0.0 };
@@ -185,18 +194,18 @@ mod tests {
             assert_eq!(Command::read(&line(text)), None, "{text}");
         }
         for text in [
-            "0.25 -1.5 1 0 0 0.3",
-            "0.25 -1.5 1 0 0 0.3 1 0",
-            "a b c d e f g",
-            "nan 0 0 0 0 0 0",
+            "0.25 -1.5 1 0 0 0.3 1",
+            "0.25 -1.5 1 0 0 0.3 1 0 0",
+            "a b c d e f g h",
+            "nan 0 0 0 0 0 0 0",
             // A switch that is neither is not open.
-            "0 0 nan nan nan 0 nan",
-            "0 0 -1 0 0 0 0",
-            "0 0 0 0 0.4 0 0",
-            "0 0 0 0 0 1.5 0",
+            "0 0 nan nan nan 0 nan nan",
+            "0 0 -1 0 0 0 0 0",
+            "0 0 0 0 0.4 0 0 0",
+            "0 0 0 0 0 1.5 0 0",
         ] {
             assert_eq!(Report::read(&line(text)), None, "{text}");
         }
-        assert_eq!((Command::read("stop"), Report::read("0 0 0 0 0 0 0")), (None, None));
+        assert_eq!((Command::read("stop"), Report::read("0 0 0 0 0 0 0 0")), (None, None));
     }
 }
