@@ -21,7 +21,8 @@ impl<P: PlanState> Scheduler<P> {
     /// Drives the plan on a platform until it has ended, from the start if it has not started. A
     /// plan that never ends keeps this call for ever: see [`Scheduler::run_until`].
     ///
-    /// The platform is stopped at the end, by [`Environment::emergency_stop`] where a panic unwinds.
+    /// The platform is stopped at the end, by [`Environment::stop`], so that another plan may follow; by
+    /// [`Environment::emergency_stop`] where a panic unwinds. Whoever leaves the robot alone then gives that, too.
     ///
     /// # Errors
     /// [`StartError`] when it cannot start; nothing has happened then.
@@ -41,8 +42,11 @@ impl<P: PlanState> Scheduler<P> {
     /// `until`, with the step at that instant; a plan that still runs goes on with the next call. A
     /// plan that has not started starts at the platform's present time.
     ///
-    /// The platform is stopped when the plan ends, by [`Environment::emergency_stop`] where a panic
-    /// unwinds. Whoever leaves a plan that still runs stops the platform.
+    /// Time passes up to what is due next in one call of [`Platform::advance`], however long that lasts.
+    ///
+    /// The platform is stopped when the plan ends, by [`Environment::stop`], so that another plan may follow; by
+    /// [`Environment::emergency_stop`] where a panic unwinds. Whoever leaves the robot alone then, or while a plan still
+    /// runs, gives that, too.
     ///
     /// # Errors
     /// [`StartError`] when it cannot start; nothing has happened then.

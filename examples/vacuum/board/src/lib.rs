@@ -86,6 +86,11 @@ impl Board {
         self.line.say(&self.wanted());
     }
 
+    fn tell_at_once(&mut self) {
+        self.told = self.time.now();
+        self.line.say_at_once(&self.wanted());
+    }
+
     /// What is asked for; while the board is not heard, to stand still: as long as it hears, it would not stop by itself.
     fn wanted(&self) -> [Command; 2] {
         let heard = self.said().is_some();
@@ -135,12 +140,19 @@ impl Hardware for Board {
 
 impl Environment for Board {
     fn stop(&mut self, _: Instant) {
-        self.halt();
+        (self.asked, self.suction) = ([0.0; 2], false);
+        self.tell_at_once();
     }
 
     fn emergency_stop(&mut self) {
         (self.asked, self.suction) = ([0.0; 2], false);
         self.line.say_at_once(&[Command::Stop]);
+    }
+}
+
+impl Drop for Board {
+    fn drop(&mut self) {
+        self.emergency_stop();
     }
 }
 
@@ -156,8 +168,11 @@ impl Platform for Board {
     }
 
     fn advance(&mut self, to: Instant) {
+        while self.time.now() < to {
+            self.tell_again();
+            self.time.sleep_until(to.min(self.told + OFTEN));
+        }
         self.tell_again();
-        self.time.sleep_until(to);
     }
 }
 
@@ -167,8 +182,7 @@ impl Wheels for Board {
         let stands = asked == [0.0; 2] && asked != self.asked;
         self.asked = asked;
         if stands {
-            self.told = self.time.now();
-            self.line.say_at_once(&self.wanted());
+            self.tell_at_once();
         }
     }
 

@@ -122,6 +122,47 @@ fn who_halts_is_heard_before_what_waits_on_the_line() {
 }
 
 #[test]
+fn time_that_passes_in_one_piece_is_no_silence() {
+    let (mut board, far) = begin();
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    board.advance(board.now() + Duration::from_secs(1));
+    assert!(board.way().ahead.si() > 0.1, "{:?}", board.way());
+    board.emergency_stop();
+    far.join().unwrap();
+}
+
+#[test]
+fn a_plan_that_has_ended_leaves_no_motor_on_and_another_may_follow() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    let far = thread::spawn(move || {
+        let all = (0..50).flat_map(|_| firmware.step().unwrap()).collect::<Vec<_>>();
+        (all, firmware.is_moving())
+    });
+    let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    board.suck(true);
+    pass(&mut board, 100);
+    board.stop(board.now());
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    while !far.is_finished() {
+        pass(&mut board, 10);
+    }
+    let (told, moves) = far.join().unwrap();
+    let off = told.iter().position(|command| *command == Command::Suck(false));
+    let drives =
+        told.iter().position(|command| matches!(command, Command::Drive { speed: 0.2, .. }));
+    assert!(off.is_some() && off < drives && moves, "{told:?}");
+}
+
+#[test]
+fn a_robot_that_is_dropped_is_stopped() {
+    let (mut board, far) = begin();
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    pass(&mut board, 100);
+    drop(board);
+    assert!(far.join().unwrap().is_stopped());
+}
+
+#[test]
 fn boards_that_are_no_more_listen_no_more() {
     let (mut firmware, path) = Firmware::new().unwrap();
     let far = thread::spawn(move || (0..75).for_each(|_| drop(firmware.step().unwrap())));
