@@ -100,7 +100,8 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     /// Ends this plan at `now`, as interrupted, and starts another one in its place at the same
-    /// instant. Its name table takes the place of this one's, too.
+    /// instant. Its name table takes the place of this one's, too. Commits are numbered on, so that what it makes is
+    /// another object than one that it took over.
     ///
     /// A plan that cannot be interrupted ends the run in `Error`; nothing starts then. Writes that
     /// wait for the next step are lost.
@@ -131,8 +132,10 @@ impl<P: PlanState> Scheduler<P> {
                 return Ok(wake);
             }
         }
-        let now = self.last.max(now);
+        let (now, commits) = (self.last.max(now), self.step.commits);
         *self = Scheduler::new(plan);
+        // By their commits objects are known, those that were taken over from this plan, too.
+        self.step.commits = commits;
         self.start(env, sink, clock, now)
     }
 }
