@@ -9,11 +9,13 @@ use crate::time::Instant;
 
 /// What every platform offers, whatever devices it has.
 pub trait Environment {
-    /// Gives the stop command to everything that moves and returns at once.
+    /// Gives the stop command to every motor and returns at once: called where an actor cannot start, and at the end of a plan
+    /// that [`Scheduler::run`](crate::Scheduler::run) drives. What is asked for afterwards is obeyed.
     fn stop(&mut self, now: Instant);
 
-    /// Stops by the strongest means there is that a next run can begin after: called when the run cannot be trusted any
-    /// more, and, by whoever drives a scheduler, at the end of every run. May be called several times and without a clock.
+    /// Stops by the strongest means there is that the robot can be used after, once it is opened, reset or made anew: called when the run
+    /// cannot be trusted any more, and before the robot is left alone, by whoever drives a scheduler. May be called several
+    /// times and without a clock.
     fn emergency_stop(&mut self);
 }
 

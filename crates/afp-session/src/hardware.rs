@@ -15,11 +15,12 @@ use crate::session::Session;
 use crate::world::{Drawing, World, WorldError};
 use crate::{Pose2, Shape};
 
-/// A robot that is there. Its [`Platform::advance`] sleeps, and passes on meanwhile what comes and goes.
+/// A robot that is there. Its [`Platform::advance`] sleeps, and passes on meanwhile what comes and goes: it says again what the robot
+/// must hear often, however long it is to last.
 ///
-/// Whoever drives it calls [`Platform::advance`] at least every 20 ms, and
-/// [`emergency_stop`](afp_core::Environment::emergency_stop) at every end. A process can die without either, so the robot
-/// itself stops when it hears nothing any more.
+/// Whoever drives it lets no more than 20 ms pass without [`Platform::advance`], and calls
+/// [`emergency_stop`](afp_core::Environment::emergency_stop) before it leaves it alone. A process can die without either, so the
+/// robot itself stops when it hears nothing any more.
 pub trait Hardware:
     Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
 {

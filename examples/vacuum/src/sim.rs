@@ -141,6 +141,7 @@ impl Vacuum {
 impl Environment for Vacuum {
     fn stop(&mut self, _: Instant) {
         self.halt();
+        self.suction = false;
     }
 
     fn emergency_stop(&mut self) {

@@ -21,7 +21,8 @@ impl<P: PlanState> Scheduler<P> {
     /// Drives the plan on a platform until it has ended, from the start if it has not started. A
     /// plan that never ends keeps this call for ever: see [`Scheduler::run_until`].
     ///
-    /// The platform is stopped at the end, by [`Environment::emergency_stop`] where a panic unwinds.
+    /// The platform is stopped at the end, by [`Environment::stop`], so that another plan may follow; by
+    /// [`Environment::emergency_stop`] where a panic unwinds. Whoever leaves the robot alone then gives that, too.
     ///
     /// # Errors
     /// [`StartError`] when it cannot start; nothing has happened then.
@@ -41,8 +42,11 @@ impl<P: PlanState> Scheduler<P> {
     /// `until`, with the step at that instant; a plan that still runs goes on with the next call. A
     /// plan that has not started starts at the platform's present time.
     ///
-    /// The platform is stopped when the plan ends, by [`Environment::emergency_stop`] where a panic
-    /// unwinds. Whoever leaves a plan that still runs stops the platform.
+    /// Time passes up to what is due next in one call of [`Platform::advance`], however long that lasts.
+    ///
+    /// The platform is stopped when the plan ends, by [`Environment::stop`], so that another plan may follow; by
+    /// [`Environment::emergency_stop`] where a panic unwinds. Whoever leaves the robot alone then, or while a plan still
+    /// runs, gives that, too.
     ///
     /// # Errors
     /// [`StartError`] when it cannot start; nothing has happened then.
@@ -96,7 +100,8 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     /// Ends this plan at `now`, as interrupted, and starts another one in its place at the same
-    /// instant. Its name table takes the place of this one's, too.
+    /// instant. Its name table takes the place of this one's, too. Commits are numbered on, so that what it makes is
+    /// another object than one that it took over.
     ///
     /// A plan that cannot be interrupted ends the run in `Error`; nothing starts then. Writes that
     /// wait for the next step are lost.
@@ -127,8 +132,10 @@ impl<P: PlanState> Scheduler<P> {
                 return Ok(wake);
             }
         }
-        let now = self.last.max(now);
+        let (now, commits) = (self.last.max(now), self.step.commits);
         *self = Scheduler::new(plan);
+        // By their commits objects are known, those that were taken over from this plan, too.
+        self.step.commits = commits;
         self.start(env, sink, clock, now)
     }
 }

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use std::{fs, thread};
 
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use vacuum_protocol::{Command, Line, Report};
 
 /// What the board says and hears.
 pub struct Firmware {
@@ -74,17 +75,17 @@ impl Firmware {
     }
 
     /// One period; gives what it was told and had not been told before.
-    pub fn step(&mut self) -> io::Result<Vec<String>> {
+    pub fn step(&mut self) -> io::Result<Vec<Command>> {
         thread::sleep(PERIOD);
         let before = (self.motion, self.suction, self.stopped);
         let mut new = Vec::new();
         while let Ok(line) = self.heard.try_recv() {
-            if !self.hear(&line) {
-                continue;
-            }
+            // What is noise or was cut keeps no motor going.
+            let Some(command) = Command::read(&line) else { continue };
+            self.obey(command);
             self.told = Instant::now();
             if before != (self.motion, self.suction, self.stopped) {
-                new.push(line);
+                new.push(command);
             }
         }
         if self.stopped || self.told.elapsed() > PATIENCE {
@@ -93,27 +94,20 @@ impl Firmware {
         for (way, speed) in self.way.iter_mut().zip(self.motion) {
             *way += speed * PERIOD.as_secs_f64();
         }
-        let [ahead, turned] = self.way;
         if !self.mute {
-            writeln!(self.port, "{ahead:.4} {turned:.4} 0 0 0 0.0 0")?;
+            let report = Report { way: self.way, stopped: self.stopped, ..Report::default() };
+            write!(self.port, "{}", Line(report))?;
         }
         Ok(new)
     }
 
-    /// Whether it was a command: what is noise or was cut keeps no motor going.
-    fn hear(&mut self, line: &str) -> bool {
-        let words: Vec<_> = line.split_whitespace().collect();
-        match words.as_slice() {
-            ["drive", speed, turn] => {
-                let (Ok(speed), Ok(turn)) = (speed.parse(), turn.parse()) else { return false };
-                self.motion = [speed, turn];
-            }
-            ["suck", on @ ("0" | "1")] => self.suction = *on == "1",
-            ["stop"] => self.stopped = true,
-            ["start"] => self.stopped = false,
-            _ => return false,
+    fn obey(&mut self, command: Command) {
+        match command {
+            Command::Drive { speed, turn } => self.motion = [speed, turn],
+            Command::Suck(on) => self.suction = on,
+            Command::Stop => self.stopped = true,
+            Command::Start => self.stopped = false,
         }
-        true
     }
 }
 
@@ -122,8 +116,8 @@ fn main() -> io::Result<()> {
     let (mut firmware, path) = Firmware::new()?;
     println!("{path}");
     while !firmware.is_stopped() {
-        for line in firmware.step()? {
-            println!("{line}");
+        for command in firmware.step()? {
+            println!("{command}");
         }
     }
     Ok(())

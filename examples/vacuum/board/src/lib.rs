@@ -1,12 +1,8 @@
 //! The vacuum cleaner itself: a board that drives motors and reads sensors, spoken to over a serial line.
 //!
-//! What is said is text, a line for each thing. To the board: `drive SPEED TURN` in m/s and rad/s, `suck 0` or `suck 1`,
-//! `stop`, after which it obeys nobody until it hears `start`, with which a run begins. From the board, fifty times a
-//! second: `AHEAD TURNED LEFT RIGHT DROP DIRT BUTTON`, what the wheels have counted in m and rad, the switches as 0 or 1,
-//! the dirt from 0 to 1. Each passes over a line in which a word is none or a number no number: it was cut or disturbed. A board
-//! that has heard nothing for 200 ms stops the motors by itself; so what is asked for is said every 20 ms, whether it has changed
-//! or not, and takes 15 % of 115,200 baud. Standing still alone is said at once, before whatever waits on the line. While the board says
-//! nothing, standing still is all that is asked for.
+//! [`vacuum_protocol`] is what is said there. A board that has heard nothing for 200 ms stops the motors by itself; so what is asked
+//! for is said every 20 ms, whether it has changed or not, and takes 20 % of 115,200 baud. Standing still alone is said at once, before
+//! whatever waits on the line. While the board says nothing, standing still is all that is asked for.
 
 mod line;
 
@@ -20,8 +16,9 @@ use afp_hardware::{Hardware, LastResort, RealTime, Robot, SampleRef, Samples, Se
 use vacuum::templates::devices::Devices;
 use vacuum::templates::signal;
 use vacuum::{Nozzle, Senses, Way, Wheels};
+use vacuum_protocol::{Command, Report};
 
-use line::{Ear, Line, Said};
+use line::{Ear, Line};
 
 /// Of the serial line, unless 'baud' in the settings says another one.
 const BAUD: &str = "115200";
@@ -30,8 +27,8 @@ const BAUD: &str = "115200";
 const STALE: Duration = Duration::from_millis(100);
 /// The board hears from us this often.
 const OFTEN: Duration = Duration::from_millis(20);
-/// A slower line, in baud, would not carry that: 35 bytes of ten bits every 20 ms.
-const SLOWEST: u32 = 19_200;
+/// A slower line, in baud, would not carry that: 45 bytes of ten bits every 20 ms.
+const SLOWEST: u32 = 38_400;
 /// How long to wait for what the board says.
 const GLANCE: std::time::Duration = std::time::Duration::from_millis(2);
 
@@ -40,7 +37,7 @@ pub struct Board {
     time: RealTime,
     line: Line,
     /// What the board said last, and when.
-    heard: Arc<Mutex<Option<(Said, Instant)>>>,
+    heard: Arc<Mutex<Option<(Report, Instant)>>>,
     asked: [f64; 2],
     suction: bool,
     /// When it was said last what is asked for.
@@ -49,13 +46,13 @@ pub struct Board {
 
 impl Board {
     /// What the board said last, unless that was too long ago.
-    fn said(&self) -> Option<(Said, Instant)> {
+    fn said(&self) -> Option<(Report, Instant)> {
         let heard = *self.heard.lock().unwrap_or_else(PoisonError::into_inner);
         heard.filter(|(_, at)| self.time.now().since(*at) < STALE)
     }
 
     /// A sensor's reading; lost where the board says nothing any more.
-    fn sense<T: Copy>(&self, of: impl Fn(&Said) -> T) -> Reading<T> {
+    fn sense<T: Copy>(&self, of: impl Fn(&Report) -> T) -> Reading<T> {
         match self.said() {
             Some((said, at)) => Reading::valid(of(&said), at),
             None => Reading::invalid(Invalid::NoAnswer, self.time.now()),
@@ -69,21 +66,41 @@ impl Board {
         }
     }
 
+    /// Tells the board to start, again and again, since a word may be lost, until it says that it obeys.
+    fn begin(&mut self) -> Result<(), &'static str> {
+        let patience = self.time.now() + Duration::from_secs(1);
+        loop {
+            self.line.say(&[Command::Start]);
+            self.time.sleep_until(self.time.now() + OFTEN);
+            match self.said() {
+                Some((Report { stopped: false, .. }, _)) => return Ok(()),
+                _ if self.time.now() <= patience => {}
+                Some(_) => return Err("the board says that it is stopped, whatever it is told"),
+                None => return Err("the board says nothing"),
+            }
+        }
+    }
+
     fn tell(&mut self) {
         self.told = self.time.now();
         self.line.say(&self.wanted());
     }
 
+    fn tell_at_once(&mut self) {
+        self.told = self.time.now();
+        self.line.say_at_once(&self.wanted());
+    }
+
     /// What is asked for; while the board is not heard, to stand still: as long as it hears, it would not stop by itself.
-    fn wanted(&self) -> String {
+    fn wanted(&self) -> [Command; 2] {
         let heard = self.said().is_some();
         let [speed, turn] = if heard { self.asked } else { [0.0; 2] };
-        format!("drive {speed:.4} {turn:.4}\nsuck {}\n", u8::from(heard && self.suction))
+        [Command::Drive { speed, turn }, Command::Suck(heard && self.suction)]
     }
 }
 
 /// Keeps what the board says, until the line ends or nobody asks for it any more.
-fn listen(mut ear: Ear, time: RealTime, heard: Weak<Mutex<Option<(Said, Instant)>>>) {
+fn listen(mut ear: Ear, time: RealTime, heard: Weak<Mutex<Option<(Report, Instant)>>>) {
     while let Some(heard) = heard.upgrade() {
         match ear.hear() {
             Ok(said) => {
@@ -112,15 +129,7 @@ impl Hardware for Board {
         thread::spawn(move || listen(ear, time, hears));
         let told = time.now();
         let mut board = Board { time, line, heard, asked: [0.0; 2], suction: false, told };
-        let patience = time.now() + Duration::from_secs(1);
-        while board.said().is_none() {
-            if time.now() > patience {
-                return Err(format!("'{port}': the board says nothing"));
-            }
-            // Again, since a word may be lost.
-            board.line.say("start\n");
-            time.sleep_until(time.now() + OFTEN);
-        }
+        board.begin().map_err(|error| format!("'{port}': {error}"))?;
         Ok(board)
     }
 
@@ -131,12 +140,19 @@ impl Hardware for Board {
 
 impl Environment for Board {
     fn stop(&mut self, _: Instant) {
-        self.halt();
+        (self.asked, self.suction) = ([0.0; 2], false);
+        self.tell_at_once();
     }
 
     fn emergency_stop(&mut self) {
         (self.asked, self.suction) = ([0.0; 2], false);
-        self.line.say_at_once("stop\n");
+        self.line.say_at_once(&[Command::Stop]);
+    }
+}
+
+impl Drop for Board {
+    fn drop(&mut self) {
+        self.emergency_stop();
     }
 }
 
@@ -152,8 +168,11 @@ impl Platform for Board {
     }
 
     fn advance(&mut self, to: Instant) {
+        while self.time.now() < to {
+            self.tell_again();
+            self.time.sleep_until(to.min(self.told + OFTEN));
+        }
         self.tell_again();
-        self.time.sleep_until(to);
     }
 }
 
@@ -163,8 +182,7 @@ impl Wheels for Board {
         let stands = asked == [0.0; 2] && asked != self.asked;
         self.asked = asked;
         if stands {
-            self.told = self.time.now();
-            self.line.say_at_once(&self.wanted());
+            self.tell_at_once();
         }
     }
 

@@ -1,4 +1,4 @@
-//! The serial line, and what is said on it.
+//! The serial line: what is said on it waits for nothing, and what is heard on it is whole.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -8,6 +8,7 @@ use std::os::unix::fs::OpenOptionsExt;
 use afp_hardware::LastResort;
 use rustix::fs::OFlags;
 use rustix::termios::{OptionalActions, QueueSelector, isatty, tcflush, tcgetattr, tcsetattr};
+use vacuum_protocol::{Command, Report};
 
 /// No line of the board's is longer, bytes.
 const LONGEST: u64 = 200;
@@ -28,16 +29,6 @@ pub struct Ear {
     at_beginning: bool,
 }
 
-/// What the board says.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Said {
-    pub way: [f64; 2],
-    pub bumper: [bool; 2],
-    pub drop: bool,
-    pub dirt: f64,
-    pub button: bool,
-}
-
 /// Opens a port for both ways, neither of which is waited for. A serial line gets that speed in baud, and nothing on it is edited
 /// or sent back.
 pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
@@ -50,33 +41,36 @@ pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
         modes.make_raw();
         modes.set_speed(baud)?;
         tcsetattr(&to, OptionalActions::Now, &modes)?;
+        // What the board said before is over.
+        tcflush(&to, QueueSelector::IFlush)?;
     }
     let ear = Ear { port: from, line: Vec::new(), at_beginning: false };
     Ok((Line { port: to, whole: false }, ear))
 }
 
 impl Line {
-    /// Says lines. Where the line is broken or full, nothing can be said: the board stops, and what it does not say is
-    /// noticed.
-    pub fn say(&mut self, lines: &str) {
-        // What was cut must not run into this, and a number that was cut is another number: no command ends with this.
-        let text = if self.whole { lines.to_owned() } else { format!("?\n{lines}") };
+    /// Says a line for each command. Where the line is broken or full, nothing can be said: the board stops, and what it does
+    /// not say is noticed.
+    pub fn say(&mut self, commands: &[Command]) {
+        // What was cut must not run into this, and is no command any more: none ends with this.
+        let mut text = if self.whole { String::new() } else { "?\n".to_owned() };
+        text.extend(commands.iter().map(|command| vacuum_protocol::Line(command).to_string()));
         self.whole =
             matches!(self.port.write(text.as_bytes()), Ok(written) if written == text.len());
     }
 
     /// Says what must not wait behind anything that was said before.
-    pub fn say_at_once(&mut self, lines: &str) {
+    pub fn say_at_once(&mut self, commands: &[Command]) {
         // Of a line that has no queue nothing waits.
         let _ = tcflush(&self.port, QueueSelector::OFlush);
         self.whole = false;
-        self.say(lines);
+        self.say(commands);
     }
 
     /// Stops the board while whoever says lines may hang in the middle of one.
     pub fn last_resort(&self) -> Option<LastResort> {
         let mut line = Line { port: self.port.try_clone().ok()?, whole: false };
-        Some(Box::new(move || line.say_at_once("stop\n")))
+        Some(Box::new(move || line.say_at_once(&[Command::Stop])))
     }
 }
 
@@ -85,7 +79,7 @@ impl Ear {
     ///
     /// # Errors
     /// [`WouldBlock`](io::ErrorKind::WouldBlock) where it has said nothing more yet; the line has ended.
-    pub fn hear(&mut self) -> io::Result<Said> {
+    pub fn hear(&mut self) -> io::Result<Report> {
         loop {
             let room = LONGEST - self.line.len() as u64;
             if (&mut self.port).take(room).read_until(b'\n', &mut self.line)? == 0 {
@@ -95,28 +89,10 @@ impl Ear {
             let (begins, ends) = (self.at_beginning, line.ends_with(b"\n"));
             self.at_beginning = ends;
             let text = std::str::from_utf8(&line).ok().filter(|_| begins && ends);
-            if let Some(said) = text.and_then(Said::read) {
-                return Ok(said);
+            if let Some(report) = text.and_then(Report::read) {
+                return Ok(report);
             }
         }
-    }
-}
-
-impl Said {
-    /// What a line says; nothing where it is cut or disturbed.
-    pub fn read(line: &str) -> Option<Said> {
-        let words: Vec<_> = line.split_whitespace().collect();
-        let [ahead, turned, left, right, drop, dirt, button] = words.try_into().ok()?;
-        let number = |word: &str| word.parse::<f64>().ok().filter(|number| number.is_finite());
-        let switch =
-            |word: &str| ["0", "1"].iter().position(|known| *known == word).map(|at| at == 1);
-        Some(Said {
-            way: [number(ahead)?, number(turned)?],
-            bumper: [switch(left)?, switch(right)?],
-            drop: switch(drop)?,
-            dirt: number(dirt).filter(|share| (0.0..=1.0).contains(share))?,
-            button: switch(button)?,
-        })
     }
 }
 
@@ -125,44 +101,32 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_are_read_whole_or_not_at_all() {
-        let said = Said::read("0.25 -1.5 1 0 0 0.3 1").unwrap();
-        assert_eq!((said.way, said.bumper, said.drop), ([0.25, -1.5], [true, false], false));
-        assert_eq!((said.dirt, said.button), (0.3, true));
-        for line in [
-            "",
-            "0.25 -1.5 1 0 0 0.3",
-            "0.25 -1.5 1 0 0 0.3 1 1",
-            "a b c d e f g",
-            "nan 0 0 0 0 0 0",
-            // A switch that is neither is not open.
-            "0 0 nan nan nan 0 nan",
-            "0 0 -1 0 0 0 0",
-            "0 0 0 0 0.4 0 0",
-            "0 0 0 0 0 1.5 0",
-        ] {
-            assert_eq!(Said::read(line), None, "{line}");
-        }
-    }
-
-    #[test]
     fn noise_costs_its_line_alone() {
         let folder = std::env::temp_dir().join(format!("vacuum-board-{}", std::process::id()));
-        let noise = [b'7'; 3 * LONGEST as usize];
-        let parts: [&[u8]; 7] = [
+        let says = |ahead| {
+            let report = Report { way: [ahead, 0.0], ..Report::default() };
+            vacuum_protocol::Line(report).to_string()
+        };
+        let (one, noise) = (says(1.0), "7".repeat(3 * LONGEST as usize));
+        let (_, cut) = one.split_at(1);
+        let text = [
             // What was on its way when the port was opened.
-            b"5 0 0 0 0 0 0\n",
-            b"1 0 0 0 0 0 0\n",
-            b"\xff 0 0 0 0 0 0\n",
+            &*says(5.0),
+            &one,
+            "\u{e9}",
+            &one,
+            // Its point is lost, so that it would be another number.
+            &says(1.5).replace("1.5", "15"),
             &noise,
-            b" 0 0 0 0 0 0\n",
-            b"2 0 0 0 0 0 0\n",
-            b"3 0 0 0",
-        ];
-        std::fs::write(&folder, parts.concat()).unwrap();
+            cut,
+            &says(2.0),
+            says(3.0).trim_end(),
+        ]
+        .concat();
+        std::fs::write(&folder, text).unwrap();
         let (_, mut ear) = open(folder.to_str().unwrap(), 115_200).unwrap();
         let heard: Vec<_> =
-            std::iter::from_fn(|| ear.hear().ok()).map(|said| said.way[0]).collect();
+            std::iter::from_fn(|| ear.hear().ok()).map(|report| report.way[0]).collect();
         std::fs::remove_file(&folder).unwrap();
         assert_eq!(heard, [1.0, 2.0]);
     }

@@ -1,7 +1,7 @@
 //! The robot over its serial line, with a stand-in at the other end.
 
 use std::fs::File;
-use std::io::{Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::thread;
 
@@ -11,6 +11,7 @@ use afp::{Duration, Environment};
 use afp_hardware::{Hardware, Settings};
 use vacuum::{Nozzle, Senses, Wheels};
 use vacuum_board::Board;
+use vacuum_protocol::{Command, Line, Report};
 
 #[path = "../examples/firmware.rs"]
 #[allow(dead_code)]
@@ -64,7 +65,7 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     let says = thread::spawn(move || {
         for _ in 0..20 {
             thread::sleep(std::time::Duration::from_millis(10));
-            says.write_all(b"0 0 0 0 0 0.0 0\n").unwrap();
+            write!(says, "{}", Line(Report::default())).unwrap();
         }
     });
     let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
@@ -77,7 +78,7 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
     // What this end of a terminal has taken already cannot be taken back.
     let mut told = Vec::new();
-    while !told.ends_with(b"?\nstop\n") {
+    while !told.ends_with(b"?\nstop*7AC7\n") {
         let mut part = [0; 1 << 12];
         let read = port.read(&mut part).unwrap();
         told.extend_from_slice(&part[..read]);
@@ -85,17 +86,23 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     }
 }
 
+/// Says something on a port.
+fn tell(path: &str, text: &str) {
+    File::options().write(true).open(path).unwrap().write_all(text.as_bytes()).unwrap();
+}
+
 /// Says lines on a port until it takes no more.
 fn full(path: &str) {
     let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
     let mut port = File::options().write(true).custom_flags(flags).open(path).unwrap();
-    while port.write(b"drive 0.1 0.1\n").is_ok() {}
+    let line = Line(Command::Drive { speed: 0.1, turn: 0.1 }).to_string();
+    while port.write(line.as_bytes()).is_ok() {}
 }
 
 #[test]
 fn what_was_cut_is_no_command() {
     let (mut firmware, path) = Firmware::new().unwrap();
-    File::options().write(true).open(&path).unwrap().write_all(b"drive 0.2 -1").unwrap();
+    tell(&path, "drive 0.2 -1");
     let far = thread::spawn(move || (0..10).for_each(|_| drop(firmware.step().unwrap())));
     let board = Board::open(&Settings::new([("port", &*path)])).unwrap();
     far.join().unwrap();
@@ -112,6 +119,47 @@ fn who_halts_is_heard_before_what_waits_on_the_line() {
     board.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0));
     board.emergency_stop();
     assert!(!far.join().unwrap().is_moving());
+}
+
+#[test]
+fn time_that_passes_in_one_piece_is_no_silence() {
+    let (mut board, far) = begin();
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    board.advance(board.now() + Duration::from_secs(1));
+    assert!(board.way().ahead.si() > 0.1, "{:?}", board.way());
+    board.emergency_stop();
+    far.join().unwrap();
+}
+
+#[test]
+fn a_plan_that_has_ended_leaves_no_motor_on_and_another_may_follow() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    let far = thread::spawn(move || {
+        let all = (0..50).flat_map(|_| firmware.step().unwrap()).collect::<Vec<_>>();
+        (all, firmware.is_moving())
+    });
+    let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    board.suck(true);
+    pass(&mut board, 100);
+    board.stop(board.now());
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    while !far.is_finished() {
+        pass(&mut board, 10);
+    }
+    let (told, moves) = far.join().unwrap();
+    let off = told.iter().position(|command| *command == Command::Suck(false));
+    let drives =
+        told.iter().position(|command| matches!(command, Command::Drive { speed: 0.2, .. }));
+    assert!(off.is_some() && off < drives && moves, "{told:?}");
+}
+
+#[test]
+fn a_robot_that_is_dropped_is_stopped() {
+    let (mut board, far) = begin();
+    board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+    pass(&mut board, 100);
+    drop(board);
+    assert!(far.join().unwrap().is_stopped());
 }
 
 #[test]
@@ -137,7 +185,7 @@ fn after_a_stop_another_run_begins_with_start() {
         let mut stops = 0;
         for _ in 0..60 {
             let told = firmware.step().unwrap();
-            stops += told.iter().filter(|line| *line == "stop").count();
+            stops += told.iter().filter(|command| **command == Command::Stop).count();
         }
         stops
     });
@@ -153,10 +201,47 @@ fn after_a_stop_another_run_begins_with_start() {
 }
 
 #[test]
+fn start_is_said_until_the_board_says_that_it_obeys() {
+    let (mut port, _end, path) = Firmware::port().unwrap();
+    let lines = BufReader::new(port.try_clone().unwrap());
+    let far = thread::spawn(move || {
+        let told = lines.lines().map_while(Result::ok).filter_map(|line| Command::read(&line));
+        let mut starts = 0;
+        for command in told {
+            starts += u32::from(command == Command::Start);
+            // It hears the third one alone.
+            let report = Report { stopped: starts < 3, ..Report::default() };
+            write!(port, "{}", Line(report)).unwrap();
+            if command == Command::Stop {
+                break;
+            }
+        }
+        starts
+    });
+    let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    board.emergency_stop();
+    assert!(far.join().unwrap() >= 3);
+}
+
+#[test]
+fn a_board_that_does_not_start_is_not_open() {
+    let (mut port, _end, path) = Firmware::port().unwrap();
+    let far = thread::spawn(move || {
+        let stopped = Line(Report { stopped: true, ..Report::default() });
+        (0..70).for_each(|_| {
+            thread::sleep(std::time::Duration::from_millis(20));
+            write!(port, "{stopped}").unwrap();
+        });
+    });
+    let why = Board::open(&Settings::new([("port", &*path)])).err().unwrap();
+    assert!(why.contains("stopped"), "{why}");
+    far.join().unwrap();
+}
+
+#[test]
 fn the_last_resort_needs_nobody_else() {
     let (board, far) = begin();
-    let mut resort = board.last_resort().unwrap();
-    thread::spawn(move || resort()).join().unwrap();
+    thread::spawn(board.last_resort().unwrap()).join().unwrap();
     assert!(far.join().unwrap().is_stopped());
 }
 
@@ -199,5 +284,5 @@ fn what_cannot_be_opened_says_why() {
     let why = |settings: &Settings| Board::open(settings).err().unwrap();
     assert!(why(&Settings::default()).contains("'port'"));
     assert!(why(&Settings::new([("port", "/no/such/port")])).contains("/no/such/port"));
-    assert!(why(&Settings::new([("port", "/dev/null"), ("baud", "9600")])).contains("19200"));
+    assert!(why(&Settings::new([("port", "/dev/null"), ("baud", "9600")])).contains("38400"));
 }
