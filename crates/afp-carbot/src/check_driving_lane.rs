@@ -39,12 +39,17 @@ where
     E: Navigator + Odometry + Ultrasonic + Rotator + ?Sized,
 {
     fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        env.point(Angle::from_si(0.0), now);
+        let (clearance, halfwidth) =
+            (inputs.clearance.si(), inputs.halfwidth.si() + inputs.margin.si());
+        let step = first(env.echo().value.ok());
+        let front = (env.body().front - env.beam().forward).si();
+        let target = SWING[step] * libm::atan2(halfwidth, front + clearance);
+        env.point(Angle::from_si(target), now);
         Ok(CheckDrivingLane {
-            clearance: inputs.clearance.si(),
-            halfwidth: inputs.halfwidth.si() + inputs.margin.si(),
-            step: 0,
-            target: 0.0,
+            clearance,
+            halfwidth,
+            step,
+            target,
             last_ping: now,
             guard: Guard::of_echoes(now),
             arrival: Arrival::new(now),
@@ -78,6 +83,18 @@ where
             self.arrival.elsewhere(&echo, now)?;
         }
         Ok((wanted.contains(0) && self.blocks(&echo, reach)).then_some(Event::LaneNotFree))
+    }
+}
+
+/// The side that the sensor is not turned to: nobody has looked there for longest, and all else lies on the way to it.
+fn first(echo: Option<Echo>) -> usize {
+    let bearing = echo.map_or(0.0, |echo| echo.bearing.si());
+    if bearing.abs() < ARRIVED {
+        0
+    } else if bearing < 0.0 {
+        1
+    } else {
+        2
     }
 }
 
