@@ -65,7 +65,7 @@ pub(super) struct Placement {
     pub(super) fixed: Vec<Option<Point>>,
     /// Where the nodes were in the layout before.
     pub(super) before: Vec<Option<Point>>,
-    /// Where nodes stood that were not in the layout before, but in an earlier one.
+    /// Where nodes stood that were not in the layout before, or had to be somewhere else in it.
     pub(super) once: Vec<Option<Point>>,
     /// The routes that the links had.
     pub(super) routes: Vec<Option<Vec<Point>>>,

@@ -20,8 +20,8 @@ pub(in super::super) fn layout_around(
     links: &[Link],
     placement: Placement,
 ) -> LaidOut {
-    let known = placement.fixed.iter().zip(&placement.before);
-    if known.into_iter().all(|(fixed, before)| fixed.is_none() && before.is_none()) {
+    let known = [&placement.fixed, &placement.before, &placement.once];
+    if known.into_iter().flatten().all(Option::is_none) {
         return layout(nodes, links);
     }
     let corners = places(nodes, links, &placement);
