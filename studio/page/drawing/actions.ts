@@ -3,6 +3,7 @@ import { select, selected } from "../selection";
 import * as ask from "./ask";
 import * as catalog from "./catalog";
 import { choose, type Choice } from "./choose";
+import { beginPlan } from "./first";
 import { drawing, enter, plan } from "./model";
 import * as offers from "./offers";
 import { renaming } from "./rename";
@@ -58,7 +59,7 @@ const ownerOf = (drawn: Drawing, part: Part): string | null => {
 /** Adds a template after the selection, connected from its first free exit; a supervisor onto it. */
 export async function addAfter(offer: ask.Offer): Promise<void> {
   const at = here();
-  if (!at) return refuse(words.noPlan);
+  if (!at) return beginPlan(offer);
   const part = focused();
   if (offer.kind === "supervise") {
     await ask.edit(offers.added(at.plan, part && ownerOf(at.drawn, part), offer, null));
@@ -72,7 +73,7 @@ export async function addAfter(offer: ask.Offer): Promise<void> {
 /** Adds a template where it was dropped: on the ground, onto an element, onto an edge. */
 export async function addAt(offer: ask.Offer, to: { place: Point } | { owner: Part } | { edge: Edge }): Promise<void> {
   const at = here();
-  if (!at) return refuse(words.noPlan);
+  if (!at) return beginPlan(offer);
   const names = offers.taken(at.drawn);
   const { name } = offers.header(offer, names);
   const supervises = offer.kind === "supervise";

@@ -5,6 +5,7 @@ const many = (count: number, what: string): string => (count === 0 ? "" : `${cou
 export const words = {
   application: "Drawing of the plan. Arrow keys go along it, ? shows all keys.",
   noPlan: "There is no plan in this file",
+  beginPlan: "Begin a plan here",
   comes: "The plan is being drawn …",
   firstPlace: "Drag an element here, or click it in the palette",
   zoomIn: "Zoom in",
