@@ -210,6 +210,7 @@ export const words = {
   outcomeMap: "Map of the outcomes",
   mapOf: (across: string, down: string) => (across ? `${across} across${down ? `, ${down} down` : ""}; a dot: something was touched` : "one run"),
   cellOf: (setting: string, came: string) => `${setting}: ${came}`,
+  fieldWrong: (field: string, value: string) => `${field} '${value}': `,
   runsOfCell: "Runs of this cell",
   seedOf: (seed: number) => `seed ${seed}`,
   times: (number: number) => (number === 1 ? "once" : `${number} times`),

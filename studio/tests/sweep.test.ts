@@ -57,7 +57,7 @@ inBrowser("a plan is run many times; a cell of the map says what its runs came t
   await page.keyboard.press("Enter");
   await page.getByLabel("Seeds").fill("0..3");
   await page.getByLabel("Vary").fill("way=20cm,2m");
-  await page.getByLabel("Until").fill("20s");
+  await page.getByLabel("Until").fill("20 s");
   await page.getByRole("button", { name: "Run many times" }).click();
   await page.locator(".map td button").first().waitFor({ timeout: 60_000 });
   assert.equal(await page.locator(".map td button").count(), 6);
@@ -74,3 +74,22 @@ inBrowser("a plan is run many times; a cell of the map says what its runs came t
   await page.getByRole("button", { name: "Give way what the plan says" }).click();
   assert.equal(await page.locator(".given").count(), 0);
 });
+
+inBrowser("what cannot be swept is said of the field that it stands in", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator(".node text").first().waitFor();
+  await page.keyboard.press("Control+k");
+  await page.keyboard.type("build and sweep");
+  await page.keyboard.press("Enter");
+  for (const [field, wrong, says] of [
+    ["Seeds", "5..2", /^Seeds '5\.\.2': there are no seeds/],
+    ["Vary", "way", /^Vary 'way': expected what to vary/],
+    ["Until", "0 s", /'0 s' is no time to run in: write one, '30 s'/],
+  ] as const) {
+    const input = page.getByLabel(field, { exact: true });
+    const before = await input.inputValue();
+    await input.fill(wrong);
+    await page.getByRole("button", { name: "Run many times" }).click();
+    await shows(page.locator(".banner.error"), says);
+    await input.fill(before);
+  }
+}, { ignore: /Seeds '|Vary '|no time to run in/ });

@@ -2,14 +2,16 @@
 //!
 //! The room says what is run, with which arguments; who runs it is not its business.
 
+mod arguments;
+
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::time::Duration;
 
-use afp_lsp::{Message, path_of};
+use afp_lsp::Message;
 use serde_json::{Value, json};
 
 use super::{ClientId, Out, Room, notification};
+use arguments::{arguments, file_of};
 
 /// Jobs that go on at once.
 const MOST: usize = 4;
@@ -234,101 +236,6 @@ impl Job {
         self.told = self.said.len();
         Some((self.client, notification("afp/jobSaid", said)))
     }
-}
-
-/// The file that a request names; it is one of the folder.
-fn file_of(room: &Room, params: &Value) -> Option<Result<PathBuf, String>> {
-    params["file"].as_str().map(|uri| room.folder.inside(&path_of(uri)))
-}
-
-/// The arguments of the command line for a job. Files are those of the folder; everything else has its own form.
-fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, String> {
-    let file = || -> Result<String, String> {
-        let path = file_of(room, params).ok_or("'file' is missing")??;
-        Ok(path.to_string_lossy().into_owned())
-    };
-    let word = |name: &str, fits: &dyn Fn(char) -> bool| checked(&params[name], name, fits);
-    let plan = |file: String| -> Result<String, String> {
-        let name = word("plan", &|letter| letter.is_alphanumeric() || letter == '_')?;
-        Ok(name.map_or_else(|| file.clone(), |name| format!("{file}:{name}")))
-    };
-    let texts = |texts: &[&str]| texts.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>();
-    Ok(match kind {
-        "test" => {
-            let all = match params["file"].is_null() {
-                true => Vec::new(),
-                false => vec![file()?],
-            };
-            [texts(&["test", "--json", "--coverage"]), all].concat()
-        }
-        "generate" => [texts(&["test", "--generate"]), vec![file()?]].concat(),
-        "sweep" => {
-            let seeds = word("seeds", &|letter| letter.is_ascii_digit() || ".,".contains(letter))?;
-            let until = word("until", &|letter| letter.is_ascii_alphanumeric() || letter == '.')?;
-            let mut all = [texts(&["sweep", "--json"]), vec![plan(file()?)?]].concat();
-            let mut add = |option: &str, value: String| all.extend([option.to_owned(), value]);
-            seeds.into_iter().for_each(|value| add("--seeds", value));
-            until.into_iter().for_each(|value| add("--until", value));
-            for value in params["vary"].as_array().into_iter().flatten() {
-                let fits = |letter: char| letter.is_alphanumeric() || "_.=:,- %/°".contains(letter);
-                if let Some(value) = checked(value, "vary", &fits)? {
-                    add("--vary", value);
-                }
-            }
-            if let Some(world) = params["world"].as_str() {
-                add("--world", world_of(room, world)?);
-            }
-            all
-        }
-        "build" => [texts(&["build", "--json"]), vec![plan(file()?)?]].concat(),
-        "new" => {
-            let fits = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
-            let name = word("name", &fits)?.ok_or("'name' is missing")?;
-            let with = match params["with"].as_str() {
-                None => None,
-                Some("toolbox") => Some("--toolbox"),
-                Some("robot") => Some("--robot"),
-                Some(other) => return Err(format!("there are no projects with '{other}'")),
-            };
-            [texts(&["new", &name]), texts(&Vec::from_iter(with))].concat()
-        }
-        other => return Err(format!("there is no job '{other}'")),
-    })
-}
-
-/// A word for the command line that has the form of its kind and is no option; none where nothing was said.
-fn checked(
-    value: &Value,
-    name: &str,
-    fits: &dyn Fn(char) -> bool,
-) -> Result<Option<String>, String> {
-    let Some(word) = value.as_str().filter(|word| !word.is_empty()) else { return Ok(None) };
-    match word.chars().all(fits) && !word.starts_with('-') {
-        true => Ok(Some(word.to_owned())),
-        false => Err(format!("'{word}' cannot be {name}{}", remedy(name))),
-    }
-}
-
-/// How a word of a job is written.
-fn remedy(name: &str) -> &'static str {
-    match name {
-        "seeds" => ": write some, '1,5,9', or from one up to another, '0..100'",
-        "until" => ": write a time, '30s'",
-        "vary" => {
-            ": write an input with its values, 'walldist=20cm..60cm:10cm' or 'walldist=20cm,30cm'"
-        }
-        "name" => ": use letters, digits, '-' and '_'",
-        _ => "",
-    }
-}
-
-/// A world of the folder, or one that is made up from a seed.
-fn world_of(room: &Room, world: &str) -> Result<String, String> {
-    let seed = world.strip_prefix("random:");
-    if seed.is_some_and(|seed| seed.chars().all(|letter| letter.is_ascii_digit())) {
-        return Ok(world.to_owned());
-    }
-    Ok(room.folder.inside(world)?.to_string_lossy().into_owned())
 }
 
 #[cfg(test)]

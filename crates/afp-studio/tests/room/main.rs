@@ -371,6 +371,14 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
     fs::write(place.path("afp.toml"), "[robot]\ncrate = \"x\"\n").unwrap();
     let refused = place.ask(1, "afp/job", json!({ "kind": "test" }));
     assert!(refused.unwrap_err().contains("trust"));
+    for (until, why) in [("0 s", "'0 s' is no time"), ("0.0ms", "no time"), ("soon?", "'30 s'")] {
+        let order = json!({ "kind": "sweep", "file": file, "until": until });
+        let refused = place.ask(1, "afp/job", order).unwrap_err();
+        assert!(refused.contains(why), "{refused}");
+    }
+    // As plans write it.
+    let order = json!({ "kind": "sweep", "file": file, "until": " 60 s" });
+    assert_eq!(place.ask(1, "afp/job", order).unwrap()["id"], 2);
 }
 
 /// Folders that nobody looks into have projects, too.
