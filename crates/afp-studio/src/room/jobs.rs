@@ -94,8 +94,10 @@ impl Room {
 
     pub(super) fn end_job(&mut self, params: &Value) -> Result<Value, String> {
         let id = params["id"].as_u64().and_then(|id| JobId::try_from(id).ok());
-        let id = id.filter(|id| self.jobs.running.contains_key(id));
-        self.jobs.orders.push(Order::End(id.ok_or("there is no such job")?));
+    /// Ends a job, unless it has ended by itself meanwhile.
+        let id = id.filter(|id| (1..=self.jobs.made).contains(id)).ok_or("there is no such job")?;
+        let goes_on = self.jobs.running.contains_key(&id);
+        self.jobs.orders.extend(goes_on.then_some(Order::End(id)));
         Ok(Value::Null)
     }
 
