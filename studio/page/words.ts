@@ -213,6 +213,8 @@ export const words = {
   fieldWrong: (field: string, value: string) => `${field} '${value}': `,
   runsOfCell: "Runs of this cell",
   seedOf: (seed: number) => `seed ${seed}`,
+  sweepCut: (runs: number, of: number | null) => (of === null ? `ended early, after ${runs} runs` : `ended early, after ${runs} of ${of} runs`),
+  sweepShown: (runs: number) => `the first ${runs} are shown below`,
   times: (number: number) => (number === 1 ? "once" : `${number} times`),
   cameSo: (ending: string, where: string, why: string, seconds: number) => `${[where, why].filter(Boolean).join(": ") || ending.replaceAll("_", " ")}, after ${seconds.toFixed(1)} s`,
   touchedSo: (touched: Readonly<Record<string, number>>) => `touched ${Object.entries(touched).map(([name, lasted]) => `${name} ${lasted.toFixed(1)} s`).join(", ")}`,

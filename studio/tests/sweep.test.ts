@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { inBrowser, shows } from "./browser";
-import { counted, grouped, mapOf, ROW, runsOf, type Ending, type Run } from "../page/sweep";
+import { counted, countedAll, grouped, mapOf, ROW, runsOf, sumOf, type Ending, type Run } from "../page/sweep";
 
 const run = (nth: number, ending: Ending, seed: number, values: Record<string, number> = {}, why = ""): Run => ({
   run: nth, ending, seed, why, where: "go", time_s: 1, world: null, touched: {}, command: "",
@@ -33,6 +33,15 @@ test("runs that came to the same are one line, and what they came to together is
   const runs = [run(0, "ok", 0), run(1, "error", 1, {}, "fault"), run(2, "error", 2, {}, "fault")];
   assert.deepEqual(grouped(runs).map(({ run, count }) => [run.run, count]), [[1, 2], [0, 1]]);
   assert.deepEqual(runsOf([...runs, { summary: { runs: 3 } }]), runs);
+});
+
+test("what all runs came to is said of all of them, also of those that are not listed", () => {
+  const summary = { runs: 9, of: 100, endings: { error: 2, ok: 7 } };
+  const lines = [run(0, "ok", 0), { summary }];
+  assert.deepEqual(sumOf(lines), summary);
+  assert.deepEqual(countedAll(runsOf(lines), sumOf(lines)), [{ ending: "ok", count: 7 }, { ending: "error", count: 2 }]);
+  // Of a sweep that was killed nobody says it.
+  assert.deepEqual([sumOf([run(0, "ok", 0)]), sumOf([]), countedAll([run(0, "ok", 0)], null)], [null, null, [{ ending: "ok", count: 1 }]]);
 });
 
 const PLAN = `use std

@@ -27,6 +27,8 @@ const COLLECTED: Duration = Duration::from_millis(50);
 const MOST_RESULTS: usize = 20_000;
 /// Bytes of them: they go out in one message.
 const MOST_BYTES: usize = 32 << 20;
+/// Bytes of what they came to together, which is kept where there is no room for more of them.
+const MOST_SUM: usize = 1 << 20;
 
 /// Tells jobs apart.
 pub(crate) type JobId = u32;
@@ -92,9 +94,9 @@ impl Room {
         Ok(json!({ "id": id }))
     }
 
+    /// Ends a job, unless it has ended by itself meanwhile.
     pub(super) fn end_job(&mut self, params: &Value) -> Result<Value, String> {
         let id = params["id"].as_u64().and_then(|id| JobId::try_from(id).ok());
-    /// Ends a job, unless it has ended by itself meanwhile.
         let id = id.filter(|id| (1..=self.jobs.made).contains(id)).ok_or("there is no such job")?;
         let goes_on = self.jobs.running.contains_key(&id);
         self.jobs.orders.extend(goes_on.then_some(Order::End(id)));
@@ -213,7 +215,10 @@ impl Job {
     fn say(&mut self, line: &str) {
         if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
             let bytes = self.bytes + line.len();
-            if self.results.len() < MOST_RESULTS && bytes <= MOST_BYTES {
+            let is_room = self.results.len() < MOST_RESULTS && bytes <= MOST_BYTES;
+            // What all of them came to is the last one, of which there is one.
+            let is_sum = result.get("summary").is_some() && line.len() <= MOST_SUM;
+            if is_room || is_sum {
                 self.bytes = bytes;
                 self.results.push(result);
             } else if !std::mem::replace(&mut self.is_cut, true) {
@@ -321,6 +326,25 @@ mod tests {
         (3..).take(MOST - 2).for_each(|id| _ = room.job_done(id, None));
         room.tick(WAITS * 3);
         assert_eq!(room.jobs.running.keys().collect::<Vec<_>>(), [&5]);
+    }
+
+    #[test]
+    fn a_job_that_has_just_ended_needs_no_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut room = begun(&folder);
+        room.job_done(1, Some(0));
+        assert_eq!(room.end_job(&json!({ "id": 1 })), Ok(Value::Null));
+        assert_eq!(room.orders(), []);
+        assert!(room.end_job(&json!({ "id": 2 })).is_err());
+    }
+
+    #[test]
+    fn what_many_results_came_to_is_kept() {
+        let mut job = Job::default();
+        (0..MOST_RESULTS + 5).for_each(|_| job.say("{}"));
+        job.say(r#"{"summary": {}}"#);
+        assert_eq!(job.results.len(), MOST_RESULTS + 1);
+        assert_eq!(job.results[MOST_RESULTS], json!({ "summary": {} }));
     }
 
     #[test]
