@@ -117,6 +117,10 @@ export const words = {
   notRun: (errors: number) => `Nothing was run: the plan has ${count(errors, "error", "errors")}. The first is selected.`,
   notRunNoPlan: "Nothing was run: there is no plan in this file. Files shows the others of this folder.",
   noPlan: "no plan here",
+  notRunNoValue: (plan: string, name: string, type: string) => {
+    const example = { length: "30 cm", angle: "90 deg", duration: "1 s", speed: "20 cm/s", int: "1", float: "1.5", bool: "true", string: '"text"' }[type];
+    return `Nothing was run: ${plan} needs a value for '${name}'. Give it one here${example ? ` (\`= ${example}\`)` : ""}, or run the plan that uses it.`;
+  },
   notRunNotSaved: "Nothing was run: the text is not saved yet.",
   runLost: "The run has ended: the connection to it was lost.",
   ended: (ending: "ok" | "interrupted" | "error") => ({ ok: "The plan has ended", interrupted: "The run was interrupted", error: "The plan ended in Error" })[ending],
