@@ -123,6 +123,7 @@ export const words = {
   },
   notRunNotSaved: "Nothing was run: the text is not saved yet.",
   runLost: "The run has ended: the connection to it was lost.",
+  runGone: "The run was ended: the page was loaded anew.",
   ended: (ending: "ok" | "interrupted" | "error") => ({ ok: "The plan has ended", interrupted: "The run was interrupted", error: "The plan ended in Error" })[ending],
   endedAt: "Show where",
   onceMore: "The same run in a terminal",
