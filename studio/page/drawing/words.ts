@@ -106,7 +106,7 @@ export const words = {
   nothingFits: "Nothing fits",
   disconnect: "lead nowhere",
   renameLabel: (name: string) => `New name of ${name}`,
-  nameHint: "Letters, digits and _; begin with a letter",
+  nameHint: "Letters a to z and A to Z, digits and _ (no ä, é, ...); begin with a letter",
 
   portHint: "Drop an entry on an element, or on one of its ports",
   noFit: (name: string) => `'${name}' does not fit here`,
