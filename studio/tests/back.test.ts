@@ -23,15 +23,16 @@ plan P {
 }
 `;
 
-const transform = (page: Page, item: string) => async (): Promise<string> => {
-  const box = await page.locator(`.node [data-item="${item}"]`).first().boundingBox();
-  return JSON.stringify(box && [box.x, box.y].map(Math.round));
+/** Where the boxes of elements are on the page. */
+const places = (page: Page, items: readonly string[]) => async (): Promise<string> => {
+  const boxes = await Promise.all(items.map((item) => page.locator(`.node [data-item="${item}"]`).first().boundingBox()));
+  return JSON.stringify(boxes.map((box) => box && [box.x, box.y].map(Math.round)));
 };
 
 inBrowser("a move that is undone, or given back to the automatic layout, moves back; so does one whose file is emptied elsewhere", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await page.locator('.node [data-item="P.drive"]').first().waitFor();
-  const at = transform(page, "P.drive");
+  const at = places(page, ["P.drive", "P.turn"]);
   const first = await at();
   const move = async (): Promise<void> => {
     const [x, y] = await middle(page, name("P.drive"));

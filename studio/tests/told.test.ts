@@ -104,6 +104,13 @@ inBrowser("a name that cannot be is told why and stays to be mended, wherever it
   await field.fill("groesse");
   await page.keyboard.press("Enter");
   await studio.becomes("plan.afp", /actor groesse: Wait/);
+  // Escape gives it up, wherever the focus is.
+  await page.mouse.dblclick(...(await middle(page, name("Inner.groesse"))));
+  await field.fill("1x");
+  await page.mouse.click(...(await middle(page, ".count")));
+  await page.locator(".board").focus();
+  await page.keyboard.press("Escape");
+  await field.waitFor({ state: "detached" });
   // An entry, too.
   await page.locator(".board").focus();
   await page.keyboard.press("e");

@@ -83,7 +83,7 @@ pub struct PlanScene {
     pub edges: Vec<EdgeScene>,
     /// What was drawn in scenes before: it comes back to where it stood.
     gone: Gone,
-    /// What has a position.
+    /// What stands where it does because of positions.
     held: Held,
 }
 
@@ -144,7 +144,7 @@ impl Scene {
     ///
     /// With the scene `before` a change, boxes stay where they were, unless they have positions or
     /// are in the way of one that has; one that was gone for a while comes back to where it stood, and
-    /// one whose position is gone to where it stood without.
+    /// one whose position is gone to where it stood without, and so do those that gave way to it.
     pub fn new(outline: &Outline, options: &Options, before: Option<&Scene>) -> Scene {
         let drawn = Drawn::new(outline, options, before);
         let mut painter = Painter::new(options.icons);
@@ -294,7 +294,7 @@ impl<'a> DrawnPlan<'a> {
             doc: self.view.plan.doc.clone(),
             offset: self.offset,
             bounds: self.bounds,
-            held: Held::since(before, &self.view),
+            held: Held::since(before, &self.view, &elements),
             gone: before
                 .map_or_else(Gone::default, |before| Gone::since(before, &elements, &edges)),
             elements,
@@ -387,6 +387,7 @@ fn placement<'a>(
     let elements = before.iter().flat_map(|before| &before.elements).filter(is_loose).map(at);
     let gone = before.iter().flat_map(|before| before.gone.elements()).map(at);
     let gone = gone.chain(before.iter().flat_map(|before| before.held.stood()));
+    let origins = before.iter().flat_map(|before| before.held.origins());
     let edges = before.iter().flat_map(|before| before.gone.edges().chain(&before.edges));
     let edges: FxHashMap<_, _> =
         edges.map(|known| ((&known.item, &known.part), &known.points)).collect();
@@ -397,6 +398,7 @@ fn placement<'a>(
         fixed: fixed.collect(),
         before: stood(elements.collect()),
         once: stood(gone.collect()),
+        origins: stood(origins.collect()),
         routes: routes.collect(),
     }
 }

@@ -195,6 +195,14 @@ fn a_box_whose_position_is_gone_stands_where_it_stood_without() {
     for moved in [&once, &twice, &placed(LOOP, "P.b 960 120\n", Some(&twice))] {
         assert_eq!(corners(&scene(LOOP, Some(moved))), corners(&first));
     }
+    // What gave way to it, too, wherever that went meanwhile.
+    let (x, y) = corners(&first)[3];
+    let onto = placed(LOOP, &format!("P.b {x} {y}\n"), Some(&first));
+    assert_ne!(corners(&onto)[3], (x, y));
+    assert_eq!(corners(&scene(LOOP, Some(&onto))), corners(&first));
+    let beyond = placed(LOOP, &format!("P.b {x} {}\n", y + 900.0), Some(&onto));
+    assert_eq!(corners(&beyond)[3], (x, y));
+    assert_eq!(corners(&scene(LOOP, Some(&beyond))), corners(&first));
     // What was moved with everything else, too.
     let all = ["start", "a", "b", "c", "back"].map(|name| format!("P.{name} 900 900\n")).concat();
     let moved = placed(LOOP, &all, Some(&once));
