@@ -2,7 +2,7 @@
 import { inOrder, type TextEdit } from "./changes";
 import { open, text, version } from "./documents";
 import type { Part } from "./drawing/shapes";
-import { push, type Change } from "./history";
+import { push, underWay, type Change } from "./history";
 import { LOST, Refused } from "./lsp";
 import { pen } from "./session";
 import { words } from "./words";
@@ -36,8 +36,12 @@ const edited = ([uri, edits]: [string, TextEdit[]]) => ({ textDocument: { uri, v
 /** An edit is for a text that has changed meanwhile: it is to be asked for again. */
 export class Stale extends Error {}
 
+type Ask = () => Promise<{ edit: WorkspaceEdit; label: string; select?: Part[] } | null>;
+
 /** Asks for an edit and makes it, again where the text has changed meanwhile. */
-export async function change(ask: () => Promise<{ edit: WorkspaceEdit; label: string; select?: Part[] } | null>): Promise<void> {
+export const change = (ask: Ask): Promise<void> => underWay(made(ask));
+
+async function made(ask: Ask): Promise<void> {
   for (let attempt = 1; ; attempt++) {
     const found = await asked(ask);
     if (!found) return;

@@ -24,8 +24,8 @@ export function Finder() {
   );
 }
 
-function useClosing(close: () => void) {
-  const dialog = useModal();
+function useClosing(close: () => void, opened?: (dialog: HTMLDialogElement) => void) {
+  const dialog = useModal(opened);
   // A click beside the dialog is one on its ground.
   const click = (event: MouseEvent): void => {
     if (event.target === dialog.current) close();
@@ -121,11 +121,12 @@ function Keys() {
   const close = (): void => {
     showingKeys.value = false;
   };
-  const given = useClosing(close);
+  // Its only button stands at the end.
+  const given = useClosing(close, (dialog) => dialog.querySelector("h2")?.focus());
   const all = commands.value.filter((each) => keysOf(each).length > 0);
   return (
     <dialog class="keys" aria-labelledby="keys" {...given}>
-      <h2 id="keys">{words.keys}</h2>
+      <h2 id="keys" tabIndex={-1}>{words.keys}</h2>
       <p>{words.keysHint}</p>
       <dl>
         {all.map((each) => (

@@ -111,7 +111,19 @@ export function record(entry: Entry): void {
   if (entry.steps.length) log.value = recorded(log.value, entry);
 }
 
+/** Changes that were begun and are not made yet. */
+const under = new Set<Promise<unknown>>();
+
+/** Notes a change that is on its way until it is made, or is not: what is undone meanwhile is that. */
+export function underWay<T>(change: Promise<T>): Promise<T> {
+  const end = (): void => void under.delete(change);
+  under.add(change);
+  change.then(end, end);
+  return change;
+}
+
 async function move(step: typeof stepBack, changes: typeof backward): Promise<void> {
+  if (under.size) await Promise.allSettled(under);
   const next = step(log.value);
   if (!next || !hands) return;
   const before = log.value;

@@ -6,11 +6,13 @@ import { listen } from "./commands";
 import * as breakpoints from "./debug/breakpoints";
 import * as run from "./debug/controls";
 import { begin as beginCurves } from "./debug/curves";
+import { begin as beginGone } from "./debug/gone";
 import { begin as beginRuns, log } from "./debug/run";
 import { begin as beginWhy } from "./debug/why";
 import { ask } from "./dialogs";
 import * as documents from "./documents";
 import { begin as beginFolded } from "./drawing/folded";
+import { begin as beginShown } from "./drawing/kept";
 import { follow } from "./drawing/model";
 import * as guide from "./guide";
 import { begin as beginJobs } from "./jobs";
@@ -18,6 +20,7 @@ import * as keep from "./keep";
 import * as layout from "./layout";
 import { connect } from "./lsp";
 import { showFirst } from "./panes/files";
+import { begin as beginForm } from "./panes/jobs";
 import { begin as beginWorld } from "./world/surroundings";
 import * as places from "./places";
 import * as problems from "./problems";
@@ -39,6 +42,8 @@ run.commands();
 breakpoints.begin(localStorage);
 beginFolded(sessionStorage);
 beginRuns();
+beginGone(sessionStorage);
+beginForm(sessionStorage);
 beginWorld();
 beginWhy();
 beginCurves();
@@ -56,6 +61,9 @@ const begun = hello.subscribe((said) => {
   // Once `subscribe` has given what ends it.
   queueMicrotask(() => {
     begun();
-    void showFirst().then(() => keep.begin(sessionStorage));
+    void showFirst().then(() => {
+      beginShown(sessionStorage);
+      return keep.begin(sessionStorage);
+    });
   });
 });

@@ -6,8 +6,8 @@ import { lsp } from "./session";
 import type { Part } from "./drawing/shapes";
 import { origin, select, selected, type Origin } from "./selection";
 
-/** Where the text pane shall put its cursor: set by whoever selects elsewhere, taken by the pane. */
-export const shown = signal<{ uri: string; range: Range; focus: boolean } | null>(null);
+/** Where the text pane shall put its cursor, or, where that stays, what it shall bring into sight: set by whoever selects elsewhere, taken by the pane. */
+export const shown = signal<{ uri: string; range: Range; focus: boolean; stays?: boolean } | null>(null);
 
 /** The item at a place of the text. */
 export const itemAt = (uri: string, position: Position): Promise<Part | null> =>
@@ -45,6 +45,14 @@ export async function reveal(uri: string, range: Range, from: Origin, focus = fa
   shown.value = { uri, range, focus };
   const found = await itemAt(uri, range.start).catch(() => null);
   if (found) select([found], from);
+}
+
+/** Shows a place of a text that is open. The cursor of who writes in the text stays: the next letter goes where it was. */
+export async function point(uri: string, range: Range): Promise<void> {
+  if (!document.activeElement?.closest(".cm-content")) return reveal(uri, range, "other");
+  shown.value = { uri, range, focus: false, stays: true };
+  const found = await itemAt(uri, range.start).catch(() => null);
+  if (found) select([found], "text");
 }
 
 /** The cursor of the text was moved by a person: the selection follows, once it rests. */

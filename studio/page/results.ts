@@ -168,8 +168,15 @@ async function placed(mistake: Mistake): Promise<Wrong> {
 /** Where the text shows it. */
 export const placeOf = ({ line, column }: Place): Position => ({ line: line - 1, character: column - 1 });
 
-/** A text of the command line without its colours, and without what helps at a command line alone. */
-export const plain = (text: string): string => text.replace(/\x1b\[[0-9;]*m/g, "").replace(/^For more information, try '--help'\.\s*$/m, "").trim();
+const FIELDS = { seeds: words.seeds, vary: words.vary, until: words.until } as const;
+
+/** A text of the command line without its colours, with fields of the page in place of options, and without what helps at a command line alone. */
+export const plain = (text: string): string =>
+  text
+    .replace(/\x1b\[[0-9;]*m/g, "")
+    .replace(/^error: invalid value '(.*)' for '--(seeds|vary|until) <[^>]*>': /gm, (_, value, option: keyof typeof FIELDS) => words.fieldWrong(FIELDS[option], value))
+    .replace(/^For more information, try '--help'\.\s*$/m, "")
+    .trim();
 
 /** Shows the moment at which a scenario failed. */
 export async function showFailure({ log, broken, file }: Result): Promise<void> {

@@ -48,6 +48,17 @@ interface Difference {
   order: (run: Run) => number;
 }
 
+/** What runs of a sweep came to together. */
+export interface Sum {
+  runs: number;
+  /** So many there were to be. */
+  of: number;
+  endings: Readonly<Partial<Record<Ending, number>>>;
+}
+
+/** What the runs came to together: the last line of a sweep says it, unless it was killed. */
+export const sumOf = (lines: readonly unknown[]): Sum | null => (lines.at(-1) as { summary?: Sum } | undefined)?.summary ?? null;
+
 /** The lines of a sweep that are runs; the last one is what they came to together. */
 export const runsOf = (lines: readonly unknown[]): Run[] => lines.filter((line): line is Run => typeof (line as Run).run === "number");
 
@@ -85,6 +96,10 @@ function wrapped(runs: readonly Run[], { name, labels }: Axis, { of }: Differenc
   const columns = Array.from({ length: ROW }, (_, column) => (name === SEED ? `+${column}` : ""));
   return { across: { name, labels: columns }, down: { name: "", labels: rows.map((_, row) => labels[row * ROW]!) }, cells: rows };
 }
+
+/** How often all runs of a sweep ended how: of many not all are listed. */
+export const countedAll = (runs: readonly Run[], sum: Sum | null): { ending: Ending; count: number }[] =>
+  sum ? ENDINGS.map((ending) => ({ ending, count: sum.endings[ending] ?? 0 })).filter(({ count }) => count > 0) : counted(runs);
 
 /** How often runs ended how, in the order of the endings; only what there is. */
 export const counted = (runs: readonly Run[]): { ending: Ending; count: number }[] =>

@@ -76,7 +76,8 @@ test("an entry of the plan that is shown holds what the innermost plan of that n
 });
 
 inBrowser("while a plan runs, its entries show what they hold", { "plan.afp": PLAN }, async ({ page }) => {
-  await begun(page);
+  // Slowly, so that each value is seen.
+  await begun(page, "2");
   const held = async (): Promise<string[]> => page.locator(".run-value-text").allTextContents();
   await page.waitForFunction(() => document.querySelectorAll(".run-value-text").length === 2);
   assert.equal((await held())[0], "1 s");
@@ -188,7 +189,8 @@ inBrowser("the outline has everything as buttons, and says what is active", { "p
   await shows(outline, /plan Blink[^]*pause[^]*dark[^]*Elapsed[^]*light[^]*tired/);
   await outline.getByRole("button", { name: /^actor light/ }).click();
   assert.equal(await outline.locator("[aria-pressed=true]").count(), 1);
-  await begun(page);
+  // Slowly, so that it still runs when it is looked at.
+  await begun(page, "1");
   await outline.locator("button.active").first().waitFor();
   await clean(page, "[data-when=outline]");
 });

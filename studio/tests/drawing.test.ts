@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { declared, headed } from "../page/drawing/anatomy";
 import { bent, road } from "../page/drawing/bend";
 import { filtered } from "../page/drawing/choose";
-import { calledNow, changed, whole } from "../page/drawing/differences";
+import { calledNow, changed, itemsNow, whole } from "../page/drawing/differences";
 import { hit } from "../page/drawing/hit";
 import { movable, places, snapped } from "../page/drawing/lift";
 import { home, step } from "../page/drawing/navigate";
@@ -49,6 +49,9 @@ test("a plan with another name is the one that stands where it did", () => {
   const called = (name: string, ...now: string[]) => calledNow(name, ["A", "B", "C"], now);
   assert.deepEqual([called("B", "A", "B", "C"), called("B", "B"), called("B", "A", "X", "C")], ["B", "B", "X"]);
   assert.deepEqual([called("B", "A", "C"), called("B", "B2", "C", "A"), called("B", "A", "C", "D")], [null, null, null]);
+  // What is folded in it follows; of one that is gone it waits.
+  assert.deepEqual(itemsNow(["A.go", "B.start"], ["A", "B"], ["A", "C"]), ["A.go", "C.start"]);
+  assert.deepEqual(itemsNow(["A.go", "B.start"], ["A", "B"], ["A"]), ["A.go", "B.start"]);
 });
 
 test("what is under a point: exits before boxes, supervisors, edges, heads, ground", () => {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { signal } from "@preact/signals";
-import { inBrowser } from "./browser";
+import { inBrowser, shows } from "./browser";
 import { begin, run, running, said, takeUp, type Done } from "../page/jobs";
 import type { Finish, Lsp } from "../page/lsp";
 import * as session from "../page/session";
@@ -86,8 +86,10 @@ inBrowser("a sweep goes on while the page is loaded anew, and is ended there", {
   const ends = page.getByRole("button", { name: "End it" });
   // A long one goes on after the page is loaded.
   await sweep("0..99999");
+  assert.equal(await page.getByLabel("Seeds").inputValue(), "0..99999");
   await ends.click();
   await ends.waitFor({ state: "detached", timeout: 60_000 });
+  await shows(page.locator(".endings"), /ended early, after \d+ of 99999 runs/);
   // A short one may end before, meanwhile or after: all that came of it is shown.
   await sweep("0..2000");
   await page.locator(".endings", { hasText: "2000" }).waitFor({ timeout: 60_000 });

@@ -217,7 +217,7 @@ inBrowser("keys reach every pane; commands are found by name", { "plan.afp": PLA
   assert.ok(["bar", "Palette", "Drawing", "World", "Text", "Problems"].every((pane) => reached.has(pane)), [...reached].join());
 });
 
-inBrowser("a name that is none is said, in the drawing and in the inspector, and the old one stays", { "plan.afp": PLAN }, async ({ page, read }) => {
+inBrowser("a name that is none is said, in the drawing and in the inspector, and stays there to be mended", { "plan.afp": PLAN }, async ({ page, read }) => {
   const node = page.locator('.node [data-item="P.go"] text.name').first();
   const { x, y } = (await node.boundingBox())!;
   await page.mouse.click(x + 5, y + 5);
@@ -227,7 +227,7 @@ inBrowser("a name that is none is said, in the drawing and in the inspector, and
     const field = page.locator("input.rename");
     await field.fill(wrong);
     await page.keyboard.press("Enter");
-    await page.locator(".board-notice", { hasText: "Letters, digits and _" }).waitFor();
+    await page.locator(".board-notice", { hasText: "Letters a to z and A to Z, digits and _" }).waitFor();
     assert.equal(await field.inputValue(), wrong, "it can be mended");
     await page.keyboard.press("Escape");
     await field.waitFor({ state: "detached" });
@@ -235,6 +235,9 @@ inBrowser("a name that is none is said, in the drawing and in the inspector, and
   const line = page.locator(".inspector .line", { hasText: "Name" }).locator("input");
   await line.fill("1x");
   await page.keyboard.press("Enter");
-  await page.waitForFunction(() => document.querySelector<HTMLInputElement>(".inspector .line input")!.value === "go");
+  await line.and(page.locator("[aria-invalid=true]")).waitFor();
+  assert.equal(await line.inputValue(), "1x");
+  await page.keyboard.press("Escape");
+  assert.equal(await line.inputValue(), "go");
   assert.equal(await read("plan.afp"), PLAN);
 });

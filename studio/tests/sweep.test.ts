@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { inBrowser, shows } from "./browser";
-import { counted, grouped, mapOf, ROW, runsOf, type Ending, type Run } from "../page/sweep";
+import { counted, countedAll, grouped, mapOf, ROW, runsOf, sumOf, type Ending, type Run } from "../page/sweep";
 
 const run = (nth: number, ending: Ending, seed: number, values: Record<string, number> = {}, why = ""): Run => ({
   run: nth, ending, seed, why, where: "go", time_s: 1, world: null, touched: {}, command: "",
@@ -35,6 +35,15 @@ test("runs that came to the same are one line, and what they came to together is
   assert.deepEqual(runsOf([...runs, { summary: { runs: 3 } }]), runs);
 });
 
+test("what all runs came to is said of all of them, also of those that are not listed", () => {
+  const summary = { runs: 9, of: 100, endings: { error: 2, ok: 7 } };
+  const lines = [run(0, "ok", 0), { summary }];
+  assert.deepEqual(sumOf(lines), summary);
+  assert.deepEqual(countedAll(runsOf(lines), sumOf(lines)), [{ ending: "ok", count: 7 }, { ending: "error", count: 2 }]);
+  // Of a sweep that was killed nobody says it.
+  assert.deepEqual([sumOf([run(0, "ok", 0)]), sumOf([]), countedAll([run(0, "ok", 0)], null)], [null, null, [{ ending: "ok", count: 1 }]]);
+});
+
 const PLAN = `use std
 use carbot
 
@@ -57,7 +66,7 @@ inBrowser("a plan is run many times; a cell of the map says what its runs came t
   await page.keyboard.press("Enter");
   await page.getByLabel("Seeds").fill("0..3");
   await page.getByLabel("Vary").fill("way=20cm,2m");
-  await page.getByLabel("Until").fill("20s");
+  await page.getByLabel("Until").fill("20 s");
   await page.getByRole("button", { name: "Run many times" }).click();
   await page.locator(".map td button").first().waitFor({ timeout: 60_000 });
   assert.equal(await page.locator(".map td button").count(), 6);
@@ -74,3 +83,22 @@ inBrowser("a plan is run many times; a cell of the map says what its runs came t
   await page.getByRole("button", { name: "Give way what the plan says" }).click();
   assert.equal(await page.locator(".given").count(), 0);
 });
+
+inBrowser("what cannot be swept is said of the field that it stands in", { "plan.afp": PLAN }, async ({ page }) => {
+  await page.locator(".node text").first().waitFor();
+  await page.keyboard.press("Control+k");
+  await page.keyboard.type("build and sweep");
+  await page.keyboard.press("Enter");
+  for (const [field, wrong, says] of [
+    ["Seeds", "5..2", /^Seeds '5\.\.2': there are no seeds/],
+    ["Vary", "way", /^Vary 'way': expected what to vary/],
+    ["Until", "0 s", /'0 s' is no time to run in: write one, '30 s'/],
+  ] as const) {
+    const input = page.getByLabel(field, { exact: true });
+    const before = await input.inputValue();
+    await input.fill(wrong);
+    await page.getByRole("button", { name: "Run many times" }).click();
+    await shows(page.locator(".banner.error"), says);
+    await input.fill(before);
+  }
+}, { ignore: /Seeds '|Vary '|no time to run in/ });

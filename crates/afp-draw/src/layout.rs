@@ -19,7 +19,7 @@ mod placed;
 mod rows;
 
 use grid::Grid;
-pub(super) use placed::layout_around;
+pub(super) use placed::{NEAR, layout_around};
 use rows::Rows;
 
 use super::router::{self, Bounds, Connector, Heading, Point};
@@ -65,8 +65,10 @@ pub(super) struct Placement {
     pub(super) fixed: Vec<Option<Point>>,
     /// Where the nodes were in the layout before.
     pub(super) before: Vec<Option<Point>>,
-    /// Where nodes stood that were not in the layout before, but in an earlier one.
+    /// Where nodes stood that were not in the layout before, or had to be somewhere else in it.
     pub(super) once: Vec<Option<Point>>,
+    /// Where nodes stood before they gave way to some that had to be there.
+    pub(super) origins: Vec<Option<Point>>,
     /// The routes that the links had.
     pub(super) routes: Vec<Option<Vec<Point>>>,
 }

@@ -6,6 +6,7 @@
 //! their routes to the last digit.
 
 mod gone;
+mod held;
 mod lines;
 mod painted;
 
@@ -26,6 +27,7 @@ use afp_dsl::outline::{Component, Outline, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
 use gone::Gone;
+use held::Held;
 use painted::Painted;
 use rustc_hash::FxHashMap;
 
@@ -81,6 +83,8 @@ pub struct PlanScene {
     pub edges: Vec<EdgeScene>,
     /// What was drawn in scenes before: it comes back to where it stood.
     gone: Gone,
+    /// What stands where it does because of positions.
+    held: Held,
 }
 
 /// A box with everything attached to it.
@@ -139,7 +143,8 @@ impl Scene {
     /// The drawing of the main plan and, unless the options say otherwise, of the plans it uses.
     ///
     /// With the scene `before` a change, boxes stay where they were, unless they have positions or
-    /// are in the way of one that has; one that was gone for a while comes back to where it stood.
+    /// are in the way of one that has; one that was gone for a while comes back to where it stood, and
+    /// one whose position is gone to where it stood without, and so do those that gave way to it.
     pub fn new(outline: &Outline, options: &Options, before: Option<&Scene>) -> Scene {
         let drawn = Drawn::new(outline, options, before);
         let mut painter = Painter::new(options.icons);
@@ -152,14 +157,6 @@ impl Scene {
         let legend =
             drawn.legend.map(|(sketch, at)| paint::group("legend", &painter.content(sketch), at));
         Scene { plans, symbols: painter.symbols(), size: drawn.size, legend }
-    }
-
-    /// Leaves a box to the automatic layout when the next scene is made from this one.
-    pub fn forget(&mut self, item: &Item) {
-        for plan in &mut self.plans {
-            plan.elements.retain(|element| element.item != *item);
-            plan.gone.forget(item);
-        }
     }
 
     /// The area that the boxes alone take, in pixels: known before anything is laid out, and less than that of the whole
@@ -297,6 +294,7 @@ impl<'a> DrawnPlan<'a> {
             doc: self.view.plan.doc.clone(),
             offset: self.offset,
             bounds: self.bounds,
+            held: Held::since(before, &self.view, &elements),
             gone: before
                 .map_or_else(Gone::default, |before| Gone::since(before, &elements, &edges)),
             elements,
@@ -369,24 +367,27 @@ fn links(exits: &[(usize, &Leaving)]) -> Vec<Link> {
 }
 
 /// Where cards have to be, where they were, and which routes there were.
-fn placement(
+fn placement<'a>(
     view: &View,
     cards: &[Card],
     exits: &[(usize, &Leaving)],
-    before: Option<&PlanScene>,
+    before: Option<&'a PlanScene>,
 ) -> Placement {
     let corner = |card: &Card, (x, y): Point| (x - card.rect.x, y - card.rect.y);
     let fixed = cards.iter().map(|card| {
         let position = view.position(&card.item)?;
         Some(corner(card, (position.x.into(), position.y.into())))
     });
-    let stood = |elements: Vec<&ElementScene>| {
-        let known = elements.into_iter().map(|known| (&known.item, (known.rect.x, known.rect.y)));
-        let known: FxHashMap<_, _> = known.collect();
+    let at = |known: &'a ElementScene| (&known.item, (known.rect.x, known.rect.y));
+    let stood = |known: FxHashMap<&Item, Point>| {
         cards.iter().map(|card| Some(corner(card, *known.get(&card.item)?))).collect()
     };
-    let elements = before.iter().flat_map(|before| &before.elements).collect();
-    let gone = before.iter().flat_map(|before| before.gone.elements()).collect();
+    let is_loose =
+        |known: &&ElementScene| before.is_some_and(|before| !before.held.has(&known.item));
+    let elements = before.iter().flat_map(|before| &before.elements).filter(is_loose).map(at);
+    let gone = before.iter().flat_map(|before| before.gone.elements()).map(at);
+    let gone = gone.chain(before.iter().flat_map(|before| before.held.stood()));
+    let origins = before.iter().flat_map(|before| before.held.origins());
     let edges = before.iter().flat_map(|before| before.gone.edges().chain(&before.edges));
     let edges: FxHashMap<_, _> =
         edges.map(|known| ((&known.item, &known.part), &known.points)).collect();
@@ -395,8 +396,9 @@ fn placement(
         .map(|(_, exit)| edges.get(&(&exit.item, &exit.part)).map(|points| points.to_vec()));
     Placement {
         fixed: fixed.collect(),
-        before: stood(elements),
-        once: stood(gone),
+        before: stood(elements.collect()),
+        once: stood(gone.collect()),
+        origins: stood(origins.collect()),
         routes: routes.collect(),
     }
 }

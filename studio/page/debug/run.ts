@@ -3,21 +3,18 @@ import { computed, effect, signal } from "@preact/signals";
 import { pathOf } from "../addresses";
 import { connect, type Dap } from "../dap";
 import { current } from "../documents";
-import { drawing, plan as shownPlan, trail, wanted } from "../drawing/model";
 import { report, trouble } from "../panes/files";
 import { reveal } from "../places";
 import type { Position } from "../positions";
-import { number, problems } from "../problems";
-import { trusted } from "../trust";
 import { words } from "../words";
 import { sensed, type Sensed } from "../world/sensed";
 import * as arranged from "./arranged";
 import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
 import { olderThan } from "./older";
+import { canRun, planToRun } from "./ready";
 import type { Ended, Phase, Said, State } from "./told";
 import { extended, packed, type Record } from "./trace";
-import { isWritten } from "./written";
 
 export const phase = signal<Phase>("idle");
 export const state = signal<State | null>(null);
@@ -52,30 +49,18 @@ let dap: Dap | null = null;
 
 export const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
 
-/** Runs the plan that is shown, or the one that led to it; with errors it shows the first of them instead. */
+/** Runs the plan that is shown, or the one that led to it; where something is in the way, that is said and shown instead. */
 export async function start(hold = false): Promise<void> {
   if (active.value) return;
-  const errors = number("error");
-  if (errors) {
-    trouble.value = words.notRun(errors);
-    return reveal(current.value, problems.value[0]!.range, "other");
+  try {
+    const plan = planToRun();
+    const uri = current.value;
+    if (!(await canRun(given.value)) || active.value) return;
+    const program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
+    await launch({ program, ...wantedWorld(), ...{ stopOnEntry: hold, seed: seed.value, set: given.value } }, plan);
+  } catch (why) {
+    report(why);
   }
-  if (drawing.peek()?.plan === null) {
-    trouble.value = words.notRunNoPlan;
-    return;
-  }
-  if (!(await isWritten())) {
-    trouble.value = words.notRunNotSaved;
-    return;
-  }
-  trouble.value = null;
-  if (!(await trusted(current.value))) return;
-  const uri = current.value;
-  // What was chosen last counts, though its drawing may still be on its way.
-  const plan = trail.value[0] ?? wanted.value ?? shownPlan.value ?? "";
-  const program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
-  const world = wantedWorld();
-  await launch({ program, ...world, ...{ stopOnEntry: hold, seed: seed.value, set: given.value } }, plan);
 }
 
 const wantedWorld = (): object => ({

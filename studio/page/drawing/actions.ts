@@ -3,6 +3,7 @@ import { select, selected } from "../selection";
 import * as ask from "./ask";
 import * as catalog from "./catalog";
 import { choose, type Choice } from "./choose";
+import { beginPlan } from "./first";
 import { drawing, enter, plan } from "./model";
 import * as offers from "./offers";
 import { renaming } from "./rename";
@@ -55,10 +56,10 @@ const ownerOf = (drawn: Drawing, part: Part): string | null => {
   return holder && holder.kind !== null ? nameOf(holder.item) : null;
 };
 
-/** Adds a template after the selection, connected from its first free exit; a supervisor onto it. */
+/** Adds a template after the selection, connected from its first free exit; a supervisor onto it. Where there is no plan, one is begun. */
 export async function addAfter(offer: ask.Offer): Promise<void> {
   const at = here();
-  if (!at) return refuse(words.noPlan);
+  if (!at) return beginPlan(offer);
   const part = focused();
   if (offer.kind === "supervise") {
     await ask.edit(offers.added(at.plan, part && ownerOf(at.drawn, part), offer, null));
@@ -72,7 +73,7 @@ export async function addAfter(offer: ask.Offer): Promise<void> {
 /** Adds a template where it was dropped: on the ground, onto an element, onto an edge. */
 export async function addAt(offer: ask.Offer, to: { place: Point } | { owner: Part } | { edge: Edge }): Promise<void> {
   const at = here();
-  if (!at) return refuse(words.noPlan);
+  if (!at) return beginPlan(offer);
   const names = offers.taken(at.drawn);
   const { name } = offers.header(offer, names);
   const supervises = offer.kind === "supervise";
@@ -186,17 +187,20 @@ export async function automatic(): Promise<void> {
   await ask.place(Object.fromEntries(items.map((item) => [item, null])), words.automaticPlaces);
 }
 
-/** The selected items as text, with the toolboxes that they need above. */
+/** The selected items as text, in the order in which they stand there, with the toolboxes that they need above, and the start among them. */
 export async function copied(): Promise<string> {
-  const items = [...new Set(selected.peek().map((part) => part.item))].filter((item) => item.includes("."));
-  const texts = await Promise.all(items.map((item) => ask.written(item, undefined, true)));
+  const chosen = new Set(selected.peek().map((part) => part.item));
+  // What goes with its owner is not written by itself.
+  const items = [...chosen].filter((item) => item.includes(".") && !(item.split(".").length > 2 && chosen.has(item.split(".").slice(0, -1).join("."))));
+  const texts = await ask.inOrder(items);
   const templates = new Set(texts.flatMap((text) => [...text.replace(/\/\/.*/g, "").matchAll(/:\s*([\w.]+)/g)].map((found) => found[1])));
   // Who copies before the palette is there needs its toolboxes, too.
   const known = catalog.offers.peek().length ? catalog.offers.peek() : await ask.palette("");
   const toolboxes = new Set(known.filter((offer) => offer.toolbox && templates.has(offer.template)).map((offer) => offer.toolbox));
   const uses = [...toolboxes].map((name) => `use ${name}\n`).join("");
+  const start = [...(drawing.peek()?.edges.values() ?? [])].find((edge) => edge.kind === "start" && chosen.has(edge.to));
   say(words.copied(items.length));
-  return `${uses}${texts.join("\n")}\n`;
+  return `${uses}${start ? `start ${nameOf(start.to)}\n` : ""}${texts.join("\n")}\n`;
 }
 
 /** Pastes items; a supervisor goes onto the selected element. */

@@ -51,11 +51,21 @@ export const targets = async (item: string, outcome: string): Promise<Candidate[
 
 export const port = (item: string, port: string): Promise<PortAnswer | null> => ask<PortAnswer | null>("afp/candidates", { item, port });
 
-/** The text of an item or part, as it stands in the document, with an item's comments where they are wanted; empty where it has none. */
-export async function written(item: string, part?: PartOf, comments = false): Promise<string> {
-  const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) }, comments);
+/** The text of an item or part, as it stands in the document; empty where it has none. */
+export async function written(item: string, part?: PartOf): Promise<string> {
+  const range = await spanOf(current.peek(), { item, ...(part ? { part } : {}) });
   const whole = text(current.peek());
   return range ? whole.slice(offset(whole, range.start), offset(whole, range.end)) : "";
+}
+
+/** The texts of items with their comments, in the order in which they stand in the document, apart where they are so there. */
+export async function inOrder(items: readonly string[]): Promise<string[]> {
+  const ranges = (await Promise.all(items.map((item) => spanOf(current.peek(), { item }, true)))).filter((range) => range !== null);
+  const whole = text(current.peek());
+  const places = ranges.map(({ start, end }) => [offset(whole, start), offset(whole, end)] as const);
+  places.sort(([one], [other]) => one - other);
+  const isApart = (nth: number): boolean => nth > 0 && /\n\s*\n/.test(whole.slice(places[nth - 1]![1], places[nth]![0]));
+  return places.map(([from, to], nth) => `${isApart(nth) ? "\n" : ""}${whole.slice(from, to)}`);
 }
 
 /** The help text that stands above an item; empty where there is none. */

@@ -5,9 +5,11 @@ import { useRef } from "preact/hooks";
 import { discs, marks as runMarks, values } from "../debug/marks";
 import { isForField, keyName } from "../commands";
 import { origin, selected } from "../selection";
+import { pen } from "../session";
 import * as actions from "./actions";
 import { target } from "./bring";
 import { fill, refresh } from "./fill";
+import { beginPlan } from "./first";
 import * as catalog from "./catalog";
 import { Chooser, Rename, useInSight } from "./choices";
 import { question } from "./choose";
@@ -170,7 +172,12 @@ function Over() {
   return (
     <>
       {drawing.value === null && <p class="board-empty late" role="status">{words.comes}</p>}
-      {drawing.value !== null && plan.value === null && <p class="board-empty">{words.noPlan}</p>}
+      {drawing.value !== null && plan.value === null && (
+        <div class="board-empty">
+          <p>{words.noPlan}</p>
+          <button type="button" class="over" disabled={!pen.value} onClick={() => void beginPlan()}>{words.beginPlan}</button>
+        </div>
+      )}
       <FirstPlace />
       <Chooser key="chooser" />
       <Rename />

@@ -113,20 +113,20 @@ export function Rename() {
     input.select();
   }, [asked]);
   if (!asked) return null;
-  const end = (take: boolean, leaves: boolean): void => {
+  const end = (take: boolean): void => {
     const name = field.current?.value.trim() ?? "";
     if (renaming.peek() !== asked) return;
     const wrong = take && name !== "" && !isName(name);
-    if (wrong) refuse(words.nameHint);
-    // Who is still there can mend it.
-    if (wrong && !leaves) field.current?.select();
-    else asked.done(take && isName(name) ? name : null);
+    if (!wrong) return asked.done(take && isName(name) ? name : null);
+    // What was typed can be mended; who has left it finds it there.
+    refuse(words.nameHint);
+    if (document.activeElement === field.current) field.current?.select();
   };
   const key = (event: KeyboardEvent): void => {
     if (event.key !== "Enter" && event.key !== "Escape") return;
     event.preventDefault();
     event.stopPropagation();
-    end(event.key === "Enter", false);
+    end(event.key === "Enter");
   };
-  return <input class="over rename" ref={field} aria-label={words.renameLabel(asked.name)} title={words.nameHint} pattern="[A-Za-z_]\w*" spellcheck={false} autocomplete="off" value={asked.name} onKeyDown={key} onBlur={() => end(true, true)} />;
+  return <input class="over rename" ref={field} aria-label={words.renameLabel(asked.name)} title={words.nameHint} pattern="[A-Za-z_]\w*" spellcheck={false} autocomplete="off" value={asked.name} onKeyDown={key} onBlur={() => end(true)} />;
 }

@@ -22,6 +22,13 @@ export function calledNow(name: string, before: readonly string[], now: readonly
   return there !== undefined && !before.includes(there) ? there : null;
 }
 
+/** Items under the names that their plans have after a change; those of a plan that is gone may come back with it. */
+export const itemsNow = (items: readonly string[], before: readonly string[], now: readonly string[]): string[] =>
+  items.map((item) => {
+    const [plan = "", ...rest] = item.split(".");
+    return [calledNow(plan, before, now) ?? plan, ...rest].join(".");
+  });
+
 /**
  * The drawing after a change: what is not named in it stays the very same value, so that who shows
  * it can tell by comparing.

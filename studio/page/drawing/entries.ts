@@ -9,7 +9,7 @@ import { words } from "./words";
 export async function add(): Promise<void> {
   const at = actions.here();
   if (!at) return;
-  const wrong = (line: string): string | null => (isName((/^\s*(\w*)/.exec(line)?.[1] ?? "")) ? null : words.nameHint);
+  const wrong = (line: string): string | null => (isName(/^\s*(?:(?:in|out|var|const)\s+)?([^\s:=]*)/.exec(line)?.[1] ?? "") ? null : words.nameHint);
   const line = await askLine(words.addEntry, words.entryHint, words.entryExample, words.addEntry, wrong);
   if (line === null) return;
   const kind = /^\s*(in|out|var|const)\s/.test(line) ? "" : "var ";

@@ -19,6 +19,7 @@ import { home, reading, step, type Direction } from "./navigate";
 import * as note from "./note";
 import { choice } from "./offers";
 import { byKeys, placed, putBack } from "./pointer";
+import { renaming } from "./rename";
 import { reveal } from "./reveal";
 import { chosen as elements, extract, inline, isSubPlan } from "./restructure";
 import { refuse, say, spoken } from "./say";
@@ -165,6 +166,7 @@ async function paste(): Promise<void> {
 
 /** Leaves the innermost thing: the selection is the last one. */
 function escape(): void {
+  if (renaming.peek()) return renaming.peek()!.done(null);
   if (several.peek()) return toggle(false);
   if (ended.peek() && !active.peek()) return dismiss();
   select([], "drawing");

@@ -3,7 +3,7 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import { current } from "../documents";
 import { LOST, Refused } from "../lsp";
 import { lsp } from "../session";
-import { calledNow, changed, whole } from "./differences";
+import { calledNow, changed, itemsNow, whole } from "./differences";
 import type { Answer, Changed, Drawing } from "./shapes";
 import { folded } from "./folded";
 
@@ -39,6 +39,9 @@ function take(change: Changed): void {
     if (wanted.peek() === before.plan && change.plan !== before.plan) wanted.value = wanted.peek() && change.plan;
     trail.value = trail.peek().flatMap((name) => calledNow(name, before.plans, change.plans) ?? []);
     drawing.value = changed(before, change);
+    const shut = folded.peek()[before.uri];
+    const now = shut && itemsNow(shut, before.plans, change.plans);
+    if (now && now.join() !== shut.join()) folded.value = { ...folded.peek(), [before.uri]: now };
   });
 }
 

@@ -5,6 +5,7 @@ const many = (count: number, what: string): string => (count === 0 ? "" : `${cou
 export const words = {
   application: "Drawing of the plan. Arrow keys go along it, ? shows all keys.",
   noPlan: "There is no plan in this file",
+  beginPlan: "Begin a plan here",
   comes: "The plan is being drawn …",
   firstPlace: "Drag an element here, or click it in the palette",
   zoomIn: "Zoom in",
@@ -105,7 +106,7 @@ export const words = {
   nothingFits: "Nothing fits",
   disconnect: "lead nowhere",
   renameLabel: (name: string) => `New name of ${name}`,
-  nameHint: "Letters, digits and _; begin with a letter",
+  nameHint: "Letters a to z and A to Z, digits and _ (no ä, é, ...); begin with a letter",
 
   portHint: "Drop an entry on an element, or on one of its ports",
   noFit: (name: string) => `'${name}' does not fit here`,

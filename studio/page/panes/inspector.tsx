@@ -34,14 +34,19 @@ export function Inspector() {
   );
 }
 
-/** A line that is taken over with `Enter` or when it is left, and put back with `Escape` or where it is refused; null while its value is fetched. */
-function Line({ label, value, take, hint, hidden }: { label: string; value: string | null; take(text: string): Promise<unknown>; hint?: string; hidden?: boolean }) {
+/**
+ * A line that is taken over with `Enter` or when it is left, and put back with `Escape` or where it is refused; what is `wrong` as
+ * it is written stays to be mended. null while its value is fetched.
+ */
+function Line({ label, value, take, wrong, hint, hidden }: { label: string; value: string | null; take(text: string): Promise<unknown>; wrong?(text: string): string | null; hint?: string; hidden?: boolean }) {
   // What is typed counts over the value that it was typed over, from the first key on.
   const [typed, setTyped] = useState({ over: value, text: value ?? "" });
   const text = typed.over === value ? typed.text : (value ?? "");
   const back = (): void => setTyped({ over: value, text: value ?? "" });
   const end = (): void => {
     if (text.trim() === value) return;
+    const why = wrong?.(text.trim()) ?? null;
+    if (why !== null) return refuse(why);
     // What is typed while the answer is on its way stays.
     void take(text.trim()).then((done) => done || setTyped((now) => (now.text === text ? { over: value, text: value ?? "" } : now)));
   };
@@ -52,13 +57,13 @@ function Line({ label, value, take, hint, hidden }: { label: string; value: stri
   return (
     <label class="line">
       <span class={hidden ? "hidden" : ""}>{label}</span>
-      <input type="text" value={text} disabled={value === null} placeholder={hint} spellcheck={false} autocomplete="off" onInput={(event) => setTyped({ over: value, text: event.currentTarget.value })} onKeyDown={key} onBlur={end} />
+      <input type="text" value={text} disabled={value === null} aria-invalid={wrong !== undefined && wrong(text.trim()) !== null} placeholder={hint} spellcheck={false} autocomplete="off" onInput={(event) => setTyped({ over: value, text: event.currentTarget.value })} onKeyDown={key} onBlur={end} />
     </label>
   );
 }
 
 const Name = ({ item }: { item: string }) => (
-  <Line label={words.name} value={nameOf(item)} take={async (to) => (isName(to) ? ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }]) : refuse(words.nameHint))} />
+  <Line label={words.name} value={nameOf(item)} wrong={(name) => (isName(name) ? null : words.nameHint)} take={(to) => ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }])} />
 );
 
 /** The help above an item, as one line. */

@@ -1,5 +1,5 @@
 // Builds and sweeps: the plan made into a program, the plan run many times, with what jobs have said.
-import { signal } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
 import { Code } from "../book";
 import { nameOf } from "../documents";
 import { drawing } from "../drawing/model";
@@ -15,7 +15,19 @@ import { Sweep } from "./sweep";
 const seeds = signal("0..20");
 /** What is varied: one thing for the columns of the map, another one for its rows. */
 const vary = signal<readonly [string, string]>(["", ""]);
-const until = signal("60s");
+const until = signal("60 s");
+
+const KEY = "afp-studio-sweep";
+
+/** Takes up what stood in the fields before the page was loaded anew, and keeps it from now on. */
+export function begin(storage: Storage): void {
+  try {
+    [seeds.value, vary.value, until.value] = JSON.parse(storage.getItem(KEY) ?? "") as [string, [string, string], string];
+  } catch {
+    // There is nothing yet.
+  }
+  effect(() => storage.setItem(KEY, JSON.stringify([seeds.value, vary.value, until.value])));
+}
 
 export function Jobs() {
   const idle = busy.value === "";

@@ -2,12 +2,14 @@
 // run again where it can be watched.
 import { computed, signal } from "@preact/signals";
 import { active, repeat } from "../debug/run";
+import { Severity } from "../icons";
 import { report } from "./files";
-import { counted, grouped, isRepeatable, mapOf, runsOf, type Ending, type OutcomeMap, type Run } from "../sweep";
+import { counted, countedAll, grouped, isRepeatable, mapOf, runsOf, sumOf, type Ending, type OutcomeMap, type Run } from "../sweep";
 import { swept, sweptIn } from "../results";
 import { words } from "../words";
 
 const runs = computed(() => runsOf(swept.value));
+const sum = computed(() => sumOf(swept.value));
 const map = computed(() => mapOf(runs.value));
 /** The cell that was chosen, as row and column; it is one of the sweep that is shown. */
 const chosen = signal<{ of: OutcomeMap; row: number; column: number } | null>(null);
@@ -29,20 +31,25 @@ const EndingSign = ({ of }: { of: Ending }) => (
 );
 
 export function Sweep() {
-  if (!runs.value.length) return null;
+  if (!runs.value.length && !sum.value) return null;
   const at = chosen.value?.of === map.value ? chosen.value : null;
+  const { runs: done, of } = sum.value ?? { runs: runs.value.length, of: null };
   const cell = at ? map.value.cells[at.row]![at.column]! : null;
   return (
     <div class="sweep">
       <p class="endings" role="status">
-        {counted(runs.value).map(({ ending, count }) => (
+        {done !== of && <span class="ending"><Severity of="warning" />{words.sweepCut(done, of)}</span>}
+        {countedAll(runs.value, sum.value).map(({ ending, count }) => (
           <span class={`ending ${ending}`} key={ending}><EndingSign of={ending} />{words.endedSo(ending, count)}</span>
         ))}
+        {done > runs.value.length && <span class="ending">{words.sweepShown(runs.value.length)}</span>}
       </p>
-      <div class="sweep-parts">
-        <Cells map={map.value} />
-        {cell ? <Chosen runs={cell} /> : <Chosen runs={runs.value} all />}
-      </div>
+      {runs.value.length > 0 && (
+        <div class="sweep-parts">
+          <Cells map={map.value} />
+          {cell ? <Chosen runs={cell} /> : <Chosen runs={runs.value} all />}
+        </div>
+      )}
     </div>
   );
 }

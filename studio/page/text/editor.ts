@@ -149,7 +149,7 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
       if (place?.uri !== uri) return;
       // Once for a place: what is typed afterwards does not take the cursor back to it.
       const now = untracked(() => text(uri));
-      show(view, offset(now, place.range.start), offset(now, place.range.end));
+      show(view, offset(now, place.range.start), offset(now, place.range.end), place.stays);
       if (place.focus) view.focus();
     }),
   ];
@@ -160,14 +160,14 @@ export function edit(host: HTMLElement, uri: string, nonce: string): { view: Edi
   return { view, end };
 }
 
-/** Puts the cursor to a place and marks it; nothing scrolls unless it is out of sight. */
-function show(view: EditorView, from: number, to: number): void {
+/** Puts the cursor to a place, unless that stays, and marks it; nothing scrolls unless it is out of sight. */
+function show(view: EditorView, from: number, to: number, stays = false): void {
   const length = view.state.doc.length;
   const place = { from: Math.min(from, length), to: Math.min(to, length) };
   const { viewport } = view;
   const scroll = place.from < viewport.from || place.from > viewport.to || !isSeen(view, place.from);
   const effects = [highlight.of(place), ...(scroll ? [EditorView.scrollIntoView(place.from, { y: "center" })] : [])];
-  view.dispatch({ selection: EditorSelection.cursor(place.from), effects });
+  view.dispatch({ ...(stays ? {} : { selection: EditorSelection.cursor(place.from) }), effects });
 }
 
 function isSeen(view: EditorView, at: number): boolean {

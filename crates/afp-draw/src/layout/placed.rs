@@ -11,7 +11,7 @@ const GAP: f64 = 48.0;
 
 /// Least distance of boxes that stay where they were, and of a route that does from a box: less than
 /// the router keeps.
-const NEAR: f64 = 6.0;
+pub(in super::super) const NEAR: f64 = 6.0;
 
 /// Lays out the nodes around those that have places. Those that were somewhere before stay there
 /// unless another one is in the way, and routes stay whose ends do and that no box has come near.
@@ -20,8 +20,8 @@ pub(in super::super) fn layout_around(
     links: &[Link],
     placement: Placement,
 ) -> LaidOut {
-    let known = placement.fixed.iter().zip(&placement.before);
-    if known.into_iter().all(|(fixed, before)| fixed.is_none() && before.is_none()) {
+    let known = [&placement.fixed, &placement.before, &placement.once];
+    if known.into_iter().flatten().all(Option::is_none) {
         return layout(nodes, links);
     }
     let corners = places(nodes, links, &placement);
@@ -115,6 +115,13 @@ fn places(nodes: &[Node], links: &[Link], placement: &Placement) -> Vec<Point> {
             corner.1 = way.bottom + GAP;
         }
         corners[node] = Some(corner);
+    }
+    // Who gave way goes back as soon as there is room again.
+    for (node, origin) in placement.origins.iter().enumerate() {
+        let Some(origin) = origin.filter(|_| placement.fixed[node].is_none()) else { continue };
+        let Some(now) = corners[node].take() else { continue };
+        let is_free = obstacle(nodes, &corners, node, origin, |_| NEAR).is_none();
+        corners[node] = Some(if is_free { origin } else { now });
     }
     for (node, once) in placement.once.iter().enumerate() {
         let Some(once) = once.filter(|_| corners[node].is_none()) else { continue };

@@ -1,7 +1,6 @@
 //! What was drawn before and is not there now: undone, it comes back to where it stood.
 
 use super::{EdgeScene, ElementScene, PlanScene};
-use afp_syntax::item::Item;
 
 /// So many elements, and so many edges, are remembered; those that went first are forgotten first.
 const MOST: usize = 256;
@@ -28,11 +27,6 @@ impl Gone {
             elements: without(&before.gone.elements, &before.elements, is_there),
             edges: without(&before.gone.edges, &before.edges, is_led),
         }
-    }
-
-    /// Leaves an element to the automatic layout when it comes back.
-    pub(super) fn forget(&mut self, item: &Item) {
-        self.elements.retain(|element| element.item != *item);
     }
 
     pub(super) fn elements(&self) -> impl Iterator<Item = &ElementScene> {

@@ -12,6 +12,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::Document;
+use super::drawing::find;
 use super::items::no_item;
 use crate::answer::{Answer, Failure, ok};
 use crate::convert::FileEdits;
@@ -161,11 +162,15 @@ pub(crate) struct Paste {
     at: Option<[f64; 2]>,
 }
 
-/// The edits that put in a text of items, with the `use` lines above it and names of their own.
+/// The edits that put in a text of items, with the `use` lines above it and names of their own. A plan that has no start
+/// begins with the item that a `start` line of the text names.
 pub(crate) fn paste(server: &mut Server, params: Paste) -> Answer {
     let Paste { text_document, plan, owner, text, at } = params;
     let (mut changes, rest) = uses(&text);
+    let (start, rest) = start(rest);
     changes.push(Change::Add { plan: plan.clone(), owner, text: rest, before: None });
+    let start = start.filter(|_| !server.starts(&text_document, &plan));
+    changes.extend(start.map(|to| Change::SetStart { plan: plan.clone(), to }));
     let answer = changed(server, &text_document, &changes, &Places::new())?;
     let first = answer.pointer("/select/0").and_then(Value::as_str).map(str::to_owned);
     match (first, at) {
@@ -195,4 +200,30 @@ fn uses(text: &str) -> (Vec<Change>, String) {
         changes.push(Change::AddUse { toolbox: toolbox.text, alias });
     }
     (changes, text.get(end..).unwrap_or_default().to_owned())
+}
+
+/// The element of a text of items that its `start` line names, and the text without that line.
+fn start(text: String) -> (Option<String>, String) {
+    let (before, after) = ("plan P {\n", "\n}\n");
+    let whole = format!("{before}{text}{after}");
+    let items = afp_syntax::parse(&whole, 0, &mut Diagnostics::default()).file().items();
+    let [AstItem::Plan(plan)] = &items[..] else { return (None, text) };
+    let [start] = &plan.starts()[..] else { return (None, text) };
+    let Some(to) = start.target() else { return (None, text) };
+    let (from, end) = (start.span().start as usize, start.span().end as usize);
+    let parts = whole.get(before.len()..from).zip(whole.get(end..whole.len() - after.len()));
+    let Some((above, below)) = parts else { return (None, text) };
+    let is_there =
+        plan.elements().iter().any(|one| one.name().is_some_and(|name| name.text == to.text));
+    (is_there.then_some(to.text), format!("{above}{below}"))
+}
+
+impl Server {
+    /// Whether a plan of a document says what it starts with.
+    fn starts(&mut self, document: &Document, plan: &str) -> bool {
+        let Some(analysis) = self.analysis(&document.uri) else { return false };
+        let outline = &analysis.compiled.outline;
+        let id = find(outline, analysis.file, Some(plan)).ok().flatten();
+        id.is_some_and(|id| !outline.plan(id).starts.is_empty())
+    }
 }

@@ -2,14 +2,16 @@
 //!
 //! The room says what is run, with which arguments; who runs it is not its business.
 
+mod arguments;
+
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::time::Duration;
 
-use afp_lsp::{Message, path_of};
+use afp_lsp::Message;
 use serde_json::{Value, json};
 
 use super::{ClientId, Out, Room, notification};
+use arguments::{arguments, file_of};
 
 /// Jobs that go on at once.
 const MOST: usize = 4;
@@ -25,6 +27,8 @@ const COLLECTED: Duration = Duration::from_millis(50);
 const MOST_RESULTS: usize = 20_000;
 /// Bytes of them: they go out in one message.
 const MOST_BYTES: usize = 32 << 20;
+/// Bytes of what they came to together, which is kept where there is no room for more of them.
+const MOST_SUM: usize = 1 << 20;
 
 /// Tells jobs apart.
 pub(crate) type JobId = u32;
@@ -90,10 +94,12 @@ impl Room {
         Ok(json!({ "id": id }))
     }
 
+    /// Ends a job, unless it has ended by itself meanwhile.
     pub(super) fn end_job(&mut self, params: &Value) -> Result<Value, String> {
         let id = params["id"].as_u64().and_then(|id| JobId::try_from(id).ok());
-        let id = id.filter(|id| self.jobs.running.contains_key(id));
-        self.jobs.orders.push(Order::End(id.ok_or("there is no such job")?));
+        let id = id.filter(|id| (1..=self.jobs.made).contains(id)).ok_or("there is no such job")?;
+        let goes_on = self.jobs.running.contains_key(&id);
+        self.jobs.orders.extend(goes_on.then_some(Order::End(id)));
         Ok(Value::Null)
     }
 
@@ -209,7 +215,10 @@ impl Job {
     fn say(&mut self, line: &str) {
         if let Ok(result @ Value::Object(_)) = serde_json::from_str(line) {
             let bytes = self.bytes + line.len();
-            if self.results.len() < MOST_RESULTS && bytes <= MOST_BYTES {
+            let is_room = self.results.len() < MOST_RESULTS && bytes <= MOST_BYTES;
+            // What all of them came to is the last one, of which there is one.
+            let is_sum = result.get("summary").is_some() && line.len() <= MOST_SUM;
+            if is_room || is_sum {
                 self.bytes = bytes;
                 self.results.push(result);
             } else if !std::mem::replace(&mut self.is_cut, true) {
@@ -234,101 +243,6 @@ impl Job {
         self.told = self.said.len();
         Some((self.client, notification("afp/jobSaid", said)))
     }
-}
-
-/// The file that a request names; it is one of the folder.
-fn file_of(room: &Room, params: &Value) -> Option<Result<PathBuf, String>> {
-    params["file"].as_str().map(|uri| room.folder.inside(&path_of(uri)))
-}
-
-/// The arguments of the command line for a job. Files are those of the folder; everything else has its own form.
-fn arguments(room: &Room, kind: &str, params: &Value) -> Result<Vec<String>, String> {
-    let file = || -> Result<String, String> {
-        let path = file_of(room, params).ok_or("'file' is missing")??;
-        Ok(path.to_string_lossy().into_owned())
-    };
-    let word = |name: &str, fits: &dyn Fn(char) -> bool| checked(&params[name], name, fits);
-    let plan = |file: String| -> Result<String, String> {
-        let name = word("plan", &|letter| letter.is_alphanumeric() || letter == '_')?;
-        Ok(name.map_or_else(|| file.clone(), |name| format!("{file}:{name}")))
-    };
-    let texts = |texts: &[&str]| texts.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>();
-    Ok(match kind {
-        "test" => {
-            let all = match params["file"].is_null() {
-                true => Vec::new(),
-                false => vec![file()?],
-            };
-            [texts(&["test", "--json", "--coverage"]), all].concat()
-        }
-        "generate" => [texts(&["test", "--generate"]), vec![file()?]].concat(),
-        "sweep" => {
-            let seeds = word("seeds", &|letter| letter.is_ascii_digit() || ".,".contains(letter))?;
-            let until = word("until", &|letter| letter.is_ascii_alphanumeric() || letter == '.')?;
-            let mut all = [texts(&["sweep", "--json"]), vec![plan(file()?)?]].concat();
-            let mut add = |option: &str, value: String| all.extend([option.to_owned(), value]);
-            seeds.into_iter().for_each(|value| add("--seeds", value));
-            until.into_iter().for_each(|value| add("--until", value));
-            for value in params["vary"].as_array().into_iter().flatten() {
-                let fits = |letter: char| letter.is_alphanumeric() || "_.=:,- %/°".contains(letter);
-                if let Some(value) = checked(value, "vary", &fits)? {
-                    add("--vary", value);
-                }
-            }
-            if let Some(world) = params["world"].as_str() {
-                add("--world", world_of(room, world)?);
-            }
-            all
-        }
-        "build" => [texts(&["build", "--json"]), vec![plan(file()?)?]].concat(),
-        "new" => {
-            let fits = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
-            let name = word("name", &fits)?.ok_or("'name' is missing")?;
-            let with = match params["with"].as_str() {
-                None => None,
-                Some("toolbox") => Some("--toolbox"),
-                Some("robot") => Some("--robot"),
-                Some(other) => return Err(format!("there are no projects with '{other}'")),
-            };
-            [texts(&["new", &name]), texts(&Vec::from_iter(with))].concat()
-        }
-        other => return Err(format!("there is no job '{other}'")),
-    })
-}
-
-/// A word for the command line that has the form of its kind and is no option; none where nothing was said.
-fn checked(
-    value: &Value,
-    name: &str,
-    fits: &dyn Fn(char) -> bool,
-) -> Result<Option<String>, String> {
-    let Some(word) = value.as_str().filter(|word| !word.is_empty()) else { return Ok(None) };
-    match word.chars().all(fits) && !word.starts_with('-') {
-        true => Ok(Some(word.to_owned())),
-        false => Err(format!("'{word}' cannot be {name}{}", remedy(name))),
-    }
-}
-
-/// How a word of a job is written.
-fn remedy(name: &str) -> &'static str {
-    match name {
-        "seeds" => ": write some, '1,5,9', or from one up to another, '0..100'",
-        "until" => ": write a time, '30s'",
-        "vary" => {
-            ": write an input with its values, 'walldist=20cm..60cm:10cm' or 'walldist=20cm,30cm'"
-        }
-        "name" => ": use letters, digits, '-' and '_'",
-        _ => "",
-    }
-}
-
-/// A world of the folder, or one that is made up from a seed.
-fn world_of(room: &Room, world: &str) -> Result<String, String> {
-    let seed = world.strip_prefix("random:");
-    if seed.is_some_and(|seed| seed.chars().all(|letter| letter.is_ascii_digit())) {
-        return Ok(world.to_owned());
-    }
-    Ok(room.folder.inside(world)?.to_string_lossy().into_owned())
 }
 
 #[cfg(test)]
@@ -412,6 +326,25 @@ mod tests {
         (3..).take(MOST - 2).for_each(|id| _ = room.job_done(id, None));
         room.tick(WAITS * 3);
         assert_eq!(room.jobs.running.keys().collect::<Vec<_>>(), [&5]);
+    }
+
+    #[test]
+    fn a_job_that_has_just_ended_needs_no_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut room = begun(&folder);
+        room.job_done(1, Some(0));
+        assert_eq!(room.end_job(&json!({ "id": 1 })), Ok(Value::Null));
+        assert_eq!(room.orders(), []);
+        assert!(room.end_job(&json!({ "id": 2 })).is_err());
+    }
+
+    #[test]
+    fn what_many_results_came_to_is_kept() {
+        let mut job = Job::default();
+        (0..MOST_RESULTS + 5).for_each(|_| job.say("{}"));
+        job.say(r#"{"summary": {}}"#);
+        assert_eq!(job.results.len(), MOST_RESULTS + 1);
+        assert_eq!(job.results[MOST_RESULTS], json!({ "summary": {} }));
     }
 
     #[test]

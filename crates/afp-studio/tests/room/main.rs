@@ -355,6 +355,10 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
     assert!(refused.unwrap_err().contains("trust"));
     let told = place.ask(1, "afp/trust", json!({})).unwrap();
     assert_eq!(told["code"], json!([]));
+    // Who watches may know it, and says nothing.
+    place.client(2);
+    assert_eq!(place.ask(2, "afp/trust", json!({})).unwrap(), told);
+    assert!(place.ask(2, "afp/trust", json!({ "give": true })).is_err());
     assert_eq!(place.ask(1, "afp/job", json!({ "kind": "test", "file": file })).unwrap()["id"], 1);
     for (wrong, why) in [
         (json!({ "kind": "generate", "file": "file:///etc/passwd.afp" }), "outside"),
@@ -367,6 +371,14 @@ fn jobs_that_run_code_of_the_folder_wait_for_trust_and_files_are_those_of_the_fo
         let refused = place.ask(1, "afp/job", wrong).unwrap_err();
         assert!(refused.contains(why), "{refused}");
     }
+    for (until, why) in [("0 s", "'0 s' is no time"), ("0.0ms", "no time"), ("soon?", "'30 s'")] {
+        let order = json!({ "kind": "sweep", "file": file, "until": until });
+        let refused = place.ask(1, "afp/job", order).unwrap_err();
+        assert!(refused.contains(why), "{refused}");
+    }
+    // As plans write it.
+    let order = json!({ "kind": "sweep", "file": file, "until": " 60 s" });
+    assert_eq!(place.ask(1, "afp/job", order).unwrap()["id"], 2);
     assert!(place.ask(1, "afp/endJob", json!({ "id": 7 })).is_err());
     fs::write(place.path("afp.toml"), "[robot]\ncrate = \"x\"\n").unwrap();
     let refused = place.ask(1, "afp/job", json!({ "kind": "test" }));

@@ -1,0 +1,55 @@
+// Whether the plan that is shown can be run: what is in the way is shown, and said as long as it is.
+import { effect } from "@preact/signals";
+import { current } from "../documents";
+import { drawing, plan, trail, wanted } from "../drawing/model";
+import type { Entry } from "../drawing/shapes";
+import { trouble } from "../panes/files";
+import { point } from "../places";
+import { number, problems } from "../problems";
+import { select } from "../selection";
+import { trusted } from "../trust";
+import { words } from "../words";
+import { isWritten } from "./written";
+
+/** The plan to be run: the one that led to what is shown. What was chosen last counts, though its drawing may still be on its way. */
+export const planToRun = (): string => trail.value[0] ?? wanted.value ?? plan.value ?? "";
+
+/** Inputs of the plan to be run that neither it nor `given` says a value of, as far as it is drawn. */
+function inputsMissing(given: object): Entry[] {
+  const drawn = drawing.value;
+  if (drawn?.uri !== current.value || drawn.plan !== planToRun()) return [];
+  return drawn.entries.filter(({ kind, name, value }) => kind === "in" && name !== null && !value && !(name in given));
+}
+
+/** Whether a run may begin, in which inputs are `given` values. */
+export async function canRun(given: object): Promise<boolean> {
+  const uri = current.value;
+  const isHere = (): boolean => current.value === uri;
+  const errors = number("error");
+  if (errors) {
+    refuse(words.notRun(errors), () => isHere() && number("error") === errors);
+    await point(uri, problems.value[0]!.range);
+    return false;
+  }
+  if (drawing.peek()?.plan === null) return refuse(words.notRunNoPlan, () => isHere() && drawing.value?.plan === null);
+  const [missing] = inputsMissing(given);
+  if (missing) {
+    select([{ item: missing.item }], "other");
+    return refuse(words.notRunNoValue(planToRun(), missing.name!, missing.type ?? ""), () => inputsMissing(given).some(({ item }) => item === missing.item));
+  }
+  if (!(await isWritten())) return refuse(words.notRunNotSaved, isHere);
+  trouble.value = null;
+  return trusted(uri);
+}
+
+/** Says what is in the way, until it is there no more. */
+function refuse(why: string, isThere: () => boolean): false {
+  trouble.value = why;
+  const ends = effect(() => {
+    if (trouble.value === why && isThere()) return;
+    // Once `effect` has given what ends it.
+    queueMicrotask(() => ends());
+    if (trouble.peek() === why) trouble.value = null;
+  });
+  return false;
+}

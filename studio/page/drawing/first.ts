@@ -1,0 +1,22 @@
+// A plan that is begun in a file which has none.
+import { current, nameOf } from "../documents";
+import * as ask from "./ask";
+import { drawing } from "./model";
+import * as offers from "./offers";
+import { isName } from "./rename";
+import { refuse } from "./say";
+import { words } from "./words";
+
+/** What a plan of a file is called: `wall_following.afp` has `WallFollowing`. */
+export function nameFor(file: string): string {
+  const parts = file.split("/").at(-1)!.replace(/\.afp$/, "").split(/[-_. ]+/);
+  const name = parts.map((part) => part.charAt(0).toUpperCase() + part.slice(1)).join("");
+  return isName(name) ? name : "Plan";
+}
+
+/** Begins a plan, with one of a template in it where one is given. */
+export async function beginPlan(offer?: ask.Offer): Promise<void> {
+  if (drawing.peek()?.plan !== null) return refuse(words.comes);
+  const name = nameFor(nameOf(current.peek()));
+  await ask.edit([{ addPlan: { text: `plan ${name} {\n}\n` } }, ...(offer ? offers.added(name, null, offer, null) : [])]);
+}
