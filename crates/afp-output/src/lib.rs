@@ -91,21 +91,24 @@ impl Output {
     /// # Errors
     /// The disk is full or fails, somebody else has begun to write a file of that name; what was written stays at
     /// [`Output::path`].
-    pub fn finish(self) -> io::Result<()> {
+    pub fn finish(mut self) -> io::Result<()> {
+        self.sync()?;
         self.put().map(drop)
+    }
+
+    /// Brings the bytes to the disk.
+    fn sync(&mut self) -> io::Result<()> {
+        self.file.flush()?;
+        // Devices and pipes have nothing that could be synchronised.
+        match self.becomes.is_some() || self.file.metadata()?.is_file() {
+            true => self.file.sync_all(),
+            false => Ok(()),
+        }
     }
 
     /// Puts the file in its place; gives its length and time as they were when nobody else could know it.
     fn put(mut self) -> io::Result<Metadata> {
-        self.file.flush()?;
-        let Some(target) = &self.becomes else {
-            // Devices and pipes have nothing that could be synchronised.
-            if self.file.metadata()?.is_file() {
-                self.file.sync_all()?;
-            }
-            return self.file.metadata();
-        };
-        self.file.sync_all()?;
+        let Some(target) = &self.becomes else { return self.file.metadata() };
         part::refuse_taken(target)?;
         let is_beside = self.path.parent() == target.parent();
         if !is_beside || !target::is_replaceable(target, &self.file)? {
@@ -145,18 +148,27 @@ impl Write for Output {
 /// file for seconds. No file of that name is left half
 /// written then, and an old one stays as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    write_and_stat(path, bytes).map(drop)
+    write_if(path, bytes, || true).map(drop)
 }
 
-/// The same; gives the length and the time that the file was given with its bytes. What another program writes right
-/// afterwards has others: whoever looks at the file itself may see those.
+/// The same, unless in the last moment it is not wanted any more: none then, and the old file stays. Gives the length and the
+/// time that the file was given with its bytes. What another program writes right afterwards has others: whoever looks at the
+/// file itself may see those.
 ///
 /// # Errors
 /// As of [`write_whole`].
-pub fn write_and_stat(path: &Path, bytes: &[u8]) -> io::Result<Metadata> {
+pub fn write_if(
+    path: &Path,
+    bytes: &[u8],
+    is_wanted: impl FnOnce() -> bool,
+) -> io::Result<Option<Metadata>> {
     let mut output = Output::begin(path, Taken::Wait)?;
-    match output.write_all(bytes) {
-        Ok(()) => output.put(),
+    match output.write_all(bytes).and_then(|()| output.sync()) {
+        Ok(()) if !is_wanted() => {
+            output.discard();
+            Ok(None)
+        }
+        Ok(()) => output.put().map(Some),
         Err(error) => {
             output.discard();
             Err(error)

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
-use afp_output::{Output, check_writable, read_file, read_text_file, write_and_stat, write_whole};
+use afp_output::{Output, check_writable, read_file, read_text_file, write_if, write_whole};
 use tempfile::TempDir;
 
 fn folder() -> TempDir {
@@ -55,7 +55,7 @@ fn what_is_written_at_once_is_told_from_what_another_one_writes_since() {
     let [path, other] = ["a.afp", "b.afp"].map(|name| folder.path().join(name));
     // In the place of a file, and into one that has two names.
     for _ in 0..2 {
-        let written = write_and_stat(&path, b"new").unwrap();
+        let written = write_if(&path, b"new", || true).unwrap().unwrap();
         let there = fs::metadata(&path).unwrap();
         let about = |data: &fs::Metadata| (data.len(), data.modified().unwrap());
         assert_eq!(about(&written), about(&there));

@@ -164,19 +164,22 @@ pub(crate) fn read(path: &Path) -> Result<Kept, String> {
 }
 
 impl Kept {
-    /// Writes another text the way that this one lies there, whole or not at all; gives what was written, and its stamp.
+    /// Writes another text the way that this one lies there, whole or not at all; gives what was written, and its stamp. None
+    /// where another text lies there by now.
     ///
     /// # Errors
     /// It cannot be written, or could not be read again.
-    pub(crate) fn write(&self, path: &Path, text: &str) -> Result<(Kept, Stamp), String> {
+    pub(crate) fn write(&self, path: &Path, text: &str) -> Result<Option<(Kept, Stamp)>, String> {
         let mark = if self.style.marked { "\u{feff}" } else { "" };
         let ends = self.style.ends.follow(&self.text, text);
         let bytes = format!("{mark}{}", ends.applied(text)).into_bytes();
         check_length(bytes.len())?;
-        let data = afp_output::write_and_stat(path, &bytes).map_err(|why| why.to_string())?;
+        let is_as_known = || read(path).is_ok_and(|now| now.etag == self.etag);
+        let data =
+            afp_output::write_if(path, &bytes, is_as_known).map_err(|why| why.to_string())?;
         let style = Style { marked: self.style.marked, ends };
         let kept = Kept { text: text.to_owned(), etag: Some(etag(&bytes)), style };
-        Ok((kept, stamp_of(&data)))
+        Ok(data.map(|data| (kept, stamp_of(&data))))
     }
 }
 
@@ -243,7 +246,7 @@ mod tests {
             fs::write(&path, bytes).unwrap();
             let kept = read(&path).unwrap();
             assert_eq!(kept.text, text);
-            let (next, written) = kept.write(&path, &text.replace('b', "c")).unwrap();
+            let (next, written) = kept.write(&path, &text.replace('b', "c")).unwrap().unwrap();
             assert_eq!(fs::read_to_string(&path).unwrap(), after);
             assert_eq!(stamp(&path), Some(written));
             assert_eq!(read(&path).unwrap(), next);
@@ -251,6 +254,18 @@ mod tests {
         fs::write(&path, [0xff, 0xfe]).unwrap();
         assert!(read(&path).unwrap_err().contains("no UTF-8"));
         assert_eq!(read(&place.path().join("none.afp")).unwrap(), Kept::default());
+    }
+
+    #[test]
+    fn what_another_program_wrote_in_the_last_moment_stays() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("a.afp");
+        fs::write(&path, "a\n").unwrap();
+        let kept = read(&path).unwrap();
+        fs::write(&path, "theirs\n").unwrap();
+        assert_eq!(kept.write(&path, "mine\n"), Ok(None));
+        assert_eq!(fs::read_to_string(&path).unwrap(), "theirs\n");
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
     }
 
     #[test]

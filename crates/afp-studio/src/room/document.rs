@@ -199,15 +199,20 @@ impl Document {
         (self.kept, self.due) = (theirs, Some(now));
     }
 
-    /// Writes the text; gives the stamp of what was written, which another program may have written over since.
+    /// Writes the text; gives the stamp of what was written, which another program may have written over since. None where it
+    /// has written before, so that the file is to be looked at first.
     ///
     /// # Errors
     /// It cannot be written; it will be tried again.
-    pub fn save(&mut self, now: Duration) -> Result<Stamp, String> {
+    pub fn save(&mut self, now: Duration) -> Result<Option<Stamp>, String> {
         match self.kept.write(&self.file, &self.text) {
-            Ok((kept, stamp)) => {
+            Ok(Some((kept, stamp))) => {
                 (self.kept, self.stamp, self.due) = (kept, Some(stamp), None);
-                Ok(stamp)
+                Ok(Some(stamp))
+            }
+            Ok(None) => {
+                self.stamp = None;
+                Ok(None)
             }
             Err(why) => {
                 self.due = Some(now + TRIES_AGAIN_AFTER);

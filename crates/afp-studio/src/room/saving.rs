@@ -8,6 +8,9 @@ use serde_json::json;
 use super::document::Look;
 use super::{ClientId, LOOKS_EVERY, Out, Room, disputed, notification};
 
+/// How often a text is tried to be written at once, while another program writes the same file.
+const TRIES: usize = 3;
+
 /// How long the folder is left alone after a walk over so many entries that took so long: ten times as long, since nobody is
 /// answered meanwhile, and a while for each entry where the disk is fast.
 fn pause(entries: usize, took: Duration) -> Duration {
@@ -61,23 +64,42 @@ impl Room {
         let paths: Vec<_> = self.documents.iter().filter_map(due).collect();
         let mut out = Vec::new();
         for path in &paths {
-            // Never over what somebody else has written meanwhile.
-            out.extend(self.look_at(path, now));
-            let Some(document) = self.documents.get_mut(path) else { continue };
-            if !document.due().is_some_and(&wanted) {
-                continue;
+            let is_written = (0..TRIES).any(|_| self.save_one(path, now, &wanted, &mut out));
+            if !is_written {
+                let why = "another program writes it over and over".to_owned();
+                out.extend(self.tell_saved(path, Err(why)));
             }
-            let saved = document.save(now);
-            if let Ok(stamp) = saved {
-                // It is no news that somebody else would have to be told of.
-                self.listed.files.insert(path.clone(), stamp);
-            }
-            out.extend(self.tell_saved(path, saved.map(drop)));
         }
         if !paths.is_empty() {
             self.forget();
         }
         out
+    }
+
+    /// Writes a text if it is still due, never over what somebody else has written meanwhile; whether there is nothing more to do.
+    fn save_one(
+        &mut self,
+        path: &str,
+        now: Duration,
+        wanted: &impl Fn(Duration) -> bool,
+        out: &mut Out,
+    ) -> bool {
+        out.extend(self.look_at(path, now));
+        let Some(document) = self.documents.get_mut(path) else { return true };
+        if !document.due().is_some_and(wanted) {
+            return true;
+        }
+        let saved = match document.save(now) {
+            Ok(None) => return false,
+            Ok(Some(stamp)) => {
+                // It is no news that somebody else would have to be told of.
+                self.listed.files.insert(path.to_owned(), stamp);
+                Ok(())
+            }
+            Err(why) => Err(why),
+        };
+        out.extend(self.tell_saved(path, saved));
+        true
     }
 
     /// Tells the clients that have it open whether a text is saved.
