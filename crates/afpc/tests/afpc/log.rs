@@ -32,6 +32,31 @@ fn a_log_tells_what_the_run_told() {
 }
 
 #[test]
+fn missed_deadlines_are_counted_alike_in_the_summary_and_the_table() {
+    let place = Place::with_plan();
+    let slow = "--fail ultrasonic.slow=15ms@1s..1.2s";
+    let run = place.afpc(&format!(
+        "run wall_following.afp {slow} --until 2s --seed 1 --log a.mcap --svg none"
+    ));
+    run.succeeds();
+    let told = run.out.lines().find_map(|line| line.trim().strip_prefix("deadline misses"));
+    let told: u64 = told.unwrap().trim().parse().unwrap();
+    let log = place.afpc("log a.mcap");
+    let table = log.out.lines().skip_while(|line| !line.starts_with("supervisor ")).skip(1);
+    let counted = table.take_while(|line| !line.is_empty()).map(|line| {
+        let line = line.replace('/', " ");
+        let columns = line.split_whitespace().skip(4).take(3);
+        columns.map(|number| number.parse::<u64>().unwrap()).sum::<u64>()
+    });
+    assert_eq!(counted.sum::<u64>(), told, "{}", log.out);
+    assert!(told > 10, "{}", run.out);
+    for said in [run, log] {
+        assert!(said.out.contains(": 1 release skipped\n"), "{}", said.out);
+        assert!(!said.out.contains("by 0.000 ms"), "{}", said.out);
+    }
+}
+
+#[test]
 fn what_a_plan_writes_to_its_log_is_in_the_timeline() {
     let place = Place::new();
     let text = r#"use std
