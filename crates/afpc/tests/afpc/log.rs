@@ -51,7 +51,7 @@ fn missed_deadlines_are_counted_alike_in_the_summary_and_the_table() {
     assert_eq!(counted.sum::<u64>(), told, "{}", log.out);
     assert!(told > 10, "{}", run.out);
     for said in [run, log] {
-        assert!(said.out.contains(": 1 release skipped\n"), "{}", said.out);
+        assert!(said.out.contains(" releases skipped\n"), "{}", said.out);
         assert!(!said.out.contains("by 0.000 ms"), "{}", said.out);
     }
 }
