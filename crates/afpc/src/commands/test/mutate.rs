@@ -100,9 +100,7 @@ fn too_few(plan: &str, percent: f64, least: f64) -> String {
         shown.parse::<f64>().is_ok_and(|shown| shown < least)
     });
     let digits = digits.unwrap_or(17);
-    format!(
-        "{plan}: {percent:.digits$} % are noticed, fewer than the {least} % of '--at-least'"
-    )
+    format!("{plan}: {percent:.digits$} % are noticed, fewer than the {least} % of '--at-least'")
 }
 
 /// Mutates one plan file.
