@@ -81,7 +81,7 @@ impl State {
             EventKind::Missed => {
                 if let Some(miss) = event.missed {
                     let before = self.misses.get(&id).map_or(0, |(count, _)| *count);
-                    self.misses.insert(id, (before + 1 + miss.skipped, miss));
+                    self.misses.insert(id, (before + miss.deadlines(), miss));
                 }
             }
             EventKind::Ended => self.end(event, program),

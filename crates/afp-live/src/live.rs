@@ -138,7 +138,7 @@ fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), St
                 Some(seconds) if seconds > 0.0 && seconds < 1e9 => Duration::from_secs_f64(seconds),
                 Some(_) => return Err("'seconds' is a number above 0".to_owned()),
             };
-            ask(session, at, &Stimulus::Break { fault, amount, lasting })
+            ask(session, at, &Stimulus::Break { fault, amount, unit: String::new(), lasting })
         }
         Asked::Stop => session.at(at, Request::Stop).map(|_| ()).map_err(|why| why.to_string()),
     }

@@ -211,8 +211,9 @@ fn encode_request(request: Requested) -> Request {
         Stimulus::Hold { control, lasting } => {
             Request { lasting_ns: Some(lasting.as_nanos()), ..about(request::Kind::Press, control) }
         }
-        Stimulus::Break { fault, amount, lasting } => Request {
+        Stimulus::Break { fault, amount, unit, lasting } => Request {
             amount,
+            unit,
             lasting_ns: (lasting != Duration::MAX).then_some(lasting.as_nanos()),
             ..about(request::Kind::Fail, fault)
         },
@@ -269,6 +270,7 @@ fn decode_request(message: Request) -> Option<Requested> {
         request::Kind::Fail => Stimulus::Break {
             fault: name,
             amount: message.amount,
+            unit: message.unit,
             lasting: message.lasting_ns.map_or(Duration::MAX, Duration::from_nanos),
         },
         request::Kind::Fire | request::Kind::Finish => {

@@ -19,7 +19,7 @@ use crate::world::change;
 
 pub(crate) use help::words;
 pub use help::{for_devices, for_robot};
-pub use parse::{Destination, Failure, Press, Speed, failure, press, whole};
+pub use parse::{Destination, Failure, Press, Speed, failure, press, unquoted, whole};
 
 /// How a run goes.
 #[derive(Args, Clone, Debug)]

@@ -66,6 +66,11 @@ pub struct SoFar<'a> {
 
 /// Draws the path of a run over its world, as far as it has come.
 pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
+    draw_so_far(run, Vec::new(), names)
+}
+
+/// The same, with more names and values below the legend.
+fn draw_so_far(run: &SoFar<'_>, more: Vec<(String, String)>, names: &dyn Names) -> String {
     let SoFar { plan, world, seed, time, path, marks, things } = *run;
     let way = path.windows(2).map(|pair| {
         let (from, to) = (pair[0].pose, pair[1].pose);
@@ -73,10 +78,11 @@ pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
     });
     // A sum of nothing is a negative zero.
     let distance = way.fold(0.0, |all, piece| all + piece);
-    let figures = vec![
+    let mut figures = vec![
         ("time".to_owned(), format!("{:.1} s", time.as_secs_f64())),
         ("distance".to_owned(), format!("{distance:.2} m")),
     ];
+    figures.extend(more);
     let subtitle = subtitle(world, seed);
     let world = &world.drawing().ended(things);
     draw(&Picture { world, title: plan.to_owned(), subtitle, figures, path, marks }, names)

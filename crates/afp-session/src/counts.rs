@@ -49,7 +49,7 @@ pub struct Usage {
     pub late_releases: u64,
     /// Deadlines missed because the poll took too long.
     pub long_polls: u64,
-    /// Releases that passed without a poll.
+    /// Deadlines missed because the release passed without a poll.
     pub skipped: u64,
     /// The longest time after a deadline.
     pub worst_lateness: Duration,
@@ -319,10 +319,12 @@ impl Counts {
 }
 
 impl Usage {
+    /// The poll after skipped releases may be in time itself: those alone were missed then.
     fn missed(&mut self, lateness: Duration, cause: Cause, skipped: u64) {
+        let late = u64::from(lateness > Duration::ZERO);
         match cause {
-            Cause::LateRelease => self.late_releases += 1,
-            Cause::LongPoll => self.long_polls += 1,
+            Cause::LateRelease => self.late_releases += late,
+            Cause::LongPoll => self.long_polls += late,
         }
         self.skipped += skipped;
         self.worst_lateness = self.worst_lateness.max(lateness);

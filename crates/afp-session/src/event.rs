@@ -154,6 +154,13 @@ pub struct Miss {
     pub skipped: u64,
 }
 
+impl Miss {
+    /// How many deadlines were missed: those of the releases that passed, and the poll's own where it was late.
+    pub fn deadlines(&self) -> u64 {
+        u64::from(self.lateness > Duration::ZERO) + self.skipped
+    }
+}
+
 /// How a plan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndingKind {

@@ -49,6 +49,8 @@ pub enum Stimulus {
         fault: String,
         /// By how much, in SI units; none for as much as the robot's devices declare.
         amount: Option<f64>,
+        /// The SI unit of the amount, empty for a plain number; what asks need not say it.
+        unit: String,
         /// For how long; [`Duration::MAX`] is for good.
         lasting: Duration,
     },
@@ -107,8 +109,13 @@ impl Stimulus {
             Request::Break(id, amount, lasting) => {
                 let found = faults(devices).find(|(known, ..)| known == id);
                 let fault = found.map(|(_, device, row)| dotted(device, row.name));
-                let fault = fault.unwrap_or_default();
-                Stimulus::Break { fault, amount: *amount, lasting: *lasting }
+                let unit = found.and_then(|(.., row)| row.amount).map_or("", |amount| amount.unit);
+                Stimulus::Break {
+                    fault: fault.unwrap_or_default(),
+                    amount: *amount,
+                    unit: unit.to_owned(),
+                    lasting: *lasting,
+                }
             }
             #[cfg(feature = "load")]
             Request::Inject(Injection { component, outcome, outputs }) => Stimulus::Inject {
@@ -157,7 +164,7 @@ impl Stimulus {
                 let id = find_control(devices, control).ok_or(RequestError::NoControl)?;
                 Request::Hold(id, *lasting)
             }
-            Stimulus::Break { fault, amount, lasting } => {
+            Stimulus::Break { fault, amount, lasting, .. } => {
                 let found = fault.split_once('.').and_then(|(at, of)| find_fault(devices, at, of));
                 Request::Break(found.ok_or(RequestError::NoFault)?, *amount, *lasting)
             }
@@ -246,10 +253,10 @@ impl fmt::Display for Stimulus {
             Stimulus::Hold { control, lasting } => {
                 write!(f, "press {control} for {} s", lasting.as_secs_f64())
             }
-            Stimulus::Break { fault, amount, lasting } => {
+            Stimulus::Break { fault, amount, unit, lasting } => {
                 write!(f, "fail {fault}")?;
                 if let Some(amount) = amount {
-                    write!(f, " {amount}")?;
+                    write!(f, " = {}", Measured::new(*amount, unit))?;
                 }
                 match *lasting {
                     Duration::MAX => Ok(()),

@@ -16,8 +16,8 @@ pub struct Column {
 
 /// The cells of a column.
 pub enum Cells {
-    /// Counts.
-    Counts(Vec<u64>),
+    /// Counts, where there is one.
+    Counts(Vec<Option<u64>>),
     /// Numbers, where there is one.
     Numbers(Vec<Option<f64>>),
     /// Texts.
@@ -28,7 +28,7 @@ impl Column {
     /// A cell as text; empty where there is nothing.
     pub(crate) fn text(&self, row: usize) -> String {
         match &self.cells {
-            Cells::Counts(all) => all.get(row).map(u64::to_string),
+            Cells::Counts(all) => all.get(row).copied().flatten().map(|count| count.to_string()),
             Cells::Numbers(all) => all.get(row).copied().flatten().map(|number| number.to_string()),
             Cells::Texts(all) => all.get(row).cloned(),
         }
@@ -76,7 +76,9 @@ fn names_of_axes(sweep: &Sweep) -> Vec<[String; 2]> {
 /// own.
 pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
     let rows: Vec<Row<'_>> = outcomes.iter().map(|outcome| sweep.row(outcome.run)).collect();
+    // What never started has come to nothing.
     let counts = |name: &str, count: fn(&Outcome) -> u64| {
+        let count = |it: &Outcome| it.has_started().then(|| count(it));
         column(name, Cells::Counts(outcomes.iter().map(count).collect()))
     };
     let numbers = |measure: &Measure| {
@@ -87,9 +89,9 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
         column(name, Cells::Texts(outcomes.iter().map(|it| text(it).to_owned()).collect()))
     };
     let mut all = vec![
-        counts("run", |it| it.run),
+        column("run", Cells::Counts(outcomes.iter().map(|it| Some(it.run)).collect())),
         column("world", of_rows(&rows, |row| row.world.name().unwrap_or_default().to_owned())),
-        column("seed", Cells::Counts(rows.iter().map(|row| row.seed).collect())),
+        column("seed", Cells::Counts(rows.iter().map(|row| Some(row.seed)).collect())),
     ];
     let names = names_of_axes(sweep);
     for (number, (axis, [name, si])) in sweep.axes.iter().zip(&names).enumerate() {

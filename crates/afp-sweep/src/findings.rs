@@ -102,8 +102,9 @@ impl Measure {
         }
     }
 
-    /// What it was in a run.
+    /// What it was in a run; `None` of one that never started.
     pub fn of(&self, outcome: &Outcome) -> Option<f64> {
+        outcome.has_started().then_some(())?;
         Some(match self {
             Measure::Time => outcome.time_s,
             Measure::Distance => outcome.distance_m,
@@ -130,9 +131,8 @@ impl Findings {
     pub fn new(outcomes: &[Outcome]) -> Findings {
         let count = |ending| outcomes.iter().filter(|it| it.ending == ending).count() as u64;
         let endings = Ending::ALL.into_iter().map(|ending| (ending, count(ending)));
-        let started: Vec<_> = outcomes.iter().filter(|it| !it.trace.is_empty()).collect();
         let spread = |measure: Measure| {
-            let values = started.iter().filter_map(|outcome| measure.of(outcome));
+            let values = outcomes.iter().filter_map(|outcome| measure.of(outcome));
             let spread = Spread::new(values.collect())?;
             Some((measure, spread))
         };

@@ -1,14 +1,18 @@
 //! The grid of runs and its numbering.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 use afp_core::Duration;
 use afp_dsl::types::text::duration;
-use afp_run::options::{Failure, Press};
+use afp_run::options::{Failure, Press, unquoted};
 use afp_run::world::LoadedWorld;
 use afp_session::shell_word;
 
 use crate::ranges::Seeds;
+
+/// Whole numbers below this are exact as floats.
+const EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// A grid of runs. Seeds change fastest, then the values of the last axis, worlds slowest.
 #[derive(Clone, Debug)]
@@ -124,14 +128,15 @@ impl Sweep {
 
     /// The command that does a run again.
     pub fn command(&self, row: &Row<'_>) -> String {
-        let mut command = format!("afpc run {}", shell_word(&self.plan));
+        let mut command = format!("afpc run {}", shell_word(&no_option(&self.plan)));
         // Writing to a string cannot fail.
         if let Some(world) = row.world.name() {
-            let _ = write!(command, " --world {}", shell_word(world));
+            let _ = write!(command, " --world {}", shell_word(&no_option(world)));
         }
         let _ = write!(command, " --seed {}", row.seed);
         for (name, point) in &row.values {
-            let _ = write!(command, " --set {}", shell_word(&format!("{name}={}", point.text)));
+            let value = quoted(name, &point.text);
+            let _ = write!(command, " --set {}", shell_word(&format!("{name}={value}")));
         }
         for press in &self.presses {
             let _ = write!(command, " --press {}", shell_word(&press.to_string()));
@@ -147,7 +152,7 @@ impl Sweep {
         command
     }
 
-    /// The grid as text: two sweeps with the same text have the same runs.
+    /// The grid as text: two sweeps with the same text have the same runs, however their numbers are written.
     pub fn signature(&self) -> String {
         let mut text = format!("seeds {}, until {}", self.seeds, spelled(self.until));
         for world in &self.worlds {
@@ -155,7 +160,11 @@ impl Sweep {
             let _ = write!(text, ", world {name}");
         }
         for axis in &self.axes {
-            let points = axis.points.iter().map(|point| shell_word(&point.text));
+            let points = axis.points.iter().map(|point| match point.si {
+                // Both zeros are one value; beyond this an int is not known exactly.
+                Some(si) if si.abs() < EXACT => (si + 0.0).to_string(),
+                _ => shell_word(&point.text),
+            });
             let _ = write!(text, ", {} = {}", axis.name, points.collect::<Vec<_>>().join(" "));
         }
         for press in &self.presses {
@@ -165,6 +174,22 @@ impl Sweep {
             let _ = write!(text, ", fail {failure}");
         }
         text
+    }
+}
+
+/// The name of a file as commands take it that are printed: one that looks like an option by its path.
+fn no_option(name: &str) -> Cow<'_, str> {
+    match name.starts_with('-') {
+        true => format!("./{name}").into(),
+        false => name.into(),
+    }
+}
+
+/// A value as `--set` takes it: in quotes where it is nothing, or has some that would be taken for such.
+fn quoted<'t>(name: &str, text: &'t str) -> Cow<'t, str> {
+    match text.is_empty() || unquoted(name, text) != text {
+        true => format!("\"{text}\"").into(),
+        false => text.into(),
     }
 }
 
@@ -207,10 +232,31 @@ mod tests {
     }
 
     #[test]
+    fn commands_name_files_and_texts_as_run_takes_them() {
+        let worlds = vec![WorldChoice::Named("-w.toml".to_owned())];
+        let axes = vec![axis(r#"mode="x,y","",""q"""#).unwrap()];
+        let sweep = Sweep { worlds, axes, plan: "-p.afp".to_owned(), ..sweep() };
+        let command = |run| sweep.command(&sweep.row(run));
+        assert!(command(0).starts_with("afpc run ./-p.afp --world ./-w.toml "), "{}", command(0));
+        assert!(command(0).contains(" --set mode=x,y "), "{}", command(0));
+        assert!(command(4).contains(r#" --set 'mode=""' "#), "{}", command(4));
+        assert!(command(8).contains(r#" --set 'mode=""q""' "#), "{}", command(8));
+    }
+
+    #[test]
     fn other_points_are_another_sweep() {
         let signature =
             |points: &str| Sweep { axes: vec![axis(points).unwrap()], ..sweep() }.signature();
         assert_ne!(signature("name=a b"), signature("name=a,b"));
+        // Once it is known what they are, numbers are the same however they are written.
+        let known = |points: &str, si: f64| {
+            let mut axis = axis(points).unwrap();
+            axis.points.iter_mut().for_each(|point| point.si = Some(si));
+            Sweep { axes: vec![axis], ..sweep() }.signature()
+        };
+        assert_eq!(known("keep=30cm", 0.3), known("keep=0.3m", 0.3));
+        assert_ne!(known("keep=30cm", 0.3), known("keep=30mm", 0.03));
+        assert_ne!(known("n=9007199254740993", 2e53), known("n=9007199254740992", 2e53));
         assert_ne!(signature("name=p q r"), signature("name=p q,r"));
         assert_ne!(signature("name=a b,'"), signature("name=a,b '"));
         assert!(signature("name=20cm,30cm").contains("name = 20cm 30cm, "));

@@ -129,6 +129,11 @@ pub(crate) fn touched(figures: &Figures) -> BTreeMap<String, f64> {
 }
 
 impl Outcome {
+    /// Whether there is anything to measure: what did not start, or panicked, has no trace.
+    pub fn has_started(&self) -> bool {
+        !self.trace.is_empty()
+    }
+
     /// What it touched, in words: `crate 1.3 s, wall 0.2 s`.
     pub(crate) fn touched_text(&self) -> String {
         let each = self.touched.iter().map(|(name, lasted)| format!("{name} {lasted:.1} s"));

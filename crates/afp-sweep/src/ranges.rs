@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
+use afp_run::options::unquoted;
+
 use crate::grid::{Axis, Point};
 
 /// A range whose step nobody gave has so many values.
@@ -144,15 +146,32 @@ pub fn axis(text: &str) -> Result<Axis, String> {
         Some((name, values)) if !name.trim().is_empty() => (name.trim().to_owned(), values.trim()),
         _ => return Err("expected what to vary, such as distance=20cm..60cm".to_owned()),
     };
-    let texts = match values.split_once("..") {
+    let texts = match values.split_once("..").filter(|_| !values.contains('"')) {
         Some((from, to)) => range(from, to)?,
-        None => values.split(',').map(|value| value.trim().to_owned()).collect(),
+        None => list(&name, values)?,
     };
-    if texts.iter().any(String::is_empty) {
-        return Err(format!("'{values}' has a place without a value"));
-    }
     let points = texts.into_iter().map(|text| Point { text, si: None }).collect();
     Ok(Axis { name, points })
+}
+
+/// Values with commas between them; what stands in quotes is one, without them.
+fn list(name: &str, values: &str) -> Result<Vec<String>, String> {
+    // Whether a value has not begun, and whether it stands in quotes that are open.
+    let (mut before, mut open) = (true, false);
+    let between = |c: char| {
+        open = if open { c != '"' } else { c == '"' && before };
+        let ends = c == ',' && !open;
+        before = ends || (before && c.is_whitespace());
+        ends
+    };
+    let all: Vec<&str> = values.split(between).map(str::trim).collect();
+    if open {
+        return Err(format!("a quote is missing in '{values}'"));
+    }
+    if all.iter().any(|value| value.is_empty()) {
+        return Err(format!("'{values}' has a place without a value"));
+    }
+    Ok(all.into_iter().map(|value| unquoted(name, value).to_owned()).collect())
 }
 
 fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
@@ -173,6 +192,9 @@ fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
     let step = match step {
         Some(step) => match number(step)? {
             (step, own) if own == unit || own.is_empty() => step,
+            _ if unit.is_empty() => {
+                return Err(format!("write the step '{step}' without a unit, as the range is"));
+            }
             _ => return Err(format!("write the step '{step}' in '{unit}', as the range is")),
         },
         None if unit.is_empty() && first.fract() == 0.0 && last.fract() == 0.0 => 1.0,
@@ -249,6 +271,9 @@ mod tests {
         assert_eq!(large, ["1000000000000001", "1000000000000002", "1000000000000003"]);
         assert_eq!(texts("side=left, right"), ["left", "right"]);
         assert_eq!(texts("d=5 m/s"), ["5 m/s"]);
+        assert_eq!(texts(r#"mode="x,y", "z",q"#), ["x,y", "z", "q"]);
+        assert_eq!(texts(r#"mode="","a..b",5" wide"#), ["", "a..b", r#"5" wide"#]);
+        assert_eq!(texts(r#"world.name="5","x,y""#), [r#""5""#, r#""x,y""#]);
     }
 
     #[test]
@@ -260,6 +285,8 @@ mod tests {
             ("d=60cm..20cm:5cm", "no values lie in"),
             ("d=0..1:0", "no values lie in"),
             ("d=0cm..1cm:1m", "write the step '1m' in 'cm'"),
+            ("d=0.1..0.5:20%", "write the step '20%' without a unit"),
+            ("mode=\"x,y", "a quote is missing in '\"x,y'"),
             ("d=1,,2", "without a value"),
             ("d=0..1e9", "more than 1000000 values"),
         ] {

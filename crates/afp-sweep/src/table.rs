@@ -53,6 +53,7 @@ mod tests {
         [
             failed(1),
             Outcome {
+                trace: "ab".to_owned(),
                 figures: [("wall_error_mean_m".to_owned(), Some(0.1))].into(),
                 run: u64::MAX / 4 * 4,
                 ..failed(2)
@@ -66,7 +67,7 @@ mod tests {
         let mut lines = text.lines();
         assert!(lines.next().unwrap().starts_with("run,world,seed,d,ending,where,why,time_s,"));
         let first = lines.next().unwrap();
-        assert!(first.starts_with("1,,4,20cm,error,,\"a, \"\"b\"\"\",0,0,0,,0,0,,,"), "{first}");
+        assert!(first.starts_with("1,,4,20cm,error,,\"a, \"\"b\"\"\",,,,,,,,,"), "{first}");
         assert!(first.ends_with("afpc run a.afp --seed 4 --set d=20cm --until 60s,0"), "{first}");
     }
 }

@@ -11,9 +11,9 @@ use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
 use afp_resolve::own_toolbox_texts;
-use afp_run::RunError;
+use afp_run::{RunError, hashes};
 use afp_session::{
-    AnySession, Applied, Build, Datum, Go, Holder, Loader, NamedRecord, Observer, Recipe,
+    AnyRobot, AnySession, Applied, Build, Datum, Go, Holder, Loader, NamedRecord, Observer, Recipe,
     RequestError, RequestId, SampleRef, Sampling, TextFile, View,
 };
 
@@ -54,7 +54,8 @@ pub(crate) fn run(
     let mut session = session(scenario, setting, robot)?;
     let lines = stimuli::request(&mut *session, scenario, None, Instant::ZERO)
         .map_err(|(line, why)| cannot_do(scenario, line, &why))?;
-    let mut log = log.map(|to| self::log(to, scenario, setting, &*session)).transpose()?;
+    let log = log.map(|to| self::log(to, scenario, setting, &*session, robot.kind()));
+    let mut log = log.transpose()?;
     let signals = Signals::new(scenario, session.devices())
         .map_err(|signal| refused(scenario, &format!("the robot has no signal '{signal}'")))?;
     let unreported = Cell::new(false);
@@ -133,8 +134,9 @@ fn log(
     scenario: &Scenario,
     setting: &Setting,
     session: &dyn AnySession,
+    robot: &dyn AnyRobot,
 ) -> Result<SessionLog, RunError> {
-    let about = about(scenario, setting, to.compiled);
+    let about = about(scenario, setting, to.compiled, robot);
     let names = OwnedNames::new(session.names());
     let (devices, scene) = (session.devices(), setting.world.world.scene());
     Ok(SessionLog::create(to.path, &about, names, devices, scene, false, WhenFull::Wait)?)
@@ -252,11 +254,17 @@ fn cannot_start(scenario: &Scenario, error: StartError) -> RunError {
 }
 
 /// What the log says of the run.
-fn about(scenario: &Scenario, setting: &Setting, compiled: &Compiled) -> About {
+/// What the log says of the run: as much as that of any other run.
+fn about(
+    scenario: &Scenario,
+    setting: &Setting,
+    compiled: &Compiled,
+    robot: &dyn AnyRobot,
+) -> About {
     let world = &setting.world;
     let texts = compiled.scenario_texts(scenario).into_iter();
     let toolboxes = own_toolbox_texts(compiled, &scenario.graph);
-    let mut about = About::new(&Recipe {
+    let recipe = Recipe {
         plan: scenario.graph.main().name.clone(),
         file: scenario.plan_file.clone(),
         texts: texts.map(|(name, text)| TextFile { name, text }).collect(),
@@ -268,9 +276,12 @@ fn about(scenario: &Scenario, setting: &Setting, compiled: &Compiled) -> About {
         until: Some(Instant::from_nanos(scenario.until)),
         build: Build::this(),
         ..Recipe::default()
-    });
-    about.facts.push(("scenario".to_owned(), scenario.name.clone()));
-    about.facts.push(("clock".to_owned(), "virtual".to_owned()));
+    };
+    let mut about = About::new(&recipe);
+    let own = [("scenario", scenario.name.clone()), ("clock", "virtual".to_owned())];
+    let of_robot = robot.facts().iter().map(|(key, value)| (*key, (*value).to_owned()));
+    let more = hashes(&recipe).into_iter().chain(own).chain(of_robot);
+    about.facts.extend(more.map(|(key, value)| (key.to_owned(), value)));
     about
 }
 

@@ -19,6 +19,8 @@ pub struct Mutant {
     pub kind: MutantKind,
     /// The line of the change, from 1.
     pub line: usize,
+    /// Where in it the change begins, in characters from 1: what tells two alike in one line apart.
+    pub column: usize,
     /// What stood there.
     pub was: String,
     /// What stands there now.
@@ -43,10 +45,11 @@ pub fn mutants(text: &str, seed: u64) -> Vec<Mutant> {
             at = place.end;
         }
         changed.push_str(text.get(at..).unwrap_or_default());
-        let line = source.line_column(first.0.start as u32).0;
-        found.push(Mutant { kind: site.kind, line, was: site.was, is: site.is, text: changed });
+        let (line, column) = source.line_column(first.0.start as u32);
+        let (kind, was, is) = (site.kind, site.was, site.is);
+        found.push(Mutant { kind, line, column, was, is, text: changed });
     }
-    found.sort_by_key(|mutant| mutant.line);
+    found.sort_by_key(|mutant| (mutant.line, mutant.column));
     found
 }
 
@@ -108,5 +111,14 @@ scenario \"x\" for P { expect end within 3 s }
         let texts: std::collections::BTreeSet<_> = all.iter().map(|each| &each.text).collect();
         assert_eq!(texts.len(), all.len());
         assert!(all.iter().all(|each| each.text != PLAN && each.was != each.is));
+    }
+
+    #[test]
+    fn two_alike_in_one_line_are_told_apart_by_their_columns() {
+        let text = PLAN.replace("-way + 20 cm", "20 cm + 20 cm");
+        let all = mutants(&text, 0);
+        let signs = all.iter().filter(|each| each.was == "20 cm" && each.is == "-20 cm");
+        let places: Vec<_> = signs.map(|each| (each.line, each.column)).collect();
+        assert_eq!(places, [(7, 34), (7, 42)]);
     }
 }

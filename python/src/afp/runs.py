@@ -157,6 +157,9 @@ class Runs:
         """The table as a pandas data frame; needs pandas."""
         kinds = {"count": "uint64", "number": "float64", "text": "string"}
         types = {name: kinds[kind] for name, kind in self._kinds.items()}
+        # Of a run that never started there is nothing to count.
+        gaps = [name for name, kind in self._kinds.items() if kind == "count" and None in self.columns[name]]
+        types |= dict.fromkeys(gaps, "UInt64")
         return tables.need("pandas").DataFrame(self.columns).astype(types)
 
     def to_polars(self) -> Any:

@@ -1,6 +1,5 @@
 //! The command line that repeats a run without a debugger.
 
-use afp_core::devices::{DeviceRow, find_fault};
 use afp_core::{Duration, Instant};
 use afp_dsl::types::text::duration;
 use afp_session::{DEFAULT_UNTIL, HOLD, Stimulus, shell_word};
@@ -43,7 +42,7 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
     // What is set before the start is asked for first.
     let requests = target.requests();
     let requests = requests.get(launch.set.len()..)?;
-    for (option, value) in options(requests, target.now(), target.devices())? {
+    for (option, value) in options(requests, target.now())? {
         add(option, value);
     }
     let words: Vec<_> = words.iter().map(|word| shell_word(word)).collect();
@@ -54,7 +53,6 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
 fn options(
     requests: &[(Instant, Stimulus)],
     ended: Instant,
-    devices: &[DeviceRow],
 ) -> Option<Vec<(&'static str, String)>> {
     let mut options = Vec::new();
     for (at, what) in requests {
@@ -63,9 +61,9 @@ fn options(
             Stimulus::Hold { control, lasting: HOLD } => press(control),
             // What a press has ended does not see how long it lasts.
             Stimulus::Press { control, held: true } if ended <= *at + HOLD => press(control),
-            Stimulus::Break { fault, amount, lasting } => {
+            Stimulus::Break { fault, amount, unit, lasting } => {
                 let amount = match amount {
-                    Some(amount) => format!("={amount}{}", unit(fault, devices)),
+                    Some(amount) => format!("={amount}{unit}"),
                     None => String::new(),
                 };
                 let to = match *lasting {
@@ -78,14 +76,6 @@ fn options(
         });
     }
     Some(options)
-}
-
-/// The unit in which a fault is measured; empty for a plain number.
-fn unit(fault: &str, devices: &[DeviceRow]) -> &'static str {
-    let named = fault.split_once('.');
-    let id = named.and_then(|(device, name)| find_fault(devices, device, name));
-    let row = afp_core::devices::faults(devices).find(|(known, ..)| Some(*known) == id);
-    row.and_then(|(_, _, row)| row.amount).map_or("", |amount| amount.unit)
 }
 
 /// An instant as the command line takes it, exact.

@@ -266,7 +266,7 @@ pub struct Request {
     pub outcome: ::prost::alloc::string::String,
     #[prost(message, optional, tag = "5")]
     pub value: ::core::option::Option<Value>,
-    /// The SI unit of `value`.
+    /// The SI unit of `value` or `amount`.
     #[prost(string, tag = "6")]
     pub unit: ::prost::alloc::string::String,
     /// In SI units; as much as the robot declares where there is none.

@@ -201,8 +201,18 @@ fn requests_of_each_kind() -> Vec<Stimulus> {
         Stimulus::Write { entry, value, unit: String::new() },
         Stimulus::Press { control: control.clone(), held: true },
         Stimulus::Press { control, held: false },
-        Stimulus::Break { fault: fault.clone(), amount: Some(0.2), lasting: Duration::MAX },
-        Stimulus::Break { fault, amount: None, lasting: Duration::from_millis(1) },
+        Stimulus::Break {
+            fault: fault.clone(),
+            amount: Some(0.2),
+            unit: "s".to_owned(),
+            lasting: Duration::MAX,
+        },
+        Stimulus::Break {
+            fault,
+            amount: None,
+            unit: String::new(),
+            lasting: Duration::from_millis(1),
+        },
         Stimulus::Inject {
             component: component.clone(),
             outcome: outcome.clone(),

@@ -8,7 +8,7 @@ use afp_core::Instant;
 use afp_project::duration;
 use afp_session::Pose2;
 
-use crate::world::Measure;
+use crate::world::{Measure, change};
 
 /// How fast simulated time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,9 +152,18 @@ pub(super) fn start(text: &str) -> Result<Pose2, String> {
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => {
-            Ok((name.trim().to_owned(), value.trim().to_owned()))
+            Ok((name.trim().to_owned(), unquoted(name.trim(), value.trim()).to_owned()))
         }
         _ => Err("expected an entry and its value, such as distance=35cm".to_owned()),
+    }
+}
+
+/// The value of an entry without the quotes that it may stand in, as a text does in a plan. A value of the world's file is
+/// written as there.
+pub fn unquoted<'t>(name: &str, value: &'t str) -> &'t str {
+    match change::key(name) {
+        Some(_) => value,
+        None => value.strip_prefix('"').and_then(|it| it.strip_suffix('"')).unwrap_or(value),
     }
 }
 

@@ -310,6 +310,8 @@ impl Summary {
                 let name = spaced(figure);
                 for Span { name: what, begin, end } in spans {
                     let (begin, end) = (begin.as_secs_f64(), end.as_secs_f64());
+                    // A world may call it anything.
+                    let what = what.replace(char::is_control, " ");
                     let text = format!("{what} from {begin:.2} s to {end:.2} s");
                     line(name.strip_suffix('s').unwrap_or(&name), text);
                 }

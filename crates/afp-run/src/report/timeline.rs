@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use afp_core::Duration;
 use afp_core::trace::Cause;
 use afp_session::{Datum, Done, EndingKind, EventKind, Requested, RunEvent, Stimulus};
 use anstyle::{AnsiColor, Style};
@@ -110,11 +111,21 @@ fn missed(event: &RunEvent) -> String {
         Some(Cause::LongPoll) => "long poll",
         None => "unknown cause",
     };
-    let (component, skipped) = (&event.component, miss.skipped);
+    let component = &event.component;
+    let skipped = match miss.skipped {
+        0 => String::new(),
+        1 => "1 release skipped".to_owned(),
+        many => format!("{many} releases skipped"),
+    };
+    // The poll after skipped releases may be in time itself.
+    if miss.lateness == Duration::ZERO {
+        return format!("{BAD}! {component}: {skipped}{BAD:#}");
+    }
     let late = miss.lateness.as_secs_f64() * 1e3;
+    let comma = if skipped.is_empty() { "" } else { ", " };
     format!(
         "{BAD}! {component} missed its deadline by {late:.3} ms{BAD:#}  \
-         {QUIET}({cause}, {skipped} releases skipped){QUIET:#}"
+         {QUIET}({cause}{comma}{skipped}){QUIET:#}"
     )
 }
 

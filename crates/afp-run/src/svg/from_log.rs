@@ -5,9 +5,9 @@ use afp_core::trace::Names;
 use afp_log::{LogData, WORLD};
 use std::sync::Arc;
 
-use afp_session::{AnyRobot, AnyWorld, Mark, Pose2, RunEvent, Track, Waypoint};
+use afp_session::{AnyRobot, AnyWorld, Counts, Mark, Pose2, RunEvent, Track, Waypoint};
 
-use super::{SoFar, draw_run};
+use super::{SoFar, draw_so_far};
 use crate::error::RunError;
 use crate::world::named;
 
@@ -29,7 +29,14 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
         marks: &marks,
         things: &log.things,
     };
-    Ok(draw_run(&run, names))
+    let mut counts = Counts::new(names);
+    for event in &log.events {
+        if let Some(record) = event.record() {
+            counts.record(event.at, &record);
+        }
+    }
+    let interruptions = ("interruptions".to_owned(), counts.interruptions.to_string());
+    Ok(draw_so_far(&run, vec![interruptions], names))
 }
 
 /// The world of a logged run.

@@ -44,7 +44,7 @@ fn field(column: &Column) -> Result<Type> {
     let (physical, repetition, converted, logical) = match column.cells {
         Cells::Counts(_) => {
             let logical = LogicalType::integer(64, false);
-            (Physical::INT64, Repetition::REQUIRED, ConvertedType::UINT_64, Some(logical))
+            (Physical::INT64, Repetition::OPTIONAL, ConvertedType::UINT_64, Some(logical))
         }
         Cells::Numbers(_) => (Physical::DOUBLE, Repetition::OPTIONAL, ConvertedType::NONE, None),
         Cells::Texts(_) => {
@@ -63,13 +63,12 @@ fn fill(writer: &mut SerializedColumnWriter<'_>, cells: &Cells) -> Result<()> {
     match cells {
         Cells::Counts(all) => {
             // The bits of an unsigned number, which the column's type says it is.
-            let all: Vec<i64> = all.iter().map(|count| count.cast_signed()).collect();
-            writer.typed::<Int64Type>().write_batch(&all, None, None)?;
+            let there: Vec<i64> = all.iter().flatten().map(|count| count.cast_signed()).collect();
+            writer.typed::<Int64Type>().write_batch(&there, Some(&levels(all)), None)?;
         }
         Cells::Numbers(all) => {
             let there: Vec<f64> = all.iter().copied().flatten().collect();
-            let levels: Vec<i16> = all.iter().map(|number| i16::from(number.is_some())).collect();
-            writer.typed::<DoubleType>().write_batch(&there, Some(&levels), None)?;
+            writer.typed::<DoubleType>().write_batch(&there, Some(&levels(all)), None)?;
         }
         Cells::Texts(all) => {
             let all: Vec<ByteArray> = all.iter().map(|text| text.as_str().into()).collect();
@@ -77,6 +76,11 @@ fn fill(writer: &mut SerializedColumnWriter<'_>, cells: &Cells) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Which cells have something.
+fn levels<T>(cells: &[Option<T>]) -> Vec<i16> {
+    cells.iter().map(|cell| i16::from(cell.is_some())).collect()
 }
 
 #[cfg(test)]
@@ -97,6 +101,9 @@ mod tests {
         assert_eq!(rows[1].get_ulong(at("run")).unwrap(), u64::MAX / 4 * 4);
         assert_eq!(rows[0].get_string(at("why")).unwrap(), "a, \"b\"");
         assert!(rows[0].get_double(at("wall_error_mean_m")).is_err());
+        assert!(rows[0].get_double(at("time_s")).is_err(), "it never started");
+        assert!(rows[0].get_ulong(at("collisions")).is_err(), "it never started");
+        assert_eq!(rows[1].get_ulong(at("collisions")).unwrap(), 0);
         assert_eq!(rows[1].get_double(at("wall_error_mean_m")).unwrap(), 0.1);
     }
 

@@ -146,7 +146,7 @@ impl Arguments {
             .flat_map(|worlds| worlds.0.iter().cloned().map(WorldChoice::Named))
             .collect();
         let sweep = Sweep {
-            plan: no_option(&self.plan.plan),
+            plan: self.plan.plan.clone(),
             worlds: if worlds.is_empty() { vec![WorldChoice::OfPlan] } else { worlds },
             axes: self.vary.clone(),
             seeds: self.seeds.clone(),
@@ -157,11 +157,6 @@ impl Arguments {
         };
         Ok(sweep)
     }
-}
-
-/// The name of a file as commands take it that are printed: one that looks like an option by its path.
-fn no_option(plan: &str) -> String {
-    if plan.starts_with('-') { format!("./{plan}") } else { plan.to_owned() }
 }
 
 /// Does the runs that are not done, and keeps each before the next one is taken.

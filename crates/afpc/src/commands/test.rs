@@ -11,13 +11,14 @@ use std::time::Instant as Wall;
 
 use afp_dsl::scenario::{InvalidScenario, Scenario};
 use afp_run::options::whole;
-use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError, say};
+use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, RunError, StopFlag, say};
 use afp_session::Loader;
 use afp_syntax::source::Span;
 use afp_test::{Coverage, Hits, Recording, Setting, Verdict};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
+use crate::commands::EXIT_STOPPED;
 use crate::plan_file::{NoPlan, PlanFile};
 use crate::{Linked, runner};
 
@@ -151,16 +152,14 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
             return Err(RunError::usage(message, "name the files of the scenarios").into());
         }
         let Arguments { seed, at_least, json, .. } = *arguments;
-        let found = mutate::run(&read, &mutate::Wanted { seed, at_least, json }, linked)?;
-        return Ok(if found == EXIT_OK { code } else { found });
+        return mutate::run(&read, code, &mutate::Wanted { seed, at_least, json }, linked);
     }
     let cases: Vec<_> =
         read.iter().flat_map(cases).filter(|case| matches(case, &filters)).collect();
     if cases.is_empty() && code == EXIT_OK {
         return Err(find::nothing(&filters, &files).into());
     }
-    let failed = run_all(&cases, arguments, linked)?;
-    Ok(if failed { EXIT_PLAN_ERROR } else { code })
+    run_all(&cases, code, arguments, linked)
 }
 
 /// Reads the files, and gives the exit code that those come to that are wrong.
@@ -230,38 +229,48 @@ fn matches(case: &Case<'_>, filters: &[String]) -> bool {
     filters.is_empty() || filters.iter().any(|filter| name.contains(&filter.to_lowercase()))
 }
 
-/// Runs the cases on all cores; whether one of them failed.
-fn run_all(cases: &[Case<'_>], arguments: &Arguments, linked: &Linked<'_>) -> Result<bool, NoPlan> {
+/// Runs the cases on all cores until somebody stops it; gives the exit code, `code` where all passed.
+fn run_all(
+    cases: &[Case<'_>],
+    code: u8,
+    arguments: &Arguments,
+    linked: &Linked<'_>,
+) -> Result<u8, NoPlan> {
     let begun = Wall::now();
+    let stop =
+        StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     let reporter = Reporter::new(cases.len(), arguments.json);
-    let done: Vec<Done> = cases
+    let done: Vec<(&Case<'_>, Done)> = cases
         .par_iter()
         .with_max_len(1)
-        .map(|case| {
-            let done = run_one(case, linked.robot);
+        .filter_map(|case| {
+            let done = run_one(case, linked.robot, &stop)?;
             reporter.done(case, &done);
-            done
+            Some((case, done))
         })
         .collect();
-    reporter.end(cases, &done, begun.elapsed().as_secs_f64())?;
+    reporter.end(&done, begun.elapsed().as_secs_f64())?;
+    if done.len() < cases.len() {
+        return Ok(stop.exit_code().unwrap_or(EXIT_STOPPED));
+    }
     if arguments.coverage {
-        let plans = coverage(cases, &done, &arguments.add_log)?;
+        let plans = coverage(&done, &arguments.add_log)?;
         reporter::coverage(&plans, arguments.json)?;
         if let Some(output) = &arguments.output {
             cover::draw_all(&plans, output)?;
         }
     }
-    Ok(done.iter().any(|done| !done.passed()))
+    let failed = done.iter().any(|(_, done)| !done.passed());
+    Ok(if failed { EXIT_PLAN_ERROR } else { code })
 }
 
 /// What the runs used, for each plan with a case that is for it.
 fn coverage<'a>(
-    cases: &'a [Case<'a>],
-    done: &[Done],
+    done: &[(&'a Case<'a>, Done)],
     logs: &[PathBuf],
 ) -> Result<Vec<Used<'a>>, RunError> {
     let mut plans: Vec<(&PlanFile, &Scenario, Hits)> = Vec::new();
-    for (case, done) in cases.iter().zip(done) {
+    for (case, done) in done {
         let (Ok(verdict), Ok(scenario)) = (&done.verdict, case.scenario) else { continue };
         let key = |scenario: &Scenario| {
             let plan = scenario.graph.main();
@@ -297,8 +306,13 @@ impl Done {
     }
 }
 
-fn run_one(case: &Case<'_>, robot: &dyn Loader) -> Done {
-    let failed = |failure| Done { verdict: Err(failure), log: None };
+/// What becomes of a case; `None` where it was stopped before that was known.
+fn run_one(case: &Case<'_>, robot: &dyn Loader, stop: &StopFlag) -> Option<Done> {
+    let mut go_on = || !stop.is_raised();
+    if !go_on() {
+        return None;
+    }
+    let failed = |failure| Some(Done { verdict: Err(failure), log: None });
     let scenario = match case.scenario {
         Ok(scenario) => scenario,
         Err(invalid) => {
@@ -310,16 +324,18 @@ fn run_one(case: &Case<'_>, robot: &dyn Loader) -> Done {
         Ok(setting) => setting,
         Err(error) => return failed(Failure::Run(error)),
     };
-    let verdict = afp_test::run(scenario, &setting, robot, None).map_err(Failure::Run);
+    let came = afp_test::run_while(scenario, &setting, robot, None, &mut go_on);
+    let verdict = came.transpose()?.map_err(Failure::Run);
     let failed = verdict.as_ref().is_ok_and(|verdict| !verdict.passed());
     if !failed {
-        return Done { verdict, log: None };
+        return Some(Done { verdict, log: None });
     }
     // The same run once more, since passing ones need no log.
     let path = find::log_of(case.file, &scenario.name);
     let log = path.and_then(|path| {
         let to = Recording { path: &path, compiled: &case.plan_file.compiled };
-        afp_test::run(scenario, &setting, robot, Some(to)).ok().map(|_| path)
+        let again = afp_test::run_while(scenario, &setting, robot, Some(to), &mut go_on);
+        again.ok().flatten().map(|_| path)
     });
-    Done { verdict, log }
+    Some(Done { verdict, log })
 }

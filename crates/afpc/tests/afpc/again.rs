@@ -35,8 +35,8 @@ fn timeline_summary_and_log_have_what_came_from_outside() {
         "     0.000  ● set walldist = 35 cm  from outside",
         "     2.000  ● press touch.touch  from outside",
         "     2.200  ● release touch.touch  from outside",
-        "     3.000  ● fail wheels.slip 0.3 for 2 s  from outside",
-        "     6.000  ● fail odometry.delayed 0.1  from outside",
+        "     3.000  ● fail wheels.slip = 0.3 for 2 s  from outside",
+        "     6.000  ● fail odometry.delayed = 100 ms  from outside",
     ] {
         assert!(said.out.contains(line), "{line:?} in {}", said.out);
         assert!(logged.contains(line), "{line:?} in {logged}");
@@ -47,7 +47,7 @@ fn timeline_summary_and_log_have_what_came_from_outside() {
     let late = "press buttons.escape at 50 s: the run was over before\n";
     assert!(said.out.contains(late), "{}", said.out);
     let requests = &said.last_json()["summary"]["requests"];
-    assert_eq!(requests[3]["request"], "fail wheels.slip 0.3 for 2 s");
+    assert_eq!(requests[3]["request"], "fail wheels.slip = 0.3 for 2 s");
     assert_eq!((&requests[3]["at_s"], &requests[3]["done"]), (&3.0.into(), &true.into()));
     assert_eq!(requests.as_array().unwrap().last().unwrap()["done"], Value::Bool(false));
 }

@@ -27,8 +27,35 @@ fn a_log_tells_what_the_run_told() {
         let picture = place.read(name);
         picture.lines().filter(|line| line.contains("polyline")).map(str::to_owned).collect()
     };
+    assert!(place.read("run.svg").contains(">interruptions<"));
+    assert!(place.read("log.svg").contains(">interruptions<"));
     let (run, log): (Vec<String>, Vec<String>) = (path("run.svg"), path("log.svg"));
     assert!(run.len() > 5 && run == log, "the picture from the log is not that of the run");
+}
+
+#[test]
+fn missed_deadlines_are_counted_alike_in_the_summary_and_the_table() {
+    let place = Place::with_plan();
+    let slow = "--fail ultrasonic.slow=15ms@1s..1.2s";
+    let run = place.afpc(&format!(
+        "run wall_following.afp {slow} --until 2s --seed 1 --log a.mcap --svg none"
+    ));
+    run.succeeds();
+    let told = run.out.lines().find_map(|line| line.trim().strip_prefix("deadline misses"));
+    let told: u64 = told.unwrap().trim().parse().unwrap();
+    let log = place.afpc("log a.mcap");
+    let table = log.out.lines().skip_while(|line| !line.starts_with("supervisor ")).skip(1);
+    let counted = table.take_while(|line| !line.is_empty()).map(|line| {
+        let line = line.replace('/', " ");
+        let columns = line.split_whitespace().skip(4).take(3);
+        columns.map(|number| number.parse::<u64>().unwrap()).sum::<u64>()
+    });
+    assert_eq!(counted.sum::<u64>(), told, "{}", log.out);
+    assert!(told > 10, "{}", run.out);
+    for said in [run, log] {
+        assert!(said.out.contains(" releases skipped\n"), "{}", said.out);
+        assert!(!said.out.contains("by 0.000 ms"), "{}", said.out);
+    }
 }
 
 #[test]

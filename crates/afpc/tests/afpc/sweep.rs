@@ -57,6 +57,61 @@ fn a_plan_that_looks_like_an_option_can_be_run_again() {
 }
 
 #[test]
+fn texts_may_stand_in_quotes() {
+    let place = Place::new();
+    let text = r#"use std
+plan P {
+    in mode: string = "z"
+    start say
+    computation say: Log(value = mode) { Done -> terminate }
+}
+"#;
+    place.write("p.afp", text);
+    let said = place.afpc(r#"sweep p.afp --vary mode="x,y","","z" --json -o p.csv"#);
+    let runs = objects(said.succeeds());
+    assert_eq!(runs.len(), 4, "{}", said.out);
+    for (run, text) in ["x,y", "", "z"].into_iter().enumerate() {
+        assert_eq!(runs[run]["values"]["mode"]["text"], text);
+        // As a shell takes it.
+        let command = runs[run]["command"].as_str().unwrap().replace('\'', "");
+        let command = command.strip_prefix("afpc ").unwrap();
+        let again = place.afpc(&format!("{command} --log none --svg none"));
+        let told = format!("say: value = {text:?}");
+        assert!(again.succeeds().out.contains(&told), "no {told} in {}", again.out);
+    }
+}
+
+#[test]
+fn the_same_values_written_otherwise_are_the_same_sweep() {
+    let place = Place::with_plan();
+    let sweep = |values: &str| {
+        place
+            .afpc(&format!("sweep wall_following.afp --vary walldist={values} --until 1s -o a.csv"))
+    };
+    sweep("30cm,0.4m").succeeds();
+    let said = sweep("0.3m,400mm");
+    assert!(said.succeeds().err.contains("all 2 runs are done"), "{}", said.err);
+    sweep("0.3m,401mm").fails(2, &["walldist = 0.3 0.4; this is", "walldist = 0.3 0.401"]);
+}
+
+#[test]
+fn what_never_started_has_no_measures() {
+    let place = Place::with_plan();
+    let axis = "--vary world.robot.pose_m_deg.0=2.1m,3m --until 1s";
+    let said = place.afpc(&format!("sweep wall_following.afp {axis} --json -o a.csv"));
+    let runs = objects(&said);
+    assert_eq!(runs[1]["ending"], "not_started", "{}", said.out);
+    for measure in ["time_s", "distance_m", "collisions", "interruptions", "deadline_misses"] {
+        assert!(runs[0][measure].is_number() && runs[1][measure].is_null(), "{}", said.out);
+    }
+    let table = rows(&place, "a.csv");
+    let names: Vec<_> = table[0].split(',').collect();
+    let cells: Vec<_> = table[2].split(',').collect();
+    let time = names.iter().position(|name| *name == "time_s").unwrap();
+    assert_eq!(cells[time..time + 6], [""; 6], "{}", table[2]);
+}
+
+#[test]
 fn a_sweep_presses_and_breaks_as_a_run_does() {
     let place = Place::with_plan();
     let asked = "--press touch@2s --fail wheels.slip=0.3@3s..5s";

@@ -1,5 +1,8 @@
 //! `afpc test`: finds scenarios, runs them, says what broke.
 
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Command, Stdio};
+
 use crate::common::Place;
 
 const SCENARIOS: &str = r#"use "../wall_following.afp"
@@ -40,7 +43,11 @@ fn scenarios_are_found_run_and_judged() {
     let log = said.out.lines().find_map(|line| line.trim().strip_prefix("log: ")).unwrap();
     let log = place.afpc(&format!("log {log} info"));
     log.succeeds();
-    assert!(log.out.contains("nothing is ever touched"), "{}", log.out);
+    for fact in
+        ["nothing is ever touched", "plan_hash  ", "world_hash  ", "physics_step_ns  5000000"]
+    {
+        assert!(log.out.contains(fact), "no {fact:?} in {}", log.out);
+    }
 }
 
 #[test]
@@ -207,7 +214,8 @@ fn mutants_are_made_and_those_that_nobody_notices_are_told() {
         place.afpc("test --mutate --seed 0").out,
         "the same seed, the same mutants"
     );
-    assert_eq!(place.afpc("test --mutate --at-least 99").code, 3);
+    let few = place.afpc("test --mutate --at-least 99");
+    few.fails(3, &["short.afp: ", " % are noticed, fewer than the 99 % of '--at-least'"]);
     for percent in ["nan", "inf", "101", "-1"] {
         let said = place.afpc(&format!("test --mutate --at-least {percent}"));
         said.fails(2, &["expected a number from 0 to 100"]);
@@ -244,4 +252,52 @@ fn what_is_wrong_is_told_beside_mutants() {
     let said = place.afpc("test --mutate");
     assert_eq!(said.code, 3, "{}", said.out);
     assert!(said.err.contains("E0602") || said.out.contains("E0602"), "{said:?}");
+    // The only one.
+    place.write(
+        "tests/short.afp",
+        "use \"../short.afp\"\nscenario \"x\" for Short { expect nobody active }\n",
+    );
+    let said = place.afpc("test --mutate");
+    assert!(!said.fails(3, &["E0602"]).err.contains("there are no scenarios"), "{}", said.err);
+}
+
+#[test]
+fn scenarios_that_all_fail_judge_no_mutant() {
+    let place = Place::new();
+    place.write("short.afp", SHORT);
+    let scenario = "use \"../short.afp\"\nscenario \"x\" for Short { expect end before 1 ms }\n";
+    place.write("tests/short.afp", scenario);
+    let said = place.afpc("test --mutate");
+    said.fails(3, &["short.afp: all scenarios fail on the plan as it is: mend them first"]);
+    assert_eq!(said.out, "");
+}
+
+#[test]
+fn what_broke_before_it_was_stopped_is_told() {
+    let place = Place::new();
+    place.write(
+        "p.afp",
+        r#"use std
+plan P forever {
+    start w
+    actor w: Wait(duration = 100 us) { Elapsed -> w }
+}
+scenario "breaks" for P { never w active  until 10 ms }
+scenario "lasts" for P { never end  until 1 h }
+"#,
+    );
+    let mut command = place.command();
+    command.args(["test", "p.afp"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    // Both run at once, on however few cores.
+    let mut child = command.env("RAYON_NUM_THREADS", "2").spawn().unwrap();
+    let mut out = BufReader::new(child.stdout.take().unwrap());
+    let mut text = String::new();
+    out.read_line(&mut text).unwrap();
+    let kill = ["-s", "INT", &child.id().to_string()].map(str::to_owned);
+    assert!(Command::new("kill").args(kill).status().unwrap().success());
+    out.read_to_string(&mut text).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{text}");
+    for told in ["─── broken here", "  log: ", "0 passed, 1 failed; 1 of 2, stopped"] {
+        assert!(text.contains(told), "no {told:?} in {text}");
+    }
 }

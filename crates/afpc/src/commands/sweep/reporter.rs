@@ -103,6 +103,9 @@ impl<'a> Reporter<'a> {
         let mut object = json!(outcome);
         if let Some(map) = object.as_object_mut() {
             map.remove("took_s");
+            // What never started has come to nothing.
+            let nothing = Measure::ALL.into_iter().filter(|it| it.of(outcome).is_none());
+            map.extend(nothing.map(|measure| (measure.name().to_owned(), Value::Null)));
             map.insert("world".to_owned(), json!(row.world.name()));
             map.insert("seed".to_owned(), json!(row.seed));
             let values = row.values.iter().map(|(name, point)| {

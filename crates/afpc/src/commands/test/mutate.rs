@@ -27,11 +27,26 @@ pub(super) struct Wanted {
     pub json: bool,
 }
 
-/// Mutates the plans that the scenarios of some files are for; gives the exit code.
+/// What mutants of a plan came to.
+enum Came {
+    /// This share is noticed.
+    Share(f64),
+    /// No scenario passes on the plan as it is.
+    NoJudge,
+    /// It was stopped before all were judged.
+    Stopped,
+}
+
+/// Mutates the plans that the scenarios of some files are for; gives the exit code, `code` where all is well.
 ///
 /// # Errors
-/// A scenario that cannot be run, a table that cannot be printed.
-pub(super) fn run(files: &[PlanFile], wanted: &Wanted, linked: &Linked<'_>) -> Result<u8, NoPlan> {
+/// No scenarios though no file is wrong, a scenario that cannot be run, a table that cannot be printed.
+pub(super) fn run(
+    files: &[PlanFile],
+    code: u8,
+    wanted: &Wanted,
+    linked: &Linked<'_>,
+) -> Result<u8, NoPlan> {
     let stop =
         StopFlag::on_signals().map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     let mut plans: BTreeMap<&str, Vec<&PlanFile>> = BTreeMap::new();
@@ -43,42 +58,65 @@ pub(super) fn run(files: &[PlanFile], wanted: &Wanted, linked: &Linked<'_>) -> R
             }
         }
     }
-    if plans.is_empty() {
+    let invalid = tell_invalid(files);
+    if plans.is_empty() && !invalid && code == EXIT_OK {
         let help = "write scenarios first; 'afpc test --generate' makes some";
         return Err(
             RunError::usage("there are no scenarios that could notice anything", help).into()
         );
     }
-    let mut code = EXIT_OK;
-    for file in files {
-        for invalid in &file.compiled.invalid {
-            say(invalid.errors.render(&file.compiled.sources, true));
-            code = EXIT_PLAN_ERROR;
-        }
-    }
+    let mut code = if invalid { EXIT_PLAN_ERROR } else { code };
     for (plan, suites) in plans {
-        let Some(share) = one_plan(plan, &suites, wanted, linked, &stop)? else {
-            return Ok(stop.exit_code().unwrap_or(EXIT_STOPPED));
-        };
-        if wanted.at_least.is_some_and(|least| share * 100.0 < least) {
-            code = EXIT_PLAN_ERROR;
+        match one_plan(plan, &suites, wanted, linked, &stop)? {
+            Came::Share(share) => {
+                if let Some(least) = wanted.at_least.filter(|least| share * 100.0 < *least) {
+                    say(too_few(plan, share * 100.0, least));
+                    code = EXIT_PLAN_ERROR;
+                }
+            }
+            Came::NoJudge => code = EXIT_PLAN_ERROR,
+            Came::Stopped => return Ok(stop.exit_code().unwrap_or(EXIT_STOPPED)),
         }
     }
     Ok(code)
 }
 
-/// Mutates one plan file; gives the share that is noticed, `None` when it was called off.
+/// Tells what is wrong with scenarios; whether anything is.
+fn tell_invalid(files: &[PlanFile]) -> bool {
+    let mut any = false;
+    for file in files {
+        for invalid in &file.compiled.invalid {
+            say(invalid.errors.render(&file.compiled.sources, true));
+            any = true;
+        }
+    }
+    any
+}
+
+/// Says that less is noticed than is wanted, with as many digits as tell the two apart.
+fn too_few(plan: &str, percent: f64, least: f64) -> String {
+    let digits = (2..17).find(|digits| {
+        let shown = format!("{percent:.digits$}");
+        shown.parse::<f64>().is_ok_and(|shown| shown < least)
+    });
+    let digits = digits.unwrap_or(17);
+    format!("{plan}: {percent:.digits$} % are noticed, fewer than the {least} % of '--at-least'")
+}
+
+/// Mutates one plan file.
 fn one_plan(
     plan: &str,
     files: &[&PlanFile],
     wanted: &Wanted,
     linked: &Linked<'_>,
     stop: &StopFlag,
-) -> Result<Option<f64>, NoPlan> {
-    let Some(first) = files.first() else { return Ok(None) };
+) -> Result<Came, NoPlan> {
+    let Some(first) = files.first() else { return Ok(Came::Stopped) };
     let toolboxes = first.own.with_built_in()?;
     let mut sources = files.iter().flat_map(|file| file.compiled.plan_sources());
-    let Some(source) = sources.find(|source| source.name == plan) else { return Ok(None) };
+    let Some(source) = sources.find(|source| source.name == plan) else {
+        return Ok(Came::Stopped);
+    };
     let suites = files.iter().filter_map(|file| {
         let source = file.compiled.plan_sources().next()?.clone();
         Some(Suite { file: file.path.clone(), source })
@@ -87,24 +125,38 @@ fn one_plan(
     let disk = Disk::default();
     let with = (&toolboxes, &disk as &(dyn Files + Sync));
     let Some(bench) = Bench::new(plan, suites.collect(), with, linked.robot, &mut go_on)? else {
-        return Ok(None);
+        return Ok(Came::Stopped);
     };
+    if bench.judges() == 0 && !bench.failing.is_empty() {
+        say(format_args!(
+            "{plan}: all scenarios fail on the plan as it is: mend them first ('afpc test' tells why)"
+        ));
+        return Ok(Came::NoJudge);
+    }
     let mutants = mutants(&source.text, wanted.seed);
-    let Some(judged) = judge_all(&bench, mutants, stop) else { return Ok(None) };
+    let all = mutants.len();
+    let judged = judge_all(&bench, mutants, stop);
     let tally = Tally::of(&judged);
     let text = match wanted.json {
         true => judged.iter().map(|each| format!("{}\n", object(plan, each))).collect(),
         false => table(plan, &bench, &judged),
     };
     print(&format!("{text}{}", sum(plan, &tally, wanted.json)))?;
-    Ok(Some(tally.share()))
+    if judged.len() < all {
+        say(format_args!("{plan}: stopped; {} of {all} mutants were judged", judged.len()));
+        return Ok(Came::Stopped);
+    }
+    Ok(Came::Share(tally.share()))
 }
 
-/// Judges mutants on all cores.
-fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Option<Vec<Judged>> {
+/// Judges mutants on all cores, as many as there is time for until somebody stops it.
+fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Vec<Judged> {
     let (all, done) = (mutants.len(), AtomicUsize::new(0));
     let shown = std::io::stderr().is_terminal();
     let judge = |mutant| {
+        if stop.is_raised() {
+            return None;
+        }
         let judged = bench.judge(mutant, &mut || !stop.is_raised());
         let number = done.fetch_add(1, Ordering::Relaxed) + 1;
         if shown {
@@ -113,7 +165,7 @@ fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Option
         }
         judged
     };
-    let judged = mutants.into_par_iter().with_max_len(1).map(judge).collect();
+    let judged = mutants.into_par_iter().with_max_len(1).filter_map(judge).collect();
     if shown {
         let _ = write!(std::io::stderr(), "\r\x1b[K");
     }
@@ -132,9 +184,9 @@ fn table(plan: &str, bench: &Bench<'_>, judged: &[Judged]) -> String {
     let mut sorted: Vec<_> = judged.iter().collect();
     sorted.sort_by_key(|each| order(&each.status));
     for Judged { mutant, status } in sorted {
-        let (line, kind) = (mutant.line, mutant.kind.to_string());
-        let change = change(mutant);
-        let _ = writeln!(text, "{line:>5}  {kind:<8}  {change:<widest$}  {}", word(status));
+        let place = format!("{}:{}", mutant.line, mutant.column);
+        let (kind, change) = (mutant.kind.to_string(), change(mutant));
+        let _ = writeln!(text, "{place:>8}  {kind:<8}  {change:<widest$}  {}", word(status));
     }
     text
 }
@@ -189,7 +241,7 @@ fn object(plan: &str, judged: &Judged) -> serde_json::Value {
         MutantStatus::Noticed(names) => ("noticed", names.as_slice()),
     };
     json!({
-        "file": plan, "line": mutant.line, "kind": mutant.kind.to_string(), "was": mutant.was,
-        "is": mutant.is, "status": word, "noticed_by": by,
+        "file": plan, "line": mutant.line, "column": mutant.column, "kind": mutant.kind.to_string(),
+        "was": mutant.was, "is": mutant.is, "status": word, "noticed_by": by,
     })
 }

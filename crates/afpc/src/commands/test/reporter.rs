@@ -6,6 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use afp_core::Ending;
+use afp_run::say;
 use afp_test::Verdict;
 use anstream::adapter::strip_str;
 use anstyle::{AnsiColor, Style};
@@ -57,16 +58,19 @@ impl Reporter {
         }
     }
 
-    /// All are done: in the order of the files, what broke.
+    /// All are done that could be until somebody stopped it: in the order of the files, what broke.
     ///
     /// # Errors
     /// Something could not be printed, now or earlier.
-    pub fn end(&self, cases: &[Case<'_>], done: &[Done], seconds: f64) -> Result<(), NoPlan> {
+    pub fn end(&self, done: &[(&Case<'_>, Done)], seconds: f64) -> Result<(), NoPlan> {
         if let Some(failure) = self.failure.lock().ok().and_then(|mut first| first.take()) {
             return Err(failure);
         }
+        if self.progress {
+            show("\r\x1b[K");
+        }
         let mut text = String::new();
-        for (case, done) in cases.iter().zip(done) {
+        for (case, done) in done {
             if self.json {
                 let _ = writeln!(text, "{}", object(case, done));
             } else if !done.passed() {
@@ -74,18 +78,29 @@ impl Reporter {
             }
         }
         if !self.json {
-            let failed = done.iter().filter(|done| !done.passed()).count();
-            let verdicts = done.iter().filter_map(|done| done.verdict.as_ref().ok());
-            let simulated = verdicts.fold(0.0, |sum, it| sum + it.length().as_secs_f64());
-            let style = if failed == 0 { GOOD } else { BAD };
-            let _ = writeln!(
-                text,
-                "\n{style}{} passed, {failed} failed{style:#}  {QUIET}{simulated:.1} s simulated in {seconds:.2} s{QUIET:#}",
-                done.len() - failed
-            );
+            text += &self.last_line(done, seconds);
         }
         print(&text)?;
+        if self.json && done.len() < self.all {
+            say(format_args!("stopped; {} of {} scenarios were run", done.len(), self.all));
+        }
         Ok(())
+    }
+
+    fn last_line(&self, done: &[(&Case<'_>, Done)], seconds: f64) -> String {
+        let failed = done.iter().filter(|(_, done)| !done.passed()).count();
+        let verdicts = done.iter().filter_map(|(_, done)| done.verdict.as_ref().ok());
+        let simulated = verdicts.fold(0.0, |sum, it| sum + it.length().as_secs_f64());
+        let style = if failed == 0 { GOOD } else { BAD };
+        let stopped = match done.len() < self.all {
+            true => format!("; {} of {}, stopped", done.len(), self.all),
+            false => String::new(),
+        };
+        format!(
+            "\n{style}{} passed, {failed} failed{style:#}{stopped}  \
+             {QUIET}{simulated:.1} s simulated in {seconds:.2} s{QUIET:#}\n",
+            done.len() - failed
+        )
     }
 }
 
