@@ -156,7 +156,10 @@ impl Parser<'_, '_> {
         self.open(Kind::Brackets);
         let opened = self.here();
         self.bump();
-        self.with_commas(false, Self::formula);
+        self.with_commas(false, |parser| {
+            parser.formula();
+            parser.no_operators();
+        });
         self.close_bracket(Kind::CloseParen, opened);
         self.close();
     }
@@ -177,8 +180,10 @@ impl Parser<'_, '_> {
         if !self.at(Kind::CloseParen) {
             self.with_commas(true, |parser| {
                 parser.formula();
+                parser.no_operators();
                 while parser.eat(Kind::Comma) {
                     parser.formula();
+                    parser.no_operators();
                 }
             });
         }
