@@ -218,6 +218,10 @@ impl Parser<'_, '_> {
             return self.bump_as(Kind::Unit);
         }
         let error = Diagnostic::new(Code::E0236, self.here(), format!("'{word}' is not a unit"));
+        if let Some((prefixed, better)) = self.strange_prefix() {
+            self.error(error.help(format!("there is no {prefixed}: write '{better}'")));
+            return self.pass(1);
+        }
         let meant = Unit::meant(word).map(str::to_owned);
         self.error(match meant.or_else(|| Unit::power_meant(word)) {
             Some(unit) => error.help(format!("write '{unit}'")).replace(unit),
