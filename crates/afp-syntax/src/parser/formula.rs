@@ -311,10 +311,16 @@ impl Parser<'_, '_> {
         self.close();
     }
 
+    /// Whether what is claimed of a path stands behind the next name, so that no line of a scenario begins with it.
+    fn at_path(&self) -> bool {
+        let claims = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || self.nth(1).is_comparison();
+        claims || self.word(1) == "active" && !self.begins_line(1)
+    }
+
     /// `NAME {"." NAME}`
     pub(super) fn path(&mut self) {
         self.open(Kind::Path);
-        if !self.on_same_line() && self.at_line() {
+        if !self.on_same_line() && self.at_line() && !self.at_path() {
             self.expected("a name", "write the name of an element or entry");
             return self.close();
         }

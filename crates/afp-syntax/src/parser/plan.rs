@@ -229,12 +229,20 @@ impl Parser<'_, '_> {
         // A time that is missing has the other word behind it.
         let other = matches!(self.word(0), "every" | "deadline")
             && matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Name);
-        if self.at(Kind::Name) && self.on_same_line() && !self.names_something(0) && !other {
+        let is_name = self.at(Kind::Name) && !self.names_something(0) && !other;
+        if is_name && (self.on_same_line() || self.at_time_of_another_line()) {
             self.reference();
         } else {
             self.quantity("write a time such as '10 ms', or name a constant");
         }
         self.close();
+    }
+
+    /// Whether a constant on the next line is the time: behind it stands what comes behind times.
+    fn at_time_of_another_line(&self) -> bool {
+        let goes_on =
+            self.nth(1) == Kind::OpenBrace || matches!(self.word(1), "every" | "deadline");
+        goes_on && !self.begins_item()
     }
 
     /// Whether an item begins that no body of an element holds: a `}` is missing.
