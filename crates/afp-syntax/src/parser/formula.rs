@@ -198,7 +198,8 @@ impl Parser<'_, '_> {
             self.bump();
         }
         self.number_that_ends_with_a_point();
-        if !self.eat(Kind::Unit) && !self.number_with_letters() && !self.percent() {
+        let is_unit = self.eat(Kind::Unit) || self.unit_of_a_bound();
+        if !is_unit && !self.number_with_letters() && !self.percent() {
             self.unknown_unit();
         }
         self.close();
