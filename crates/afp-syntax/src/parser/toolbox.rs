@@ -162,7 +162,7 @@ impl Parser<'_, '_> {
     }
 
     /// `"from" formula "to" formula`. Returns whether both ends are there.
-    fn range(&mut self) -> bool {
+    pub(super) fn range(&mut self) -> bool {
         self.open(Kind::Range);
         self.eat_meant("from", begins_formula);
         self.formula();

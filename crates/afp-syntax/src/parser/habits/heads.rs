@@ -135,6 +135,40 @@ impl Parser<'_, '_> {
         }
     }
 
+    /// `every 5 ms * 2`: reports what is computed with a time, and reads past it.
+    pub(in crate::parser) fn no_formula_of_a_time(&mut self) {
+        use Kind::{CloseBrace, Minus, OpenBrace, OpenParen, Percent, Plus, Slash, Star};
+        if !matches!(self.nth(0), Plus | Minus | Star | Slash | Percent) || !self.on_same_line() {
+            return;
+        }
+        let (here, first) = (self.next_span(), self.at);
+        let error = Diagnostic::new(Code::E0102, here, "a time here is no formula");
+        self.error(error.help("write one time such as '10 ms', or name a constant that has it"));
+        self.pass_to(|p| {
+            let ends = matches!(p.nth(0), OpenBrace | CloseBrace | OpenParen) || p.at_end();
+            ends || p.at > first && (!p.on_same_line() || p.at_timing())
+        });
+        while self.at_timing() {
+            self.timing();
+        }
+    }
+
+    /// `CheckTimeout every 5 ms (duration = 3 s)`: reports ports behind the times of a supervisor, and reads them.
+    pub(in crate::parser) fn ports_behind_times(&mut self) {
+        if !self.at(Kind::OpenParen) || !self.on_same_line() {
+            return;
+        }
+        let here = self.next_span();
+        let error = Diagnostic::new(Code::E0102, here, "ports stand before the times");
+        self.error(
+            error.help("write them in brackets behind the template, before 'every' and 'deadline'"),
+        );
+        self.args(true);
+        while self.at_timing() {
+            self.timing();
+        }
+    }
+
     /// `within 50 ms`, `evry 50 ms`: reports the word, and reads it as the one that is meant. Returns whether it stands
     /// there.
     pub(in crate::parser) fn time_by_another_word(&mut self) -> bool {
