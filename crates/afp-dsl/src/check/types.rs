@@ -190,8 +190,8 @@ impl Types {
     /// Reports a name that no type has; `qualified` tells whether something stands before it.
     fn unknown(&self, reference: &ast::Ref, name: &ast::Name, qualified: bool) -> Diagnostic {
         let message = format!("there is no type '{}'", name.text);
-        let error = Diagnostic::new(Code::E0232, reference.span(), &*message);
-        if let (false, Ok(error)) = (qualified, self.hidden(&name.text, error)) {
+        let error = || Diagnostic::new(Code::E0232, reference.span(), &*message);
+        if let (false, Some(error)) = (qualified, self.hidden(&name.text, error)) {
             return error;
         }
         if let Some(ty) = meant::ty(&name.text) {
@@ -214,13 +214,10 @@ impl Types {
     }
 
     /// What is said of the name of an enum that only a file has which is used by a used one.
-    pub fn hidden(&self, name: &str, error: Diagnostic) -> Result<Diagnostic, Diagnostic> {
-        match self.hidden.iter().find(|(known, ..)| known == name) {
-            Some((_, line, top)) => Ok(error
-                .help(format!("add '{line}' at the top of the file"))
-                .fix(*top, format!("{line}\n"))),
-            None => Err(error),
-        }
+    pub fn hidden(&self, name: &str, error: impl Fn() -> Diagnostic) -> Option<Diagnostic> {
+        let (_, line, top) = self.hidden.iter().find(|(known, ..)| known == name)?;
+        let help = format!("add '{line}' at the top of the file");
+        Some(error().help(help).fix(*top, format!("{line}\n")))
     }
 
     /// A factor of a product: a dimension, or a number without one.

@@ -31,11 +31,11 @@ pub(super) fn without_port(
     name: &Name,
 ) -> Diagnostic {
     let message = format!("'{}' has no port '{}'", signature.name, name.text);
-    let error = Diagnostic::new(Code::E0202, name.span, message);
-    let error = match unknown_port::of_inside(signature, &name.text, "in", error) {
-        Ok(error) => return error,
-        Err(error) => error,
-    };
+    let error = || Diagnostic::new(Code::E0202, name.span, &*message);
+    if let Some(error) = unknown_port::of_inside(signature, &name.text, "in", error) {
+        return error;
+    }
+    let error = error();
     let Some(entry) = scope.indices.find(&name.text).map(|index| &scope.entries[index]) else {
         let inputs = signature.inputs.iter().map(|input| &*input.name);
         let outputs = signature.outputs.iter().map(|output| &*output.name);
