@@ -7,15 +7,15 @@
 //! the event (`on`), it goes on. Two conditions that last alike start their recoveries in turns.
 //!
 //! An event of a local supervisor is taken at each poll, so one that lasts and leads to its own element starts that over and
-//! over. Where it writes something, the element may start with other values, and where it comes after some time, the
-//! element has that time.
+//! over: a robot that moves stays where it is. Where it writes something, the element may start with other values, and where
+//! it comes after some time, the element has that time. One that commands nothing waits until it is quiet.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::flow::cycles::standard;
 use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, Edge, Node, View, takes_time};
-use crate::graph::SupervisorId;
+use crate::graph::{Component, Element, SupervisorId};
 use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
@@ -70,7 +70,8 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
             continue;
         };
         let writes = !view.may_write(edge.cause).is_empty();
-        if writes || view.is_once(id, event) || comes_after_a_time(view, id) {
+        let goes_on = writes || view.is_once(id, event) || comes_after_a_time(view, id);
+        if goes_on || !commands(view, element) {
             continue;
         }
         let (label, name) = (view.label(edge.cause), &element.name);
@@ -85,6 +86,26 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
 fn comes_after_a_time(view: &View<'_>, id: SupervisorId) -> bool {
     let template = view.model.template(view.supervisor(id).template);
     template.inputs.iter().any(|input| input.ty == Type::Quantity(Dimension::DURATION))
+}
+
+/// Whether an element, or one inside of it, commands a device of the robot until it has done something.
+fn commands(view: &View<'_>, element: &Element) -> bool {
+    let (mut open, mut seen) = (vec![element], BTreeSet::new());
+    while let Some(element) = open.pop() {
+        match element.component {
+            Component::Actor(id) => {
+                if !(element.states.is_empty() || view.model.template(id).uses.is_empty()) {
+                    return true;
+                }
+            }
+            Component::SubPlan(id) if seen.insert(id.index()) => {
+                let inner = view.model.plans.get(id.index()).copied().flatten();
+                open.extend(inner.iter().flat_map(|plan| &plan.elements));
+            }
+            _ => {}
+        }
+    }
+    false
 }
 
 /// Warns of events that hold for ever once they do, and replace what another such event has started, as that one does.
