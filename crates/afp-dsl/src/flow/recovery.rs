@@ -93,10 +93,10 @@ fn commands(view: &View<'_>, element: &Element) -> bool {
     let (mut open, mut seen) = (vec![element], BTreeSet::new());
     while let Some(element) = open.pop() {
         match element.component {
-            Component::Actor(id) => {
-                if !(element.states.is_empty() || view.model.template(id).uses.is_empty()) {
-                    return true;
-                }
+            Component::Actor(id)
+                if !element.states.is_empty() && !view.model.template(id).uses.is_empty() =>
+            {
+                return true;
             }
             Component::SubPlan(id) if seen.insert(id.index()) => {
                 let inner = view.model.plans.get(id.index()).copied().flatten();
