@@ -67,6 +67,8 @@ struct Parser<'t, 'd> {
     in_scenario: bool,
     /// Whether a comma here stands between two formulas, so that it is none of a number.
     commas_separate: bool,
+    /// Whether the bounds of a range are read.
+    in_range: bool,
     /// The entries of the plan as far as it is read, each with the word that declares it.
     entries: BTreeMap<&'t str, &'t str>,
     /// The supervisors of the plans of the file.
@@ -110,6 +112,7 @@ impl<'t, 'd> Parser<'t, 'd> {
             is_toolbox: false,
             in_scenario: false,
             commas_separate: false,
+            in_range: false,
             entries: BTreeMap::new(),
             hyphens: BTreeSet::new(),
             marks,

@@ -72,14 +72,46 @@ const WORDS: &[(&str, &str)] = &[
     ("kph", "km/h"),
 ];
 
+/// Units before which people write prefixes.
+const BASES: &[&str] = &["m", "rad", "deg", "s", "g", "N", "V", "K", "Hz"];
+
 impl Unit {
     /// The unit that was meant by a word that is none: `degrees`, `CM`.
     pub fn meant(word: &str) -> Option<&'static str> {
         let small = word.to_ascii_lowercase();
         let one = small.strip_suffix('s').unwrap_or(&small);
+        let changes_prefix = |symbol: &str| {
+            let first = |text: &str| text.bytes().next().filter(|each| matches!(each, b'm' | b'M'));
+            let rest = word.get(1..).unwrap_or_default();
+            let alike = |base: &&str| base.eq_ignore_ascii_case(rest);
+            // `MM` is shouted.
+            let is_prefix = BASES.contains(&rest) || rest.len() > 1 && BASES.iter().any(alike);
+            is_prefix && first(symbol) != first(word)
+        };
         let spelled = WORDS.iter().find(|(word, _)| *word == one || *word == small);
         let symbol = spelled.map(|(_, symbol)| *symbol);
-        symbol.or_else(|| Unit::symbols().find(|symbol| symbol.eq_ignore_ascii_case(word)))
+        symbol.or_else(|| {
+            let mut alike = Unit::symbols().filter(|symbol| symbol.eq_ignore_ascii_case(word));
+            alike.find(|symbol| !changes_prefix(symbol))
+        })
+    }
+
+    /// What a unit with a prefix means that the language does not have: in full, its unit without the prefix, and the
+    /// power of ten of that. `mHz` is a millihertz, and none with another letter, which would be millions of them.
+    pub fn strange_prefix(word: &str) -> Option<(String, &'static str, i32)> {
+        let (prefix, exponent) = match word.bytes().next()? {
+            b'm' => ("milli", -3),
+            b'M' => ("mega", 6),
+            _ => return None,
+        };
+        let is_small = exponent < 0;
+        let fits = |base: &&&str| match is_small {
+            true => base.eq_ignore_ascii_case(&word[1..]),
+            false => **base == &word[1..],
+        };
+        let base = BASES.iter().find(fits)?;
+        let (name, _) = WORDS.iter().find(|(_, symbol)| symbol == base)?;
+        Unit::parse(word).is_none().then(|| (format!("{prefix}{name}"), *base, exponent))
     }
 
     /// The power of a unit that was meant by a word that is none: `s2`, `m3`.

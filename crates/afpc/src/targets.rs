@@ -3,6 +3,7 @@
 use afp_dsl::graph::Graph;
 use afp_dsl::timing::{BUILT_IN, Target, check_target};
 use afp_project::Project;
+use afp_resolve::OwnToolboxes;
 use afp_run::RunError;
 use afp_syntax::diagnostics::{Diagnostics, words};
 
@@ -43,20 +44,25 @@ fn completed(own: &afp_project::Target) -> Target {
 /// What is wrong with a plan on targets.
 ///
 /// # Errors
-/// A target has a budget for a template that its toolbox does not have.
-pub fn check(graph: &Graph, targets: &[Target]) -> Result<Diagnostics, RunError> {
+/// A target has a budget for a toolbox that there is not, or for a template that its toolbox does not have.
+pub fn check(
+    graph: &Graph,
+    own: &OwnToolboxes,
+    targets: &[Target],
+) -> Result<Diagnostics, RunError> {
     let mut diags = Diagnostics::default();
     for target in targets {
-        know_templates(graph, target)?;
+        know_templates(graph, own, target)?;
         diags.extend(check_target(graph, target));
     }
     Ok(diags)
 }
 
 /// A slip in a name would leave the budget that is declared. Toolboxes that the plan does not use are another plan's.
-fn know_templates(graph: &Graph, target: &Target) -> Result<(), RunError> {
+fn know_templates(graph: &Graph, own: &OwnToolboxes, target: &Target) -> Result<(), RunError> {
     for (toolbox, name) in target.budgeted() {
         let Some(known) = graph.toolboxes.iter().find(|known| known.name == toolbox) else {
+            know_toolbox(own, target, (toolbox, name))?;
             continue;
         };
         let names = || known.templates.iter().map(|template| template.name.as_str());
@@ -72,4 +78,24 @@ fn know_templates(graph: &Graph, target: &Target) -> Result<(), RunError> {
         return Err(RunError::usage(message, help));
     }
     Ok(())
+}
+
+/// Refuses a budget for a toolbox that is neither built in nor one of the project.
+fn know_toolbox(
+    own: &OwnToolboxes,
+    target: &Target,
+    (toolbox, template): (&str, &str),
+) -> Result<(), RunError> {
+    let built_in = afp_toolboxes::ALL.iter().map(|built_in| built_in.name);
+    let names: Vec<_> = built_in.chain(own.texts().map(|(name, _)| name)).collect();
+    if names.contains(&toolbox) {
+        return Ok(());
+    }
+    let message =
+        format!("'[target.{}]' of afp.toml: there is no toolbox '{toolbox}'", target.name);
+    let help = match words::nearest(toolbox, names.iter().copied()) {
+        Some(near) => format!("write 'budgets.{near}.{template}'"),
+        None => format!("there are {}", words::list(names.iter().copied(), "and")),
+    };
+    Err(RunError::usage(message, help))
 }

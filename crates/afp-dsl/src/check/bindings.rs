@@ -9,7 +9,7 @@ mod unknown_port;
 use crate::check::formula::{Scope, of_constant};
 use crate::check::range;
 use crate::check::signature::{Input, Signature};
-use crate::graph::{Formula, Output};
+use crate::graph::{EntryKind, Formula, Output};
 use crate::toolbox::Constant;
 use crate::types::Type;
 use afp_syntax::ast::{self, Bind, Name};
@@ -172,10 +172,10 @@ fn find_ports<'a>(
                 ports.complete = false;
                 diags.push(unknown_port::report(scope, signature, binds, bind));
             }
-            (Bind::In { .. }, None, Some(_)) => {
+            (Bind::In { formula, .. }, None, Some(_)) => {
                 bound_names(scope, bind);
                 ports.complete = false;
-                diags.push(mixed_up(*sign, port, "an output", "=>"));
+                diags.push(output_for_an_input(scope, *sign, port, formula.as_ref()));
             }
             (Bind::Out { .. }, Some(_), None) => {
                 bound_names(scope, bind);
@@ -209,6 +209,23 @@ fn bound_twice(port: &Name, first: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0226, port.span, format!("'{}' is bound twice", port.text))
         .note(first.span, "first bound here")
         .help("remove one of them")
+}
+
+/// Reports a value for an output. Where an entry that can be written stands there, the sign alone is wrong.
+fn output_for_an_input(
+    scope: &Scope<'_>,
+    sign: Span,
+    port: &Name,
+    value: Option<&ast::Formula>,
+) -> Diagnostic {
+    let error = mixed_up(sign, port, "an output", "=>");
+    let entry = value.and_then(|value| scope.indices.find(scope.text_of(value.span())));
+    let kind = entry.and_then(|entry| scope.entries.get(entry)).map(|entry| entry.kind);
+    if value.is_none() || matches!(kind, Some(EntryKind::Var | EntryKind::Out)) {
+        return error;
+    }
+    let help = format!("write '{} => ' and an entry of the plan that takes it", port.text);
+    Diagnostic::new(error.code, error.span, error.message).help(help)
 }
 
 pub(super) fn mixed_up(sign: Span, port: &Name, is: &str, right: &str) -> Diagnostic {

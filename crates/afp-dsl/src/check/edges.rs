@@ -309,6 +309,11 @@ pub(crate) fn word(name: &str) -> Option<Word> {
 fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic {
     let word = if origin.supervisor { "event" } else { "state" };
     let message = format!("'{}' has no {word} '{}'", origin.signature.name, name.text);
+    if origin.supervisor && name.text == ERROR {
+        let help = "remove it: where a supervisor fails, its element takes the 'Error' edge; one of the plan ends that in \
+                    'Error'";
+        return Diagnostic::new(Code::E0210, name.span, message).help(help);
+    }
     let known = origin.signature.outcomes.iter().map(|outcome| &**outcome).chain([extra]);
     unknown(Code::E0210, name.span, message, &name.text, known, "remove the edge")
 }

@@ -10,6 +10,7 @@ use crate::check::types::Types;
 use crate::check::{
     PlanHead, Program, choices, endings, entries, enums, recursion, shadows, tables,
 };
+use crate::files::relative;
 use crate::gather::PlanFile;
 use crate::index::Recorder;
 use crate::table::Table;
@@ -55,6 +56,10 @@ pub(super) fn program<'a>(
     let places = files.iter().enumerate();
     let mut scopes: Vec<_> =
         places.map(|file| scope(file, toolboxes, &enums, &mut linked, record, diags)).collect();
+    let hidden: Vec<_> = (0..files.len()).map(|place| hidden_enums(files, place, &enums)).collect();
+    for (scope, hidden) in scopes.iter_mut().zip(hidden) {
+        scope.types.hidden = hidden;
+    }
     let own_tables = files.iter().zip(&scopes);
     let own_tables: Vec<_> =
         own_tables.map(|(file, scope)| tables::own(file, &scope.types, record, diags)).collect();
@@ -116,6 +121,26 @@ fn scope<'a>(
         plans: FxHashMap::default(),
         top: top(file),
     }
+}
+
+/// The enums of the files that a file does not use itself, each with the `use` line that is missing, and its place.
+fn hidden_enums(
+    files: &[PlanFile],
+    place: usize,
+    enums: &[Vec<Arc<Enum>>],
+) -> Vec<(String, String, Span)> {
+    let file = &files[place];
+    let others = files.iter().zip(enums).enumerate();
+    let others = others.filter(|(other, _)| *other != place && !file.uses.contains(other));
+    let mut found = Vec::new();
+    for (_, (other, enums)) in others {
+        let Some(path) = relative(&file.path, &other.path).filter(|_| !enums.is_empty()) else {
+            continue;
+        };
+        let line = format!("use \"{path}\"");
+        found.extend(enums.iter().map(|each| (each.name.clone(), line.clone(), top(file))));
+    }
+    found
 }
 
 /// The enums that a file declares.

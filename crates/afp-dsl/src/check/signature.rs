@@ -21,6 +21,8 @@ pub(crate) struct Signature {
     pub inputs: Vec<Input>,
     /// Output ports in order.
     pub outputs: Vec<OutputPort>,
+    /// Entries of a plan that are no ports: its `var`s and `const`s.
+    pub inner: Vec<(String, EntryKind, Span)>,
     /// States or events in order.
     pub outcomes: Vec<Arc<str>>,
     /// The template, unless it is a plan.
@@ -135,6 +137,7 @@ impl Signature {
             kind: SignatureKind::Template(template.kind),
             inputs: inputs(template),
             outputs: outputs(template),
+            inner: Vec::new(),
             outcomes: template
                 .outcomes
                 .iter()
@@ -167,6 +170,11 @@ impl Signature {
                     ty: entry.ty.clone(),
                     span: entry.name.span,
                 })
+                .collect(),
+            inner: [EntryKind::Var, EntryKind::Const]
+                .into_iter()
+                .flat_map(of_kind)
+                .map(|entry| (entry.name.text.clone(), entry.kind, entry.name.span))
                 .collect(),
             outcomes: vec!["OK".into(), "Interrupted".into()],
             template: None,

@@ -23,6 +23,8 @@ pub(crate) struct Types {
     pub generic: bool,
     /// What qualifies them, with the name that each means.
     pub homes: Vec<(String, Span)>,
+    /// Enums of files that are used by used files only: each with the `use` line that is missing, and where that goes.
+    pub hidden: Vec<(String, String, Span)>,
     /// Whether a toolbox is missing, so that an unknown name may be one of its.
     pub incomplete: bool,
 }
@@ -188,6 +190,10 @@ impl Types {
     /// Reports a name that no type has; `qualified` tells whether something stands before it.
     fn unknown(&self, reference: &ast::Ref, name: &ast::Name, qualified: bool) -> Diagnostic {
         let message = format!("there is no type '{}'", name.text);
+        let error = || Diagnostic::new(Code::E0232, reference.span(), &*message);
+        if let (false, Some(error)) = (qualified, self.hidden(&name.text, error)) {
+            return error;
+        }
         if let Some(ty) = meant::ty(&name.text) {
             return elsewhere(reference.span(), message, ty);
         }
@@ -205,6 +211,13 @@ impl Types {
         let mut seen = HashSet::new();
         known.retain(|name| seen.insert(*name));
         unknown(Code::E0232, reference.span(), message, &name.text, known, "")
+    }
+
+    /// What is said of the name of an enum that only a file has which is used by a used one.
+    pub fn hidden(&self, name: &str, error: impl Fn() -> Diagnostic) -> Option<Diagnostic> {
+        let (_, line, top) = self.hidden.iter().find(|(known, ..)| known == name)?;
+        let help = format!("add '{line}' at the top of the file");
+        Some(error().help(help).fix(*top, format!("{line}\n")))
     }
 
     /// A factor of a product: a dimension, or a number without one.

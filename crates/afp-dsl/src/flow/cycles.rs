@@ -5,6 +5,7 @@
 //! start, and sub-plans that can end through those alone. Global supervisors are asked once in a
 //! step, so at their own level they close no cycle.
 
+mod choices;
 mod count;
 mod counters;
 mod decided;
@@ -53,11 +54,23 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let lasting = lasting.unwound();
     let is_taken = |edge: &Edge| !decided::excludes(view, edge.cause, &constants);
     for (members, inner) in lasting.cycles() {
-        if inner.iter().any(|edge| !is_sure(view, edge.cause)) {
-            lasting.report_conditions(&inner, &constants, diags);
+        let told = if inner.iter().any(|edge| !is_sure(view, edge.cause)) {
+            lasting.report_conditions(&inner, &constants, diags)
         } else if !reported.contains(&members[0]) && !lasting.has_exit(&members, is_taken) {
             lasting.report_decided(&inner, diags);
-        }
+            true
+        } else {
+            false
+        };
+        reported.extend(members.into_iter().filter(|_| told));
+    }
+    let chosen = Quick::of(view, |edge| {
+        let is_open = edge.possible && !reported.contains(&edge.from);
+        is_open && is_sure(view, edge.cause) && is_taken(edge)
+    });
+    let chosen = chosen.unwound();
+    for (_, inner) in chosen.cycles() {
+        chosen.report_choices(&inner, diags);
     }
 }
 
@@ -233,20 +246,41 @@ impl<'a, 'b> Quick<'a, 'b> {
         self.report_livelock(closing, &cycle, diags);
     }
 
-    fn report_conditions(&self, inner: &[&Edge], constants: &Known, diags: &mut Diagnostics) {
+    /// Reports a cycle of computations that nothing on it ever ends, whatever the values are by which they choose.
+    fn report_choices(&self, inner: &[&Edge], diags: &mut Diagnostics) {
+        let mut conditions: Vec<_> = inner.iter().filter(|edge| self.is_condition(edge)).collect();
+        conditions.sort_by_key(|edge| self.place(edge));
+        let mut room = room(inner);
+        while let Some(closing) = conditions.pop() {
+            let Some(cycle) = self.cycle(closing, &mut room) else { return };
+            if choices::never_change(self.view, &cycle) {
+                return self.report_livelock(closing, &cycle, diags);
+            }
+        }
+    }
+
+    /// Returns whether there was one to report.
+    fn report_conditions(
+        &self,
+        inner: &[&Edge],
+        constants: &Known,
+        diags: &mut Diagnostics,
+    ) -> bool {
         let unsure = inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause));
         let mut unsure: Vec<&Edge> = unsure.collect();
         unsure.sort_by_key(|edge| self.place(edge));
         let mut room = room(inner);
         while let Some(closing) = unsure.pop() {
-            let Some(cycle) = self.cycle(closing, &mut room) else { return };
+            let Some(cycle) = self.cycle(closing, &mut room) else { return false };
             let ends = holding::contradict(self.view, &cycle)
                 || decided::breaks_off(self.view, &cycle, constants)
                 || self.view.counters().end(self.view, cycle.iter());
             if !ends {
-                return self.report_livelock(closing, &cycle, diags);
+                self.report_livelock(closing, &cycle, diags);
+                return true;
             }
         }
+        false
     }
 
     fn report_livelock(&self, closing: &Edge, cycle: &[Edge], diags: &mut Diagnostics) {
@@ -271,6 +305,10 @@ impl<'a, 'b> Quick<'a, 'b> {
             (Some((count, entry)), _) => format!("let '{count}' count: 'next => {entry}'"),
             (None, 1) => {
                 "lead it to an element that takes time, such as an actor that waits".to_owned()
+            }
+            (None, _) if cycle.iter().all(|edge| is_sure(self.view, edge.cause)) => {
+                "lead one of them to an element that takes time, such as an actor that waits"
+                    .to_owned()
             }
             (None, _) => "lead one of them to an element that is not left at once, such as one \
                           without that supervisor"

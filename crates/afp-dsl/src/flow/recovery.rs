@@ -1,17 +1,22 @@
-//! Global supervisors that would start their own recovery again.
+//! Supervisors that would start their own recovery again.
 //!
 //! An event of a global supervisor is not taken while its target is active, so a lasting condition
 //! lets one element finish. Elements behind it that only this event leads to are part of the same
 //! recovery, and there it is taken: the recovery begins anew, for ever. A computation is over at once,
 //! so behind one the first actor is such an element already. Where such an element reacts otherwise to
 //! the event (`on`), it goes on. Two conditions that last alike start their recoveries in turns.
+//!
+//! An event of a local supervisor is taken at each poll, so one that lasts and leads to its own element starts that over and
+//! over: a robot that moves stays where it is. Where it writes something, the element may start with other values, and where
+//! it comes after some time, the element has that time. One that commands nothing waits until it is quiet.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::flow::cycles::standard;
 use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, Edge, Node, View, takes_time};
-use crate::graph::SupervisorId;
+use crate::graph::{Component, Element, SupervisorId};
+use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// An event of a global supervisor, and where it leads.
@@ -19,6 +24,7 @@ type Recovery = (SupervisorId, u16, Node);
 
 /// Warns of each such event, at its edge.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+    start_over(view, diags);
     let recoveries = recoveries(view);
     let recoveries: Vec<_> = recoveries.into_iter().collect();
     alternate(view, &recoveries, diags);
@@ -54,6 +60,52 @@ fn recovery_of(view: &View<'_>, edge: &Edge) -> Option<Recovery> {
     };
     // What happens once holds no more while its recovery runs.
     (!view.is_once(id, event)).then_some((id, event, edge.to))
+}
+
+/// Warns of events that last, and start the element again that they interrupt.
+fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
+    let own = view.edges.iter().filter(|edge| view.reached[edge.from] && edge.from == edge.to);
+    for edge in own {
+        let (Cause::Event(id, event), Some(element)) = (edge.cause, view.element(edge.to)) else {
+            continue;
+        };
+        let writes = !view.may_write(edge.cause).is_empty();
+        let goes_on = writes || view.is_once(id, event) || comes_after_a_time(view, id);
+        if goes_on || !commands(view, element) {
+            continue;
+        }
+        let (label, name) = (view.label(edge.cause), &element.name);
+        let message =
+            format!("'{label}' starts '{name}' again at every poll for as long as it lasts");
+        let error = Diagnostic::new(Code::E0309, view.span(edge.cause), message);
+        diags.push(error.help("write 'ignore', or lead it to another element"));
+    }
+}
+
+/// Whether a supervisor takes a time, after which it may report: it begins anew with its element.
+fn comes_after_a_time(view: &View<'_>, id: SupervisorId) -> bool {
+    let template = view.model.template(view.supervisor(id).template);
+    template.inputs.iter().any(|input| input.ty == Type::Quantity(Dimension::DURATION))
+}
+
+/// Whether an element, or one inside of it, commands a device of the robot until it has done something.
+fn commands(view: &View<'_>, element: &Element) -> bool {
+    let (mut open, mut seen) = (vec![element], BTreeSet::new());
+    while let Some(element) = open.pop() {
+        match element.component {
+            Component::Actor(id)
+                if !element.states.is_empty() && !view.model.template(id).uses.is_empty() =>
+            {
+                return true;
+            }
+            Component::SubPlan(id) if seen.insert(id.index()) => {
+                let inner = view.model.plans.get(id.index()).copied().flatten();
+                open.extend(inner.iter().flat_map(|plan| &plan.elements));
+            }
+            _ => {}
+        }
+    }
+    false
 }
 
 /// Warns of events that hold for ever once they do, and replace what another such event has started, as that one does.

@@ -119,15 +119,23 @@ impl Parser<'_, '_> {
 
     fn use_item(&mut self) {
         self.open_item(Kind::Use);
+        let first = self.at;
         self.keyword();
-        let named = !self.eat(Kind::Text) && self.name("name a toolbox, such as 'use carbot'");
+        if self.path_without_quotes() {
+            return self.close_item();
+        }
+        let is_file = self.eat(Kind::Text);
+        let named = !is_file && self.name("name a toolbox, such as 'use carbot'");
         if named && self.at_word("as") {
             self.open(Kind::Alias);
             self.keyword();
             self.name("give the short name, such as 'use carbot as c'");
             self.close();
         }
-        self.use_of_parts();
+        if is_file {
+            self.short_name_of_a_file();
+        }
+        self.use_of_parts(first);
         self.close_item();
     }
 

@@ -156,7 +156,10 @@ impl Parser<'_, '_> {
         self.open(Kind::Brackets);
         let opened = self.here();
         self.bump();
-        self.with_commas(false, Self::formula);
+        self.with_commas(false, |parser| {
+            parser.formula();
+            parser.no_operators();
+        });
         self.close_bracket(Kind::CloseParen, opened);
         self.close();
     }
@@ -177,8 +180,10 @@ impl Parser<'_, '_> {
         if !self.at(Kind::CloseParen) {
             self.with_commas(true, |parser| {
                 parser.formula();
+                parser.no_operators();
                 while parser.eat(Kind::Comma) {
                     parser.formula();
+                    parser.no_operators();
                 }
             });
         }
@@ -193,7 +198,8 @@ impl Parser<'_, '_> {
             self.bump();
         }
         self.number_that_ends_with_a_point();
-        if !self.eat(Kind::Unit) && !self.number_with_letters() && !self.percent() {
+        let is_unit = self.eat(Kind::Unit) || self.unit_of_a_bound();
+        if !is_unit && !self.number_with_letters() && !self.percent() {
             self.unknown_unit();
         }
         self.close();
@@ -213,6 +219,10 @@ impl Parser<'_, '_> {
             return self.bump_as(Kind::Unit);
         }
         let error = Diagnostic::new(Code::E0236, self.here(), format!("'{word}' is not a unit"));
+        if let Some((prefixed, better)) = self.strange_prefix() {
+            self.error(error.help(format!("there is no {prefixed}: write '{better}'")));
+            return self.pass(1);
+        }
         let meant = Unit::meant(word).map(str::to_owned);
         self.error(match meant.or_else(|| Unit::power_meant(word)) {
             Some(unit) => error.help(format!("write '{unit}'")).replace(unit),
@@ -302,10 +312,16 @@ impl Parser<'_, '_> {
         self.close();
     }
 
+    /// Whether what is claimed of a path stands behind the next name, so that no line of a scenario begins with it.
+    fn at_path(&self) -> bool {
+        let claims = matches!(self.nth(1), Kind::Dot | Kind::Arrow) || self.nth(1).is_comparison();
+        claims || self.word(1) == "active" && !self.begins_line(1)
+    }
+
     /// `NAME {"." NAME}`
     pub(super) fn path(&mut self) {
         self.open(Kind::Path);
-        if !self.on_same_line() && self.at_line() {
+        if !self.on_same_line() && self.at_line() && !self.at_path() {
             self.expected("a name", "write the name of an element or entry");
             return self.close();
         }

@@ -7,6 +7,7 @@ mod heads;
 mod items;
 mod lines;
 mod names;
+mod numbers;
 
 use super::Parser;
 use super::formula::begins_formula;
@@ -15,6 +16,7 @@ use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::source::Span;
 use items::is_type;
+use numbers::hundredth;
 
 /// How a choice is written.
 const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
@@ -381,16 +383,4 @@ impl Parser<'_, '_> {
         (0..tokens).for_each(|_| self.bump());
         self.close();
     }
-}
-
-/// A hundredth of a number as it is written: `0.5` for `50`.
-fn hundredth(number: &str) -> String {
-    let (number, exponent) = number.split_at(number.find(['e', 'E']).unwrap_or(number.len()));
-    let (whole, fraction) = number.split_once('.').unwrap_or((number, ""));
-    let digits = format!("{whole:0>3}");
-    let (whole, moved) = digits.split_at(digits.len() - 2);
-    let whole = Some(whole.trim_start_matches('0')).filter(|digits| !digits.is_empty());
-    let fraction = format!("{moved}{fraction}");
-    let fraction = Some(fraction.trim_end_matches('0')).filter(|digits| !digits.is_empty());
-    format!("{}.{}{exponent}", whole.unwrap_or("0"), fraction.unwrap_or("0"))
 }

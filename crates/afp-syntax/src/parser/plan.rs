@@ -6,6 +6,8 @@ use crate::diagnostics::{Code, Diagnostic};
 use crate::keywords::{ENTRIES, NAMED, PLAN};
 use crate::kind::Kind;
 
+/// What to do with a time that stands behind the braces of a supervisor.
+const TIME_BEHIND_BODY: &str = "write it behind the supervisor's template, before its '{'";
 /// What the body of an element holds.
 pub(super) const BODY: &str = "a supervisor, 'on' or an edge";
 const ITEMS: &str = "an item of the plan";
@@ -173,7 +175,9 @@ impl Parser<'_, '_> {
         self.head("a supervisor's template", true);
         while self.at_timing() || self.time_by_another_word() {
             self.timing();
+            self.no_formula_of_a_time();
         }
+        self.ports_behind_times();
         self.events("put the edges of the events in braces");
         self.close_item();
     }
@@ -229,12 +233,20 @@ impl Parser<'_, '_> {
         // A time that is missing has the other word behind it.
         let other = matches!(self.word(0), "every" | "deadline")
             && matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Name);
-        if self.at(Kind::Name) && self.on_same_line() && !self.names_something(0) && !other {
+        let is_name = self.at(Kind::Name) && !self.names_something(0) && !other;
+        if is_name && (self.on_same_line() || self.at_time_of_another_line()) {
             self.reference();
         } else {
             self.quantity("write a time such as '10 ms', or name a constant");
         }
         self.close();
+    }
+
+    /// Whether a constant on the next line is the time: behind it stands what comes behind times.
+    fn at_time_of_another_line(&self) -> bool {
+        let goes_on =
+            self.nth(1) == Kind::OpenBrace || matches!(self.word(1), "every" | "deadline");
+        goes_on && !self.begins_item()
     }
 
     /// Whether an item begins that no body of an element holds: a `}` is missing.
@@ -275,7 +287,11 @@ impl Parser<'_, '_> {
             let message = "an edge begins with the name of its state or event alone".to_owned();
             return self.instead(2, message, format!("write '{}'", self.word(2)), "");
         }
-        self.skip(what, "write an edge such as 'State -> target'", |p| {
+        let help = match self.word(0) {
+            "every" | "deadline" if self.at_timing() => TIME_BEHIND_BODY,
+            _ => "write an edge such as 'State -> target'",
+        };
+        self.skip(what, help, |p| {
             p.at(Kind::CloseBrace) || p.at_watch() || p.leaves_body() || p.begins_edge()
         });
     }
@@ -394,10 +410,14 @@ impl Parser<'_, '_> {
         if fails {
             self.reason_without_quotes();
         }
-        if fails && self.at(Kind::Text) && self.on_same_line() {
+        if fails && self.at(Kind::Text) {
+            self.reason_of_another_line();
             self.bump();
         }
         self.close();
+        if !fails {
+            self.no_text_behind_target();
+        }
     }
 
     pub(super) fn wrong_arrow(&mut self, tokens: usize, message: &str, right: &str) {

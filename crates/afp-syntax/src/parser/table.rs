@@ -1,6 +1,7 @@
 //! Tables of constants: columns with their types, rows in brackets.
 
 use super::Parser;
+use super::formula::begins_formula;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 
@@ -41,6 +42,7 @@ impl Parser<'_, '_> {
                 if parser.at(Kind::Name) {
                     parser.open_item(Kind::Column);
                     parser.port(COLUMNS_HELP);
+                    parser.no_range_of_a_column();
                     parser.close_item();
                 } else {
                     parser.skip("a column", COLUMNS_HELP, |p| {
@@ -50,6 +52,19 @@ impl Parser<'_, '_> {
             });
         }
         self.close_bracket(Kind::CloseParen, opened);
+        self.close();
+    }
+
+    /// `way: length from 0 m to 1 m`: reports the range, and reads past it.
+    fn no_range_of_a_column(&mut self) {
+        if self.word(0) != "from" || !begins_formula(self.nth(1)) {
+            return;
+        }
+        let here = self.next_span();
+        let error = Diagnostic::new(Code::E0102, here, "a column has no range");
+        self.error(error.help("remove 'from' and what follows up to the next column"));
+        self.open(Kind::Error);
+        self.range();
         self.close();
     }
 

@@ -4,6 +4,7 @@ use super::Parser;
 use super::formula::begins_formula;
 use crate::keywords::PARTS;
 use crate::kind::Kind;
+use crate::units::Unit;
 
 const PART_HELP: &str = "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of' or 'event'";
 
@@ -147,19 +148,59 @@ impl Parser<'_, '_> {
         }
         let range = self.at;
         if self.at_word("from") || self.at_slip("from") && begins_formula(self.nth(1)) {
-            self.open(Kind::Range);
-            self.eat_meant("from", begins_formula);
-            self.formula();
-            if self.eat_word("to") {
-                self.formula();
-            } else {
-                self.expected("'to'", "write both ends, such as 'from 0 cm to 30 cm'");
-            }
-            self.close();
+            let around = std::mem::replace(&mut self.in_range, true);
+            let is_whole = self.range();
+            self.in_range = around;
             if !has_value && self.at(Kind::Equal) && self.on_same_line() {
-                self.value_behind_range(range);
+                match is_whole {
+                    true => self.value_behind_range(range),
+                    // What is wrong with the range is said.
+                    false => self.pass_value(),
+                }
             }
         }
+    }
+
+    /// `"from" formula "to" formula`. Returns whether both ends are there.
+    pub(super) fn range(&mut self) -> bool {
+        self.open(Kind::Range);
+        self.eat_meant("from", begins_formula);
+        self.formula();
+        if self.word(0) == "to" && self.nth(1) == Kind::Colon && begins_formula(self.nth(2)) {
+            self.keyword();
+            let message = "no ':' behind 'to'".to_owned();
+            self.instead(1, message, "remove it".to_owned(), "");
+            self.formula();
+            self.close();
+            return true;
+        }
+        let is_whole = self.eat_word("to");
+        if is_whole {
+            self.formula();
+        } else {
+            self.expected("'to'", "write both ends, such as 'from 0 cm to 30 cm'");
+        }
+        self.close();
+        is_whole
+    }
+
+    fn pass_value(&mut self) {
+        self.open(Kind::Error);
+        self.bump();
+        self.formula();
+        self.close();
+    }
+
+    /// `from 0 s to 5 s = 3 s`: a unit behind a bound, which elsewhere would be the name that a value is bound to.
+    pub(super) fn unit_of_a_bound(&mut self) -> bool {
+        let is_unit = self.in_range
+            && self.nth(1) == Kind::Equal
+            && self.on_same_line()
+            && Unit::parse(self.word(0)).is_some();
+        if is_unit {
+            self.bump_as(Kind::Unit);
+        }
+        is_unit
     }
 
     fn out_port(&mut self) {

@@ -199,7 +199,7 @@ fn is_fast_enough(
     reader: Reader,
 ) -> Result<(), NoPlan> {
     let targets = targets::choose(&file.own.project.project, Some(machine.name()))?;
-    let diags = targets::check(graph, &targets)?;
+    let diags = targets::check(graph, &file.own, &targets)?;
     reader.tell(&diags, &file.compiled.sources)?;
     if diags.has_errors() { Err(NoPlan::Wrong) } else { Ok(()) }
 }

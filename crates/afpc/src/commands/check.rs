@@ -93,7 +93,7 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
     let targets = targets::choose(&file.own.project.project, arguments.target.as_deref())?;
     let compiled = &mut file.compiled;
     if let Some(graph) = &compiled.graph {
-        compiled.diags.extend(targets::check(graph, &targets)?);
+        compiled.diags.extend(targets::check(graph, &file.own, &targets)?);
         compiled.diags.sort();
     }
     let wrong = compiled.diags.has_errors();

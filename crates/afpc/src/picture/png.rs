@@ -7,7 +7,7 @@ use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg;
 
-/// DejaVu Sans, cut down to European scripts, arrows and mathematical signs.
+/// DejaVu Sans, cut down to European scripts, arrows and mathematical signs. Other letters are left out.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("../../fonts/DejaVuSans.ttf"),
     include_bytes!("../../fonts/DejaVuSans-Bold.ttf"),

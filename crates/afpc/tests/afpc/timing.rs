@@ -56,3 +56,14 @@ fn what_is_wrong_with_a_target_is_said_at_its_place() {
     place.afpc("check p.afp").fails(1, &["afp.toml:2:1", "tock"]);
     project("").afpc("check p.afp --target moon").fails(2, &["there is no target 'moon'"]);
 }
+
+#[test]
+fn a_budget_is_for_a_template_that_there_is() {
+    let budget = |of: &str| project(&format!("[target.slow]\nbudgets.{of} = \"30 us\"\n"));
+    let wrong = |of: &str, said: &[&str]| _ = budget(of).afpc("check p.afp").fails(2, said);
+    wrong("carbt.Forward", &["there is no toolbox 'carbt'", "write 'budgets.carbot.Forward'"]);
+    wrong("gripper.Grip", &["there is no toolbox 'gripper'", "there are 'std' and 'carbot'"]);
+    wrong("carbot.Forwrd", &["has no template 'Forwrd'", "write 'budgets.carbot.Forward'"]);
+    // Another plan may use it.
+    budget("std.Wait").afpc("check p.afp").succeeds();
+}

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::unknown_port;
 use crate::check::formula::Scope;
 use crate::check::signature::{Input, Signature};
 use afp_syntax::ast::{Bind, Name};
@@ -30,7 +31,11 @@ pub(super) fn without_port(
     name: &Name,
 ) -> Diagnostic {
     let message = format!("'{}' has no port '{}'", signature.name, name.text);
-    let error = Diagnostic::new(Code::E0202, name.span, message);
+    let error = || Diagnostic::new(Code::E0202, name.span, &*message);
+    if let Some(error) = unknown_port::of_inside(signature, &name.text, "in", error) {
+        return error;
+    }
+    let error = error();
     let Some(entry) = scope.indices.find(&name.text).map(|index| &scope.entries[index]) else {
         let inputs = signature.inputs.iter().map(|input| &*input.name);
         let outputs = signature.outputs.iter().map(|output| &*output.name);

@@ -17,6 +17,11 @@ pub(super) fn report(
 ) -> Diagnostic {
     let port = bind.port();
     let message = format!("'{}' has no port '{}'", signature.name, port.text);
+    let word = if matches!(bind, Bind::In { .. }) { "in" } else { "out" };
+    let error = || Diagnostic::new(Code::E0202, port.span, &*message);
+    if let Some(error) = of_inside(signature, &port.text, word, error) {
+        return error;
+    }
     let inputs = signature.inputs.iter().map(|input| &*input.name);
     let outputs = signature.outputs.iter().map(|output| &*output.name);
     let known: Vec<_> = match bind {
@@ -41,6 +46,20 @@ pub(super) fn report(
         }
     }
     unknown(Code::E0202, port.span, message, &port.text, known, "remove the binding")
+}
+
+/// What is said of an entry of a sub-plan that is no port, in addition to an error.
+pub(super) fn of_inside(
+    signature: &Signature,
+    name: &str,
+    word: &str,
+    error: impl Fn() -> Diagnostic,
+) -> Option<Diagnostic> {
+    let (_, kind, place) = signature.inner.iter().find(|(inner, ..)| inner == name)?;
+    let kind = kind.word();
+    let note = format!("a '{kind}' of '{}', which others do not see", signature.name);
+    let help = format!("declare '{name}' with '{word}' in place of '{kind}' there");
+    Some(error().note(*place, note).help(help))
 }
 
 /// `Assign(a = 7)`, where `a` is an entry: what writes it.

@@ -32,7 +32,11 @@ pub(super) fn unknown_enum(
 ) -> Diagnostic {
     let known = scope.types.enums.iter().map(|(_, each)| each.name.as_str());
     let message = format!("there is no enum '{}'", home.text);
-    let error = Diagnostic::new(Code::E0239, home.span, &*message);
+    let error = || Diagnostic::new(Code::E0239, home.span, &*message);
+    if let Some(error) = scope.types.hidden(&home.text, error) {
+        return error;
+    }
+    let error = error();
     if OWN.contains(&home.text.as_str()) && scope.indices.find(&name.text).is_some() {
         return error.help(format!("write '{}'", name.text)).fix(span, &*name.text);
     }

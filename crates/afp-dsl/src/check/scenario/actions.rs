@@ -92,6 +92,10 @@ impl Checker<'_> {
             }
             Some(Component::Computation(_)) => COMPUTES.to_owned(),
             Some(Component::SubPlan(_)) => "finish the actor that is active inside".to_owned(),
+            Some(Component::Actor(_)) if self.paths.outcome(found, &name.text).is_none() => {
+                diags.push(self.event_meant(path, found, &name));
+                return None;
+            }
             Some(Component::Actor(_)) => format!("write 'finish {}' for a state", path.text()),
         };
         let what = match fails {

@@ -130,12 +130,13 @@ fn simple(
     let rounds = counter.limit.saturating_sub(entered);
     let taken = rounds.saturating_mul(length);
     let name = &element.name;
+    let each = if edges > 1 { format!(" with {edges} edges each time") } else { String::new() };
     let message = || match taken >= MOST {
         true => format!(
-            "'{name}' goes round {rounds} times within one step, which may take at most {MOST} edges"
+            "'{name}' goes round {rounds} times{each} within one step, which may take at most {MOST} edges"
         ),
         false => format!(
-            "'{name}' goes round {rounds} times within one step, which may take at most {MOST} edges, and {others} more \
+            "'{name}' goes round {rounds} times{each} within one step, which may take at most {MOST} edges, and {others} more \
              lead to the loop and on from it"
         ),
     };

@@ -100,9 +100,7 @@ pub(super) fn breaks_off(view: &View<'_>, cycle: &[Edge], constants: &Known) -> 
 fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: &Known) -> bool {
     let Cause::State(id, state) = edge.cause else { return false };
     let element = &view.plan.elements[id.index()];
-    let mut others = element.states.iter().flatten();
-    let is_choice =
-        others.any(|target| Some(target) != element.states[usize::from(state)].as_ref());
+    let is_choice = is_choice(element, state);
     // How far a counter counts is known already.
     if takes_time(element) || !is_choice || view.counters().has(id) {
         return false;
@@ -114,6 +112,17 @@ fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: 
         Some(decided) => decided != state,
         None => reads_changed,
     }
+}
+
+/// Whether an element that ends in another state goes another way.
+pub(super) fn is_choice(element: &Element, state: u16) -> bool {
+    let mut others = element.states.iter().flatten();
+    others.any(|target| Some(target) != element.states[usize::from(state)].as_ref())
+}
+
+/// Whether a computation is known to choose by what goes into it alone.
+pub(super) fn chooses_by_inputs(view: &View<'_>, element: &Element) -> bool {
+    matches!(name(view, element), Some("Compare" | "Count" | "Is" | "Row" | "Switch"))
 }
 
 /// The state in which a computation ends with these values.

@@ -90,6 +90,23 @@ impl Parser<'_, '_> {
         self.pass(2);
     }
 
+    /// `fail`, and its text on the next line.
+    pub(in crate::parser) fn reason_of_another_line(&mut self) {
+        if !self.on_same_line() {
+            let message = "why a plan fails stands on the line of 'fail'";
+            let error = Diagnostic::new(Code::E0102, self.next_span(), message);
+            self.error(error.help("write it behind 'fail'"));
+        }
+    }
+
+    /// `terminate "why"`: reports a text behind another target than `fail`, and reads past it.
+    pub(in crate::parser) fn no_text_behind_target(&mut self) {
+        if self.at(Kind::Text) && self.on_same_line() {
+            let message = "only 'fail' has a text behind it".to_owned();
+            self.instead(1, message, "remove it, or write 'fail' before it".to_owned(), "");
+        }
+    }
+
     /// Whether the name behind a sign is that of an element, not that of a state whose edge is still being typed: states
     /// begin with a capital letter.
     fn is_second_target(&self) -> bool {

@@ -4,14 +4,49 @@ use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 use crate::parser::Parser;
 
+/// So many tokens of a path are looked at.
+const MOST_TOKENS: usize = 64;
+
 impl Parser<'_, '_> {
-    /// `use carbot, std`, `use carbot::*`, `use carbot.Forward`: reports what stands behind the name of a toolbox, and reads
-    /// past it.
-    pub(in crate::parser) fn use_of_parts(&mut self) {
+    /// `use lib/a.afp`: reports the path of a file that has no quotes, and reads past it. Returns whether one stands here.
+    pub(in crate::parser) fn path_without_quotes(&mut self) -> bool {
+        use Kind::{Dot, Float, Int, Minus, Name, Slash};
+        let is_part = |at: usize| matches!(self.nth(at), Name | Dot | Slash | Minus | Int | Float);
+        let adjacent = |at: usize| self.token_index(at) == self.token_index(0) + at;
+        let tokens = (0..MOST_TOKENS).take_while(|at| is_part(*at) && adjacent(*at)).count();
+        let path = self.text_of(0, tokens);
+        if !self.on_same_line() || !(path.contains('/') || path.ends_with(".afp")) {
+            return false;
+        }
+        let error = Diagnostic::new(Code::E0102, self.ahead(tokens), "a file is named by a text");
+        let error = error.help("put the path in double quotes");
+        self.error(error.replace(format!("\"{path}\"")));
+        self.pass(tokens);
+        self.short_name_of_a_file();
+        true
+    }
+
+    /// `use "a.afp" as a`: reports the short name behind the path of a file, and reads past it.
+    pub(in crate::parser) fn short_name_of_a_file(&mut self) {
+        let named = self.nth(1) == Kind::Name && !self.begins_line(1);
+        if self.at_word("as") && self.on_same_line() && named {
+            let message = "a file has no short name".to_owned();
+            let help = "remove it; what the file has is called by its own name".to_owned();
+            self.instead(2, message, help, "");
+        }
+    }
+
+    /// `use carbot, std`, `use carbot::*`, `use carbot.Forward`: reports what stands behind the name of a toolbox or the path
+    /// of a file, whose line begins at token `first`, and reads past it.
+    pub(in crate::parser) fn use_of_parts(&mut self, first: usize) {
         let same_line = |p: &Self| p.on_same_line() && !p.begins_line(1);
-        while self.at(Kind::Comma) && self.nth(1) == Kind::Name && same_line(self) {
-            let name = self.word(1);
-            let message = "each toolbox has a 'use' of its own".to_owned();
+        while self.at(Kind::Comma)
+            && matches!(self.nth(1), Kind::Name | Kind::Text)
+            && same_line(self)
+        {
+            let name = self.text_of(1, 2);
+            let what = if self.nth(1) == Kind::Text { "file" } else { "toolbox" };
+            let message = format!("each {what} has a 'use' of its own");
             let help = format!("write 'use {name}' on the next line");
             let place = self.ahead(2);
             let error = Diagnostic::new(Code::E0102, place, message);
@@ -22,9 +57,9 @@ impl Parser<'_, '_> {
         if !(self.at(Kind::Dot) || colons > 0) || !same_line(self) {
             return;
         }
-        let toolbox = self.word_before();
+        let (line, toolbox) = (self.text_between(first, self.at), self.word_before());
         let tokens = 1 + colons + usize::from(!self.begins_line(1 + colons));
-        let help = format!("write 'use {toolbox}'; its names stand alone, or behind '{toolbox}.'");
+        let help = format!("write '{line}'; its names stand alone, or behind '{toolbox}.'");
         self.instead(tokens, "a toolbox is used as a whole".to_owned(), help, "");
     }
 
@@ -95,6 +130,40 @@ impl Parser<'_, '_> {
             }
         };
         self.error(error);
+        while self.at_timing() {
+            self.timing();
+        }
+    }
+
+    /// `every 5 ms * 2`: reports what is computed with a time, and reads past it.
+    pub(in crate::parser) fn no_formula_of_a_time(&mut self) {
+        use Kind::{CloseBrace, Minus, OpenBrace, OpenParen, Percent, Plus, Slash, Star};
+        if !matches!(self.nth(0), Plus | Minus | Star | Slash | Percent) || !self.on_same_line() {
+            return;
+        }
+        let (here, first) = (self.next_span(), self.at);
+        let error = Diagnostic::new(Code::E0102, here, "a time here is no formula");
+        self.error(error.help("write one time such as '10 ms', or name a constant that has it"));
+        self.pass_to(|p| {
+            let ends = matches!(p.nth(0), OpenBrace | CloseBrace | OpenParen) || p.at_end();
+            ends || p.at > first && (!p.on_same_line() || p.at_timing())
+        });
+        while self.at_timing() {
+            self.timing();
+        }
+    }
+
+    /// `CheckTimeout every 5 ms (duration = 3 s)`: reports ports behind the times of a supervisor, and reads them.
+    pub(in crate::parser) fn ports_behind_times(&mut self) {
+        if !self.at(Kind::OpenParen) || !self.on_same_line() {
+            return;
+        }
+        let here = self.next_span();
+        let error = Diagnostic::new(Code::E0102, here, "ports stand before the times");
+        self.error(
+            error.help("write them in brackets behind the template, before 'every' and 'deadline'"),
+        );
+        self.args(true);
         while self.at_timing() {
             self.timing();
         }

@@ -135,6 +135,9 @@ impl Parser<'_, '_> {
 
     /// What to write for an item that files of other languages have.
     pub(in crate::parser) fn top_help(&self) -> Option<String> {
+        if self.word(0) == "afp" && self.nth(1) == Kind::Int {
+            return Some("move it to the first line of the file".to_owned());
+        }
         let is_import = matches!(self.word(0), "import" | "include" | "from" | "using" | "require");
         is_import.then(|| "write 'use' and the name of a toolbox".to_owned())
     }

@@ -68,6 +68,25 @@ impl Checker<'_> {
         unknown(error.code, error.span, error.message, "", known, "")
     }
 
+    /// Reports an event behind the name of an actor, whose supervisor is left out, or nothing that there is.
+    pub(super) fn event_meant(&self, path: &Path, found: Found, name: &Name) -> Diagnostic {
+        let home = path.text();
+        let home = home.strip_suffix(&*name.text).unwrap_or_default();
+        let (end, mut possible) =
+            (format!(".{}", name.text), self.possible(Some(Verb::Fire), home));
+        let is_event = possible.iter().any(|path| path.ends_with(&end));
+        if is_event {
+            possible.retain(|path| path.ends_with(&end));
+        }
+        let message = format!("'{}' has no event '{}'", self.paths.name(found), name.text);
+        let known = possible.iter().map(String::as_str);
+        let said = unknown(Code::E0602, path.span(), message, "", known, "name another component");
+        match possible.as_slice() {
+            [path] if is_event => said.replace(path.as_str()),
+            _ => said,
+        }
+    }
+
     /// Reports names behind a component that are more than an outcome.
     fn too_long(&self, path: &Path, found: Found, name: &Name, verb: Verb) -> Diagnostic {
         let names = path.names();

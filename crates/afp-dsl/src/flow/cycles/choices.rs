@@ -1,0 +1,30 @@
+//! Cycles of computations that never end once they are taken, whatever they choose by.
+
+use std::collections::BTreeSet;
+
+use super::{decided, holding};
+use crate::flow::view::{Cause, Edge, View, each_entry};
+use crate::graph::EntryId;
+
+/// Whether the computations of a cycle choose as they have chosen: nothing on it writes what they read, and none may fail
+/// instead. Where two of them read the same entry, their choices may contradict each other, so that the cycle is never
+/// taken.
+pub(super) fn never_change(view: &View<'_>, cycle: &[Edge]) -> bool {
+    let outputs = cycle.iter().flat_map(|edge| view.may_write(edge.cause));
+    let written: BTreeSet<EntryId> = outputs.map(|output| output.entry).collect();
+    let mut read_by_others = BTreeSet::new();
+    cycle.iter().all(|edge| {
+        let Cause::State(id, state) = edge.cause else { return false };
+        let element = &view.plan.elements[id.index()];
+        let is_caught = element.on_error.is_some() && !holding::never_fails(view, element);
+        if is_caught || !decided::is_choice(element, state) {
+            return !is_caught;
+        }
+        let mut read = BTreeSet::new();
+        let inputs = element.inputs.iter();
+        inputs.for_each(|input| each_entry(input, &mut |entry, _| _ = read.insert(entry)));
+        let stays = written.is_disjoint(&read) && read_by_others.is_disjoint(&read);
+        read_by_others.extend(read);
+        stays && decided::chooses_by_inputs(view, element)
+    })
+}
