@@ -12,6 +12,7 @@ mod live;
 pub mod options;
 mod output;
 mod pace;
+pub mod panics;
 mod picture;
 mod report;
 pub mod requests;

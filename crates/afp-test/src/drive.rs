@@ -101,6 +101,7 @@ pub(crate) fn run(
         broken,
         end,
         ending: watch.ending(),
+        panic: None,
         hits: watch.hits,
         activations: watch.activations,
         timeline,
