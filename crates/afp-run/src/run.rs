@@ -287,7 +287,7 @@ impl Came<'_> {
             end: session.now(),
             misses: session.misses(),
             trace: session.trace(),
-            distance: track.distance,
+            distance: track.way(),
             requests,
         };
         let figures = ran.figures(&counts, measured, session.names());

@@ -73,10 +73,11 @@ pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
     });
     // A sum of nothing is a negative zero.
     let distance = way.fold(0.0, |all, piece| all + piece);
-    let figures = vec![
-        ("time".to_owned(), format!("{:.1} s", time.as_secs_f64())),
-        ("distance".to_owned(), format!("{distance:.2} m")),
-    ];
+    let mut figures = vec![("time".to_owned(), format!("{:.1} s", time.as_secs_f64()))];
+    // Of a robot that says nothing of where it is, nobody knows the way.
+    if !path.is_empty() {
+        figures.push(("distance".to_owned(), format!("{distance:.2} m")));
+    }
     let subtitle = subtitle(world, seed);
     let world = &world.drawing().ended(things);
     draw(&Picture { world, title: plan.to_owned(), subtitle, figures, path, marks }, names)
