@@ -14,7 +14,7 @@ use afp_session::{AnyWorld, Drawing, Mark, Outlines, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
-pub use from_log::{draw_log, follow};
+pub use from_log::{draw_log, follow, is_of_hardware};
 use legend::Legend;
 pub use sonar::draw_sonar;
 
