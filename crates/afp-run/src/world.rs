@@ -111,6 +111,18 @@ pub fn find(
     }
 }
 
+/// Looks whether a world that is asked for is there, without a robot that reads it.
+///
+/// # Errors
+/// There is no such file.
+pub fn check(asked: &Path) -> Result<(), RunError> {
+    let is_made_up = asked.to_str().is_some_and(|name| name.starts_with(RANDOM));
+    match is_made_up {
+        true => Ok(()),
+        false => fs::metadata(asked).map(|_| ()).map_err(RunError::file(NO_WORLD, asked)),
+    }
+}
+
 /// The worlds that a run of a plan may take place in, as `--world` takes them, each with where it comes from in words: first the
 /// one that [`find`] takes without a word, then the other files in the folders of these, then one that is made up. The
 /// built-in one has no name.
@@ -191,7 +203,7 @@ fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
         let none = || wrong("there are no made-up worlds for this robot", "name a file");
         return parse(text.ok_or_else(none)?, Some(path.to_owned()), &stem(path), robot);
     }
-    let text = read_text(path).map_err(RunError::file("cannot read the world", path))?;
+    let text = read_text(path).map_err(RunError::file(NO_WORLD, path))?;
     if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
         return parse(map(path, text, robot)?, Some(path.to_owned()), &stem(path), robot);
     }
