@@ -96,7 +96,7 @@ fn a_robot_that_panics_fails_its_scenario() {
 
 #[test]
 fn what_a_component_said_that_panicked_is_in_the_report() {
-    let robot = afp_sim::carbot(|registry| templates::register(registry));
+    let robot = afp_sim::carbot(templates::register);
     let verdict = run("end by OK", &robot).unwrap();
     let report = verdict.report();
     assert!(report.contains("  panicked: this component is broken ("), "{report}");
