@@ -389,6 +389,12 @@ pub trait Names {
     fn entries(&self) -> u32;
     /// An entry.
     fn entry(&self, id: TraceEntryId) -> EntryName<'_>;
+    /// Whether an entry holds an object, which no text says: of all that is no built-in type enums alone have texts.
+    fn holds_object(&self, id: TraceEntryId) -> bool {
+        let EntryName { ty, unit, .. } = self.entry(id);
+        let built_in = matches!(ty, "" | "bool" | "int" | "float" | "string") || !unit.is_empty();
+        !built_in && self.choice(id, 0).is_empty()
+    }
     /// The text of an enum entry's value; empty for other entries.
     fn choice(&self, id: TraceEntryId, value: u16) -> &str;
 }

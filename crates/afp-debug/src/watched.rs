@@ -18,6 +18,8 @@ pub(crate) struct Watched {
     text: String,
     /// The number of the first entry of the plan.
     first: u32,
+    /// The entry that the whole formula is.
+    entry: Option<TraceEntryId>,
 }
 
 impl Watched {
@@ -29,7 +31,9 @@ impl Watched {
         let inside = program.plan_of(plan).ok_or("there is no such plan")?;
         let watch = Watch::new(&program.graph, inside, text).map_err(|why| why.to_string())?;
         let first = program.entries.iter().position(|entry| entry.plan == plan).unwrap_or(0);
-        Ok(Watched { watch, text: text.trim().to_owned(), first: first as u32 })
+        let text = text.trim().to_owned();
+        let entry = program.entry(plan, &text);
+        Ok(Watched { watch, text, first: first as u32, entry })
     }
 
     /// The same, if it is true or false.
@@ -67,7 +71,12 @@ impl Watched {
     /// # Errors
     /// It cannot be computed.
     pub fn shown(&self, program: &Program, state: &State) -> Result<String, String> {
-        let Some(value) = self.value(program, state)? else { return Ok("unset".to_owned()) };
+        let Some(value) = self.value(program, state)? else {
+            // No formula knows the inside of an object; which one an entry holds is told as of entries.
+            let object = self.entry.and_then(|entry| state.entry(entry));
+            let object = object.filter(|held| matches!(held, Datum::Object(_)));
+            return Ok(object.map_or("unset".to_owned(), |held| held.in_unit("")));
+        };
         let unit = match self.watch.ty() {
             Type::Quantity(dimension) => dimension.si_unit(),
             _ => String::new(),

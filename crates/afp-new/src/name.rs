@@ -60,7 +60,7 @@ const TYPES: &[&str] = &[
 /// Whether a project that is called so would be no other than something that it uses: a package, a word, or a type of
 /// its own files.
 fn is_taken(snake: &str, camel: &str) -> bool {
-    let is_afp = snake == "afp" || snake.starts_with("afp_");
+    let is_afp = ["afp", "afpc"].contains(&snake) || snake.starts_with("afp_");
     let is_word = TAKEN.contains(&snake) || OF_RUST.contains(&snake);
     is_afp || is_word || TYPES.contains(&camel) || is_used(camel)
 }

@@ -100,6 +100,7 @@ fn names_that_cannot_be_are_refused_with_another() {
         "option",
         "libm",
         "afp",
+        "afpc",
         "afp-session",
         "afp-mine",
     ];

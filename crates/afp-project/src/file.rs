@@ -113,11 +113,23 @@ impl ProjectFile {
                     let krate = krate::link(&self.folder, toolbox, &path);
                     files.push(ToolboxFile { toolbox: toolbox.clone(), path, text, krate });
                 }
-                Err(error) => mistakes.push(Mistake {
-                    span: toolbox.span.clone(),
-                    message: format!("cannot read '{}': {error}", shown(&path).display()),
-                    help: format!("'path' is relative to the folder of {NAME}"),
-                }),
+                Err(error) => {
+                    let written = &toolbox.path;
+                    let (message, help) = match path.is_dir() {
+                        true => (
+                            format!("'{written}' is a folder"),
+                            format!(
+                                "'path' names the toolbox's file, such as '{}.afp'",
+                                toolbox.name
+                            ),
+                        ),
+                        false => (
+                            format!("cannot read '{}': {error}", shown(&path).display()),
+                            format!("'path' is relative to the folder of {NAME}"),
+                        ),
+                    };
+                    mistakes.push(Mistake { span: toolbox.span.clone(), message, help });
+                }
             }
         }
         if mistakes.is_empty() { Ok(files) } else { Err(self.wrong(mistakes)) }

@@ -69,6 +69,11 @@ pub enum RunError {
         /// What may be the reason.
         help: String,
     },
+    /// What the run needs panicked: the robot, or what drives it.
+    Panicked {
+        /// What was said, and where.
+        said: String,
+    },
     /// The project file is wrong.
     Project(ProjectError),
     /// The log cannot be written.
@@ -91,6 +96,7 @@ impl RunError {
     pub fn code(&self) -> u8 {
         match self {
             RunError::Usage { .. } => EXIT_USAGE,
+            RunError::Panicked { .. } => EXIT_PLAN_ERROR,
             RunError::Missing { .. }
             | RunError::File { .. }
             | RunError::Content { .. }
@@ -143,6 +149,10 @@ impl RunError {
                 let path = shown(path).display().to_string();
                 let (span, label) = (span.clone(), String::new());
                 report(message, help, vec![Mark { path: &path, text, lines: None, span, label }])
+            }
+            RunError::Panicked { said } => {
+                let message = format!("the run panicked, and no component of the plan did: {said}");
+                report(&message, "mend the Rust at that place", Vec::new())
             }
             RunError::Project(error) => error.reports(make),
             RunError::Log(error) => report(&error.to_string(), &error.help(), Vec::new()),

@@ -12,6 +12,7 @@ mod live;
 pub mod options;
 mod output;
 mod pace;
+pub mod panics;
 mod picture;
 mod report;
 pub mod requests;
@@ -42,7 +43,9 @@ pub use report::{event_line, line, timeline};
 pub use run::{MakeSession, OpenHardware, hashes, run, run_on_hardware};
 pub use stderr::{say, warn};
 pub use stop::StopFlag;
-pub use svg::{SoFar, draw_film, draw_log, draw_run, draw_sonar, draw_world, follow};
+pub use svg::{
+    SoFar, draw_film, draw_log, draw_run, draw_sonar, draw_world, follow, is_of_hardware,
+};
 
 /// A plan and where it comes from.
 #[derive(Clone, Copy, Debug)]

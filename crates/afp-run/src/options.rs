@@ -17,6 +17,9 @@ use clap::{Args, ValueEnum};
 use crate::error::RunError;
 use crate::world::change;
 
+/// What the name of a setting begins with that is one of the robot itself.
+pub const OF_ROBOT: &str = "robot.";
+
 pub(crate) use help::words;
 pub use help::{for_devices, for_robot};
 pub use parse::{Destination, Failure, Press, Speed, failure, press, unquoted, whole};
@@ -187,9 +190,20 @@ impl RunOptions {
             ));
         }
         match self.robot {
-            OnRobot::Sim => Ok(()),
+            OnRobot::Sim => self.check_sim(),
             OnRobot::Hardware => self.check_hardware(),
         }
+    }
+
+    /// Refuses what only the robot itself has.
+    fn check_sim(&self) -> Result<(), RunError> {
+        let Some((name, _)) = self.set.iter().find(|(name, _)| name.starts_with(OF_ROBOT)) else {
+            return Ok(());
+        };
+        Err(RunError::usage(
+            format!("'{name}' is a setting of the robot itself, and this run is simulated"),
+            "add '--robot hardware', or leave it out",
+        ))
     }
 
     /// Refuses what only a simulation can do.

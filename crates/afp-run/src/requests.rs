@@ -1,6 +1,8 @@
 //! `--press` and `--fail` as requests of a session.
 
-use afp_core::devices::{AmountRow, DeviceRow, FaultId, faults, find_control, find_stop};
+use afp_core::devices::{
+    AmountRow, ControlId, DeviceRow, FaultId, faults, find_control, find_stop,
+};
 use afp_core::{Duration, Instant};
 use afp_excerpt::words::nearest;
 use afp_project::duration;
@@ -8,6 +10,22 @@ use afp_session::{AnySession, HOLD, Recipe, Request, RequestError};
 
 use crate::error::RunError;
 use crate::options::{Failure, Press, words};
+
+/// Looks whether a robot with those devices has the controls and faults that the options name.
+///
+/// # Errors
+/// The robot has no such control or fault.
+pub fn check(table: &[DeviceRow], presses: &[Press], failures: &[Failure]) -> Result<(), RunError> {
+    failures.iter().try_for_each(|failure| find_fault(table, failure).map(|_| ()))?;
+    presses.iter().try_for_each(|press| control(table, press).map(|_| ()))
+}
+
+/// The control of an option.
+fn control(table: &[DeviceRow], press: &Press) -> Result<ControlId, RunError> {
+    find_control(table, &press.control).ok_or_else(|| {
+        RunError::usage(no_control(table, &press.control), such_control(table, press))
+    })
+}
 
 /// Asks a session for what the options say.
 ///
@@ -26,9 +44,7 @@ pub fn make(
         made.map_err(|why| refused(&failure.to_string(), &why))?;
     }
     for press in presses {
-        let id = find_control(table, &press.control).ok_or_else(|| {
-            RunError::usage(no_control(table, &press.control), "write 'CONTROL@3s'")
-        })?;
+        let id = control(table, press)?;
         let made = session.at(press.at, Request::Hold(id, HOLD));
         made.map_err(|why| refused(&press.to_string(), &why))?;
     }
@@ -55,6 +71,16 @@ pub(crate) fn press_stop(session: &mut dyn AnySession, at: Instant) {
 
 fn refused(what: &str, why: &RequestError) -> RunError {
     RunError::usage(format!("'{what}': {why}"), "leave it out")
+}
+
+/// A control that may have been meant, at that time.
+fn such_control(table: &[DeviceRow], press: &Press) -> String {
+    let known = words(table);
+    let names = || known.iter().map(|(word, _)| word.as_str());
+    match nearest(&press.control, names()).or(names().next()) {
+        Some(word) => format!("such as '{}'", Press { control: word.to_owned(), at: press.at }),
+        None => "nothing of this robot can be pressed".to_owned(),
+    }
 }
 
 /// What cannot be pressed, and what can.

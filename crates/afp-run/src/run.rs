@@ -30,7 +30,7 @@ use crate::report::{Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary
 use crate::stderr::warn;
 use crate::stop::StopFlag;
 use crate::svg::{self, Picture};
-use crate::world::LoadedWorld;
+use crate::world::{BUILT_IN, LoadedWorld};
 use crate::{Program, inputs, requests};
 
 use driver::Driver;
@@ -70,16 +70,8 @@ pub fn run(
     };
     let recipe = recipe(program, options, &world, again.as_ref())?;
     let measures: Vec<_> = recipe.measures.iter().map(String::as_str).collect();
-    let mut session = make(&*world.world, recipe.seed, &measures).map_err(|why| match why {
-        SessionError::World(message) => RunError::Content {
-            path: world.path.clone().unwrap_or_default(),
-            span: None,
-            text: world.text.clone(),
-            message,
-            help: String::new(),
-        },
-        other => other.into(),
-    })?;
+    let mut session =
+        make(&*world.world, recipe.seed, &measures).map_err(|why| world.no_session(why))?;
     match &again {
         Some(again) => requests::repeat(&mut *session, &again.recipe)?,
         None => {
@@ -287,7 +279,7 @@ impl Came<'_> {
             end: session.now(),
             misses: session.misses(),
             trace: session.trace(),
-            distance: track.distance,
+            distance: track.way(),
             requests,
         };
         let figures = ran.figures(&counts, measured, session.names());
@@ -342,7 +334,7 @@ fn head(setting: &Setting<'_>) -> Vec<(&'static str, String)> {
     }
     let file = match &world.path {
         Some(path) => path.display().to_string(),
-        None => "built-in room".to_owned(),
+        None => BUILT_IN.to_owned(),
     };
     let called = match world.world.name() {
         "" => file,

@@ -14,7 +14,7 @@ use afp_session::{AnyWorld, Drawing, Mark, Outlines, Pose2, Waypoint};
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
-pub use from_log::{draw_log, follow};
+pub use from_log::{draw_log, follow, is_of_hardware};
 use legend::Legend;
 pub use sonar::draw_sonar;
 
@@ -78,10 +78,11 @@ fn draw_so_far(run: &SoFar<'_>, more: Vec<(String, String)>, names: &dyn Names) 
     });
     // A sum of nothing is a negative zero.
     let distance = way.fold(0.0, |all, piece| all + piece);
-    let mut figures = vec![
-        ("time".to_owned(), format!("{:.1} s", time.as_secs_f64())),
-        ("distance".to_owned(), format!("{distance:.2} m")),
-    ];
+    let mut figures = vec![("time".to_owned(), format!("{:.1} s", time.as_secs_f64()))];
+    // Of a robot that says nothing of where it is, nobody knows the way.
+    if !path.is_empty() {
+        figures.push(("distance".to_owned(), format!("{distance:.2} m")));
+    }
     figures.extend(more);
     let subtitle = subtitle(world, seed);
     let world = &world.drawing().ended(things);

@@ -12,12 +12,18 @@ use std::sync::Arc;
 
 use afp_output::{read_file, read_text};
 use afp_project::{ProjectFile, shown};
-use afp_session::{AnyRobot, AnyWorld, Drawing, Pose2, WorldError};
+use afp_session::{AnyRobot, AnyWorld, Drawing, Pose2, SessionError, WorldError};
 
 use crate::error::RunError;
 
 pub(crate) use measure::Measure;
 pub(crate) use named::named;
+
+/// What the world is called that has no file.
+pub(crate) const BUILT_IN: &str = "built-in room";
+
+/// What was tried with a world that is not there.
+const NO_WORLD: &str = "cannot read the world";
 
 /// The greatest length of the picture of a map, in bytes.
 const LONGEST_PICTURE: u64 = 64 << 20;
@@ -43,6 +49,22 @@ impl LoadedWorld {
     pub fn started_at(self, start: Pose2) -> Result<LoadedWorld, String> {
         let world = self.world.started_at(start)?;
         Ok(LoadedWorld { world, start: Some(start), ..self })
+    }
+
+    /// Why there is no session in this world, with its file.
+    pub fn no_session(&self, why: SessionError) -> RunError {
+        let SessionError::World(message) = why else { return why.into() };
+        let help = match self.path {
+            Some(_) => "",
+            None => "it comes from the robot's 'Simulated::new': look there, or name another world",
+        };
+        RunError::Content {
+            path: self.path.clone().unwrap_or_else(|| BUILT_IN.into()),
+            span: None,
+            text: self.text.clone(),
+            message,
+            help: help.to_owned(),
+        }
     }
 
     /// What is strange about where the robot starts, but usually does not.
@@ -86,6 +108,18 @@ pub fn find(
     match beside.is_file() {
         true => load(&tidy(&beside), robot),
         false => parse(robot.default_world().to_owned(), None, "", robot),
+    }
+}
+
+/// Looks whether a world that is asked for is there, without a robot that reads it.
+///
+/// # Errors
+/// There is no such file.
+pub fn check(asked: &Path) -> Result<(), RunError> {
+    let is_made_up = asked.to_str().is_some_and(|name| name.starts_with(RANDOM));
+    match is_made_up {
+        true => Ok(()),
+        false => fs::metadata(asked).map(|_| ()).map_err(RunError::file(NO_WORLD, asked)),
     }
 }
 
@@ -169,7 +203,7 @@ fn load(path: &Path, robot: &dyn AnyRobot) -> Result<LoadedWorld, RunError> {
         let none = || wrong("there are no made-up worlds for this robot", "name a file");
         return parse(text.ok_or_else(none)?, Some(path.to_owned()), &stem(path), robot);
     }
-    let text = read_text(path).map_err(RunError::file("cannot read the world", path))?;
+    let text = read_text(path).map_err(RunError::file(NO_WORLD, path))?;
     if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
         return parse(map(path, text, robot)?, Some(path.to_owned()), &stem(path), robot);
     }
@@ -209,7 +243,7 @@ pub(crate) fn parse(
     match robot.world(&text) {
         Ok(world) => Ok(LoadedWorld { world: named(world, name), text, path, start: None }),
         Err(error) => Err(RunError::Content {
-            path: path.unwrap_or_else(|| "built-in room".into()),
+            path: path.unwrap_or_else(|| BUILT_IN.into()),
             span: error.span,
             text,
             message: error.message,

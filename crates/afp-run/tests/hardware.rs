@@ -243,8 +243,13 @@ fn a_log_says_that_it_was_the_robot_and_is_not_repeated() {
     let (ran, ..) = on_board(WAITS, &["--until", "50ms", "--log", name]);
     assert_eq!(ran.unwrap(), EXIT_OK);
     let read = afp_log::read(Path::new(name)).unwrap();
-    assert_eq!((&*read.recipe().robot, read.cut_short), ("hardware", None));
+    assert_eq!((&*read.recipe().robot, &read.cut_short), ("hardware", &None));
     let robot = simulated::<Simulation, _>(|_| {});
+    // It is in no world that the robot of the simulation knows, and nobody said where it was.
+    let drawn = afp_run::draw_log(&read, robot.kind()).unwrap();
+    assert!(drawn.contains("<svg") && !drawn.contains("distance"), "{drawn}");
+    let none = afp_run::draw_sonar(&read, robot.kind()).unwrap_err().to_string();
+    assert!(none.contains("the log holds no echoes"), "{none}");
     let command = RunOptions::augment_args(Command::new("test").no_binary_name(true));
     let again = command.get_matches_from(["--again", name, "--log", "none"]);
     let again = RunOptions::from_arg_matches(&again).unwrap();

@@ -36,10 +36,16 @@ impl SetError {
         let help = || settable(session);
         match self {
             SetError::Unknown if entry.path.is_empty() => {
-                NotSet { why: format!("the plan has no entry '{name}'"), help: help() }
+                NotSet { why: no_entry(name), help: help() }
             }
             SetError::Unknown => NotSet {
                 why: format!("the entry '{name}' of a sub-plan cannot be set from outside"),
+                help: help(),
+            },
+            _ if names.holds_object(id) => NotSet {
+                why: format!(
+                    "the entry '{name}' holds an object: templates make it, and no text says one"
+                ),
                 help: help(),
             },
             SetError::TooEarly => NotSet {
@@ -77,13 +83,32 @@ fn settable(session: &dyn AnySession) -> String {
     let names = session.names();
     let started = session.active().is_some() || session.ending().is_some();
     let is_open = |kind| kind == EntryKind::In || started && kind == EntryKind::Var;
-    let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
+    let ids = (0..names.entries()).map(TraceEntryId).filter(|id| !names.holds_object(*id));
+    let entries = ids.map(|id| names.entry(id));
     let open = entries.filter(|entry| is_open(entry.kind) && !entry.path.contains('.'));
-    let list: Vec<_> = open.map(|it| format!("'{}' ({})", it.path, what_it_takes(it))).collect();
-    match list.is_empty() {
-        false => format!("entries that can be set: {}", list.join(", ")),
-        true if started => "this plan has no 'in' or 'var' entries".to_owned(),
-        true => "this plan has no 'in' entries".to_owned(),
+    let list = open.map(|it| (it.path, what_it_takes(it)));
+    let none = if started { "this plan has no 'in' or 'var' entries" } else { NO_INPUTS };
+    that_can_be_set(list).unwrap_or_else(|| none.to_owned())
+}
+
+/// Of a plan that takes nothing.
+const NO_INPUTS: &str = "this plan has no 'in' entries";
+
+fn no_entry(name: &str) -> String {
+    format!("the plan has no entry '{name}'")
+}
+
+/// Entries with what they take; none of none.
+fn that_can_be_set<'a>(entries: impl Iterator<Item = (&'a str, String)>) -> Option<String> {
+    let list: Vec<_> = entries.map(|(name, takes)| format!("'{name}' ({takes})")).collect();
+    (!list.is_empty()).then(|| format!("entries that can be set: {}", list.join(", ")))
+}
+
+impl NotSet {
+    /// A plan that has not been loaded has no entry of that name; its `in` entries, each with its type.
+    pub fn unknown<'a>(name: &str, inputs: impl Iterator<Item = (&'a str, String)>) -> Self {
+        let help = that_can_be_set(inputs).unwrap_or_else(|| NO_INPUTS.to_owned());
+        NotSet { why: no_entry(name), help }
     }
 }
 

@@ -2,12 +2,13 @@
 //!
 //! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres and radians.
 
-use afp_core::Instant;
-use afp_core::devices::{SignalId, SignalType};
+use afp_core::devices::{DeviceRow, Devices, SignalId, SignalType};
+use afp_core::{Fault, Instant};
 
 use crate::event::Datum;
 use crate::observer::{Observer, Sampling};
 use crate::robot::Robot;
+use crate::session::broken::wrong_type;
 use crate::session::grid::Stretch;
 
 /// The frames that logs and pictures know of any robot.
@@ -173,7 +174,11 @@ impl SampleRef<'_> {
 /// Takes the samples of an instant from a robot and gives each to whoever wants it.
 pub struct Samples<'a, 'o> {
     at: Instant,
+    /// What the robot declares.
+    table: &'static [DeviceRow],
     to: To<'a, 'o>,
+    /// What was wrong with the first sample that is of another type than is declared.
+    wrong: Option<Fault>,
 }
 
 enum To<'a, 'o> {
@@ -185,7 +190,8 @@ enum To<'a, 'o> {
 
 /// What a signal of a robot is now; `to` is not called where the robot has no value for it.
 pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
-    robot.sample(&mut Samples::of_one(robot.now(), signal, to));
+    let table = <R::Devices as Devices>::TABLE;
+    robot.sample(&mut Samples::of_one(robot.now(), table, signal, to));
 }
 
 /// Whose turn it is.
@@ -204,16 +210,22 @@ pub(crate) enum Turn {
 }
 
 impl<'a, 'o> Samples<'a, 'o> {
-    pub(crate) fn of_turn(at: Instant, to: &'a mut [&'o mut dyn Observer], turn: Turn) -> Self {
-        Samples { at, to: To::Observers(to, turn) }
+    pub(crate) fn of_turn(
+        at: Instant,
+        table: &'static [DeviceRow],
+        to: &'a mut [&'o mut dyn Observer],
+        turn: Turn,
+    ) -> Self {
+        Samples { at, table, to: To::Observers(to, turn), wrong: None }
     }
 
     pub(crate) fn of_one(
         at: Instant,
+        table: &'static [DeviceRow],
         signal: SignalId,
         to: &'a mut dyn FnMut(SampleRef<'_>),
     ) -> Self {
-        Samples { at, to: To::One(signal, to) }
+        Samples { at, table, to: To::One(signal, to), wrong: None }
     }
 
     /// Whether anybody wants a signal: to be asked before what is dear to compute.
@@ -226,8 +238,12 @@ impl<'a, 'o> Samples<'a, 'o> {
         }
     }
 
-    /// Gives a sample to whoever wants it.
+    /// Gives a sample to whoever wants it. One of another type than the robot's toolbox declares ends the run in `Error`.
     pub fn put(&mut self, signal: SignalId, value: SampleRef<'_>) {
+        if let Some(wrong) = wrong_type(self.table, signal, &value) {
+            self.wrong.get_or_insert(wrong);
+            return;
+        }
         match &mut self.to {
             To::Observers(all, turn) => {
                 for each in all.iter_mut() {
@@ -241,8 +257,8 @@ impl<'a, 'o> Samples<'a, 'o> {
         }
     }
 
-    /// The samples of this instant are complete.
-    pub(crate) fn finish(self) {
+    /// The samples of this instant are complete; what was wrong with one of them, if something was.
+    pub(crate) fn finish(self) -> Option<Fault> {
         if let To::Observers(all, turn) = self.to {
             for each in all.iter_mut() {
                 if turn.includes(each.sampling()) {
@@ -250,6 +266,7 @@ impl<'a, 'o> Samples<'a, 'o> {
                 }
             }
         }
+        self.wrong
     }
 }
 

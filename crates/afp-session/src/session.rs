@@ -2,6 +2,7 @@
 
 mod any;
 mod asked;
+pub(crate) mod broken;
 pub(crate) mod grid;
 mod report;
 
@@ -50,6 +51,8 @@ pub struct Session<P: NamedPlan, R: Robot, S = Kept> {
     last: Instant,
     /// How long a run goes on when the plan has ended.
     rest: Duration,
+    /// How often in a row time was to pass and has not.
+    still: u32,
     requests: Requests,
     /// All that was asked for.
     asked: Vec<(Instant, Request)>,
@@ -96,6 +99,7 @@ where
             due: robot.now(),
             last: Instant::MAX,
             rest: Duration::ZERO,
+            still: 0,
             requests: Requests::default(),
             asked: Vec::new(),
             faults: Faults::default(),
@@ -145,6 +149,7 @@ where
             due: self.due,
             last: self.last,
             rest: self.rest,
+            still: self.still,
             samples: self.samples,
             trace: self.trace,
             testing: self.testing.as_ref().map(Testing::copy),
@@ -266,12 +271,17 @@ where
     ) -> Result<Go, StartError> {
         let outside = self.next_from_outside().min(self.samples.next);
         let target = self.due().min(outside).min(limit).min(self.last);
-        match gate.pass(target, self.robot.now()) {
+        let before = self.robot.now();
+        match gate.pass(target, before) {
             Go::On => {}
             other => return Ok(other),
         }
         self.robot.advance(target);
         let now = self.robot.now();
+        match now == before && target > now {
+            true => self.stood_still(now, to),
+            false => self.still = 0,
+        }
         if outside <= now {
             self.before_step(now, to);
         }
@@ -399,7 +409,9 @@ where
                 measure.on_sample(now, &self.robot);
             }
         }
-        self.take_samples(now, Turn::Grid { before_step, stretch }, to);
+        if let Some(wrong) = self.take_samples(now, Turn::Grid { before_step, stretch }, to) {
+            self.distrust(wrong, to);
+        }
     }
 
     /// The devices of the robot.

@@ -84,6 +84,11 @@ impl Track {
 }
 
 impl Track {
+    /// How far the robot went, metres; none where nobody said where it was.
+    pub fn way(&self) -> Option<f64> {
+        self.last.map(|_| self.distance)
+    }
+
     /// Something happened, after all that was told before.
     pub fn note_record(&mut self, at: Instant, record: &Record<'_>, names: &dyn Names) {
         match *record {

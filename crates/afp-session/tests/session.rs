@@ -1,5 +1,7 @@
 //! What holds for every session: the order at an instant, requests, samples, and how it ends.
 
+#[path = "session/broken.rs"]
+mod broken;
 #[path = "session/holds.rs"]
 mod holds;
 mod support;

@@ -1,6 +1,5 @@
 //! Runs on all cores, outcomes as they come.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
@@ -8,11 +7,12 @@ use std::time::Instant as Wall;
 
 use afp_core::{Fault, Instant};
 use afp_run::RunError;
+use afp_run::panics::{Caught, caught};
 use afp_session::{AnySession, Observer};
 
+use crate::attend;
 use crate::grid::{Row, Sweep};
 use crate::outcome::{Ending, Outcome};
-use crate::{attend, panics};
 
 /// Outcomes that may wait until somebody takes them.
 const WAITING: usize = 64;
@@ -87,13 +87,11 @@ impl Engine<'_> {
 
     /// Does one run on this thread; `None` when it was called off. A panic is an outcome.
     pub fn one(&self, run: u64) -> Option<Outcome> {
-        panics::keep();
         let begun = Wall::now();
         let row = self.sweep.row(run);
-        let done = catch_unwind(AssertUnwindSafe(|| self.drive(&row)));
-        let said = panics::take();
+        let Caught { done, said } = caught(|| self.drive(&row));
         let mut outcome =
-            done.unwrap_or_else(|_| Some(Outcome::failed(run, Ending::Panicked, said.clone())))?;
+            done.unwrap_or_else(|| Some(Outcome::failed(run, Ending::Panicked, said.clone())))?;
         if outcome.ending == Ending::Error && outcome.why == Fault::PANIC.code() && !said.is_empty()
         {
             outcome.why = format!("{}: {said}", outcome.why);

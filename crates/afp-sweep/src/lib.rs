@@ -18,7 +18,6 @@ mod header;
 mod journal;
 mod outcome;
 mod output_files;
-mod panics;
 mod ranges;
 mod setting;
 mod table;

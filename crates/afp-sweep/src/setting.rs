@@ -60,7 +60,8 @@ impl<'a> Setting<'a> {
 
     fn check(&self, sweep: &mut Sweep) -> Result<(), RunError> {
         let Some(world) = self.worlds.first() else { return Ok(()) };
-        let mut session = self.robot.session(self.graph, &*world.world, 0, &[])?;
+        let session = self.robot.session(self.graph, &*world.world, 0, &[]);
+        let mut session = session.map_err(|why| world.no_session(why))?;
         requests::make(&mut *session, &sweep.presses, &sweep.failures)?;
         for number in 0..sweep.axes.len() {
             let (before, rest) = sweep.axes.split_at_mut(number);
@@ -158,9 +159,10 @@ impl<'a> Setting<'a> {
     /// # Errors
     /// The world makes no sense with the values of the row.
     pub fn make(&self, row: &Row<'_>) -> Result<Box<dyn AnySession>, RunError> {
-        let world = self.world(row)?.world;
+        let world = self.world(row)?;
         let measures = self.robot.kind().measures();
-        let mut session = self.robot.session(self.graph, &*world, row.seed, measures)?;
+        let session = self.robot.session(self.graph, &*world.world, row.seed, measures);
+        let mut session = session.map_err(|why| world.no_session(why))?;
         for (name, point) in row.values.iter().filter(|(name, _)| change::key(name).is_none()) {
             inputs::set(&mut *session, name, &point.text)?;
         }

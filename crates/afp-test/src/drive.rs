@@ -102,6 +102,7 @@ pub(crate) fn run(
         broken,
         end,
         ending: watch.ending(),
+        panic: None,
         hits: watch.hits,
         activations: watch.activations,
         timeline,
@@ -115,7 +116,9 @@ fn session(
     setting: &Setting,
     robot: &dyn Loader,
 ) -> Result<Box<dyn AnySession>, RunError> {
-    let mut session = robot.session(&scenario.graph, &*setting.world.world, scenario.seed, &[])?;
+    let world = &setting.world;
+    let session = robot.session(&scenario.graph, &*world.world, scenario.seed, &[]);
+    let mut session = session.map_err(|why| world.no_session(why))?;
     for (entry, value) in &scenario.set {
         let set = session.write(*entry, value_of(value));
         set.map_err(|why| refused(scenario, &why.to_string()))?;

@@ -18,9 +18,11 @@ mod watch;
 
 use std::path::Path;
 
+use afp_core::{Ending, Fault};
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
 use afp_run::RunError;
+use afp_run::panics::{Caught, caught};
 use afp_session::Loader;
 
 pub use coverage::{Coverage, Part, PartKind};
@@ -43,8 +45,8 @@ pub struct Recording<'a> {
 /// Runs a scenario on a robot; with `log` the run is recorded there.
 ///
 /// # Errors
-/// No world, or one that does not work; a template without Rust; a log that cannot be written. What the
-/// plan does wrong is no error but a [`Verdict`].
+/// No world, or one that does not work; a template without Rust; a log that cannot be written; a robot that panics. What
+/// the plan does wrong is no error but a [`Verdict`], and that a component panics, too.
 pub fn run(
     scenario: &Scenario,
     setting: &Setting,
@@ -67,5 +69,13 @@ pub fn run_while(
     log: Option<Recording<'_>>,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Verdict>, RunError> {
-    drive::run(scenario, setting, robot, log, go_on)
+    let Caught { done, said } = caught(|| drive::run(scenario, setting, robot, log, go_on));
+    let Some(came) = done else { return Err(RunError::Panicked { said }) };
+    let mut came = came?;
+    if let Some(verdict) = &mut came
+        && verdict.ending == Some(Ending::Error(Fault::PANIC))
+    {
+        verdict.panic = Some(said).filter(|said| !said.is_empty());
+    }
+    Ok(came)
 }

@@ -21,6 +21,8 @@ pub struct Verdict {
     pub end: Instant,
     /// How the plan ended, if it did.
     pub ending: Option<Ending>,
+    /// What a component said whose panic ended the plan, and where.
+    pub panic: Option<String>,
     /// What the run made use of.
     pub hits: Hits,
     /// When each element was active, in the order in which they were left.
@@ -58,6 +60,9 @@ impl Verdict {
             let _ = writeln!(text, "  {line}\n    {:.3} s: {why}", at.as_secs_f64());
         }
         let Some(first) = self.broken.first() else { return text };
+        if let Some(said) = &self.panic {
+            let _ = writeln!(text, "  panicked: {said}");
+        }
         let behind = self.timeline.partition_point(|(at, _)| *at <= first.at);
         let from = behind.saturating_sub(BEFORE);
         let to = (behind + BEHIND).min(self.timeline.len());

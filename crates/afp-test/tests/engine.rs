@@ -6,6 +6,8 @@ mod edges;
 mod generation;
 #[path = "engine/moments.rs"]
 mod moments;
+#[path = "engine/panics.rs"]
+mod panics;
 
 use std::path::Path;
 

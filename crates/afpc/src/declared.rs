@@ -1,5 +1,5 @@
-//! What a command line is about, for help: the robot of a project as its toolbox file declares it, so that nothing need
-//! be built to show its words, and what a plan takes.
+//! What a command line is about: the robot of a project as its toolbox file declares it, so that nothing need be built to
+//! show its words or to refuse others, and what a plan takes.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -57,7 +57,14 @@ fn one_line(text: &str) -> String {
 }
 
 fn read(plan: &Path) -> Result<Option<&'static [DeviceRow]>, ProjectError> {
-    let own = OwnToolboxes::of_plan(plan)?;
+    of_project(&OwnToolboxes::of_plan(plan)?)
+}
+
+/// The devices of the robot of a project, if it has one of its own.
+///
+/// # Errors
+/// The project file or a toolbox of it is wrong.
+pub fn of_project(own: &OwnToolboxes) -> Result<Option<&'static [DeviceRow]>, ProjectError> {
     if own.project.project.robot.is_none() {
         return Ok(None);
     }
@@ -95,7 +102,7 @@ fn fault(fault: &Fault) -> FaultRow {
     }
 }
 
-/// Rows live as long as the program does; this one shows its help and ends.
+/// Rows live as long as the program does, which reads them once.
 fn list<T>(rows: Vec<T>) -> &'static [T] {
     Box::leak(rows.into_boxed_slice())
 }

@@ -6,6 +6,7 @@
 mod cli;
 mod commands;
 mod declared;
+mod early;
 mod nearby;
 mod picture;
 mod plan_file;

@@ -49,7 +49,6 @@ pub fn become_one_with_hardware(
 ///
 /// # Errors
 /// A robot or a toolbox without a crate.
-#[cfg(feature = "dap")]
 pub fn is_linked(own: &OwnToolboxes, graph: &Graph, linked: &Linked<'_>) -> Result<bool, NoPlan> {
     let parts = Parts::of_plans([(own, graph)])?;
     Ok(parts.is_none_or(|parts| linked.has(&parts)))

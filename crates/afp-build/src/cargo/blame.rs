@@ -48,12 +48,15 @@ impl Blame<'_> {
     /// Tells standard error of a message: first where it comes from, then in the compiler's words.
     pub(super) fn tell(&self, message: &Message) {
         if message.is_error {
-            for found in self.places(message) {
-                say(found.shown());
-            }
+            let places = self.places(message);
+            places.iter().for_each(|found| say(found.shown()));
+            // The compiler names the file as seen from its package.
             if let Some((path, place)) = rust(message) {
                 let (line, column) = place.at;
-                say(format_args!("  = in {path}:{line}:{column}"));
+                match places.is_empty() {
+                    true => say(format_args!("in {path}:{line}:{column}:")),
+                    false => say(format_args!("  = in {path}:{line}:{column}")),
+                }
             }
         }
         say(&message.rendered);

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use super::{Scheduler, State};
 use crate::fault::Fault;
 use crate::rt::{NamedPlan, PlanState, Writable, WriteError};
-use crate::trace::{EntryKind, EntryName, Names, TraceEntryId};
+use crate::trace::{EntryKind, Names, TraceEntryId};
 use crate::value::{Value, ValueRef};
 
 /// An entry of the plan `P` that takes values of type `T` from outside. `plan!` makes a constant of
@@ -73,14 +73,18 @@ impl fmt::Display for SetError {
 impl core::error::Error for SetError {}
 
 /// How a value of an entry is written.
-fn help(entry: &EntryName<'_>) -> &'static str {
+fn help(names: &impl Names, id: TraceEntryId) -> &'static str {
+    let entry = names.entry(id);
     match entry.ty {
         "bool" => "write 'true' or 'false'",
         "int" => "write a whole number, such as '3'",
         "float" => "write a number, such as '0.5'",
         "string" => "write a shorter one",
         _ if !entry.unit.is_empty() => "write a number and a unit that fits, such as '80 cm'",
-        _ => "write one of the values of its enum, with or without its name: 'Side.left', 'left'",
+        _ if names.holds_object(id) => {
+            "templates make objects: nothing that is written becomes one"
+        }
+        _ => "write one of the values that its enum declares, with or without the enum's name",
     }
 }
 
@@ -117,11 +121,12 @@ impl<P: PlanState> Scheduler<P> {
         let plan = self.plan();
         let position = plan.entry_named(entry).ok_or(SetError::Unknown)?;
         let names = plan.names();
-        let about = names.entry(TraceEntryId(position.into()));
+        let id = TraceEntryId(position.into());
+        let about = names.entry(id);
         if !matches!(about.kind, EntryKind::In | EntryKind::Var) {
             return Err(SetError::Refused(WriteError::ReadOnly));
         }
-        let unreadable = |why| SetError::Unreadable { why, help: help(&about) };
+        let unreadable = |why| SetError::Unreadable { why, help: help(&names, id) };
         let value = plan.read(position, text).map_err(unreadable)?;
         self.write(position, value).map_err(SetError::Refused)
     }

@@ -121,6 +121,14 @@ fn a_crate_that_is_not_there_is_said_at_the_toolbox() {
 }
 
 #[test]
+fn a_toolbox_that_is_a_folder_is_told_what_path_names() {
+    let folder = project(&[("afp.toml", "[toolboxes]\na = { path = '.' }")]);
+    let text = find(folder.path()).toolboxes().unwrap_err().to_string();
+    assert!(text.contains("'.' is a folder"), "{text}");
+    assert!(text.contains("'path' names the toolbox's file, such as 'a.afp'"), "{text}");
+}
+
+#[test]
 fn the_crate_of_a_robot_is_named_or_that_of_its_toolbox_or_around_the_project_file() {
     let toolbox = "[toolboxes]\nv = { path = 'kit/v.afp' }\n";
     let manifest = |name: &str| format!("[package]\nname = \"{name}\"\n");

@@ -54,7 +54,8 @@ pub(crate) struct RunFigures {
     faults: Vec<(String, u64)>,
     interruptions: u64,
     deadline_misses: u64,
-    distance_m: f64,
+    /// Null where nobody said where the robot was.
+    distance_m: Option<f64>,
     /// What came from outside, and what was to come.
     #[serde(serialize_with = "by_time", skip_serializing_if = "Vec::is_empty")]
     requests: Vec<Requested>,
@@ -90,7 +91,8 @@ pub(crate) struct Ran<'a> {
     pub end: Instant,
     pub misses: u64,
     pub trace: TraceHash,
-    pub distance: f64,
+    /// Metres; none where nobody said where the robot was.
+    pub distance: Option<f64>,
     pub requests: Vec<Requested>,
 }
 
@@ -160,11 +162,9 @@ impl RunFigures {
     /// The figures that a picture shows.
     pub(crate) fn for_picture(&self) -> Vec<(String, String)> {
         let of = |key: &str, value: String| (key.to_owned(), value);
-        let mut lines = vec![
-            of("time", format!("{:.1} s", self.time_s)),
-            of("distance", format!("{:.2} m", self.distance_m)),
-            of("interruptions", self.interruptions.to_string()),
-        ];
+        let mut lines = vec![of("time", format!("{:.1} s", self.time_s))];
+        lines.extend(self.distance_m.map(|way| of("distance", format!("{way:.2} m"))));
+        lines.push(of("interruptions", self.interruptions.to_string()));
         for figure in &self.measured.0 {
             let value = match &figure.value {
                 FigureValue::Count(count) => count.to_string(),
@@ -301,7 +301,9 @@ impl Summary {
         }
         line("interruptions", figures.interruptions.to_string());
         line("deadline misses", figures.deadline_misses.to_string());
-        line("distance", format!("{:.2} m", figures.distance_m));
+        if let Some(way) = figures.distance_m {
+            line("distance", format!("{way:.2} m"));
+        }
         for figure in &figures.measured.0 {
             if !figure.text.is_empty() {
                 line(&spaced(figure), figure.text.clone());

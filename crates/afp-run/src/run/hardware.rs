@@ -6,16 +6,13 @@ use afp_session::{NoWorld, Opened, Recipe, SessionError, Settings};
 
 use super::{Setting, drive, recipe};
 use crate::error::RunError;
-use crate::options::RunOptions;
+use crate::options::{OF_ROBOT as PREFIX, RunOptions};
 use crate::picture::Rasterizer;
 use crate::world::LoadedWorld;
 use crate::{Program, inputs};
 
 /// What recipes call the robot itself.
 pub(crate) const HARDWARE: &str = "hardware";
-
-/// What the name of a setting begins with that is one of the robot.
-const PREFIX: &str = "robot.";
 
 /// Opens the robot and puts the plan on it.
 pub type OpenHardware<'a> = dyn FnOnce(&Settings) -> Result<Opened, SessionError> + 'a;

@@ -5,10 +5,11 @@ use afp_core::trace::Names;
 use afp_log::{LogData, WORLD};
 use std::sync::Arc;
 
-use afp_session::{AnyRobot, AnyWorld, Counts, Mark, Pose2, RunEvent, Track, Waypoint};
+use afp_session::{AnyRobot, AnyWorld, Counts, Mark, NoWorld, Pose2, RunEvent, Track, Waypoint};
 
 use super::{SoFar, draw_so_far};
 use crate::error::RunError;
+use crate::run::HARDWARE;
 use crate::world::named;
 
 /// Draws the path of a logged run over its world.
@@ -39,11 +40,19 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
     Ok(draw_so_far(&run, vec![interruptions], names))
 }
 
-/// The world of a logged run.
+/// Whether a logged run was one of the robot itself, which is in no world that a program knows.
+pub fn is_of_hardware(log: &LogData) -> bool {
+    log.facts.get("robot").is_some_and(|robot| robot == HARDWARE)
+}
+
+/// The world of a logged run; an empty one where that was one of the robot itself.
 ///
 /// # Errors
 /// The log has none, or one that this release does not understand.
 pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, RunError> {
+    if is_of_hardware(log) {
+        return Ok(Arc::new(NoWorld));
+    }
     let content = |message: String, span, text: &str| RunError::Content {
         path: WORLD.into(),
         span,

@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
+use afp_core::devices::Devices;
 use afp_core::devices::SignalId;
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Ending, Line, Names};
-use afp_core::{Instant, Scheduler, ValueRef};
+use afp_core::{Fault, Instant, Scheduler, ValueRef};
 
 use super::Session;
 use crate::observer::{Inside, NamedRecord, Observer, View};
@@ -38,7 +39,8 @@ impl<P: NamedPlan, R: Robot> Inside for Looked<'_, P, R> {
     }
 
     fn read(&self, at: Instant, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
-        self.robot.sample(&mut Samples::of_one(at, signal, to));
+        let table = <R::Devices as Devices>::TABLE;
+        self.robot.sample(&mut Samples::of_one(at, table, signal, to));
     }
 }
 
@@ -79,20 +81,29 @@ where
 
     /// Reports to observers that a step is over, after the samples that they take of the robot at each step.
     pub(super) fn report_step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) {
-        self.take_samples(now, Turn::Step, to);
+        let wrong = self.take_samples(now, Turn::Step, to);
         let Session { scheduler, robot, names, .. } = self;
         let looked = Looked { scheduler, robot, names };
         let view = View { now, inside: &looked };
         to.iter_mut().for_each(|observer| observer.after_step(&view));
+        if let Some(wrong) = wrong {
+            self.distrust(wrong, to);
+        }
     }
 
-    pub(super) fn take_samples(&self, now: Instant, turn: Turn, to: &mut [&mut dyn Observer]) {
+    /// Gives samples to those whose turn it is; what is wrong with one, if something is.
+    pub(super) fn take_samples(
+        &self,
+        now: Instant,
+        turn: Turn,
+        to: &mut [&mut dyn Observer],
+    ) -> Option<Fault> {
         if turn == Turn::Step && !to.iter().any(|each| each.sampling().follows()) {
-            return;
+            return None;
         }
-        let mut samples = Samples::of_turn(now, to, turn);
+        let mut samples = Samples::of_turn(now, self.table(), to, turn);
         self.robot.sample(&mut samples);
-        samples.finish();
+        samples.finish()
     }
 
     /// What a signal is now.

@@ -96,6 +96,10 @@ pub struct Toy {
     pressed: bool,
     lost: bool,
     grip: f64,
+    /// Its time stands still from here on.
+    pub stuck_from: Option<Instant>,
+    /// It says from here on whether it is touched with a text.
+    pub wordy_from: Option<Instant>,
     /// How often it was stopped by the strongest means, for who outlives it.
     pub stops: Arc<AtomicU64>,
 }
@@ -139,6 +143,9 @@ impl Platform for Toy {
     }
 
     fn advance(&mut self, to: Instant) {
+        if self.stuck_from.is_some_and(|from| self.now >= from) {
+            return;
+        }
         self.position += self.speed * self.grip * to.since(self.now).as_secs_f64();
         self.now = self.now.max(to);
     }
@@ -165,7 +172,10 @@ impl Robot for Toy {
         let pose = Pose2 { x: self.position, ..Pose2::default() };
         let pose = Transform { parent: "world", child: "base_link", pose, height: 0.0 };
         to.put(POSITION, SampleRef::Pose(pose));
-        to.put(TOUCHED, SampleRef::Bool(self.pressed));
+        match self.wordy_from {
+            Some(from) if self.now >= from => to.put(TOUCHED, SampleRef::Text("oh")),
+            _ => to.put(TOUCHED, SampleRef::Bool(self.pressed)),
+        }
     }
 
     fn figures(&self) -> Vec<Figure> {

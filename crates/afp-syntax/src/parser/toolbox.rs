@@ -94,12 +94,7 @@ impl Parser<'_, '_> {
                 self.expect(Kind::Text, "write the icon's name in double quotes");
                 self.close_item();
             }
-            "uses" => {
-                self.open_item(Kind::Uses);
-                self.keyword();
-                self.name("name what it commands, such as 'uses navigator'");
-                self.close_item();
-            }
+            "uses" => self.uses(),
             "states" => {
                 self.open_item(Kind::StatesOf);
                 self.keyword();
@@ -125,6 +120,19 @@ impl Parser<'_, '_> {
                 self.close_item();
             }
         }
+    }
+
+    fn uses(&mut self) {
+        self.open_item(Kind::Uses);
+        self.keyword();
+        self.name("name what it commands, such as 'uses navigator'");
+        // Behind a comma may stand the next part.
+        while self.at(Kind::Comma) && self.nth(1) == Kind::Name && !PARTS.contains(&self.word(1)) {
+            let message = "'uses' names one device".to_owned();
+            let ours = format!(" uses {}", self.word(1));
+            self.instead(2, message, format!("write '{}'", ours.trim_start()), &ours);
+        }
+        self.close_item();
     }
 
     fn in_port(&mut self) {

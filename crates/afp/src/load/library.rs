@@ -5,8 +5,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use afp_core::{Environment, Scheduler};
+use afp_dsl::compile_plan;
 use afp_dsl::files::{Disk, read_text};
 use afp_dsl::toolbox::Toolboxes;
+use afp_syntax::diagnostics::Code;
 use afp_syntax::source::Source;
 
 use super::error::LoadError;
@@ -49,14 +51,14 @@ pub enum OpenError {
         /// Why.
         why: io::Error,
     },
-    /// The plan has errors: the text is what `afpc check` prints.
+    /// The plan has errors: the text is what `afpc check` prints, and how a toolbox that is missing comes in.
     Plan(String),
     /// A template or object type has no implementation in the library.
     Load(LoadError),
 }
 
-/// Reads, checks and loads the first plan of a file for platform `E`, which knows its templates. The
-/// plan has not started.
+/// Reads, checks and loads the first plan of a file for platform `E`, which knows its templates; `errand.afp:Search` is
+/// another plan of it. The plan has not started.
 ///
 /// ```ignore
 /// let ending = afp::load("errand.afp")?.run(&mut robot)?;
@@ -90,15 +92,15 @@ impl<E: Environment + ?Sized + 'static> Library<E> {
         self
     }
 
-    /// Reads, checks and loads the first plan of a file; plan files that it uses are looked for from
-    /// its folder.
+    /// Reads, checks and loads the first plan of a file, or the one that is named behind a colon; plan files that it
+    /// uses are looked for from its folder.
     ///
     /// # Errors
     /// As for [`load`].
     pub fn load(&self, path: impl AsRef<Path>) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
-        let path = path.as_ref();
+        let (path, plan) = split(path.as_ref());
         let text = read_text(path).map_err(|why| OpenError::Read { path: path.to_owned(), why })?;
-        self.load_text(&path.display().to_string(), &text)
+        self.load_plan(&path.display().to_string(), &text, plan)
     }
 
     /// Checks and loads the first plan of a text; `file` is the name for messages, from whose folder
@@ -107,14 +109,46 @@ impl<E: Environment + ?Sized + 'static> Library<E> {
     /// # Errors
     /// As for [`load`].
     pub fn load_text(&self, file: &str, text: &str) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
-        let compiled =
-            afp_dsl::compile(&Source::new(file, text), &self.toolboxes, &Disk::default());
+        self.load_plan(file, text, None)
+    }
+
+    fn load_plan(
+        &self,
+        file: &str,
+        text: &str,
+        plan: Option<&str>,
+    ) -> Result<Scheduler<LoadedPlan<E>>, OpenError> {
+        let source = Source::new(file, text);
+        let compiled = compile_plan(&source, &self.toolboxes, &Disk::default(), plan);
         match &compiled.graph {
-            None => Err(OpenError::Plan(compiled.render(false))),
+            None => {
+                let mut report = compiled.render(false);
+                if compiled.diags.iter().any(|each| each.code == Code::E0238) {
+                    report.push_str(TOOLBOX);
+                }
+                Err(OpenError::Plan(report))
+            }
             Some(graph) => {
                 LoadedPlan::new(graph, &self.registry).map(Scheduler::new).map_err(OpenError::Load)
             }
         }
+    }
+}
+
+/// How a toolbox that a plan uses comes into a library.
+const TOOLBOX: &str = "
+to add a toolbox with its Rust:
+  library.toolbox(\"NAME.afp\", NAME::templates::SOURCE);
+  library.register(NAME::templates::register);
+";
+
+/// `FILE:Plan` taken apart; a file whose own name holds the colon wins.
+fn split(path: &Path) -> (&Path, Option<&str>) {
+    match path.to_str().and_then(|name| name.rsplit_once(':')) {
+        Some((file, plan)) if file.ends_with(".afp") && !path.exists() => {
+            (file.as_ref(), Some(plan))
+        }
+        _ => (path, None),
     }
 }
 
@@ -129,7 +163,18 @@ impl fmt::Display for OpenError {
         match self {
             OpenError::Read { path, why } => write!(f, "cannot read '{}': {why}", path.display()),
             OpenError::Plan(report) => write!(f, "the plan has errors\n{report}"),
-            OpenError::Load(why) => why.fmt(f),
+            OpenError::Load(why) => {
+                why.fmt(f)?;
+                let (LoadError::NoComponent { toolbox, .. } | LoadError::NoObject { toolbox, .. }) =
+                    why
+                else {
+                    return Ok(());
+                };
+                // The crates of the built-in ones are called otherwise.
+                let ours = afp_toolboxes::ALL.iter().find(|known| known.name == toolbox);
+                let krate = ours.map_or(toolbox.as_str(), |known| known.rust_path);
+                write!(f, ": 'library.register({krate}::templates::register)' adds its Rust")
+            }
         }
     }
 }
@@ -140,5 +185,46 @@ impl std::error::Error for OpenError {
             OpenError::Read { why, .. } => Some(why),
             OpenError::Plan(_) | OpenError::Load(_) => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use afp_core::Instant;
+
+    use super::*;
+
+    struct Bare;
+
+    impl Environment for Bare {
+        fn stop(&mut self, _: Instant) {}
+
+        fn emergency_stop(&mut self) {}
+    }
+
+    #[test]
+    fn a_plan_is_named_behind_a_colon() {
+        assert_eq!(split("errand.afp:Search".as_ref()), ("errand.afp".as_ref(), Some("Search")));
+        assert_eq!(split("errand.afp".as_ref()), ("errand.afp".as_ref(), None));
+        assert_eq!(split("C:/errand".as_ref()), ("C:/errand".as_ref(), None));
+    }
+
+    #[test]
+    fn what_a_library_lacks_is_told_with_the_calls_that_add_it() {
+        let said = |text| {
+            let loaded = Library::<Bare>::new().load_text("p.afp", text);
+            loaded.err().map(|why| why.to_string()).unwrap_or_default()
+        };
+        let toolbox =
+            said("use lift\nplan P {\n    start a\n    actor a: Go { Gone -> terminate }\n}\n");
+        assert!(toolbox.contains("there is no toolbox 'lift'"), "{toolbox}");
+        assert!(
+            toolbox.contains("library.toolbox(\"NAME.afp\", NAME::templates::SOURCE)"),
+            "{toolbox}"
+        );
+        let rust =
+            said("use std\nplan P {\n    start a\n    actor a: Wait { Elapsed -> terminate }\n}\n");
+        let call = "'library.register(afp_std::templates::register)' adds its Rust";
+        assert!(rust.contains(call), "{rust}");
     }
 }

@@ -8,6 +8,7 @@ use afp_codegen::Origin;
 use afp_new::{Kind, NameError};
 use afp_project::ProjectFile;
 use afp_run::{EXIT_OK, RunError, write_whole};
+use afp_session::shell_word;
 use clap::Args;
 
 use super::print;
@@ -95,7 +96,8 @@ fn next(folder: &Path, files: &[afp_new::File], pinned: Option<&str>, kind: Kind
     let plan = files.iter().find(|file| is_plan(&file.path)).map_or("", |file| &file.path);
     let paths = files.iter().map(|file| &*file.path).chain(pinned);
     let mut text: String = paths.map(|path| format!("{}\n", folder.join(path).display())).collect();
-    text += &format!("\nNext:\n  cd {}\n  afpc run {plan}\n  afpc test\n", folder.display());
+    let folder = shell_word(&folder.display().to_string());
+    text += &format!("\nNext:\n  cd {folder}\n  afpc run {plan}\n  afpc test\n");
     if kind != Kind::Plan {
         text += "  cargo test\n";
     }

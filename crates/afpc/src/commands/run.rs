@@ -10,7 +10,7 @@ use clap::Args;
 
 use crate::picture;
 use crate::plan_file::{NoPlan, PlanFile};
-use crate::{Linked, runner};
+use crate::{Linked, early, runner};
 
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
@@ -47,6 +47,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
         (None, Some(log)) => of_log(log)?,
         (None, None) => return Err(RunError::usage("no plan is named", "name its file").into()),
     };
+    early::check(&file, &arguments.options, linked)?;
     let itself = arguments.options.robot == OnRobot::Hardware;
     match &file.compiled.graph {
         Some(graph) if itself => runner::become_one_with_hardware((&file.own, graph), linked)?,

@@ -100,19 +100,31 @@ fn list(toolbox: &Toolbox) -> String {
 /// A template as its file declares it, help behind each line.
 fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String {
     let mut text = format!("{} {} of '{}'\n", kind(template), template.name, toolbox.name);
-    let _ = writeln!(text, "  {}\n", line_of(&template.doc));
-    let written = |(span, help): (Span, &String)| (declared(span, sources), line_of(help));
+    match line_of(&template.doc).as_str() {
+        "" => text.push('\n'),
+        doc => {
+            let _ = writeln!(text, "  {doc}\n");
+        }
+    }
+    let written = |word: &str, span| format!("{word}{}", declared(span, sources));
     let inputs = template.inputs.iter().map(|port| match &template.reads_table {
         // What no type of a port can say.
         Some(reads) if reads.port.name == port.name => {
             (format!("in {}: (a table)", port.name), line_of(&port.doc))
         }
-        _ => written((port.span, &port.doc)),
+        _ if port.live => (written("in live ", port.span), line_of(&port.doc)),
+        _ => (written("in ", port.span), line_of(&port.doc)),
     });
-    let outputs = template.outputs.iter().map(|port| (port.span, &port.doc));
-    let outcomes = template.outcomes.iter().map(|outcome| (outcome.span, &outcome.doc));
-    let states = template.states_of.iter().map(|states| (states.span, &states.doc));
-    let lines: Vec<_> = inputs.chain(outputs.chain(outcomes).chain(states).map(written)).collect();
+    let outputs =
+        template.outputs.iter().map(|port| (written("out ", port.span), line_of(&port.doc)));
+    let word = if template.kind == TemplateKind::Supervisor { "event" } else { "state" };
+    let outcomes = template.outcomes.iter().map(|outcome| {
+        let once = if outcome.once { " once" } else { "" };
+        (format!("{word} {}{once}", outcome.name), line_of(&outcome.doc))
+    });
+    let states = template.states_of.iter();
+    let states = states.map(|states| (written("", states.span), line_of(&states.doc)));
+    let lines: Vec<_> = inputs.chain(outputs).chain(outcomes).chain(states).collect();
     let width = lines.iter().map(|(line, _)| line.chars().count()).max().unwrap_or(0);
     for (line, help) in lines {
         let _ = writeln!(text, "  {}", format!("{line:width$}  {help}").trim_end());
@@ -148,15 +160,52 @@ fn kind(template: &Template) -> &'static str {
     }
 }
 
-/// The line of a declaration, single blanks only.
-fn declared(span: Span, sources: &Sources) -> String {
-    let text = sources.get(span.file).map_or("", |source| &source.text);
-    let before = text.get(..span.start as usize).unwrap_or_default();
-    let start = before.rfind('\n').map_or(0, |at| at + 1);
-    line_of(text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or_default())
+/// What a declaration says on its line from a name on, up to the next one, single blanks only.
+fn declared(name: Span, sources: &Sources) -> String {
+    let text = sources.get(name.file).map_or("", |source| &source.text);
+    let rest = text.get(name.start as usize..).and_then(|rest| rest.lines().next());
+    let mut words = rest.unwrap_or_default().split_whitespace();
+    let first = words.next();
+    let more = words.take_while(|word| !PARTS.contains(word) && !word.starts_with('}'));
+    let all = first.into_iter().chain(more).collect::<Vec<_>>().join(" ");
+    all.trim_end_matches('}').to_owned()
 }
+
+/// What the parts of a template begin with: several may stand on one line.
+const PARTS: [&str; 11] = [
+    "budget", "deadline", "event", "every", "icon", "in", "out", "state", "states", "stop", "uses",
+];
 
 /// A text on one line, single blanks only.
 fn line_of(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afp_syntax::source::Source;
+
+    #[test]
+    fn a_template_on_one_line_is_described_part_by_part() {
+        let mut toolboxes = Toolboxes::default();
+        let line = "actor Dig { uses arm in deep: length = 1 m from 0 m to 2 m in live n: int out went: length state Done state Stuck }";
+        toolboxes
+            .add(Source::new("own.afp", format!("toolbox own version \"1\"\n{line}\n")), "own");
+        assert!(!toolboxes.diagnostics().has_errors(), "{:?}", toolboxes.diagnostics());
+        let said = text(&toolboxes, Some("Dig")).unwrap();
+        let lines: Vec<_> = said.lines().collect();
+        let all = [
+            "actor Dig of 'own'",
+            "",
+            "  in deep: length = 1 m from 0 m to 2 m",
+            "  in live n: int",
+            "  out went: length",
+            "  state Done",
+            "  state Stuck",
+            "",
+            "  uses arm, every 10 ms",
+        ];
+        assert_eq!(lines, all);
+    }
 }

@@ -145,12 +145,12 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     }
     let find::Wanted { files, filters } = find::wanted(&arguments.what)?;
     let (read, code) = read(&files)?;
-    link(&read, linked)?;
     if arguments.mutate {
         if let Some(word) = filters.first() {
             let message = format!("'--mutate' takes files, and there is no file '{word}'");
             return Err(RunError::usage(message, "name the files of the scenarios").into());
         }
+        link(&read, linked)?;
         let Arguments { seed, at_least, json, .. } = *arguments;
         return mutate::run(&read, code, &mutate::Wanted { seed, at_least, json }, linked);
     }
@@ -159,6 +159,8 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if cases.is_empty() && code == EXIT_OK {
         return Err(find::nothing(&filters, &files).into());
     }
+    // Building takes minutes: what needs none of it is said before.
+    link(&read, linked)?;
     run_all(&cases, code, arguments, linked)
 }
 

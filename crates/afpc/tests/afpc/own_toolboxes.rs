@@ -52,6 +52,33 @@ fn project() -> Place {
 }
 
 #[test]
+fn what_is_not_there_is_told_before_anything_is_built() {
+    let place = project();
+    place.write("plans/tests/dance.afp", SCENARIO);
+    for (arguments, why) in [
+        ("run plans/dance.afp --press nothing@1s", "no control 'nothing'"),
+        ("run plans/dance.afp --press escpe@1s", "such as 'escape@1s'"),
+        ("run plans/dance.afp --fail wheels.slip=2@1s", "'2' is no share from 0 to 1"),
+        ("run plans/dance.afp --fail nothing.lost@1s", "nothing called 'nothing' can fail"),
+        ("run plans/dance.afp --set nothing=3", "the plan has no entry 'nothing'"),
+        ("run plans/dance.afp --set robot.port=3", "add '--robot hardware'"),
+        ("test nothing", "no scenario has 'nothing' in its name"),
+    ] {
+        let mut command = place.command();
+        // Whoever builds needs it.
+        command.args(arguments.split(' ')).env("CARGO", "/no/such/cargo");
+        said(command.output().unwrap()).fails(2, &[why]);
+    }
+    let mut command = place.command();
+    command.args(["run", "plans/dance.afp", "--world", "no.toml"]).env("CARGO", "/no/such/cargo");
+    said(command.output().unwrap()).fails(1, &["cannot read the world 'no.toml'"]);
+    let mut command = place.command();
+    command.args(["run", "plans/dance.afp"]).env("CARGO", "/no/such/cargo");
+    let all = said(command.output().unwrap());
+    assert!(all.err.contains("cargo"), "{}", all.err);
+}
+
+#[test]
 fn a_plan_is_checked_against_the_toolbox_of_the_project() {
     let place = project();
     place.afpc("check plans/dance.afp").succeeds();

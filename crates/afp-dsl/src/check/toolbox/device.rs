@@ -23,8 +23,18 @@ impl Devices {
     /// Reads a device; one without a name is left out.
     pub fn read(&mut self, node: &ast::Device, site: &Site<'_>, diags: &mut Diagnostics) {
         let Some(name) = name(node, site, diags) else { return };
-        let is_new = self.names.declare(&name, diags);
         let kind = node.kind();
+        let is_robot = |known: &&Device| known.kind == DeviceKind::Robot;
+        let is_new = match self.all.iter().find(is_robot).filter(|_| kind == DeviceKind::Robot) {
+            Some(first) => {
+                let message = "'robot' is declared twice";
+                let twice = Diagnostic::new(Code::E0212, name.span, message);
+                let twice = twice.note(first.span, "first declared here");
+                diags.push(twice.help("a toolbox has one: write its parts into the first"));
+                false
+            }
+            None => self.names.declare(&name, diags),
+        };
         let mut device = Device {
             kind,
             name: name.text,

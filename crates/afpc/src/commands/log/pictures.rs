@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use afp_log::{LogData, read};
 use afp_project::ProjectFile;
-use afp_run::{RunError, check_apart};
+use afp_run::{RunError, check_apart, is_of_hardware};
 use afp_test::Coverage;
 
 use super::Arguments;
@@ -24,7 +24,7 @@ pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoP
     let all = [svg, sonar, film, coverage].into_iter().flatten().map(PathBuf::as_path);
     check_apart(all, [&*arguments.file])?;
     let log = read(&arguments.file).map_err(RunError::from)?;
-    if svg.is_some() || sonar.is_some() {
+    if (svg.is_some() || sonar.is_some()) && !is_of_hardware(&log) {
         // Only the robot of the project that the run was of can read its world.
         let plan = path_of_log(&log, &arguments.file);
         runner::become_one_of(&ProjectFile::of_plan(&plan)?, linked)?;

@@ -170,7 +170,7 @@ fn verdict_object(verdict: &Verdict) -> serde_json::Value {
     );
     json!({
         "simulated_s": verdict.length().as_secs_f64(), "ending": ending,
-        "broken": broken.collect::<Vec<_>>(), "trace": format!("{:016x}", verdict.trace),
+        "broken": broken.collect::<Vec<_>>(), "panic": verdict.panic, "trace": format!("{:016x}", verdict.trace),
     })
 }
 

@@ -146,6 +146,24 @@ fn a_world_without_an_end_is_not_read_for_ever() {
 }
 
 #[test]
+fn helps_lead_to_what_can_be_said() {
+    let place = Place::with_plan();
+    place.write(
+        "look.afp",
+        "use carbot\nplan Look {\n    var map: DistanceMap\n    start look\n    \
+         actor look: LookAround(map => map) { LookedAround -> terminate }\n}\n",
+    );
+    let object = "the entry 'map' holds an object: templates make it";
+    let none = "this plan has no 'in' entries";
+    place.afpc("run look.afp --set map=3").fails(2, &[object, none]);
+    let itself = "'robot.port' is a setting of the robot itself";
+    place
+        .afpc("run wall_following.afp --set robot.port=3")
+        .fails(2, &[itself, "add '--robot hardware'"]);
+    place.afpc("run wall_following.afp --press escpe@1s").fails(2, &["such as 'escape@1s'"]);
+}
+
+#[test]
 fn a_wrong_world_is_shown_at_its_line() {
     let place = Place::with_plan();
     let run = "run wall_following.afp --world w.toml --log a.mcap --svg a.svg";

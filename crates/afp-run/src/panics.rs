@@ -1,0 +1,73 @@
+//! Runs that panic, one among many: what was said is kept for the outcome of the run instead of printed.
+
+use std::cell::RefCell;
+use std::panic::{self, AssertUnwindSafe, PanicHookInfo, catch_unwind};
+use std::sync::Once;
+
+thread_local! {
+    /// What the last panic of this thread said; `None` while panics of this thread are printed.
+    static SAID: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// What became of work that may panic.
+#[derive(Clone, Debug)]
+pub struct Caught<T> {
+    /// What it gave; none where a panic ended it.
+    pub done: Option<T>,
+    /// What the last panic said, and where it was; empty without one. A component that panics ends its run and no more, so
+    /// there may be both.
+    pub said: String,
+}
+
+/// Does something on this thread that may panic. Panics of other threads are printed as before.
+pub fn caught<T>(work: impl FnOnce() -> T) -> Caught<T> {
+    hook();
+    let before = SAID.replace(Some(String::new()));
+    let done = catch_unwind(AssertUnwindSafe(work)).ok();
+    let said = SAID.replace(before).unwrap_or_default();
+    Caught { done, said }
+}
+
+/// Panics of threads that keep them are kept. Those of others go where they went before.
+fn hook() {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let before = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            let kept = SAID.try_with(|said| match &mut *said.borrow_mut() {
+                Some(text) => {
+                    *text = message(info);
+                    true
+                }
+                None => false,
+            });
+            if kept != Ok(true) {
+                before(info);
+            }
+        }));
+    });
+}
+
+fn message(info: &PanicHookInfo<'_>) -> String {
+    let text = info.payload_as_str().unwrap_or("it did not say why");
+    match info.location() {
+        Some(place) => format!("{text} ({}:{})", place.file(), place.line()),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_kept_with_its_place_and_the_work_within_keeps_its_own() {
+        let outer = caught(|| {
+            let inner = caught(|| -> u8 { panic!("no {}", "seven") });
+            assert!(inner.done.is_none());
+            assert!(inner.said.starts_with("no seven (") && inner.said.contains("panics.rs:"));
+            7
+        });
+        assert_eq!((outer.done, &*outer.said), (Some(7), ""));
+    }
+}

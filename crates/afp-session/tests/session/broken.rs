@@ -1,0 +1,88 @@
+//! Robots whose own Rust is wrong end the run, with what is wrong.
+
+use std::sync::atomic::Ordering;
+
+use afp_core::trace::{Ending, Record};
+use afp_core::{Duration, Fault, Platform};
+use afp_session::{NamedRecord, Observer, Open, Sampling, Session};
+
+use super::support::{Toy, plan};
+use super::{Loaded, Notes, PLAN, at};
+
+fn stuck_from(millis: u64) -> Loaded {
+    let mut toy = Toy::new();
+    toy.stuck_from = Some(at(millis));
+    Session::loaded(plan(PLAN), toy)
+}
+
+fn wordy_from(millis: u64) -> Loaded {
+    let mut toy = Toy::new();
+    toy.wordy_from = Some(at(millis));
+    Session::loaded(plan(PLAN), toy)
+}
+
+fn fault(session: &Loaded) -> Fault {
+    match session.ending() {
+        Some(Ending::Error(fault)) => fault,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_robot_whose_time_stands_still_ends_the_run() {
+    let mut session = stuck_from(200);
+    let stops = session.robot().stops.clone();
+    session.set_rest(Duration::from_secs(1));
+    session.run(at(3000), &mut Open, &mut []).unwrap();
+    let fault = fault(&session);
+    assert_eq!(fault.code(), "robot-stuck");
+    assert!(fault.text().contains("the robot's time does not go on"), "{}", fault.text());
+    assert_eq!(session.robot().now(), at(200));
+    assert!(stops.load(Ordering::Relaxed) > 0);
+}
+
+#[test]
+fn a_robot_whose_time_stands_still_once_its_plan_has_ended_ends_the_run_too() {
+    let mut session = stuck_from(200);
+    session.set_rest(Duration::from_secs(1));
+    session.run(at(100), &mut Open, &mut []).unwrap();
+    session.stop(&mut []);
+    session.run(at(3000), &mut Open, &mut []).unwrap();
+    assert_eq!(session.ending(), Some(Ending::Interrupted));
+}
+
+/// Hears of faults.
+#[derive(Default)]
+struct Faults(u32);
+
+impl Observer for Faults {
+    fn on_record(&mut self, named: &NamedRecord<'_>) {
+        self.0 += u32::from(matches!(named.record, Record::Faulted { .. }));
+    }
+}
+
+#[test]
+fn a_sample_of_another_type_than_is_declared_ends_the_run() {
+    for sampling in
+        [Sampling::Every(Duration::from_millis(20)), Sampling::Following(Duration::from_millis(5))]
+    {
+        let mut session = wordy_from(200);
+        let mut notes = Notes { sampling: Some(sampling), ..Notes::default() };
+        let mut faults = Faults::default();
+        session.run(at(3000), &mut Open, &mut [&mut notes, &mut faults]).unwrap();
+        let fault = fault(&session);
+        assert_eq!(fault.code(), "signal-type");
+        let said =
+            "the robot gives its signal 'bumper.touched' as string, but it is declared as bool";
+        assert_eq!((fault.text(), faults.0), (said, 1));
+        assert_eq!(session.robot().now(), at(200));
+    }
+}
+
+#[test]
+fn a_signal_of_another_type_than_is_declared_has_no_value() {
+    let session = wordy_from(0);
+    let mut heard = 0;
+    session.read(afp_core::devices::SignalId(1), &mut |_| heard += 1);
+    assert_eq!(heard, 0);
+}
