@@ -45,7 +45,7 @@ def test_it_is_drawn_as_the_command_line_does(kind: str, log: afp.Log, tmp_path:
 def test_a_run_is_drawn_as_far_as_it_has_come(log: afp.Log, wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     before = simulation.picture()
-    assert ">0.00 m<" in before.svg
+    assert ">0.0 s<" in before.svg
     simulation.run(until=6.0)
     # A log places what happened between two looks at the robot where it was before.
     drawn = [[line for line in picture.svg.splitlines() if 'class="mark"' not in line] for picture in (simulation.picture(), log.picture())]

@@ -39,7 +39,7 @@ fn a_text_that_does_not_fit_is_told_what_does() {
         ("count", "3.5", "write a whole number"),
         ("share", "1 m", "write a number, such as '0.5'"),
         ("on", "1", "write 'true' or 'false'"),
-        ("side", "Side.up", "write one of the values of its enum"),
+        ("side", "Side.up", "write one of the values that its enum declares"),
         ("took", "2 s", "only 'in' and 'var' entries can be written from outside"),
         ("took", "nonsense", "only 'in' and 'var' entries can be written from outside"),
         ("toward", "left", "only 'in' and 'var' entries can be written from outside"),

@@ -66,11 +66,6 @@ pub struct SoFar<'a> {
 
 /// Draws the path of a run over its world, as far as it has come.
 pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
-    draw_so_far(run, Vec::new(), names)
-}
-
-/// The same, with more names and values below the legend.
-fn draw_so_far(run: &SoFar<'_>, more: Vec<(String, String)>, names: &dyn Names) -> String {
     let SoFar { plan, world, seed, time, path, marks, things } = *run;
     let way = path.windows(2).map(|pair| {
         let (from, to) = (pair[0].pose, pair[1].pose);
@@ -83,7 +78,6 @@ fn draw_so_far(run: &SoFar<'_>, more: Vec<(String, String)>, names: &dyn Names) 
     if !path.is_empty() {
         figures.push(("distance".to_owned(), format!("{distance:.2} m")));
     }
-    figures.extend(more);
     let subtitle = subtitle(world, seed);
     let world = &world.drawing().ended(things);
     draw(&Picture { world, title: plan.to_owned(), subtitle, figures, path, marks }, names)

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use afp_session::{AnyRobot, AnyWorld, Counts, Mark, NoWorld, Pose2, RunEvent, Track, Waypoint};
 
-use super::{SoFar, draw_so_far};
+use super::{SoFar, draw_run};
 use crate::error::RunError;
 use crate::run::HARDWARE;
 use crate::world::named;
@@ -30,14 +30,7 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
         marks: &marks,
         things: &log.things,
     };
-    let mut counts = Counts::new(names);
-    for event in &log.events {
-        if let Some(record) = event.record() {
-            counts.record(event.at, &record);
-        }
-    }
-    let interruptions = ("interruptions".to_owned(), counts.interruptions.to_string());
-    Ok(draw_so_far(&run, vec![interruptions], names))
+    Ok(draw_run(&run, names))
 }
 
 /// Whether a logged run was one of the robot itself, which is in no world that a program knows.
