@@ -5,7 +5,7 @@ use afp_carbot::devices::Body;
 use afp_core::{Duration, Instant};
 use afp_session::Pose2;
 
-/// At most so many places are remembered; the oldest make room.
+/// At most so many places are remembered; those make room that were found the longest ago.
 const MOST: usize = 1024;
 /// Echoes from farther away than this are too vague, metres.
 const NEAR: f64 = 1.5;
@@ -123,7 +123,8 @@ impl Finds {
             return;
         }
         if self.found.len() == MOST {
-            self.found.remove(0);
+            let oldest = (0..MOST).min_by_key(|at| self.found[*at].last);
+            oldest.map(|oldest| self.found.remove(oldest));
         }
         self.found.push(new);
     }
@@ -189,6 +190,20 @@ mod tests {
         let found = places(&finds, ping(1));
         assert!(found.iter().any(|[x, y]| (x - 2.0).abs() < 0.02 && (y - 2.0).abs() < 0.02));
         assert!(found.iter().all(|[x, y]| (x - 2.0).abs() < 0.05 && (y - 2.0).abs() < 0.2));
+    }
+
+    #[test]
+    fn where_there_are_too_many_those_heard_again_stay() {
+        let mut finds = Finds::new(&carbot());
+        let mut note = |x: usize, n: u64| {
+            let place = [x as f64, 0.0];
+            finds.note(Found { place, count: 1, felt: false, last: ping(n) });
+        };
+        (0..MOST).for_each(|x| note(x, 0));
+        note(0, 1);
+        note(MOST, 2);
+        let all: Vec<_> = finds.found.iter().map(|found| found.place[0]).collect();
+        assert_eq!((all.len(), all[0], all[1]), (MOST, 0.0, 2.0));
     }
 
     #[test]
