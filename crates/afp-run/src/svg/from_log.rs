@@ -5,7 +5,7 @@ use afp_core::trace::Names;
 use afp_log::{LogData, WORLD};
 use std::sync::Arc;
 
-use afp_session::{AnyRobot, AnyWorld, Counts, Mark, NoWorld, Pose2, RunEvent, Track, Waypoint};
+use afp_session::{AnyRobot, AnyWorld, Mark, NoWorld, Pose2, RunEvent, Track, Waypoint};
 
 use super::{SoFar, draw_run};
 use crate::error::RunError;
