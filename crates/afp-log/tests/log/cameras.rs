@@ -4,11 +4,10 @@ use std::fs;
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType};
-use afp_core::trace::Record;
-use afp_log::{About, OwnedNames, SessionLog, WhenFull, read};
-use afp_session::{Image, NamedRecord, Observer, SampleRef};
+use afp_log::{SessionLog, read};
+use afp_session::{Image, Observer, SampleRef};
 
-use super::{Names1, at};
+use super::{at, begun};
 
 const SEES: [SignalRow; 1] =
     [SignalRow { name: "picture", ty: SignalType::Image, truth: false, help: "" }];
@@ -34,12 +33,7 @@ fn sample(log: &mut SessionLog, at: Instant) {
 fn each_of_two_cameras_is_logged_twice_a_second() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
-    let names = OwnedNames::new(&Names1);
-    let about = About::default();
-    let mut log =
-        SessionLog::create(&path, &about, names, &DEVICES, vec![], true, WhenFull::Wait).unwrap();
-    let record = &Record::StopRequested;
-    log.on_record(&NamedRecord { at: at(0), record, names: &Names1, line: "0 stop" });
+    let mut log = begun(&path, &DEVICES);
     for turn in 0..50 {
         sample(&mut log, at(turn * 20));
     }

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
+use afp_core::devices::DeviceRow;
 use afp_core::trace::{
     Author, Cause, ComponentId, ComponentKind, ComponentName, Ending, EntryKind, EntryName, Names,
     Reaction, Record, Sink, TraceEntryId, Verdict,
@@ -18,12 +19,22 @@ use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
 use afp_log::statistics::statistics;
 use afp_log::{
-    About, LogData, LogError, OwnedNames, Recorder, Signal, WhenFull, doctor, read, recover,
-    recovered_name,
+    About, LogData, LogError, OwnedNames, Recorder, SessionLog, Signal, WhenFull, doctor, read,
+    recover, recovered_name,
 };
 use afp_session::{
-    Build, Datum, Done, EventKind, Put, Recipe, Requested, RunEvent, Stimulus, TextFile,
+    Build, Datum, Done, EventKind, NamedRecord, Observer, Put, Recipe, Requested, RunEvent,
+    Stimulus, TextFile,
 };
+
+/// A log whose run has begun, of a robot with those devices.
+fn begun(path: &Path, devices: &'static [DeviceRow]) -> SessionLog {
+    let (about, names) = (About::default(), OwnedNames::new(&Names1));
+    let log = SessionLog::create(path, &about, names, devices, vec![], true, WhenFull::Wait);
+    let (mut log, record) = (log.unwrap(), &Record::StopRequested);
+    log.on_record(&NamedRecord { at: at(0), record, names: &Names1, line: "0 stop" });
+    log
+}
 
 /// A plan of one actor with one supervisor and two entries.
 struct Names1;

@@ -2,11 +2,10 @@
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType};
-use afp_core::trace::Record;
-use afp_log::{About, OwnedNames, SessionLog, WhenFull, read};
-use afp_session::{Datum, NamedRecord, Observer, SampleRef};
+use afp_log::{SessionLog, read};
+use afp_session::{Datum, Observer, SampleRef};
 
-use super::{Names1, at};
+use super::{at, begun};
 
 const SAYS: [SignalRow; 1] =
     [SignalRow { name: "tone", ty: SignalType::Float("Hz"), truth: false, help: "" }];
@@ -25,12 +24,7 @@ fn sample(log: &mut SessionLog, at: Instant, tone: Option<f64>) {
 fn when_a_signal_falls_silent_is_logged() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
-    let names = OwnedNames::new(&Names1);
-    let about = About::default();
-    let mut log =
-        SessionLog::create(&path, &about, names, &DEVICES, vec![], true, WhenFull::Wait).unwrap();
-    let record = &Record::StopRequested;
-    log.on_record(&NamedRecord { at: at(0), record, names: &Names1, line: "0 stop" });
+    let mut log = begun(&path, &DEVICES);
     let tones = [None, Some(880.0), Some(880.0), None, None, Some(880.0)];
     tones.iter().zip(0..).for_each(|(tone, turn)| sample(&mut log, at(turn * 20), *tone));
     drop(log);
