@@ -1,0 +1,98 @@
+//! The recipe of a run is in its log.
+
+use afp_core::Duration;
+use afp_log::robot::Pose2;
+use afp_log::{About, LogData, OwnedNames, Recorder, Signal, WhenFull, doctor, read};
+use afp_session::{Build, Datum, Done, Put, Recipe, Requested, RunEvent, Stimulus, TextFile};
+
+use super::{Names1, at};
+
+fn requests_of_each_kind() -> Vec<Stimulus> {
+    let (control, fault) = ("touch.touch".to_owned(), "wheels.slip".to_owned());
+    let outputs = vec![(1, Datum::Choice("#2".to_owned())), (2, Datum::Number(0.1))];
+    let (component, outcome) = ("go.touch".to_owned(), "TouchSensorPressed".to_owned());
+    let (entry, value) = ("side".to_owned(), Datum::Choice("Side.right".to_owned()));
+    vec![
+        Stimulus::Write { entry, value, unit: String::new() },
+        Stimulus::Press { control: control.clone(), held: true },
+        Stimulus::Press { control, held: false },
+        Stimulus::Break {
+            fault: fault.clone(),
+            amount: Some(0.2),
+            unit: "s".to_owned(),
+            lasting: Duration::MAX,
+        },
+        Stimulus::Break {
+            fault,
+            amount: None,
+            unit: String::new(),
+            lasting: Duration::from_millis(1),
+        },
+        Stimulus::Inject {
+            component: component.clone(),
+            outcome: outcome.clone(),
+            ends: false,
+            outputs: outputs.clone(),
+        },
+        Stimulus::Inject { component, outcome, ends: true, outputs },
+        Stimulus::Idle { element: None },
+        Stimulus::Idle { element: Some("go".to_owned()) },
+        Stimulus::Put { what: Put::Robot, at: Pose2 { x: 0.5, y: -1.0, heading: 0.1 } },
+        Stimulus::Put { what: Put::Thing("box 1".to_owned()), at: Pose2::default() },
+        Stimulus::Put { what: Put::New("crate".to_owned()), at: Pose2::default() },
+        Stimulus::Stop,
+    ]
+}
+
+#[test]
+fn a_recipe_comes_back_as_it_was_written() {
+    let text = |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
+    let requests = requests_of_each_kind();
+    let recipe = Recipe {
+        plan: "Walk".to_owned(),
+        file: "plans/walk.afp".to_owned(),
+        texts: ["plans/walk.afp", "zeta.afp", "toolbox/a.afp"]
+            .map(|it| text(it, "plan A {}"))
+            .into(),
+        toolboxes: vec![text("gripper", "actor Grip {}")],
+        robot: "sim".to_owned(),
+        world: text("room", "name = \"room\""),
+        start: Some(Pose2 { x: 0.1, y: -1.0 / 3.0, heading: 2.5 }),
+        seed: u64::MAX,
+        measures: vec!["wall".to_owned()],
+        settings: (0..12).map(|n| (format!("side{n}"), "right\nhand=1".to_owned())).collect(),
+        until: Some(at(60_000)),
+        requests: requests.iter().map(|what| (at(1), what.clone())).collect(),
+        build: Build { version: "0.1.0".to_owned(), commit: Some("abc".to_owned()) },
+    };
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let names = OwnedNames::new(&Names1);
+    let mut log = Recorder::create(&path, &About::new(&recipe), names, WhenFull::Wait).unwrap();
+    let become_ = [Done::Done, Done::Refused("it is gone".to_owned()), Done::NotReached];
+    for (what, done) in requests.iter().zip(become_.iter().cycle()) {
+        let request = Requested { at: at(1), what: what.clone(), done: done.clone() };
+        log.event(RunEvent::requested(at(2), request));
+    }
+    let signal = Signal { device: "battery", name: "left", unit: "" };
+    log.sample(at(3), signal, Datum::Number(0.5));
+    log.end(at(4), vec![("trace".to_owned(), "12ab".to_owned())]);
+    log.finish().unwrap();
+    let log = read(&path).unwrap();
+    assert!(log.has_world());
+    assert_eq!(log.recipe(), recipe);
+    assert_eq!(log.not_reached().count(), 4);
+    assert_eq!(log.events[1].request.as_ref().unwrap().done, become_[1]);
+    assert_eq!(log.samples["battery/left"], [(at(3), Datum::Number(0.5))]);
+    assert_eq!(log.topics["/robot/battery/left"].schema, "afp.Sample");
+    assert_eq!(log.end["trace"], "12ab");
+    assert_eq!(doctor(&path).unwrap(), [""; 0]);
+}
+
+#[test]
+fn the_settings_of_an_older_log_are_read() {
+    let facts = [("set".to_owned(), "side=right\nfar=0.3 m".to_owned())].into();
+    let settings = LogData { facts, ..LogData::default() }.recipe().settings;
+    let expected = [("side", "right"), ("far", "0.3 m")];
+    assert_eq!(settings, expected.map(|(name, value)| (name.to_owned(), value.to_owned())));
+}
