@@ -57,11 +57,11 @@ impl Type {
         }
     }
 
-    /// A range that every literal of the type is in, and that sums and products leave.
+    /// A range that all constants of tables and literals are in, of either kind of number, and that sums and products leave.
     pub fn range(self) -> Option<&'static str> {
         match self {
-            Type::Int => Some(" from -5 to 150"),
-            Type::Float => Some(" from -2.5 to 3e2"),
+            Type::Int => Some(" from -5 to 300"),
+            Type::Float => Some(" from -3.5 to 3e2"),
             Type::Length => Some(" from -1 m to 3 m"),
             _ => None,
         }
