@@ -29,6 +29,11 @@ ROLLING = 0.02
 # Motors and steering: seconds, metres and radians a second, and a second squared.
 LAG = 0.06
 ACCELERATION = 2.0
+MOTOR_FORCE = 6.5
+# The gear holds a wheel that is to stand and is slower than this.
+HELD = 0.005
+# Of a wheel's rim, as the motor feels it: as little as the engine can compute with.
+RIM = 0.02
 TOP_SPEED = 0.31
 STEER_RATE = 7.0
 STEER_REACH = 1.75
@@ -45,16 +50,22 @@ Patch = namedtuple("Patch", "anchor body")
 
 
 class Wheel:
-    """A wheel that steers and drives; the floor under it moves as its rim does."""
+    """A wheel that steers and drives; the floor under it moves as its rim does, and that as the motor does unless it is
+    too weak."""
 
     def __init__(self, space, chassis, patch):
         self.at = patch.anchor
         self.angle = self.aim = self.speed = 0.0
         self.wanted = (0.0, 0.0)
         self.chassis = chassis
-        self.floor = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
-        self.grip = hold(patch.body, self.floor, FRICTION * LOAD)
-        space.add(self.floor, self.grip)
+        self.motor = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+        self.rim = pymunk.Body(RIM, math.inf)
+        # The rim goes to no side, and ahead it is held as far as the motor can.
+        axle = pymunk.GrooveJoint(self.motor, self.rim, (-1, 0), (1, 0), (0, 0))
+        axle.max_bias = 0
+        self.drive = hold(self.rim, self.motor, MOTOR_FORCE)
+        self.grip = hold(patch.body, self.rim, FRICTION * LOAD)
+        space.add(self.motor, self.rim, axle, self.drive, self.grip)
 
     def command(self, speed, turn):
         self.wanted = (speed - turn * self.at[1], turn * self.at[0])
@@ -70,7 +81,20 @@ class Wheel:
         target = self.wanted[0] * math.cos(self.angle) + self.wanted[1] * math.sin(self.angle)
         follow = (target - self.speed) * (1 - math.exp(-STEP / LAG))
         self.speed += clamp(follow, ACCELERATION * STEP)
-        self.floor.velocity = pymunk.Vec2d.from_polar(self.speed, self.chassis.angle + self.angle)
+        held = self.wanted == (0.0, 0.0) and abs(self.speed) < HELD
+        self.drive.max_force = math.inf if held else MOTOR_FORCE
+        self.motor.position = self.rim.position
+        self.motor.angle = self.chassis.angle + self.angle
+        self.motor.velocity = self.ahead() * self.speed
+        self.rim.velocity = self.motor.velocity
+
+    def give_way(self):
+        """The rim turns as the floor lets it where the motor is too weak."""
+        if self.drive.impulse > 0.999 * MOTOR_FORCE * STEP and not math.isinf(self.drive.max_force):
+            self.speed = self.rim.velocity.dot(self.ahead())
+
+    def ahead(self):
+        return pymunk.Vec2d.from_polar(1, self.motor.angle)
 
 
 def hold(patch, floor, force):
@@ -112,7 +136,7 @@ def solid(space, mass, size, at, patches):
 def drive(manoeuvre):
     """Where robot and box are at each millisecond."""
     space = pymunk.Space()
-    space.iterations = 60
+    space.iterations = 600
     space.collision_slop = 1e-4
     robot, patches = solid(space, MASS, SIZE, (0, 0, 0), WHEELS + CASTORS)
     wheels = [Wheel(space, robot, patch) for patch in patches[:2]]
@@ -129,6 +153,8 @@ def drive(manoeuvre):
                     wheel.grip.max_force = FRICTION * LOAD * grip
                 wheel.step()
             space.step(STEP)
+            for wheel in wheels:
+                wheel.give_way()
             poses.append([pose(body) for body in bodies])
     return poses
 

@@ -54,7 +54,7 @@ class Simulation(Driven):
         world = place if isinstance(place, World) else World.load(place)
         if not isinstance(set, (Mapping, type(None))):
             raise TypeError(f"set gives entries their values, such as {{'walldist': afp.cm(35)}}, not {set!r}")
-        world, entries, settings = changed(world, keys("set", set or {}), start)
+        world, entries, settings = changed(world, keys("set", set), start)
         self.plan = plan
         self.world = world
         self.seed = seed
@@ -258,7 +258,7 @@ class Simulation(Driven):
         `fire("find", "WallFound", {"angle": afp.deg(10)})`.
         """
         component, outcome = text("an actor or supervisor", component), text("an outcome", outcome)
-        self._runner.fire(component, outcome, keys("outputs", outputs or {}), moment("at", at))
+        self._runner.fire(component, outcome, keys("outputs", outputs), moment("at", at))
 
     def idle(self, element: str | None = None, *, at: float | None = None) -> None:
         """Lets an actor, those of a sub-plan, or all actors do nothing from their next start on, as in scenarios.

@@ -158,11 +158,11 @@ impl Contact {
         let (px, py) = self.impulse;
         // The same share in every direction: so what slips is braked against the way it slips.
         let wanted = (px - (vx - demand.rim.0) * self.mass, py - (vy - demand.rim.1) * self.mass);
-        // Where the floor holds less than the motor gives, the wheel spins.
-        let motor = demand.motor.filter(|motor| motor.force < demand.most);
-        let (wanted, yields) = motor.map_or((wanted, false), |motor| motor.held(wanted, dt));
-        self.yields = yields;
-        (self.impulse, self.slides) = limited(wanted, demand.most * dt);
+        let most = demand.most * dt;
+        (self.impulse, self.slides) = limited(wanted, most);
+        let motor = demand.motor.and_then(|motor| motor.yielding(wanted, self.impulse, most, dt));
+        self.yields = motor.is_some();
+        self.impulse = motor.unwrap_or(self.impulse);
         let (dx, dy) = (self.impulse.0 - px, self.impulse.1 - py);
         self.act((dx, dy), body, of);
         dx.abs().max(dy.abs())
@@ -178,17 +178,24 @@ impl Contact {
 }
 
 impl Motor {
-    /// An impulse of a step of `dt` seconds with no more along the wheel's way than the motor gives, and whether
-    /// it would have been more.
-    fn held(&self, (x, y): (f64, f64), dt: f64) -> ((f64, f64), bool) {
+    /// The impulse of a step of `dt` seconds where the motor is too weak for the `held` one, the part of what is `wanted`
+    /// that the floor can hold: along the wheel's way what the motor gives, and across it what the floor holds beside that.
+    fn yielding(
+        &self,
+        wanted: (f64, f64),
+        held: (f64, f64),
+        most: f64,
+        dt: f64,
+    ) -> Option<(f64, f64)> {
         let (dx, dy) = self.direction;
-        let along = x * dx + y * dy;
-        let most = self.force * dt;
-        if along.abs() <= most {
-            return ((x, y), false);
+        let (along, force) = (held.0 * dx + held.1 * dy, self.force * dt);
+        if along.abs() <= force {
+            return None;
         }
-        let less = most.copysign(along) - along;
-        ((x + less * dx, y + less * dy), true)
+        let beside = libm::sqrt((most * most - force * force).max(0.0));
+        let across = (wanted.1 * dx - wanted.0 * dy).clamp(-beside, beside);
+        let along = force.copysign(along);
+        Some((along * dx - across * dy, along * dy + across * dx))
     }
 }
 
@@ -248,6 +255,23 @@ mod tests {
         let push = push(body, slide);
         assert!((push.x + 6.0 * 0.6).abs() < 1e-3 && (push.y + 6.0 * 0.8).abs() < 1e-3, "{push:?}");
         assert!(push.turn.abs() < 1e-3, "{push:?}");
+    }
+
+    #[test]
+    fn a_motor_yields_where_the_floor_holds_more_along_its_wheel_than_it_gives() {
+        let motor = Some(Motor { direction: (1.0, 0.0), force: 5.0 });
+        let wheel = |rim| Demand { rim, most: 8.0, motor };
+        let still = Twist::default();
+        let impulses = [(1.0, 1.5, false), (1.0, 0.5, true), (1.0, 0.0, true)];
+        for (ahead, aside, yields) in impulses {
+            let mut footing = Footing::new(MASS, inertia(), CORNERS);
+            let push = footing.push([wheel((ahead, aside)); 4], still, DT);
+            let what = format!("{ahead} m/s ahead, {aside} m/s aside: {push:?}");
+            let along = if yields { 4.0 * 5.0 } else { 4.0 * 8.0 * ahead / ahead.hypot(aside) };
+            assert_eq!(footing.yielding(0, (1.0, 0.0)).is_some(), yields, "{what}");
+            assert!((push.x - along).abs() < 0.01, "{what}");
+            assert!(push.x.hypot(push.y) < 4.0 * 8.0 + 1e-3, "{what}");
+        }
     }
 
     #[test]
