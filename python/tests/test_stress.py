@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 STRESS = Path(__file__).parent / "stress"
-GROWTH = 6.0
-"""Megabytes that many simulations may take more than a few."""
+GROWTH = 3.0
+"""Megabytes that the second half of many simulations may take more than the first."""
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it interrupts calls by SIGALRM, and forks")
