@@ -23,6 +23,20 @@ fn every_file_of_the_corpora_keeps_its_property() {
     }
 }
 
+/// They are what the search for scenarios starts from.
+#[test]
+fn the_scenarios_that_are_shipped_keep_theirs() {
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plans/tests");
+    let files = fs::read_dir(home).unwrap().map(|file| file.unwrap().path());
+    let plans: Vec<_> =
+        files.filter(|file| file.extension().is_some_and(|it| it == "afp")).collect();
+    assert!(plans.len() > 5, "{plans:?}");
+    for file in plans {
+        println!("{}", file.display());
+        afp_fuzz::scenario(&fs::read(&file).unwrap());
+    }
+}
+
 #[test]
 fn every_target_has_its_fuzzer() {
     let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz_targets");

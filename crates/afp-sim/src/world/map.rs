@@ -110,7 +110,7 @@ fn text(
     });
     // Writing to a String cannot fail.
     let _ = write!(text, "\n[map]\ncorners_m = [{}]\n", corners.join(", "));
-    let degrees = settings.yaw.to_degrees() % 360.0;
+    let degrees = settings.yaw.to_degrees();
     for Rectangle { left, right, top, bottom } in boxes {
         let (across, up) = ((left + right) as f64 / 2.0, (top + bottom) as f64 / 2.0);
         let [x, y] = settings.place(across, cells.height as f64 - up);

@@ -65,6 +65,8 @@ impl Settings {
             return Err(keys.error("resolution", "is not within 0.001 and 10 metres"));
         }
         let [x, y, yaw] = keys.origin()?;
+        // Once for all who ask: of many turns each would find another rest.
+        let yaw = yaw % core::f64::consts::TAU;
         let negate = match keys.get("negate") {
             None => false,
             Some(value) => value
