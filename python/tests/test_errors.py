@@ -81,7 +81,7 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("plan.rename(None, 'x')", TypeError, "item is a text, not None"),
     ("plan.rename('escape', 3)", TypeError, "to is a text, not 3"),
     ("simulate(set={1: 1})", TypeError, "a name in set is a text, not 1"),
-    ("simulate(set=0)", TypeError, "set is a dict of names and values, not 0"),
+    ("simulate(set=0)", TypeError, "set gives entries their values"),
     ("sim.fire('go', 'Done', '')", TypeError, "outputs is a dict of names and values, not ''"),
     ("sim.press(3)", TypeError, "a control is a text, not 3"),
     ("sim[3]", TypeError, "an entry is a text, not 3"),
