@@ -82,7 +82,7 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("plan.rename('escape', 3)", TypeError, "to is a text, not 3"),
     ("simulate(set={1: 1})", TypeError, "a name in set is a text, not 1"),
     ("simulate(set=0)", TypeError, "set gives entries their values"),
-    ("sim.fire('go', 'Done', '')", TypeError, "outputs is a dict of names and values, not ''"),
+    ("sim.fire('go', 'Done', '')", TypeError, "outputs gives outputs their values, such as {'angle': afp.deg(10)}, not ''"),
     ("sim.press(3)", TypeError, "a control is a text, not 3"),
     ("sim[3]", TypeError, "an entry is a text, not 3"),
     ("sim.fire(3, 'Seen')", TypeError, "an actor or supervisor is a text, not 3"),

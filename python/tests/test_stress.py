@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 STRESS = Path(__file__).parent / "stress"
-GROWTH = 3.0
-"""Megabytes that the second half of many simulations may take more than the first."""
+GROWTH = 2.0
+"""Megabytes that half of many simulations may leave behind."""
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it interrupts calls by SIGALRM, and forks")

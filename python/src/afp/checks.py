@@ -26,12 +26,12 @@ def flag(what: str, value: Any) -> bool:
     return truth
 
 
-def keys(what: str, values: Mapping[str, Any] | None) -> dict[str, Any]:
-    """What has names; nothing where nothing is given."""
+def keys(what: str, values: Mapping[str, Any] | None, does: str) -> dict[str, Any]:
+    """What has names, and does that; nothing where nothing is given."""
     if values is None:
         return {}
     if not isinstance(values, Mapping):
-        raise TypeError(f"{what} is a dict of names and values, not {values!r}")
+        raise TypeError(f"{what} {does}, not {values!r}")
     return {text(f"a name in {what}", name): value for name, value in values.items()}
 
 

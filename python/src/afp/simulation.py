@@ -52,9 +52,8 @@ class Simulation(Driven):
             raise TypeError(f"a simulation needs a Plan, not a {type(plan).__name__}: afp.load() reads one")
         place = World.of_plan(plan.path or "plan.afp") if world is None else place_of(world)
         world = place if isinstance(place, World) else World.load(place)
-        if not isinstance(set, (Mapping, type(None))):
-            raise TypeError(f"set gives entries their values, such as {{'walldist': afp.cm(35)}}, not {set!r}")
-        world, entries, settings = changed(world, keys("set", set), start)
+        values = keys("set", set, "gives entries their values, such as {'walldist': afp.cm(35)}")
+        world, entries, settings = changed(world, values, start)
         self.plan = plan
         self.world = world
         self.seed = seed
@@ -258,7 +257,8 @@ class Simulation(Driven):
         `fire("find", "WallFound", {"angle": afp.deg(10)})`.
         """
         component, outcome = text("an actor or supervisor", component), text("an outcome", outcome)
-        self._runner.fire(component, outcome, keys("outputs", outputs), moment("at", at))
+        values = keys("outputs", outputs, "gives outputs their values, such as {'angle': afp.deg(10)}")
+        self._runner.fire(component, outcome, values, moment("at", at))
 
     def idle(self, element: str | None = None, *, at: float | None = None) -> None:
         """Lets an actor, those of a sub-plan, or all actors do nothing from their next start on, as in scenarios.

@@ -1,7 +1,7 @@
 """`python tests/stress/memory.py [10000]`: makes so many simulations and says by how much memory has grown, in megabytes.
 
 What it occupies goes up and down by some megabytes, as the allocators of Python and Rust keep pages and give them back. So it is
-the most of the second half against the most of the first; a tenth of the simulations before that are the start.
+the middle of the second half against the middle of the first; a tenth of the simulations before that are the start.
 
 They are of every kind: to the end and half-way, with logs, with components in Python that raise, that lead back to
 their own simulation, that are interrupted.
@@ -14,6 +14,7 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from statistics import median
 
 import afp
 
@@ -70,7 +71,7 @@ def main() -> int:
                 occupied.append(resident())
             shipped(number, Path(folder)) if number % 2 else circular(number)
     half = len(occupied) // 2
-    print(f"{max(occupied[half:]) - max(occupied[:half]):.1f}")
+    print(f"{median(occupied[half:]) - median(occupied[:half]):.1f}")
     return 0
 
 

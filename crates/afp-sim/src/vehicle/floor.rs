@@ -160,7 +160,8 @@ impl Contact {
         let wanted = (px - (vx - demand.rim.0) * self.mass, py - (vy - demand.rim.1) * self.mass);
         let most = demand.most * dt;
         (self.impulse, self.slides) = limited(wanted, most);
-        let motor = demand.motor.and_then(|motor| motor.yielding(wanted, self.impulse, most, dt));
+        // Where the floor holds less than the motor gives, the wheel spins.
+        let motor = demand.motor.and_then(|motor| motor.overcome(wanted, self.impulse, most, dt));
         self.yields = motor.is_some();
         self.impulse = motor.unwrap_or(self.impulse);
         let (dx, dy) = (self.impulse.0 - px, self.impulse.1 - py);
@@ -180,7 +181,7 @@ impl Contact {
 impl Motor {
     /// The impulse of a step of `dt` seconds where the motor is too weak for the `held` one, the part of what is `wanted`
     /// that the floor can hold: along the wheel's way what the motor gives, and across it what the floor holds beside that.
-    fn yielding(
+    fn overcome(
         &self,
         wanted: (f64, f64),
         held: (f64, f64),
