@@ -77,11 +77,11 @@ impl Firmware {
     /// One period; gives what it was told and had not been told before.
     pub fn step(&mut self) -> io::Result<Vec<Command>> {
         thread::sleep(PERIOD);
-        let before = (self.motion, self.suction, self.stopped);
         let mut new = Vec::new();
         while let Ok(line) = self.heard.try_recv() {
             // What is noise or was cut keeps no motor going.
             let Some(command) = Command::read(&line) else { continue };
+            let before = (self.motion, self.suction, self.stopped);
             self.obey(command);
             self.told = Instant::now();
             if before != (self.motion, self.suction, self.stopped) {

@@ -201,6 +201,14 @@ fn after_a_stop_another_run_begins_with_start() {
 }
 
 #[test]
+fn what_is_told_twice_at_once_is_new_once() {
+    let (mut firmware, path) = Firmware::new().unwrap();
+    tell(&path, &Line(Command::Stop).to_string().repeat(2));
+    thread::sleep(std::time::Duration::from_millis(100));
+    assert_eq!(firmware.step().unwrap(), [Command::Stop]);
+}
+
+#[test]
 fn start_is_said_until_the_board_says_that_it_obeys() {
     let (mut port, _end, path) = Firmware::port().unwrap();
     let lines = BufReader::new(port.try_clone().unwrap());
