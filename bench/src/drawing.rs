@@ -36,8 +36,8 @@ const CASES: [Case; 6] = [
 /// How long a box of the smallest plan may take to be moved, in milliseconds.
 const MOVED: f64 = 5.0;
 
-/// `dot` is given up after this; a plan of 200 actors takes it minutes.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// `dot` is given up after this, and not before twice our own time; a plan of 200 actors takes it minutes.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A case is drawn so many times, unless that takes too long; the best one counts.
 const TURNS: u32 = 5;
@@ -57,7 +57,8 @@ pub fn run(_: u32, report: &mut Report) {
             Some(most) => row.limit(format!("<= {most} ms"), own <= most),
             None => row,
         });
-        if let Some(peer) = dot_time(&dot(&compiled.outline, &options)) {
+        let patience = PATIENCE.max(Duration::from_secs_f64(2.0 * own / 1e3));
+        if let Some(peer) = dot_time(&dot(&compiled.outline, &options), patience) {
             let ratio = own / peer;
             let row = Row::new(format!("{name}, dot"), peer, "ms");
             report.add(row.against(name, ratio).limit("<= 1", ratio <= 1.0));
@@ -105,8 +106,8 @@ fn best(mut run: impl FnMut()) -> f64 {
     best
 }
 
-/// Milliseconds that `dot` takes for a graph, at most its patience; `None` where it is not installed.
-fn dot_time(graph: &str) -> Option<f64> {
+/// Milliseconds that `dot` takes for a graph, at most our patience; `None` where it is not installed.
+fn dot_time(graph: &str, patience: Duration) -> Option<f64> {
     let start = Instant::now();
     let quiet =
         Command::new("dot").arg("-Tsvg").stdin(Stdio::piped()).stdout(Stdio::null()).spawn();
@@ -119,8 +120,8 @@ fn dot_time(graph: &str) -> Option<f64> {
         if peer.try_wait().ok()?.is_some() {
             break;
         }
-        if start.elapsed() > PATIENCE {
-            eprintln!("drawing: 'dot' was given up after {} s", PATIENCE.as_secs());
+        if start.elapsed() > patience {
+            eprintln!("drawing: 'dot' was given up after {:.0} s", patience.as_secs_f64());
             // It may have ended by now.
             let _ = peer.kill();
             let _ = peer.wait();
