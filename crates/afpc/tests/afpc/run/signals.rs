@@ -13,11 +13,12 @@ fn interrupted(place: &Place, act: impl FnOnce(u32)) -> (Option<i32>, String) {
     let mut command = place.command();
     command.args(run).args(outputs).stdin(Stdio::null()).stdout(Stdio::piped());
     let mut child = command.spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(800));
-    act(child.id());
     let mut out = BufReader::new(child.stdout.take().unwrap());
     let mut text = String::new();
     out.read_line(&mut text).unwrap();
+    // For something to be in its log.
+    std::thread::sleep(std::time::Duration::from_millis(800));
+    act(child.id());
     out.read_to_string(&mut text).unwrap();
     (child.wait().unwrap().code(), text)
 }
