@@ -182,10 +182,8 @@ fn a_sweep_that_is_killed_goes_on() {
     let place = Place::with_plan();
     let sweep = "sweep wall_following.afp --seeds 0..40 --vary walldist=20cm,30cm --until 10s -o";
     place.afpc(&format!("{sweep} whole.csv")).succeeds();
-    let kept = || match place.exists("killed.csv.journal") {
-        true => place.read("killed.csv.journal").lines().count(),
-        false => 0,
-    };
+    let journal = "killed.csv.journal";
+    let kept = || if place.exists(journal) { place.read(journal).lines().count() } else { 0 };
     let mut kills = 0;
     for _ in 0..6 {
         let enough = kept() + 5;
@@ -201,8 +199,8 @@ fn a_sweep_that_is_killed_goes_on() {
     }
     assert!(kills > 0, "the machine is too fast for this test");
     // As if the last line had not reached the file.
-    let journal = place.read("killed.csv.journal");
-    place.write("killed.csv.journal", &journal[..journal.len() - 5]);
+    let text = place.read(journal);
+    place.write(journal, &text[..text.len() - 5]);
     let said = place.afpc(&format!("{sweep} killed.csv"));
     said.succeeds();
     assert_eq!(rows(&place, "killed.csv"), rows(&place, "whole.csv"));
