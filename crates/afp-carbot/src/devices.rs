@@ -25,7 +25,7 @@ pub use infrared_sensor::{Glow, InfraredSensor};
 pub use localisation::{Belief, Localisation};
 pub use navigator::{Body, Navigator};
 pub use odometry::{Bump, Motion, Odometry};
-pub use planner::{PathPlanner, Trip};
+pub use planner::{Aim, PathPlanner, Trip};
 pub use rotator::{RotatingTelemetry, Rotator};
 pub use signals::Signals;
 pub use touch_sensor::TouchSensor;

@@ -3,9 +3,10 @@
 use crate::devices::{
     Battery, Beam, Body, Bump, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo, Frame,
     Glow, InfraredSensor, Invalid, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
-    Rotator, TouchSensor, Trip, Ultrasonic,
+    Rotator, TouchSensor, Ultrasonic,
 };
 use crate::motion::wrap;
+use crate::path::Path;
 use crate::trail::Trail;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed, Voltage};
 use afp_core::{
@@ -95,8 +96,10 @@ pub(crate) struct Fake {
     pub(crate) dead_localisation: bool,
     /// No way leads anywhere.
     pub(crate) no_way: bool,
+    /// The place that it would look from next, metres.
+    pub(crate) view: [f64; 2],
     /// The search that is under way, and how many have been begun.
-    pub(crate) search: Option<(Instant, Trip)>,
+    pub(crate) search: Option<(Instant, Option<Path>)>,
     pub(crate) searches: u16,
     /// What it has shown and let sound, in turn.
     pub(crate) signals: Vec<(bool, Option<Frequency>)>,
@@ -155,6 +158,7 @@ impl Fake {
             lost_from: u64::MAX,
             dead_localisation: false,
             no_way: false,
+            view: [0.0; 2],
             search: None,
             searches: 0,
             signals: Vec::new(),

@@ -3,9 +3,6 @@
 use afp_core::{Fault, Reason};
 use heapless::Vec;
 
-/// So many corners a way has at most.
-pub const MOST: usize = 128;
-
 /// The way has too many corners.
 pub const LONG_PATH: Fault = Fault::new(&Reason {
     code: "long-path",
@@ -16,7 +13,7 @@ pub const LONG_PATH: Fault = Fault::new(&Reason {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
     /// Millimetres are exact enough within some kilometres.
-    corners: Vec<[f32; 2], MOST>,
+    corners: Vec<[f32; 2], { Path::MOST }>,
 }
 
 /// The place of a path that is nearest to some place.
@@ -29,6 +26,9 @@ pub(crate) struct Nearest {
 }
 
 impl Path {
+    /// So many places a path has at most.
+    pub const MOST: usize = 128;
+
     /// Through these places, metres.
     ///
     /// # Errors
@@ -39,6 +39,14 @@ impl Path {
             corners.push([x as f32, y as f32]).map_err(|_| LONG_PATH)?;
         }
         Ok(Path { corners })
+    }
+
+    /// Goes on to a place, metres; the first one makes room where there are 128.
+    pub(crate) fn note(&mut self, [x, y]: [f64; 2]) {
+        if self.corners.is_full() {
+            self.corners.remove(0);
+        }
+        let _full = self.corners.push([x as f32, y as f32]);
     }
 
     /// Its places from the first to the last, metres.
@@ -165,8 +173,16 @@ mod tests {
     }
 
     #[test]
+    fn one_place_more_than_there_is_room_for_makes_the_first_one_go() {
+        let mut path = Path::new((0..Path::MOST).map(|n| [n as f64, 0.0])).unwrap();
+        path.note([0.5, 0.5]);
+        assert_eq!((path.places().next(), path.end()), (Some([1.0, 0.0]), Some([0.5, 0.5])));
+        assert_eq!(path.places().len(), Path::MOST);
+    }
+
+    #[test]
     fn a_path_with_too_many_corners_is_none() {
-        let places: Vec<_> = (0..=MOST).map(|n| [n as f64, 0.0]).collect();
+        let places: Vec<_> = (0..=Path::MOST).map(|n| [n as f64, 0.0]).collect();
         assert_eq!(Path::new(places), Err(LONG_PATH));
     }
 }

@@ -1,6 +1,6 @@
 //! Plan the path to a place, again and again.
 
-use crate::devices::{Localisation, Odometry, PathPlanner, Trip};
+use crate::devices::{Aim, Localisation, Odometry, PathPlanner, Trip};
 use crate::guard::{Guard, NO_ODOMETRY, NO_POSITION};
 use crate::templates;
 use crate::templates::plan_path::{Event, Inputs, Live};
@@ -54,7 +54,8 @@ impl<E: Odometry + Localisation + PathPlanner + ?Sized> Supervisor<templates::Pl
             });
         }
         if let Some(here) = here.filter(|_| now >= self.next) {
-            let trip = Trip { from: (here.x, here.y), to: (live.x, live.y), near: self.near };
+            let to = Aim::Place { at: (live.x, live.y), near: self.near };
+            let trip = Trip { from: (here.x, here.y), to };
             self.under_way = env.search(&trip, now)?;
             if self.under_way.is_some() {
                 self.next = now + self.period;

@@ -123,25 +123,30 @@ fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
     unfolded(nodes, links, grid, rows)
 }
 
-/// The layers one below the other, with as much room as the edges need.
+/// The layers one below the other, with as much room as the edges need; where they do not get it, the best of what was tried:
+/// routes change when boxes give way, and may be worse then.
 fn unfolded(nodes: &[Node], links: &[Link], mut grid: Grid, mut rows: Rows) -> LaidOut {
-    let mut round = 1;
     let mut effort = 0;
-    loop {
+    let mut best: Option<(f64, LaidOut)> = None;
+    for _ in 0..ROUNDS {
         let corners = rows.corners(&grid, nodes);
         let (boxes, connectors) = (bounds(nodes, &corners), connectors(nodes, links, &corners));
         let found = router::route(&boxes, &connectors, &[]);
         effort += found.effort;
         // A box at which too many edges arrive cannot give way.
-        let mut narrow = found.crowded.iter().filter(|narrow| !narrow.arrives).peekable();
-        if narrow.peek().is_none() || round == ROUNDS || effort > router::BUDGET {
-            return LaidOut::new(nodes, corners, found.corners);
-        }
-        for narrow in narrow {
+        let narrow = || found.crowded.iter().filter(|narrow| !narrow.arrives);
+        let missing: f64 = narrow().map(|narrow| router::PITCH - narrow.distance).sum();
+        for narrow in narrow() {
             rows.give_way(&mut grid, narrow);
         }
-        round += 1;
+        if best.as_ref().is_none_or(|(least, _)| missing < *least) {
+            best = Some((missing, LaidOut::new(nodes, corners, found.corners)));
+        }
+        if missing == 0.0 || effort > router::BUDGET {
+            break;
+        }
     }
+    best.map(|(_, laid_out)| laid_out).unwrap_or_default()
 }
 
 fn bounds(nodes: &[Node], corners: &[Point]) -> Vec<Bounds> {

@@ -55,9 +55,10 @@ fn scenes() -> Vec<PlanScene> {
             let compiled =
                 compile(&source(&path), &toolboxes, &Disk(path.parent().unwrap().to_owned()));
             assert!(compiled.graph.is_some(), "{}", compiled.render(false));
-            let mut scene = Scene::new(&compiled.outline, &Options::default(), None);
-            let own = scene.plans.iter().filter(|plan| plan.file == scene.plans[0].file).count();
-            found.extend(scene.plans.drain(..).take(own));
+            let mut plans = Scene::new(&compiled.outline, &Options::default(), None).plans;
+            let file = plans[0].file;
+            plans.retain(|plan| plan.file == file);
+            found.extend(plans);
         }
     }
     found

@@ -6,7 +6,7 @@ use afp_core::{Duration, Instant};
 use afp_session::Pose2;
 
 /// At most so many places are remembered; those make room that were found the longest ago.
-const MOST: usize = 1024;
+pub(crate) const MOST: usize = 1024;
 /// Echoes from farther away than this are too vague, metres.
 const NEAR: f64 = 1.5;
 /// What the map shows so near to an echo explains it, metres.

@@ -33,6 +33,7 @@ mod map;
 mod planner;
 mod room;
 mod search;
+mod view;
 
 pub use field::{EchoField, Expected};
 pub use filter::{Filter, Ping};

@@ -5,12 +5,12 @@
 //! explain is avoided from then on. The search runs as a job.
 
 use crate::field::EchoField;
-use crate::found::{Finds, Heard};
+use crate::found::{self, Finds, Heard};
 use crate::grid::Grid;
 use crate::room::Room;
-use crate::search;
+use crate::{search, view};
 use afp_carbot::Path;
-use afp_carbot::devices::{Belief, Body, Echo, Trip};
+use afp_carbot::devices::{Aim, Belief, Body, Echo, Trip};
 use afp_core::quantity::Length;
 use afp_core::{Duration, Fault, Instant, Job, Poll, Ticket, Worker};
 use afp_session::Pose2;
@@ -27,11 +27,41 @@ const DOUBTED: [f64; 2] = [0.0, 0.1];
 const ON_IT: f64 = 0.1;
 
 /// What a search is for: what has been found so far, and where it leads.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Quest {
     found: Vec<[f64; 2]>,
-    to: [f64; 2],
-    near: f64,
+    goal: Goal,
+    /// From where has been looked around, for a view.
+    seen: Vec<[f64; 2]>,
+}
+
+/// Where a search leads, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Goal {
+    Place { at: [f64; 2], near: f64 },
+    View { sight: f64 },
+}
+
+impl Quest {
+    /// With room for all that can be asked for: who asks allocates nothing.
+    fn new() -> Self {
+        let goal = Goal::Place { at: [0.0; 2], near: 0.0 };
+        let [found, seen] = [found::MOST, Path::MOST].map(Vec::with_capacity);
+        Quest { found, goal, seen }
+    }
+
+    fn set(&mut self, aim: &Aim<'_>, found: impl Iterator<Item = [f64; 2]>) {
+        self.found.clear();
+        self.found.extend(found);
+        self.seen.clear();
+        self.goal = match aim {
+            Aim::Place { at, near } => Goal::Place { at: [at.0.si(), at.1.si()], near: near.si() },
+            Aim::View { seen, sight } => {
+                self.seen.extend(seen.places());
+                Goal::View { sight: sight.si() }
+            }
+        };
+    }
 }
 
 /// A search for a path, and what it needs.
@@ -48,8 +78,19 @@ pub struct SearchJob {
 
 impl SearchJob {
     fn new(map: Arc<Grid>) -> Self {
-        let (quest, last) = (Quest::default(), Quest::default());
+        let [quest, last] = [Quest::new(), Quest::new()];
         SearchJob { grid: (*map).clone(), map, from: [0.0; 2], quest, path: None, last }
+    }
+
+    /// The place that the path has to lead to, and how near to it will do; none where no view is to be had.
+    fn goal(&self) -> Option<([f64; 2], f64)> {
+        match self.quest.goal {
+            Goal::Place { at, near } => Some((at, near)),
+            Goal::View { sight } => {
+                let place = view::best(&self.grid, self.from, &self.quest.seen, sight)?;
+                Some((place, 0.0))
+            }
+        }
     }
 
     /// What is left of the path that was found last, where that still is one: nothing else has been found, and the robot is on it.
@@ -72,12 +113,13 @@ impl Job for SearchJob {
         }
         self.last.clone_from(&self.quest);
         self.path = None;
-        let Quest { found, to, near } = &self.quest;
         for doubted in DOUBTED {
             self.grid.clone_clearance(&self.map);
-            found.iter().for_each(|place| self.grid.add(*place, doubted));
-            self.path = search::path(&self.grid, self.from, *to, *near)?;
-            if self.path.is_some() || found.is_empty() {
+            self.quest.found.iter().for_each(|place| self.grid.add(*place, doubted));
+            if let Some((to, near)) = self.goal() {
+                self.path = search::path(&self.grid, self.from, to, near)?;
+            }
+            if self.path.is_some() || self.quest.found.is_empty() {
                 break;
             }
         }
@@ -106,8 +148,8 @@ impl<W: Worker<SearchJob>> Planner<W> {
     ) -> Self {
         /// Two elements of a plan may search at a time.
         const SLOTS: usize = 2;
-        let job = SearchJob::new(Arc::new(Grid::new(field.map(), Room::of(body))));
-        let worker = make_worker(vec![job; SLOTS]);
+        let map = Arc::new(Grid::new(field.map(), Room::of(body)));
+        let worker = make_worker((0..SLOTS).map(|_| SearchJob::new(map.clone())).collect());
         Planner { worker, field, finds: Finds::new(body), forward: forward.si() }
     }
 
@@ -136,14 +178,11 @@ impl<W: Worker<SearchJob>> Planner<W> {
     ///
     /// # Errors
     /// Searches have panicked.
-    pub fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
+    pub fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault> {
         let finds = &self.finds;
         let mut prepare = |job: &mut SearchJob| {
             job.from = [trip.from.0.si(), trip.from.1.si()];
-            job.quest.found.clear();
-            job.quest.found.extend(finds.places(now));
-            job.quest.to = [trip.to.0.si(), trip.to.1.si()];
-            job.quest.near = trip.near.si();
+            job.quest.set(&trip.to, finds.places(now));
         };
         self.worker.begin(now, &mut prepare)
     }
@@ -174,6 +213,11 @@ mod tests {
     use crate::map::Map;
     use crate::room::tests::carbot;
 
+    fn to_the_right() -> Aim<'static> {
+        let at = (Length::from_si(3.4), Length::from_si(1.0));
+        Aim::Place { at, near: Length::from_si(0.0) }
+    }
+
     /// Whether a search leads past things found at these places, in a hall of four metres by two, from its left to its right.
     fn leads_past(found: &[[f64; 2]]) -> bool {
         let wall =
@@ -181,7 +225,7 @@ mod tests {
         let map = Map::new([wall([0.0, 4.0], [0.0, 0.1]), wall([0.0, 4.0], [1.9, 2.0])]);
         let mut job = SearchJob::new(Arc::new(Grid::new(&map, Room::of(&carbot()))));
         job.from = [0.6, 1.0];
-        job.quest = Quest { found: found.to_vec(), to: [3.4, 1.0], near: 0.0 };
+        job.quest.set(&to_the_right(), found.iter().copied());
         job.run().expect("the path has few corners");
         job.path.is_some()
     }
@@ -204,7 +248,7 @@ mod tests {
         let mut job = SearchJob::new(Arc::new(Grid::new(&map, Room::of(&carbot()))));
         let mut ask = |from: [f64; 2], found: &[[f64; 2]]| {
             job.from = from;
-            job.quest = Quest { found: found.to_vec(), to: [3.4, 1.0], near: 0.0 };
+            job.quest.set(&to_the_right(), found.iter().copied());
             let kept = job.rest_of_the_last().is_some();
             job.run().expect("the path has few corners");
             (kept, job.path.is_some())

@@ -12,7 +12,7 @@ const TIGHT: f32 = 0.05;
 const NARROW: f32 = 4.0;
 const SQUEEZE: f32 = 12.0;
 /// The length from a cell to its neighbour, and to the one across its corner, in such a unit that numbers stay whole.
-const BESIDE: u32 = 100;
+pub(crate) const BESIDE: u32 = 100;
 const ACROSS: u32 = 141;
 /// A piece of the path spans so many cells at most, and may have so much less clearance than the cells that it leaves out, metres.
 const PIECE: usize = 80;
@@ -61,7 +61,7 @@ fn goal(grid: &Grid, to: [f64; 2], near: f64) -> Option<usize> {
 }
 
 /// How much farther than it is a path through a cell counts; none where the robot does not fit.
-fn weight(grid: &Grid, index: usize, from: [f64; 2]) -> Option<f32> {
+pub(crate) fn weight(grid: &Grid, index: usize, from: [f64; 2]) -> Option<f32> {
     let clearance = grid.clearance(index);
     let Room { fits, leaving, most, .. } = grid.room;
     if clearance >= fits {
@@ -72,7 +72,7 @@ fn weight(grid: &Grid, index: usize, from: [f64; 2]) -> Option<f32> {
     leaves.then_some(SQUEEZE)
 }
 
-fn neighbours(
+pub(crate) fn neighbours(
     grid: &Grid,
     index: usize,
     cost: impl Fn(usize) -> Option<f32>,

@@ -90,7 +90,7 @@ fn mutants_of_following_a_boundary_are_noticed() {
 
 #[test]
 fn mutants_of_exploring_are_noticed() {
-    is_noticed("parts/explore", &["explore"]);
+    is_noticed("parts/explore", &["explore", "find_infrared"]);
 }
 
 #[test]

@@ -182,7 +182,7 @@ impl Localisation for Witness {
 }
 
 impl PathPlanner for Witness {
-    fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
+    fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault> {
         self.sim.search(trip, now)
     }
 

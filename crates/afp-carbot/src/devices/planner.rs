@@ -6,13 +6,30 @@ use afp_core::{Fault, Instant, Poll, Ticket};
 
 /// What a way is looked for between, in the frame of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trip {
+pub struct Trip<'a> {
     /// Where it begins: x and y.
     pub from: (Length, Length),
     /// Where it leads.
-    pub to: (Length, Length),
-    /// A place so near to that will do where it is not free itself.
-    pub near: Length,
+    pub to: Aim<'a>,
+}
+
+/// Where a way leads, in the frame of the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Aim<'a> {
+    /// To a place.
+    Place {
+        /// Its x and y.
+        at: (Length, Length),
+        /// A place so near to it will do where it is not free itself.
+        near: Length,
+    },
+    /// To where much is in sight that has not been yet, and that is not far.
+    View {
+        /// From these places one has looked around.
+        seen: &'a Path,
+        /// So far one sees.
+        sight: Length,
+    },
 }
 
 /// Searches for ways on the map that the platform was given, and on what its sensors have found since. The search is a job
@@ -22,7 +39,7 @@ pub trait PathPlanner {
     ///
     /// # Errors
     /// Searches have panicked.
-    fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault>;
+    fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault>;
 
     /// What a search has found, once; `None` inside where no way leads there.
     ///

@@ -1,7 +1,7 @@
 //! What it knows of places, and what it shows.
 
 use super::{Fake, reading};
-use crate::devices::{Belief, Localisation, Odometry, PathPlanner, Reading, Signals, Trip};
+use crate::devices::{Aim, Belief, Localisation, Odometry, PathPlanner, Reading, Signals, Trip};
 use crate::motion::wrap;
 use crate::path::Path;
 use afp_core::quantity::{Angle, Frequency, Length};
@@ -28,20 +28,25 @@ impl Localisation for Fake {
 
 /// Straight on is its way.
 impl PathPlanner for Fake {
-    fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
-        self.search = Some((now + SEARCH, *trip));
+    fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault> {
+        let to = match trip.to {
+            Aim::Place { at: (x, y), .. } => [x.si(), y.si()],
+            Aim::View { .. } => self.view,
+        };
+        let from = [trip.from.0.si(), trip.from.1.si()];
+        let path = if self.no_way { None } else { Some(Path::new([from, to])?) };
+        self.search = Some((now + SEARCH, path));
         self.searches += 1;
         Ok(Some(Ticket::new(0, u64::from(self.searches))))
     }
 
     fn found(&mut self, _: Ticket, now: Instant) -> Result<Poll<Option<Path>>, Fault> {
-        let (ready, trip) = self.search.ok_or(Fault::JOB_LOST)?;
+        let (ready, path) = self.search.take().ok_or(Fault::JOB_LOST)?;
         if now < ready {
+            self.search = Some((ready, path));
             return Ok(Poll::Pending);
         }
-        self.search = None;
-        let places = [trip.from, trip.to].map(|(x, y)| [x.si(), y.si()]);
-        Ok(Poll::Ready(if self.no_way { None } else { Some(Path::new(places)?) }))
+        Ok(Poll::Ready(path))
     }
 }
 

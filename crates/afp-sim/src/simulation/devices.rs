@@ -203,7 +203,7 @@ impl Localisation for Simulation {
 }
 
 impl PathPlanner for Simulation {
-    fn search(&mut self, trip: &Trip, now: Instant) -> Result<Option<Ticket>, Fault> {
+    fn search(&mut self, trip: &Trip<'_>, now: Instant) -> Result<Option<Ticket>, Fault> {
         self.planner().search(trip, now)
     }
 

@@ -2,7 +2,7 @@
 
 use crate::wanderer::Wanderer;
 use afp_carbot::devices::{
-    Localisation, Navigator, Odometry, PathPlanner, TouchSensor, Trip, Ultrasonic,
+    Aim, Localisation, Navigator, Odometry, PathPlanner, TouchSensor, Trip, Ultrasonic,
 };
 use afp_core::quantity::Length;
 use afp_core::{Duration, Instant, Poll};
@@ -110,7 +110,8 @@ fn ways_come_from_map_and_readings_alone() {
     let metres = |place: [f64; 2]| (Length::from_si(place[0]), Length::from_si(place[1]));
     let there = metres([world.start.x, world.start.y]);
     // Both hear from the first search on.
-    let trip = |from| Trip { from, to: there, near: Length::from_si(0.3) };
+    let to = Aim::Place { at: there, near: Length::from_si(0.3) };
+    let trip = |from| Trip { from, to };
     let search =
         |robot: &mut Wanderer, alone: &mut Planner<VirtualWorker<SearchJob>>, from, now| {
             let its = robot.robot.search(&trip(from), now).unwrap();

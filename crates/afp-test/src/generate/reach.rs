@@ -13,7 +13,7 @@ use crate::watch::Activation;
 /// Seeds that are tried where a run does not reach everything.
 const SEEDS: u64 = 4;
 /// Runs that are made to reach what no quiet one does.
-const RUNS: usize = 60;
+const RUNS: usize = 120;
 /// Stimuli are at whole milliseconds where nothing else matters.
 const GRAIN: u64 = 1_000_000;
 

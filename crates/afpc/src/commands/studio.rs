@@ -71,9 +71,9 @@ type File = (&'static str, &'static str);
 const EXAMPLES_TO_COPY: [(File, &str, &[File]); 7] = [
     example!("wall_following"),
     example!("patterns"),
-    example!("find_infrared", "parts/explore", "parts/boundary", "avoid_obstacle"),
+    example!("find_infrared", "parts/explore", "parts/go_to", "parts/boundary", "avoid_obstacle"),
     example!("avoid_obstacle", "parts/boundary"),
-    example!("find_object", "parts/explore", "parts/boundary", "avoid_obstacle"),
+    example!("find_object", "parts/explore", "parts/go_to", "parts/boundary", "avoid_obstacle"),
     example!("navigate_room", "parts/go_to"),
     example!("patrol", "avoid_obstacle", "navigate_room", "parts/boundary", "parts/go_to"),
 ];
