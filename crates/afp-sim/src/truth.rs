@@ -11,6 +11,7 @@ pub use afp_session::Pose2 as Pose;
 use rapier2d::math::Vector;
 use rapier2d::parry::query;
 use rapier2d::parry::shape::Segment;
+use std::f64::consts::FRAC_PI_2;
 
 /// A stretch of time in which the robot touched one obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +69,9 @@ const STANDING: (f64, f64) = (0.005, 0.02);
 
 /// A motion that goes into something no faster slides along it, metres a second.
 const INTO: f64 = 0.01;
+
+/// Who has a wall beside them has something square from their side no farther away than so many times the nearest.
+const BESIDE: f64 = 1.5;
 
 impl<'a> Truth<'a> {
     /// Where the robot's centre is.
@@ -131,6 +135,15 @@ impl<'a> Truth<'a> {
             },
         );
         gaps.map(|gap| f64::from(gap.distance)).reduce(f64::min)
+    }
+
+    /// The same distance where a wall is beside the robot: square from its side, at either end or the middle, something is not
+    /// much farther away. None at the end of a wall, of which the nearest place is the corner that is left behind.
+    pub fn right_side_wall(&self) -> Option<f64> {
+        let gap = self.right_side_gap()?;
+        let most = HALF_WIDTH + BESIDE * gap;
+        let is_near = |ahead: f64| self.stage.ray(ahead, -FRAC_PI_2, most).is_some();
+        [-HALF_LENGTH, 0.0, HALF_LENGTH].into_iter().any(is_near).then_some(gap)
     }
 }
 

@@ -1,4 +1,4 @@
-//! How well the robot keeps its distance to a wall: a measure that is asked for.
+//! How well the robot keeps its distance to a wall, while one is beside it: a measure that is asked for.
 
 use afp_core::trace::{ComponentId, ComponentKind, Record};
 use afp_core::{Duration, Instant, ValueRef};
@@ -60,7 +60,7 @@ impl Measure<Simulation> for WallDistance {
     fn on_sample(&mut self, at: Instant, robot: &Simulation) {
         if let Some(following) = self.following
             && at.since(following.since) >= SETTLING
-            && let Some(gap) = robot.truth().right_side_gap()
+            && let Some(gap) = robot.truth().right_side_wall()
         {
             let error = (gap - following.wanted).abs();
             self.sum += error;

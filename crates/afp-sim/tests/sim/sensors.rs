@@ -127,3 +127,15 @@ fn the_judge_measures_from_the_right_side() {
     let gap = sim.truth().right_side_gap().unwrap();
     assert!((gap - (0.5 - 0.175)).abs() < 1e-6, "{gap}");
 }
+
+#[test]
+fn a_wall_that_ended_is_not_beside_the_robot() {
+    // The wall's end, as far ahead of the robot's middle.
+    for (end, beside) in [(0.5, true), (0.0, true), (-0.19, true), (-0.21, false), (-0.5, false)] {
+        let truth = |x: f64| among(&the_box([x, -0.6], [4.0, 0.2], 2.0));
+        let sim = truth(end - 2.0);
+        assert_eq!(sim.truth().right_side_wall().is_some(), beside, "{end}");
+        assert!(sim.truth().right_side_gap().is_some());
+    }
+    assert_eq!(among("").truth().right_side_wall(), None);
+}
