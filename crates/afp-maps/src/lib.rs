@@ -20,6 +20,9 @@
 //!   echoes, bumps at believed poses ──▶ Finds ──copied──┘
 //! ```
 //!
+//! The same search, on the same grid, finds from where to look around next: it ends where most of the floor comes in sight that has
+//! not been.
+//!
 //! Nothing here knows a simulator: what is true reaches neither map nor filter.
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
