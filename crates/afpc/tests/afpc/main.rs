@@ -7,6 +7,7 @@ mod build;
 mod build_json;
 mod check;
 mod common;
+mod coverage;
 mod dap;
 #[cfg(target_os = "linux")]
 mod every_output;
