@@ -1,4 +1,4 @@
-//! Paths on the map: what a platform needs to be a
+//! Paths on the map, to a place or to where much comes in sight: what a platform needs to be a
 //! [`PathPlanner`](afp_carbot::devices::PathPlanner).
 //!
 //! The platform passes it each echo and each bump, with where the robot takes itself to be; what the map does not

@@ -4,7 +4,8 @@ use super::reads::{Read, Reads};
 use crate::flow::dataflow;
 use crate::flow::view::{Cause, Node, View};
 use crate::flow::{INTERRUPTED, OK};
-use crate::graph::{EntryId, EntryKind};
+use crate::graph::{Entry, EntryId, EntryKind};
+use crate::types::Type;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Greatest number of other reads that one diagnostic shows.
@@ -13,6 +14,14 @@ const MAX_READS: usize = 3;
 const MAX_STEPS: usize = 12;
 /// Greatest number of ways that are looked for in one plan; each costs a search.
 const MAX_WAYS: usize = 64;
+
+/// What mends an entry without a value; what is of an object's type has none that could be written down.
+fn remedy(Entry { name, ty, .. }: &Entry, otherwise: &str) -> String {
+    match ty {
+        Type::Object(_) => otherwise.to_owned(),
+        _ => format!("give '{name}' an initial value, or {otherwise}"),
+    }
+}
 
 /// Collects what is found in one plan.
 pub(super) struct Report<'a, 'b> {
@@ -62,13 +71,11 @@ impl<'a, 'b> Report<'a, 'b> {
         for other in early.take(MAX_READS) {
             found = found.note(other.span, "this reads it too early as well");
         }
-        let help = match first.node {
-            Some(_) => format!("give '{name}' an initial value, or write it on every way to here"),
-            None => format!(
-                "give '{name}' an initial value, or watch with a supervisor of an element that runs later"
-            ),
+        let otherwise = match first.node {
+            Some(_) => "write it on every way to here",
+            None => "watch with a supervisor of an element that runs later",
         };
-        self.diags.push(found.help(help));
+        self.diags.push(found.help(remedy(declared, otherwise)));
     }
 
     /// Notes that a sub-plan on the path does not surely write the entry.
@@ -108,10 +115,7 @@ impl<'a, 'b> Report<'a, 'b> {
         self.diags.push(
             Diagnostic::new(Code::E0310, declared.span, message)
                 .note(self.view.plan.start_span, format!("one way: {path}"))
-                .help(format!(
-                    "give '{}' an initial value, or write it on every way to 'terminate'",
-                    declared.name
-                )),
+                .help(remedy(declared, "write it on every way to 'terminate'")),
         );
     }
 
