@@ -16,6 +16,6 @@ pub fn run() -> Result<(), Failure> {
         let install = ["install", "--yes", "--no-install-recommends"];
         run_command(program("apt-get").args(install).args(PACKAGES))?;
     }
-    let test = ["test", "--package", "afp-flow", "--features", "opencv", "--", "--nocapture"];
+    let test = ["test", "--package", "afp-navigation", "--features", "opencv", "--", "--nocapture"];
     run_command(cargo().args(test))
 }

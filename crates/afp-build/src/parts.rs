@@ -8,7 +8,7 @@ use afp_run::RunError;
 
 use crate::NotBuilt;
 use crate::kept::{self, Product};
-use afp_resolve::{OwnToolbox, OwnToolboxes};
+use afp_toolboxes::project::{OwnToolbox, OwnToolboxes};
 
 /// What is linked into one program or extension.
 pub struct Parts<'a> {

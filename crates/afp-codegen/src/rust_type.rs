@@ -5,7 +5,7 @@ use quote::quote;
 
 use crate::names::{camel, ident};
 use afp_dsl::types::{Dimension, Enum, Object, Type};
-use afp_number::RADIANS_PER_DEGREE;
+use afp_types::RADIANS_PER_DEGREE;
 
 /// Where types live, seen from the code that is being made.
 pub struct TypePaths<'a> {
@@ -139,7 +139,7 @@ pub fn variant(choices: &Enum, index: u16) -> proc_macro2::Ident {
 #[cfg(test)]
 mod tests {
     use super::{float, int, round_degrees};
-    use afp_number::RADIANS_PER_DEGREE;
+    use afp_types::RADIANS_PER_DEGREE;
 
     #[test]
     fn literals_are_read_back_as_the_same_number() {

@@ -22,7 +22,7 @@ mod time;
 pub mod trace;
 mod value;
 
-pub use afp_number::MAX_TRANSITIONS_PER_STEP;
+pub use afp_types::MAX_TRANSITIONS_PER_STEP;
 pub use clock::{Clock, StillClock};
 pub use component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,

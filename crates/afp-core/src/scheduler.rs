@@ -6,7 +6,7 @@ mod outside;
 
 use core::fmt;
 
-use afp_number::MAX_TRANSITIONS_PER_STEP;
+use afp_types::MAX_TRANSITIONS_PER_STEP;
 use heapless::Deque;
 
 use crate::clock::Clock;

@@ -10,7 +10,7 @@ use crate::fault::{Detail, Fault};
 use crate::time::{Duration, Instant};
 use crate::value::ValueRef;
 
-pub use afp_number::{ComponentKind, EntryKind};
+pub use afp_types::{ComponentKind, EntryKind};
 pub use display::Line;
 pub use hash::TraceHash;
 

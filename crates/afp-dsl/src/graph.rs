@@ -16,7 +16,7 @@ use crate::toolbox::{Constant, Template, Toolbox};
 use crate::types::{Conversion, Type};
 use afp_syntax::source::{Source, Span};
 
-pub use afp_number::{EntryKind, Function};
+pub use afp_types::{EntryKind, Function};
 pub use afp_syntax::ast::Operator;
 pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};

@@ -10,7 +10,7 @@ mod order;
 mod size;
 mod wanted;
 
-pub use afp_number::{Child, ElementKind, Range};
+pub use afp_types::{Child, ElementKind, Range};
 pub(crate) use lower::lower;
 pub(crate) use order::polling_order;
 pub(crate) use size::{MAX_EVENTS, MAX_ROWS, MAX_STATES, Table, tables};

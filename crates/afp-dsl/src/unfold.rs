@@ -12,7 +12,7 @@ use crate::graph::{
     Component, EdgeSpans, Element, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming,
 };
 use crate::types::Type;
-pub use afp_number::ComponentKind;
+pub use afp_types::ComponentKind;
 use afp_syntax::source::Span;
 use ports::Ports;
 pub use texts::{PlanTexts, TextPlace};

@@ -9,6 +9,8 @@ mod encode;
 mod error;
 mod event;
 mod foxglove;
+#[cfg(feature = "live")]
+pub mod live;
 mod names;
 mod picture;
 mod proto;

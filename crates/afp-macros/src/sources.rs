@@ -8,7 +8,7 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Disk;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::{CrateLink, ProjectError, ProjectFile};
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_syntax::source::Source;
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,7 +1,7 @@
 //! Times as people write them outside of plans: in `afp.toml` and on the command line.
 
 use afp_core::Duration;
-use afp_number::{SingleUnit, parse_quantity};
+use afp_types::{SingleUnit, parse_quantity};
 
 /// A span of time, such as `20s` or `1.5 ms`, to the nearest nanosecond.
 ///

@@ -6,7 +6,7 @@ use afp_build::{NotBuilt, Parts, Product};
 use afp_project::ProjectFile;
 use afp_py::pyo3;
 use afp_py::pyo3::prelude::*;
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 
 /// The native half of the package `afp`.
 #[pymodule]

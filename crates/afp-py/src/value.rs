@@ -166,11 +166,11 @@ fn such(unit: &str) -> String {
 pub fn number_of(text: &str, unit: &str) -> Option<f64> {
     let of_kind = |name| {
         let known = Unit::parse(name).filter(|known| known.dimension.si_unit() == unit)?;
-        Some(afp_number::Unit { name, scale: known.scale() })
+        Some(afp_types::Unit { name, scale: known.scale() })
     };
     match unit {
-        "" => afp_number::parse_float(text).ok(),
-        _ => afp_number::parse_quantity(text, Unit::symbols().filter_map(of_kind)).ok(),
+        "" => afp_types::parse_float(text).ok(),
+        _ => afp_types::parse_quantity(text, Unit::symbols().filter_map(of_kind)).ok(),
     }
 }
 

@@ -60,7 +60,7 @@ mod served {
     use afp_log::OwnedNames;
 
     /// A server over a run.
-    pub(crate) struct Live(afp_live::Live);
+    pub(crate) struct Live(afp_log::live::Live);
 
     impl Live {
         /// Begins to serve where that is asked for, and says at which addresses.
@@ -70,7 +70,7 @@ mod served {
             session: &dyn AnySession,
         ) -> Result<Option<Live>, RunError> {
             let Some(at) = asked else { return Ok(None) };
-            let live = afp_live::Live::start(at, name, session)
+            let live = afp_log::live::Live::start(at, name, session)
                 .map_err(|why| RunError::file("cannot serve on", at.to_string().as_ref())(why))?;
             let [operator, watcher] = live.addresses();
             say(format!("live: {operator}\nwatching alone: {watcher}\n"));

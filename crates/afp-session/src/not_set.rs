@@ -5,7 +5,7 @@ use std::fmt;
 use afp_core::Fault;
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_excerpt::words::a;
-use afp_number::{EXACT, number_length};
+use afp_types::{EXACT, number_length};
 
 use crate::any::{AnySession, SetError, refusal};
 use crate::units::some_units;

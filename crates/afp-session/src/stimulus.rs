@@ -11,7 +11,7 @@ use afp_core::trace::ComponentKind;
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
 #[cfg(feature = "load")]
 use afp_core::trace::{DEADLINE_MISSED, ERROR};
-use afp_number::Measured;
+use afp_types::Measured;
 
 use crate::event::{Datum, Holder};
 use crate::request::{HOLD, Put, Request, RequestError};

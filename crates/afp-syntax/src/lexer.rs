@@ -6,7 +6,7 @@
 mod foreign;
 mod unit;
 
-use afp_number::number_length;
+use afp_types::number_length;
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::kind::Kind;

@@ -1,7 +1,7 @@
 //! Texts of Action Flow Plans: a lossless tree of them, and what is wrong with them.
 //!
 //! It knows the grammar and nothing of what a text means. It does no I/O. Of the workspace it needs
-//! `afp-excerpt`, which shows where mistakes are, and `afp-number`, which reads numbers.
+//! `afp-excerpt`, which shows where mistakes are, and `afp-types`, which reads numbers.
 
 pub mod ast;
 pub mod diagnostics;

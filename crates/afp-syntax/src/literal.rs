@@ -1,8 +1,8 @@
 //! Numbers and quantities as they are written, and the exact value they stand for.
 //!
-//! The value is that of the same text at run time: the double nearest to it (`afp-number`).
+//! The value is that of the same text at run time: the double nearest to it (`afp-types`).
 
-use afp_number::{Decimal, Scale, exact, number_length};
+use afp_types::{Decimal, Scale, exact, number_length};
 
 use crate::dimension::Dimension;
 use crate::units::Unit;

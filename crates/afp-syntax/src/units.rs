@@ -3,7 +3,7 @@
 //! Lexer, checks and conversions from text all read them here. Where no plan is at hand, as for times and worlds on a
 //! command line, the list of those of one word is read itself.
 
-use afp_number::{Scale, SingleUnit};
+use afp_types::{Scale, SingleUnit};
 
 use crate::dimension::Dimension;
 
@@ -21,7 +21,7 @@ pub struct Unit {
     pub denominator: u64,
     /// Power of ten of the factor to SI.
     pub exponent: i32,
-    /// Exponent of the degree in it, each worth [`afp_number::RADIANS_PER_DEGREE`].
+    /// Exponent of the degree in it, each worth [`afp_types::RADIANS_PER_DEGREE`].
     pub degrees: i32,
     /// Whether it is `degC`, which has an offset.
     pub celsius: bool,

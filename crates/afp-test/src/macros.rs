@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use afp_dsl::files::{Disk, read_text};
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_session::Loader;
 use afp_syntax::source::Source;
 

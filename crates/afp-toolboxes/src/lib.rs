@@ -2,6 +2,10 @@
 //!
 //! Whoever runs the compiler passes these texts to it, so that `use std` and `use carbot` need no
 //! files beside the program.
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "project")]
+pub mod project;
 
 /// A toolbox that is embedded wherever the compiler runs.
 #[derive(Clone, Copy, Debug)]

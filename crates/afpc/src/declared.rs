@@ -9,7 +9,7 @@ use afp_dsl::Compiled;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::toolbox::{Amount, Control, Device, Fault};
 use afp_project::ProjectError;
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 
 use crate::plan_file::PlanFile;
 

@@ -9,7 +9,7 @@ use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
 use afp_project::ProjectError;
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_run::RunError;
 use afp_session::{Recipe, TextFile};
 use afp_syntax::source::Source;

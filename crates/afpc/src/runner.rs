@@ -12,7 +12,7 @@ use std::process::Command;
 use afp_build::{Parts, Product};
 use afp_dsl::graph::Graph;
 use afp_project::ProjectFile;
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_run::RunError;
 
 use crate::plan_file::NoPlan;

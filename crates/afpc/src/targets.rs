@@ -3,7 +3,7 @@
 use afp_dsl::graph::Graph;
 use afp_dsl::timing::{BUILT_IN, Target, check_target};
 use afp_project::Project;
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_run::RunError;
 use afp_syntax::diagnostics::{Diagnostics, words};
 

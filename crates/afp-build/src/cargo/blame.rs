@@ -11,7 +11,7 @@ use afp_syntax::source::{Source, Sources, Span};
 use serde_json::{Value, json};
 
 use super::message::{Message, Place};
-use afp_resolve::OwnToolbox;
+use afp_toolboxes::project::OwnToolbox;
 
 /// What errors can be traced back to.
 pub struct Blame<'a> {

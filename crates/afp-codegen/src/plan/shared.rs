@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use afp_number::Scale;
+use afp_types::Scale;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 

@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use afp_number::{Measured, Quantity};
+use afp_types::{Measured, Quantity};
 
 use super::Fault;
 use crate::trace::{ComponentId, Names, PortName, TextPlace, TraceEntryId};

@@ -1,13 +1,13 @@
-//! What formulas compute and how texts become values: `afp-number`, its errors as faults.
+//! What formulas compute and how texts become values: `afp-types`, its errors as faults.
 //!
 //! Interpreter and generated code call these functions, the compiler the ones behind them.
 
-use afp_number::{Error, Quantity};
+use afp_types::{Error, Quantity};
 
 use crate::fault::Fault;
 use crate::value::Text;
 
-pub use afp_number::{
+pub use afp_types::{
     Scale, Unit, abs, atan2, bool_to_float, bool_to_int, cos, hypot, int_max, int_min,
     int_to_float, max, min, sin, sqrt,
 };
@@ -29,7 +29,7 @@ macro_rules! faulty {
         $(#[$doc])*
         #[inline]
         pub fn $name($($input: $from),*) -> Result<$to, Fault> {
-            Ok(afp_number::$name($($input),*)?)
+            Ok(afp_types::$name($($input),*)?)
         }
     )*};
 }
@@ -117,7 +117,7 @@ pub fn join(a: &str, b: &str) -> Result<Text, Fault> {
 /// # Errors
 /// [`Fault::TOO_LONG`] when it does not fit; [`Fault::ARITHMETIC`] when it is not finite.
 pub fn print_quantity(value: f64, unit: &str) -> Result<Text, Fault> {
-    let value = afp_number::finite(value)?;
+    let value = afp_types::finite(value)?;
     Text::print(Quantity { value, unit })
 }
 
@@ -129,7 +129,7 @@ pub fn parse_quantity<'u>(
     text: &str,
     units: impl IntoIterator<Item = Unit<'u>>,
 ) -> Result<f64, Fault> {
-    Ok(afp_number::parse_quantity(text, units)?)
+    Ok(afp_types::parse_quantity(text, units)?)
 }
 
 /// A value of an enum from its name, by position.
@@ -140,5 +140,5 @@ pub fn parse_choice<'n>(
     text: &str,
     names: impl IntoIterator<Item = &'n str>,
 ) -> Result<u16, Fault> {
-    Ok(afp_number::parse_choice(text, names)?)
+    Ok(afp_types::parse_choice(text, names)?)
 }

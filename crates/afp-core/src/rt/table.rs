@@ -4,7 +4,7 @@ use crate::component::Events;
 use crate::fault::Fault;
 use crate::time::Duration;
 
-pub use afp_number::{Child, ElementKind, Range};
+pub use afp_types::{Child, ElementKind, Range};
 
 /// Where an edge leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

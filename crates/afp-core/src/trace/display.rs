@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use afp_number::{Measured, Quantity};
+use afp_types::{Measured, Quantity};
 
 use super::{
     Author, Cause, ComponentId, ComponentKind, ERROR, Ending, Names, Record, TraceEntryId, Verdict,

@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use afp_number::TextHash;
+use afp_types::TextHash;
 
 use super::{Line, Names, Record, Verdict};
 use crate::time::Instant;

@@ -1,10 +1,10 @@
 //! Values of formulas that are known when the plan is compiled.
 //!
-//! The arithmetic is the run time's (`afp-number`): left to right, no fused operations, overflow and a
+//! The arithmetic is the run time's (`afp-types`): left to right, no fused operations, overflow and a
 //! non-finite result are errors. One thing is stricter: what divides by a constant zero is an error
 //! whatever becomes of the quotient.
 
-use afp_number::{
+use afp_types::{
     Error, MAX_TEXT, Quantity, Unit, bool_to_float, bool_to_int, finite, float_to_int, int_add,
     int_mul, int_neg, int_rem, int_sub, int_to_float, parse_bool, parse_choice, parse_float,
     parse_int, parse_quantity, rem,

@@ -183,6 +183,6 @@ fn same_but_angle(left: Dimension, right: Dimension) -> bool {
 
 /// The number of a quantity that is written as one.
 fn without_unit(text: &str) -> Option<&str> {
-    let (number, unit) = text.split_at_checked(afp_number::number_length(text))?;
+    let (number, unit) = text.split_at_checked(afp_types::number_length(text))?;
     Unit::parse(unit.trim_start()).filter(|_| !number.is_empty()).map(|_| number)
 }

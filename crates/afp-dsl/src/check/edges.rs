@@ -12,7 +12,7 @@ use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
 use crate::index::{Recorder, Word};
 use crate::toolbox::TemplateKind;
-use afp_number::MAX_TEXT;
+use afp_types::MAX_TEXT;
 use afp_syntax::ast::{Edge, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};

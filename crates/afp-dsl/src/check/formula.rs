@@ -8,7 +8,7 @@ mod operation;
 use std::cell::Cell;
 use std::sync::Arc;
 
-use afp_number::{Error, MAX_TEXT};
+use afp_types::{Error, MAX_TEXT};
 
 use crate::check::constant;
 use crate::check::convert::coerce;

@@ -91,7 +91,7 @@ impl Watch {
     pub fn value(
         &self,
         entry: &dyn Fn(EntryId) -> Option<Constant>,
-    ) -> Result<Option<Constant>, afp_number::Error> {
+    ) -> Result<Option<Constant>, afp_types::Error> {
         let entry = |id: u16| entry(EntryId(id));
         let left = constant::evaluate(&self.left, &entry)?;
         let Some((sign, right)) = &self.right else { return Ok(left) };

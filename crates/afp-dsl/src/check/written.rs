@@ -1,7 +1,7 @@
 //! Values that are known to be written: the cells of a table, and what `Assign` is given. The entry that takes one must
 //! let it pass.
 
-use afp_number::Error;
+use afp_types::Error;
 
 use crate::check::constant::convert;
 use crate::check::entries::EntryDraft;

@@ -3,7 +3,7 @@
 //! A running plan does not know the grammar of units; for each dimension that it reads it gets a
 //! list of all spellings with a scale. Interpreter and generated code take the same list.
 
-use afp_number::Scale;
+use afp_types::Scale;
 
 use crate::types::Dimension;
 use afp_syntax::units::Unit;

@@ -4,7 +4,7 @@
 //! as the very same double.
 
 use crate::types::{Dimension, Type};
-use afp_number::{Nanoseconds, RADIANS_PER_DEGREE, Rounded};
+use afp_types::{Nanoseconds, RADIANS_PER_DEGREE, Rounded};
 use afp_syntax::diagnostics::words;
 use afp_syntax::literal::Literal;
 use afp_syntax::units::Unit;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use afp_dsl::files::{Disk, Files};
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile_plan};
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_run::{RunError, write_whole};
 use afp_syntax::source::Source;
 use pyo3::prelude::*;

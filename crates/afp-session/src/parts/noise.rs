@@ -2,7 +2,7 @@
 //!
 //! A stream is not shared, so adding a sensor or reading one more often does not shift the others.
 
-use afp_number::TextHash;
+use afp_types::TextHash;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
 

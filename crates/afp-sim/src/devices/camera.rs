@@ -8,8 +8,8 @@ use crate::vehicle::Place;
 use afp_carbot::devices::{Frame, Lens};
 use afp_core::Duration;
 use afp_core::quantity::{Angle, Length};
-use afp_flow::{FlowJob, FlowSensor, LucasKanade};
-use afp_worker::VirtualWorker;
+use afp_navigation::flow::{FlowJob, FlowSensor, LucasKanade};
+use afp_platform::VirtualWorker;
 use std::sync::OnceLock;
 
 pub(crate) use track::track;

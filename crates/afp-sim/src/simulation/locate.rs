@@ -12,10 +12,10 @@ use crate::world::isometry;
 use afp_carbot::devices::Navigator;
 use afp_carbot::table::signal;
 use afp_core::Instant;
-use afp_maps::{Filter, LocateJob, Locator, Planner, SearchJob};
+use afp_navigation::maps::{Filter, LocateJob, Locator, Planner, SearchJob};
 use afp_session::frames::{BY_LOCALISATION, WORLD};
 use afp_session::{SampleRef, Samples, Shape};
-use afp_worker::VirtualWorker;
+use afp_platform::VirtualWorker;
 use std::f64::consts::TAU;
 
 /// The filter in virtual time.

@@ -3,7 +3,7 @@
 use super::{Obstacle, World};
 use crate::chassis::Chassis;
 use crate::devices::sonar;
-use afp_maps::{EchoField, Map};
+use afp_navigation::maps::{EchoField, Map};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 

@@ -1,6 +1,6 @@
 //! Values of literals.
 
-use afp_number::RADIANS_PER_DEGREE;
+use afp_types::RADIANS_PER_DEGREE;
 
 use super::Literal;
 

@@ -1,17 +1,19 @@
 //! `afpc new`: a project that works at once.
 
+mod files;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_build::{crate_folder, origin};
 use afp_codegen::Origin;
-use afp_new::{Kind, NameError};
 use afp_project::ProjectFile;
 use afp_run::{EXIT_OK, RunError, write_whole};
 use afp_session::shell_word;
 use clap::Args;
 
 use super::print;
+use files::{Kind, NameError};
 use crate::plan_file::NoPlan;
 
 /// Arguments of `afpc new`.
@@ -53,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         Kind::Plan => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
         Kind::Toolbox | Kind::Robot => origin::of_afp(&around(folder)?)?,
     };
-    let files = afp_new::files(&name, kind, &origin::as_written(afp.clone()));
+    let files = files::files(&name, kind, &origin::as_written(afp.clone()));
     let files = files.map_err(|NameError { message, help }| RunError::usage(message, help))?;
     let is_there = folder.symlink_metadata().is_ok();
     // A folder that is empty is as good as none; what cannot be looked into is something else.
@@ -74,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
 }
 
 /// Writes the files below a folder, which is made.
-fn write(folder: &Path, files: &[afp_new::File]) -> Result<(), RunError> {
+fn write(folder: &Path, files: &[files::File]) -> Result<(), RunError> {
     for file in files {
         let path = folder.join(&file.path);
         let parent = path.parent().unwrap_or(folder);
@@ -91,7 +93,7 @@ fn around(folder: &Path) -> Result<ProjectFile, RunError> {
 }
 
 /// What there is now, and what to do with it.
-fn next(folder: &Path, files: &[afp_new::File], pinned: Option<&str>, kind: Kind) -> String {
+fn next(folder: &Path, files: &[files::File], pinned: Option<&str>, kind: Kind) -> String {
     let is_plan = |path: &str| path.starts_with("plans/") && !path.starts_with("plans/tests/");
     let plan = files.iter().find(|file| is_plan(&file.path)).map_or("", |file| &file.path);
     let paths = files.iter().map(|file| &*file.path).chain(pinned);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox, Toolboxes};
 use afp_project::ProjectFile;
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_run::{RunError, say};
 use afp_syntax::diagnostics::words::nearest;
 use afp_syntax::source::{Sources, Span};

@@ -12,7 +12,7 @@ use std::{io, thread};
 use afp::core::{Invalid, Platform};
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp::{Duration, Environment, Instant, Reading};
-use afp_hardware::{Hardware, LastResort, RealTime, Robot, SampleRef, Samples, Settings};
+use afp_platform::{Hardware, LastResort, RealTime, Robot, SampleRef, Samples, Settings};
 use vacuum::templates::devices::Devices;
 use vacuum::templates::signal;
 use vacuum::{Nozzle, Senses, Way, Wheels};

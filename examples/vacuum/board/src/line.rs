@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, Read, Write};
 use std::mem;
 use std::os::unix::fs::OpenOptionsExt;
 
-use afp_hardware::LastResort;
+use afp_platform::LastResort;
 use rustix::fs::OFlags;
 use rustix::termios::{OptionalActions, QueueSelector, isatty, tcflush, tcgetattr, tcsetattr};
 use vacuum_protocol::{Command, Report};

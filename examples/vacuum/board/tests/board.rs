@@ -8,7 +8,7 @@ use std::thread;
 use afp::core::Platform;
 use afp::quantity::{AngularSpeed, Speed};
 use afp::{Duration, Environment};
-use afp_hardware::{Hardware, Settings};
+use afp_platform::{Hardware, Settings};
 use vacuum::{Nozzle, Senses, Wheels};
 use vacuum_board::Board;
 use vacuum_protocol::{Command, Line, Report};

@@ -92,7 +92,7 @@ fn nothing_needs_what_is_no_crate() {
 #[test]
 fn plans_and_robots_are_built_from_no_drawing_editor_or_formatter() {
     let packages = packages();
-    for robot in ["afp-macros", "afp-carbot", "afp-std", "afp-flow", "afp-sim"] {
+    for robot in ["afp-macros", "afp-carbot", "afp-std", "afp-navigation", "afp-sim"] {
         let all = built_from(&packages, robot);
         assert!(all.contains("afp-core") || all.contains("afp-dsl"), "{robot}: {all:?}");
         for other in ["afp-draw", "afp-ide", "afp-format"] {

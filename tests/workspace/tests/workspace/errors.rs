@@ -7,7 +7,7 @@ use afp_workspace::root;
 use crate::sources::rust_files;
 
 /// Errors that both ends of ours must know: a kind of error that compiler or run time forgot is not to compile.
-const OURS: [&str; 1] = ["afp-number/src/lib.rs: Error"];
+const OURS: [&str; 1] = ["afp-types/src/lib.rs: Error"];
 
 /// The public enums of a text that are errors and can be matched to the last.
 fn exhaustive(text: &str) -> Vec<&str> {

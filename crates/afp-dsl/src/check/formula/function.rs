@@ -1,6 +1,6 @@
 //! Functions and the dimensions of their values.
 
-use afp_number::Function;
+use afp_types::Function;
 
 use super::Scope;
 use super::operation::{different, dimension, to_float, to_number};

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use afp_number::MAX_TRANSITIONS_PER_STEP;
+use afp_types::MAX_TRANSITIONS_PER_STEP;
 
 use super::counters::{self, Counter};
 use super::decided::{self, Known};

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use afp_number::MAX_TRANSITIONS_PER_STEP;
+use afp_types::MAX_TRANSITIONS_PER_STEP;
 
 use super::decided;
 use super::holding::standard_template;

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use afp_number::MAX_TEXT;
+use afp_types::MAX_TEXT;
 
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, View, takes_time};

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use afp_build::Parts;
 use afp_debug::{Adapter, Launch};
-use afp_resolve::OwnToolboxes;
+use afp_toolboxes::project::OwnToolboxes;
 use afp_studio::{Debugging, Trusted};
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::files::read_text_file;
-use afp_number::TextHash;
+use afp_types::TextHash;
 use afp_project::{ProjectFile, Unread};
 use afp_run::RunError;
 use afp_syntax::may_have_scenario;

@@ -1,0 +1,217 @@
+//! One client: what it says, and what it is sent.
+
+use std::io::ErrorKind;
+use std::iter::repeat;
+use std::net::TcpStream;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant as Wall};
+
+use serde_json::Value;
+use tungstenite::{Error, Message, WebSocket};
+
+use super::admission::{Role, Tokens};
+use super::handshake::{Admitted, handshake};
+use super::hub::{Asked, Hub, Question, Service, Written};
+use super::paced::Paced;
+use super::protocol::{self, Call, ClientMessage, Parameter};
+use super::queue::Queue;
+
+/// How long what a client says is waited for, before what it is sent is looked after.
+const LISTEN: Duration = Duration::from_millis(10);
+/// How long a client may read nothing at all.
+const STALLED: Duration = Duration::from_secs(3);
+/// How long a client may take for the rest when the run is over.
+const GOODBYE: Duration = Duration::from_secs(1);
+
+/// Talks with a client until one of the two has had enough; `admitted` is told once it is let in.
+pub(crate) fn serve(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens, admitted: &AtomicBool) {
+    let Some(Admitted { socket, role, place: _place }) = handshake(stream, hub, tokens) else {
+        return;
+    };
+    admitted.store(true, Ordering::Release);
+    if socket.get_ref().stream().set_read_timeout(Some(LISTEN)).is_err() {
+        return;
+    }
+    let queue = Arc::new(Queue::default());
+    hub.join(&queue);
+    let _ = Client { socket, hub, queue: &queue, role, stalled: None }.talk();
+    hub.leave(&queue);
+}
+
+struct Client<'a> {
+    socket: WebSocket<Paced>,
+    hub: &'a Arc<Hub>,
+    queue: &'a Arc<Queue>,
+    role: Role,
+    /// Since when nothing can be written.
+    stalled: Option<Wall>,
+}
+
+/// Whether nothing was there in time.
+fn is_late(error: &Error) -> bool {
+    matches!(error, Error::Io(io) if matches!(io.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut))
+}
+
+impl Client<'_> {
+    fn talk(&mut self) -> Result<(), Error> {
+        let mut over: Option<Wall> = None;
+        loop {
+            match self.socket.read() {
+                Ok(message) => self.on_message(&message),
+                Err(why) if is_late(&why) => {}
+                Err(why) => return Err(why),
+            }
+            let more = self.write()?;
+            if self.queue.is_overflown() || self.stalled.is_some_and(|it| it.elapsed() > STALLED) {
+                return Ok(());
+            }
+            if self.hub.is_over() {
+                let since = *over.get_or_insert_with(Wall::now);
+                if !more || since.elapsed() > GOODBYE {
+                    self.socket.get_mut().begin_turn();
+                    return self.socket.close(None).and_then(|()| self.socket.flush());
+                }
+            }
+        }
+    }
+
+    /// Sends what waits, as far as the client reads in one turn; whether more of it waits.
+    fn write(&mut self) -> Result<bool, Error> {
+        self.socket.get_mut().begin_turn();
+        loop {
+            match self.socket.flush() {
+                Ok(()) => self.stalled = None,
+                Err(why) if is_late(&why) => {
+                    self.note_stall();
+                    return Ok(true);
+                }
+                Err(why) => return Err(why),
+            }
+            let Some(message) = self.queue.next() else { return Ok(false) };
+            match self.socket.write(message) {
+                // What could not be written yet is kept for the next turn.
+                Err(why) if !is_late(&why) => return Err(why),
+                _ => {}
+            }
+        }
+    }
+
+    /// Notes since when the client reads nothing.
+    fn note_stall(&mut self) {
+        match self.socket.get_ref().has_written() {
+            true => self.stalled = None,
+            false => _ = self.stalled.get_or_insert_with(Wall::now),
+        }
+    }
+
+    fn on_message(&mut self, message: &Message) {
+        match message {
+            Message::Text(text) => match serde_json::from_str::<ClientMessage>(text) {
+                Ok(said) => self.answer(said),
+                Err(why) => {
+                    self.queue.answer(protocol::status(2, &format!("not understood: {why}")));
+                }
+            },
+            Message::Binary(bytes) => match Call::read(bytes) {
+                Some(call) => self.call(&call),
+                None => self.queue.answer(protocol::status(2, "not understood: no service call")),
+            },
+            _ => {}
+        }
+    }
+
+    fn answer(&mut self, message: ClientMessage) {
+        let queue = self.queue;
+        match message {
+            ClientMessage::Subscribe { subscriptions } => {
+                for wanted in subscriptions {
+                    let done = self.hub.subscribe(queue, wanted.channel_id, wanted.id);
+                    done.unwrap_or_else(|why| queue.answer(protocol::status(2, &why)));
+                }
+            }
+            ClientMessage::Unsubscribe { subscription_ids } => {
+                subscription_ids.into_iter().for_each(|id| queue.unsubscribe(id));
+            }
+            ClientMessage::GetParameters { parameter_names, id } => {
+                queue.answer(self.hub.values(&parameter_names, id.as_deref()));
+            }
+            ClientMessage::SetParameters { parameters, id } => self.set(parameters, id),
+            ClientMessage::SubscribeParameterUpdates { parameter_names } => {
+                self.hub.watch(queue, &parameter_names)
+            }
+            ClientMessage::UnsubscribeParameterUpdates { parameter_names } => {
+                queue.unwatch(&parameter_names)
+            }
+            ClientMessage::Unknown => {}
+        }
+    }
+
+    /// Writes entries; the client is told what cannot be written and, where it wants an answer, their values then.
+    fn set(&mut self, parameters: Vec<Parameter>, id: Option<String>) {
+        let (queue, hub) = (Arc::clone(self.queue), Arc::clone(self.hub));
+        let entries: Vec<_> = parameters.into_iter().map(Parameter::into_text).collect();
+        let names: Vec<_> = entries.iter().map(|(name, _)| name.clone()).collect();
+        let answer = move |written: Vec<Written>| {
+            let refused = written.iter().filter_map(|done| done.as_ref().err());
+            refused.for_each(|why| queue.answer(protocol::status(2, why)));
+            if let Some(id) = id {
+                let written = written.into_iter().map(Result::ok).chain(repeat(None));
+                queue.answer(hub.values_after(names.into_iter().zip(written).collect(), &id));
+            }
+        };
+        if self.role == Role::Watcher {
+            let why = "this address is for watching: open the other one to write".to_owned();
+            return answer(vec![Err(why)]);
+        }
+        let answer = Box::new(answer);
+        self.hub.ask(Question::Write { entries, answer });
+    }
+
+    fn call(&mut self, call: &Call<'_>) {
+        let (queue, service, number) = (Arc::clone(self.queue), call.service, call.call);
+        let answer = Box::new(move |done: Result<(), String>| match done {
+            Ok(()) => queue.answer(protocol::called(service, number)),
+            Err(why) => queue.answer(protocol::call_failed(service, number, &why)),
+        });
+        match self.asked(call) {
+            Ok(what) => self.hub.ask(Question::Do { what, answer }),
+            Err(why) => answer(Err(why)),
+        }
+    }
+
+    /// What a call asks of the run.
+    fn asked(&self, call: &Call<'_>) -> Result<Asked, String> {
+        let service = self.hub.service(call.service).ok_or("there is no such service")?;
+        // Anybody may stop a robot.
+        if self.role == Role::Watcher && *service != Service::Stop {
+            return Err("this address is for watching: open the other one to press".to_owned());
+        }
+        if call.encoding != "json" {
+            return Err(format!("'{}' is not read: write JSON", call.encoding));
+        }
+        let said: Value = match call.payload {
+            [] => Value::Null,
+            payload => serde_json::from_slice(payload).map_err(|why| why.to_string())?,
+        };
+        let number = |name: &str| match &said[name] {
+            Value::Null => Ok(None),
+            value => value.as_f64().map(Some).ok_or_else(|| format!("'{name}' is a number")),
+        };
+        Ok(match service {
+            Service::Press(control) => Asked::Press {
+                control: control.clone(),
+                held: match &said["held"] {
+                    Value::Null => None,
+                    value => Some(value.as_bool().ok_or("'held' is true or false")?),
+                },
+            },
+            Service::Fail(fault) => Asked::Fail {
+                fault: fault.clone(),
+                amount: number("amount")?,
+                seconds: number("seconds")?,
+            },
+            Service::Stop => Asked::Stop,
+        })
+    }
+}

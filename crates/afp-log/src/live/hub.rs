@@ -1,0 +1,366 @@
+//! What all clients share: channels with their last messages, values of parameters, services.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use afp_core::devices::{DeviceRow, controls, faults};
+use afp_core::trace::{Names, TraceEntryId};
+use afp_core::{Duration, Instant};
+use crate::{LogError, Messages};
+use afp_session::{AnySession, Datum, Request};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+
+use super::protocol;
+use super::queue::{Queue, Sent};
+
+/// The channel that tells of all entries.
+const CONFIGURATION: &str = "/plan/configuration";
+
+/// What is to happen.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Asked {
+    /// A control is held down or let go; pressed for a moment where that is not said.
+    Press { control: String, held: Option<bool> },
+    /// Something breaks, by so much, for so many seconds.
+    Fail { fault: String, amount: Option<f64>, seconds: Option<f64> },
+    /// The plan ends.
+    Stop,
+}
+
+/// What a client asks of the run, and who is told what became of it.
+pub(crate) enum Question {
+    /// Something happens to the robot or the plan.
+    Do { what: Asked, answer: Box<dyn FnOnce(Result<(), String>) + Send> },
+    /// Entries are written, as people write them: names and texts. Of each the answer gets its new value, or why it has none.
+    Write { entries: Vec<(String, String)>, answer: Box<dyn FnOnce(Vec<Written>) + Send> },
+}
+
+/// The value of an entry that was written, or why it was not.
+pub(crate) type Written = Result<Datum, String>;
+
+/// A service of the robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Service {
+    Press(String),
+    Fail(String),
+    Stop,
+}
+
+/// So many clients at most.
+const CLIENTS: usize = 8;
+
+/// The place of a client, which is free again when this is dropped.
+pub(crate) struct Place(Arc<Hub>);
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        self.0.taken.fetch_sub(1, Ordering::AcqRel);
+    }
+}
+
+pub(crate) struct Hub {
+    name: String,
+    services: Vec<Service>,
+    shared: Mutex<Shared>,
+    inbox: Sender<Question>,
+    /// Questions that the run has not answered.
+    open: AtomicUsize,
+    /// How many clients have a place.
+    taken: AtomicUsize,
+    over: AtomicBool,
+}
+
+#[derive(Default)]
+struct Shared {
+    channels: Vec<Channel>,
+    /// The SI units of entries.
+    units: BTreeMap<String, String>,
+    parameters: BTreeMap<String, Value>,
+    clients: Vec<Arc<Queue>>,
+}
+
+struct Channel {
+    advertised: Value,
+    configuration: bool,
+    last: Option<Sent>,
+}
+
+impl Hub {
+    pub fn new(
+        name: &str,
+        names: &dyn Names,
+        services: Vec<Service>,
+        inbox: Sender<Question>,
+    ) -> Hub {
+        let entries = (0..names.entries()).map(|id| names.entry(TraceEntryId(id)));
+        let units: BTreeMap<_, _> =
+            entries.map(|entry| (entry.path.to_owned(), entry.unit.to_owned())).collect();
+        let parameters = units.keys().map(|path| (path.clone(), Value::Null)).collect();
+        Hub {
+            name: name.to_owned(),
+            services,
+            shared: Mutex::new(Shared { units, parameters, ..Shared::default() }),
+            inbox,
+            open: AtomicUsize::new(0),
+            taken: AtomicUsize::new(0),
+            over: AtomicBool::new(false),
+        }
+    }
+
+    fn shared(&self) -> MutexGuard<'_, Shared> {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A place for a client; none where all are taken.
+    pub fn take_place(hub: &Arc<Hub>) -> Option<Place> {
+        let more = |taken| (taken < CLIENTS).then_some(taken + 1);
+        hub.taken.fetch_update(Ordering::AcqRel, Ordering::Acquire, more).ok()?;
+        Some(Place(Arc::clone(hub)))
+    }
+
+    /// Lets a client in: it is told what there is.
+    pub fn join(&self, queue: &Arc<Queue>) {
+        let mut shared = self.shared();
+        let info = json!({
+            "op": "serverInfo", "name": self.name, "supportedEncodings": ["json"],
+            "capabilities": ["parameters", "parametersSubscribe", "services"], "metadata": {},
+        });
+        queue.answer(info.to_string());
+        let channels: Vec<_> = shared.channels.iter().map(|each| &each.advertised).collect();
+        queue.answer(json!({"op": "advertise", "channels": channels}).to_string());
+        let services = self.services.iter().zip(1_u32..).map(|(it, id)| it.advertised(id));
+        let services: Vec<_> = services.collect();
+        queue.answer(json!({"op": "advertiseServices", "services": services}).to_string());
+        shared.clients.push(Arc::clone(queue));
+    }
+
+    /// A client has gone.
+    pub fn leave(&self, queue: &Arc<Queue>) {
+        self.shared().clients.retain(|known| !Arc::ptr_eq(known, queue));
+    }
+
+    /// How many clients there are.
+    pub fn clients(&self) -> usize {
+        self.shared().clients.len()
+    }
+
+    /// A client wants a channel: it gets its last message, and all that come.
+    pub fn subscribe(&self, queue: &Queue, channel: u32, subscription: u32) -> Result<(), String> {
+        let shared = self.shared();
+        let number = usize::try_from(channel).unwrap_or(usize::MAX);
+        let found = shared.channels.get(number);
+        let found = found.ok_or_else(|| format!("there is no channel {channel}"))?;
+        queue.subscribe(channel, subscription);
+        found.last.iter().for_each(|last| queue.message(channel, last));
+        Ok(())
+    }
+
+    /// The values of parameters, of all where there is no name, as a message.
+    pub fn values(&self, names: &[String], id: Option<&str>) -> String {
+        let shared = self.shared();
+        match names {
+            [] => protocol::values(&shared.parameters, id),
+            names => protocol::values(&shared.known(names), id),
+        }
+    }
+
+    /// The values of parameters that were just written, or could not be, as a message: the run tells of them later.
+    pub fn values_after(&self, written: Vec<(String, Option<Datum>)>, id: &str) -> String {
+        let shared = self.shared();
+        let (names, written): (Vec<_>, Vec<_>) = written.into_iter().unzip();
+        let mut values = shared.known(&names);
+        for (name, datum) in names.iter().zip(written) {
+            if let (Some(value), Some(datum)) = (values.get_mut(name), datum) {
+                *value = shared.shown(name, &datum);
+            }
+        }
+        protocol::values(&values, Some(id))
+    }
+
+    /// A client wants to be told of parameters when they change, of all where it names none.
+    pub fn watch(&self, queue: &Queue, names: &[String]) {
+        let shared = self.shared();
+        match names {
+            [] => queue.watch(shared.parameters.keys().cloned()),
+            names => queue.watch(shared.known(names).into_keys()),
+        }
+    }
+
+    /// The service of a number.
+    pub fn service(&self, id: u32) -> Option<&Service> {
+        self.services.get(usize::try_from(id.checked_sub(1)?).ok()?)
+    }
+
+    /// Asks something of the run.
+    pub fn ask(&self, question: Question) {
+        self.open.fetch_add(1, Ordering::Release);
+        // Without a run there is nobody to be told.
+        let _ = self.inbox.send(question);
+    }
+
+    /// Whether something was asked that has not been answered.
+    pub fn is_asked(&self) -> bool {
+        self.open.load(Ordering::Acquire) > 0
+    }
+
+    /// A question has been answered.
+    pub fn answered(&self) {
+        self.open.fetch_sub(1, Ordering::Release);
+    }
+
+    /// Nothing comes any more.
+    pub fn end(&self) {
+        self.over.store(true, Ordering::Release);
+    }
+
+    /// Whether nothing comes any more.
+    pub fn is_over(&self) -> bool {
+        self.over.load(Ordering::Acquire)
+    }
+
+    /// Takes in what all entries hold; who watches them is told of what is different.
+    fn configure(shared: &mut Shared, entries: Vec<(String, Datum)>) {
+        let mut changed = Vec::new();
+        for (path, datum) in entries {
+            let value = shared.shown(&path, &datum);
+            if shared.parameters.get(&path) != Some(&value) {
+                changed.push((path.clone(), value.clone()));
+                shared.parameters.insert(path, value);
+            }
+        }
+        for client in &shared.clients {
+            let watched = changed.iter().filter(|(name, _)| client.watches(name));
+            let watched: BTreeMap<_, _> = watched.cloned().collect();
+            if !watched.is_empty() {
+                client.answer(protocol::values(&watched, None));
+            }
+        }
+    }
+}
+
+impl Shared {
+    /// Those parameters among these names that there are, with their values.
+    fn known(&self, names: &[String]) -> BTreeMap<String, Value> {
+        let known = names.iter().filter_map(|name| self.parameters.get_key_value(name));
+        known.map(|(name, value)| (name.clone(), value.clone())).collect()
+    }
+
+    /// The value of an entry as its parameter has it.
+    fn shown(&self, entry: &str, datum: &Datum) -> Value {
+        shown(datum, self.units.get(entry).map_or("", String::as_str))
+    }
+}
+
+/// A value as a parameter has it: quantities as people write them.
+fn shown(datum: &Datum, unit: &str) -> Value {
+    match datum {
+        Datum::Unset | Datum::Object(_) => Value::Null,
+        Datum::Truth(truth) => json!(truth),
+        Datum::Integer(integer) => json!(integer),
+        Datum::Number(number) if unit.is_empty() => json!(number),
+        Datum::Text(text) | Datum::Choice(text) => json!(text),
+        Datum::Number(_) => json!(datum.in_unit(unit)),
+    }
+}
+
+impl Service {
+    /// What can be asked of the robot of a session, and that its plan ends.
+    pub fn all(session: &dyn AnySession) -> Vec<Service> {
+        let devices = session.devices();
+        let dotted = |device: &DeviceRow, name: &str| format!("{}.{name}", device.name);
+        let presses = controls(devices).filter_map(|(id, at, row)| {
+            session.can(&Request::Press(id, true)).ok()?;
+            Some(Service::Press(dotted(at, row.name)))
+        });
+        let fails = faults(devices).filter_map(|(id, at, row)| {
+            let amount = row.amount.map(|amount| amount.default);
+            session.can(&Request::Break(id, amount, Duration::MAX)).ok()?;
+            Some(Service::Fail(dotted(at, row.name)))
+        });
+        presses.chain(fails).chain([Service::Stop]).collect()
+    }
+
+    fn advertised(&self, id: u32) -> Value {
+        let number = json!({"type": "number"});
+        let (name, ty, properties) = match self {
+            Service::Press(control) => {
+                (format!("press/{control}"), "afp.Press", json!({"held": {"type": "boolean"}}))
+            }
+            Service::Fail(fault) => {
+                (format!("fail/{fault}"), "afp.Fail", json!({"amount": number, "seconds": number}))
+            }
+            Service::Stop => ("stop".to_owned(), "afp.Stop", json!({})),
+        };
+        let schema = |properties: Value| {
+            let schema = json!({"type": "object", "properties": properties}).to_string();
+            json!({"encoding": "json", "schemaName": ty, "schemaEncoding": "jsonschema", "schema": schema})
+        };
+        let (request, response) = (schema(properties), schema(json!({})));
+        json!({"id": id, "name": name, "type": ty, "request": request, "response": response})
+    }
+}
+
+/// The side on which the messages of a run come in.
+pub(crate) struct Stream(pub Arc<Hub>);
+
+impl Messages for Stream {
+    fn open(&mut self, topic: &str, schema: &str, set: &[u8]) -> Result<u16, LogError> {
+        let mut shared = self.0.shared();
+        let id = shared.channels.len() as u16;
+        let advertised = json!({
+            "id": id, "topic": topic, "encoding": "protobuf", "schemaName": schema,
+            "schema": STANDARD.encode(set), "schemaEncoding": "protobuf",
+        });
+        let message = json!({"op": "advertise", "channels": [advertised]}).to_string();
+        shared.clients.iter().for_each(|client| client.answer(message.clone()));
+        let configuration = topic == CONFIGURATION;
+        shared.channels.push(Channel { advertised, configuration, last: None });
+        Ok(id)
+    }
+
+    fn send(&mut self, channel: u16, _: u32, at: Instant, message: &[u8]) -> Result<(), LogError> {
+        let mut shared = self.0.shared();
+        let sent = Sent { at: at.as_nanos(), payload: message.into() };
+        shared.clients.iter().for_each(|client| client.message(channel.into(), &sent));
+        let Some(known) = shared.channels.get_mut(usize::from(channel)) else { return Ok(()) };
+        known.last = Some(sent);
+        if known.configuration
+            && let Some(all) = crate::configuration(message)
+        {
+            Hub::configure(&mut shared, all.entries);
+        }
+        Ok(())
+    }
+
+    fn came(&mut self, _: Vec<(String, String)>) -> Result<(), LogError> {
+        Ok(())
+    }
+
+    fn flush(&mut self) -> Result<(), LogError> {
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>, _: bool) -> Result<(PathBuf, u64), LogError> {
+        Ok((PathBuf::new(), 0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_there_is_not_is_not_kept_for_anybody() {
+        let (ask, _inbox) = std::sync::mpsc::channel();
+        let hub = Hub::new("P", &crate::OwnedNames::default(), Vec::new(), ask);
+        let queue = Queue::default();
+        hub.watch(&queue, &["x".repeat(1 << 20)]);
+        hub.watch(&queue, &[]);
+        assert!(!queue.watches(&"x".repeat(1 << 20)));
+    }
+}

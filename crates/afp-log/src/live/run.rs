@@ -1,0 +1,151 @@
+//! A server over one run.
+
+use std::fmt;
+use std::io;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::thread::JoinHandle;
+
+use afp_core::trace::TraceEntryId;
+use afp_core::{Duration, Instant};
+use crate::Messages;
+use afp_session::{AnySession, Datum, HOLD, Holder, Request, Stimulus};
+
+use super::admission::Tokens;
+use super::hub::{Asked, Hub, Question, Service, Stream, Written};
+use super::server;
+
+/// A run that others watch.
+pub struct Live {
+    hub: Arc<Hub>,
+    inbox: Receiver<Question>,
+    thread: Option<JoinHandle<()>>,
+    at: SocketAddr,
+    tokens: Tokens,
+}
+
+impl Live {
+    /// Begins to serve a run about to start, on an address; port 0 is any that is free.
+    ///
+    /// # Errors
+    /// The address is taken or none of this machine.
+    pub fn start(at: SocketAddr, name: &str, session: &dyn AnySession) -> io::Result<Live> {
+        let (ask, inbox) = channel();
+        let hub = Arc::new(Hub::new(name, session.names(), Service::all(session), ask));
+        let tokens = Tokens::new()?;
+        let (at, thread) = server::start(at, Arc::clone(&hub), tokens.clone())?;
+        Ok(Live { hub, inbox, thread: Some(thread), at, tokens })
+    }
+
+    /// The addresses for clients: of who may steer, and of who may only watch.
+    pub fn addresses(&self) -> [String; 2] {
+        let mut at = self.at;
+        if at.ip().is_unspecified() {
+            at.set_ip(std::net::Ipv4Addr::LOCALHOST.into());
+        }
+        let Tokens { operator, watcher } = &self.tokens;
+        [operator, watcher].map(|token| format!("ws://{at}/?token={}", token.word()))
+    }
+
+    /// Whether others than this machine reach it.
+    pub fn is_open(&self) -> bool {
+        !self.at.ip().is_loopback()
+    }
+
+    /// How many clients watch.
+    pub fn clients(&self) -> usize {
+        self.hub.clients()
+    }
+
+    /// Takes the messages of the run.
+    pub fn messages(&self) -> Box<dyn Messages> {
+        Box::new(Stream(Arc::clone(&self.hub)))
+    }
+
+    /// Whether somebody has asked for something.
+    pub fn is_asked(&self) -> bool {
+        self.hub.is_asked()
+    }
+
+    /// Does what was asked for, at an instant that is not over.
+    pub fn serve(&self, session: &mut dyn AnySession, at: Instant) {
+        while let Ok(question) = self.inbox.try_recv() {
+            match question {
+                Question::Do { what, answer } => answer(done(session, at, what)),
+                Question::Write { entries, answer } => {
+                    let written = entries.iter().map(|(name, text)| write(session, name, text));
+                    answer(written.collect());
+                }
+            }
+            self.hub.answered();
+        }
+    }
+
+    /// Nothing comes any more; those who still read get the rest.
+    pub fn finish(mut self) {
+        self.close();
+    }
+
+    fn close(&mut self) {
+        self.hub.end();
+        if let Some(thread) = self.thread.take() {
+            // A thread that broke off has nothing left to say.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        self.close();
+    }
+}
+
+impl fmt::Debug for Live {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Live").field("at", &self.at).finish_non_exhaustive()
+    }
+}
+
+/// Writes an entry; gives its new value.
+fn write(session: &mut dyn AnySession, entry: &str, text: &str) -> Written {
+    let text = text.trim();
+    match session.set(entry, text) {
+        Ok(value) => {
+            let names = session.names();
+            let mut ids = (0..names.entries()).map(TraceEntryId);
+            let id = ids.find(|id| names.entry(*id).path == entry);
+            Ok(Datum::new(names, id.map_or(Holder::Unknown, Holder::Entry), value.borrow()))
+        }
+        Err(why) => Err(why.explained(session, entry, text).to_string()),
+    }
+}
+
+/// Does something that was asked for.
+fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), String> {
+    match what {
+        Asked::Press { control, held } => {
+            let what = match held {
+                Some(held) => Stimulus::Press { control, held },
+                None => Stimulus::Hold { control, lasting: HOLD },
+            };
+            ask(session, at, &what)
+        }
+        Asked::Fail { fault, amount, seconds } => {
+            let lasting = match seconds {
+                None => Duration::MAX,
+                Some(seconds) if seconds > 0.0 && seconds < 1e9 => Duration::from_secs_f64(seconds),
+                Some(_) => return Err("'seconds' is a number above 0".to_owned()),
+            };
+            ask(session, at, &Stimulus::Break { fault, amount, unit: String::new(), lasting })
+        }
+        Asked::Stop => session.at(at, Request::Stop).map(|_| ()).map_err(|why| why.to_string()),
+    }
+}
+
+fn ask(session: &mut dyn AnySession, at: Instant, what: &Stimulus) -> Result<(), String> {
+    let request = what.request(session.devices(), session.names());
+    let asked = request.and_then(|request| session.at(at, request));
+    asked.map(|_| ()).map_err(|why| why.to_string())
+}

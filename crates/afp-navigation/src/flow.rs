@@ -1,0 +1,105 @@
+//! Optical flow: how a camera's pictures move, computed as a job.
+//!
+//! ```text
+//!   Frame ──grey──▶ the last two pictures ──copied──▶ FlowJob ──OpticalFlow──▶ shifts on a grid
+//!             in FlowSensor::look, at a poll          on a worker
+//! ```
+//!
+//! [`OpticalFlow`] is the way to compute; [`LucasKanade`] is the one that every platform has, in fixed
+//! point and so the same everywhere to the last bit. `OpenCv` is behind the feature `opencv`.
+
+mod job;
+mod lucas_kanade;
+#[cfg(feature = "opencv")]
+mod opencv;
+mod picture;
+mod sensor;
+
+pub use job::FlowJob;
+pub use lucas_kanade::LucasKanade;
+#[cfg(feature = "opencv")]
+pub use opencv::OpenCv;
+pub use picture::Picture;
+pub use sensor::FlowSensor;
+
+use afp_carbot::devices::{Grid, Shift};
+use afp_core::{Fault, Reason};
+
+/// A way to compute the flow from one picture to the next.
+pub trait OpticalFlow: Send + 'static {
+    /// Writes how far what is at each place of the grid in `before` has moved in `after`, or none where
+    /// that cannot be told. Pictures are of one size, `shifts` has an element for each place.
+    ///
+    /// # Errors
+    /// [`BAD_PICTURES`], or what else keeps it from computing.
+    fn flow(
+        &mut self,
+        before: &Picture,
+        after: &Picture,
+        grid: &Grid,
+        shifts: &mut [Option<Shift>],
+    ) -> Result<(), Fault>;
+}
+
+impl OpticalFlow for Box<dyn OpticalFlow> {
+    fn flow(
+        &mut self,
+        before: &Picture,
+        after: &Picture,
+        grid: &Grid,
+        shifts: &mut [Option<Shift>],
+    ) -> Result<(), Fault> {
+        (**self).flow(before, after, grid, shifts)
+    }
+}
+
+/// Two pictures do not fit each other or the grid.
+pub const BAD_PICTURES: Fault = Fault::new(&Reason {
+    code: "bad-pictures",
+    text: "two pictures of the camera differ in size, or are smaller than the grid of the flow",
+});
+
+/// A window that Lucas and Kanade compare, pixels on a side.
+const WINDOW: usize = 15;
+/// How often the picture is halved, so that fast motion is found too: this many sizes of it.
+const LEVELS: usize = 3;
+/// A place at which a window varies less than this is too dull to be followed: the smaller eigenvalue of
+/// its gradients, in grey levels a pixel squared. The grain of the camera alone stays below.
+const DULL: f32 = 4.0;
+/// A place counts when following it there and back ends no farther from it than this, pixels.
+const RETURN: f32 = 0.5;
+/// At most so many steps towards the best match on each size of the picture.
+const STEPS: usize = 20;
+
+/// Places every so many pixels at least.
+const STRIDE: usize = 8;
+
+/// The grid on which the flow of a picture of this size is computed: every 8 pixels, in a larger picture as near together as
+/// [`Grid::MOST`] allows.
+pub const fn grid(width: usize, height: usize) -> Grid {
+    let mut stride = STRIDE;
+    loop {
+        let grid = Grid::new(width, height, stride, WINDOW / 2 + 2);
+        if grid.len() <= Grid::MOST {
+            return grid;
+        }
+        stride += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_covers_every_picture_from_edge_to_edge_with_no_more_places_than_there_is_room_for() {
+        for (width, height) in [(160, 120), (320, 240), (640, 480), (1920, 1080), (4000, 30)] {
+            let grid = grid(width, height);
+            assert!(grid.len() > 200 && grid.len() <= Grid::MOST, "{width} {height}: {grid:?}");
+            let (x, y) = grid.pixel(grid.len() - 1);
+            assert!(x + grid.first.0 + 1 >= width - 1, "{width} {height}: {grid:?}");
+            assert!(y + grid.first.1 + 1 >= height - 1, "{width} {height}: {grid:?}");
+        }
+        assert_eq!(grid(160, 120).step, STRIDE);
+    }
+}

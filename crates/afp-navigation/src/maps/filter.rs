@@ -1,0 +1,151 @@
+//! The particle filter: places where the robot may be, moved with the odometry and weighed by echoes.
+//!
+//! Each update takes the same work but for what a lost robot searches. Nothing is allocated after the filter was made.
+
+mod cloud;
+mod memory;
+mod search;
+mod sonar;
+
+use crate::maps::field::EchoField;
+use afp_carbot::devices::{Beam, Belief};
+use afp_carbot::history::Pose;
+use afp_core::quantity::{Angle, Length};
+use afp_session::Pose2;
+use afp_session::parts::Noise;
+use cloud::Cloud;
+use memory::Memory;
+use search::Rival;
+use std::f64::consts::{PI, TAU};
+
+/// An echo is weighed when the sensor has moved so far since the last that was, metres, or looks so far aside, radians:
+/// what is heard twice from the same place errs the same way twice.
+const MOVED: f64 = 0.03;
+const TURNED: f64 = 0.07;
+/// A rival place must explain so much more of the latest echoes than the belief does, and so many of them.
+const BETTER: f64 = 0.08;
+/// A rival must explain so much at least: where much is not on the map, no place explains it well.
+const CONVINCING: f64 = 0.68;
+const ENOUGH: usize = 32;
+/// So many of them must be no silence, which many places explain.
+const HEARD: usize = 32;
+
+/// A ping: where the odometry took the robot to be when it was sent, where the sensor looked, and what came back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ping {
+    /// By odometry.
+    pub robot: Pose,
+    /// Against the heading, radians.
+    pub bearing: f64,
+    /// Metres; none for silence.
+    pub distance: Option<f64>,
+}
+
+/// Where the robot is, by all that it has heard.
+#[derive(Clone, Debug)]
+pub struct Filter {
+    field: EchoField,
+    /// From the robot's centre to the sensor, metres.
+    forward: f64,
+    noise: Noise,
+    cloud: Cloud,
+    memory: Memory,
+    rival: Rival,
+    /// The odometry to which the particles have been moved.
+    moved_to: Pose,
+    /// What was weighed last.
+    weighed: Option<Ping>,
+    belief: Pose2,
+    /// How well the belief explains what is remembered.
+    explained: f64,
+}
+
+impl Filter {
+    /// A robot that was told where it stands, to within a decimetre and a few degrees, when its odometry said nothing
+    /// but zeros. `seed` decides on the particles.
+    pub fn new(field: EchoField, beam: &Beam, start: Pose2, seed: u64) -> Self {
+        let mut noise = Noise::new(seed, "particles");
+        let cloud = Cloud::around(start, &mut noise);
+        Filter {
+            field,
+            forward: beam.forward.si(),
+            noise,
+            cloud,
+            memory: Memory::default(),
+            rival: Rival::default(),
+            moved_to: Pose { x: 0.0, y: 0.0, heading: 0.0 },
+            weighed: None,
+            belief: start,
+            explained: 1.0,
+        }
+    }
+
+    /// Takes in a ping.
+    pub fn update(&mut self, ping: &Ping) {
+        let moved = relative(self.moved_to, ping.robot);
+        self.moved_to = ping.robot;
+        self.cloud.drive(moved, &mut self.noise);
+        self.belief = self.belief.beyond(moved);
+        self.rival.drive(moved);
+        if !self.is_news(ping) {
+            return;
+        }
+        self.weighed = Some(*ping);
+        self.memory.keep(ping);
+        self.cloud.weigh(&self.field, self.forward, ping);
+        let echoes = self.memory.seen_from(ping.robot, self.forward);
+        self.explained = search::explained(&self.field, echoes, self.belief);
+        if echoes.len() >= ENOUGH {
+            let believed = (self.belief, self.explained);
+            let excused = search::excused(&self.field, echoes, self.belief);
+            let rival = self.rival.improve(&self.field, echoes, believed, &mut self.noise);
+            let heard = echoes.iter().filter(|echo| echo.distance.is_some()).count();
+            if let Some((place, explained)) = rival
+                && heard >= HEARD
+                && explained > CONVINCING.max(excused + BETTER)
+            {
+                self.cloud.add(place, &mut self.noise);
+            }
+        }
+        self.cloud.resample(&mut self.noise);
+        self.belief = self.cloud.densest(self.belief);
+    }
+
+    /// Where the robot is, at the odometry of the last ping.
+    pub fn belief(&self) -> Belief {
+        let [spread, turn_spread] = self.cloud.spread(self.belief);
+        Belief {
+            x: Length::from_si(self.belief.x),
+            y: Length::from_si(self.belief.y),
+            heading: Angle::from_si(self.belief.heading),
+            spread: Length::from_si(spread),
+            heading_spread: Angle::from_si(turn_spread),
+        }
+    }
+
+    /// How well the belief explains the latest echoes, from 0 to 1.
+    pub fn explained(&self) -> f64 {
+        self.explained
+    }
+
+    fn is_news(&self, ping: &Ping) -> bool {
+        self.weighed.is_none_or(|last| {
+            let moved = relative(last.robot, ping.robot);
+            let turned = moved.heading + ping.bearing - last.bearing;
+            libm::hypot(moved.x, moved.y) > MOVED || turned.abs() > TURNED
+        })
+    }
+}
+
+/// `to` in the frame of `from`, both by odometry.
+pub(crate) fn relative(from: Pose, to: Pose) -> Pose2 {
+    let (sin, cos) = libm::sincos(from.heading);
+    let (x, y) = (to.x - from.x, to.y - from.y);
+    Pose2 { x: x * cos + y * sin, y: y * cos - x * sin, heading: to.heading - from.heading }
+}
+
+/// The same direction within half a turn of zero.
+pub(crate) fn wrap(angle: f64) -> f64 {
+    // Most are there already, and rounding is what takes time.
+    if angle.abs() < PI { angle } else { angle - TAU * libm::round(angle / TAU) }
+}

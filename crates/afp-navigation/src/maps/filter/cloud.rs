@@ -1,0 +1,198 @@
+//! The particles.
+
+use super::sonar::likelihood;
+use super::{Ping, wrap};
+use crate::maps::field::EchoField;
+use afp_session::Pose2;
+use afp_session::parts::Noise;
+use nalgebra::{Vector2, Vector3};
+use std::mem;
+
+/// So many particles.
+const COUNT: usize = 400;
+/// How well a robot knows its start: standard deviations, metres and radians.
+const START: [f64; 2] = [0.05, 0.04];
+/// How wide particles are put around a place that is tried.
+const TRIED: [f64; 2] = [0.08, 0.08];
+/// So many are put there.
+const ADDED: usize = COUNT / 10;
+/// How the odometry errs over a metre and a turn of one radian: standard deviations in metres and radians, growing with
+/// the root of the way.
+const WAY: f64 = 0.02;
+const TURN: f64 = 0.03;
+const TURN_OF_WAY: f64 = 0.025;
+/// Particles are drawn anew when fewer than this count.
+const FEWEST: f64 = COUNT as f64 / 2.0;
+/// Particles within this, metres and radians, are of one place.
+const NEAR: f64 = 0.4;
+const ALIKE: f64 = 0.5;
+/// So many places are compared.
+const PLACES: usize = 10;
+/// Another place must have so many times the weight of the one that is believed in.
+const MORE: f64 = 1.3;
+
+#[derive(Clone, Copy, Debug)]
+struct Particle {
+    pose: Pose2,
+    /// Cosine and sine of its heading.
+    towards: [f64; 2],
+    weight: f64,
+}
+
+impl Particle {
+    fn new(pose: Pose2, weight: f64) -> Self {
+        let (sin, cos) = libm::sincos(pose.heading);
+        Particle { pose, towards: [cos, sin], weight }
+    }
+
+    /// What lies so far ahead of it and to its left, metres.
+    fn beyond(&self, ahead: f64, left: f64) -> [f64; 2] {
+        let ([cos, sin], Pose2 { x, y, .. }) = (self.towards, self.pose);
+        [x + ahead * cos - left * sin, y + ahead * sin + left * cos]
+    }
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Cloud {
+    particles: Vec<Particle>,
+    /// Room to draw into.
+    drawn: Vec<Particle>,
+}
+
+impl Cloud {
+    /// Around a place.
+    pub(super) fn around(place: Pose2, noise: &mut Noise) -> Self {
+        let particle = |_| Particle::new(near(place, START, noise), 1.0 / COUNT as f64);
+        Cloud { particles: (0..COUNT).map(particle).collect(), drawn: Vec::with_capacity(COUNT) }
+    }
+
+    /// Moves all as the odometry says, each a little otherwise.
+    pub(super) fn drive(&mut self, moved: Pose2, noise: &mut Noise) {
+        let way = libm::hypot(moved.x, moved.y);
+        let turn = moved.heading.abs();
+        if way == 0.0 && turn == 0.0 {
+            return;
+        }
+        let off = WAY * libm::sqrt(way);
+        let turned_off = libm::sqrt(TURN * TURN * turn + TURN_OF_WAY * TURN_OF_WAY * way);
+        for particle in &mut self.particles {
+            let (ahead, left) = (moved.x + off * noise.normal(), moved.y + off * noise.normal());
+            let turned = moved.heading + turned_off * noise.normal();
+            let ([x, y], heading) = (particle.beyond(ahead, left), particle.pose.heading + turned);
+            *particle = Particle::new(Pose2 { x, y, heading }, particle.weight);
+        }
+    }
+
+    /// Weighs all by a ping.
+    pub(super) fn weigh(&mut self, field: &EchoField, forward: f64, ping: &Ping) {
+        let mut sum = 0.0;
+        for particle in &mut self.particles {
+            let sensor = particle.beyond(forward, 0.0);
+            let expected = field.expected(sensor, particle.pose.heading + ping.bearing);
+            particle.weight *= likelihood(expected, ping.distance);
+            sum += particle.weight;
+        }
+        // The least likelihood is no smaller than a fiftieth, so a sum never vanishes between two draws.
+        self.particles.iter_mut().for_each(|particle| particle.weight /= sum);
+    }
+
+    /// Puts particles around a place, each of mean weight, instead of some others.
+    pub(super) fn add(&mut self, place: Pose2, noise: &mut Noise) {
+        let from = noise.below((COUNT - ADDED) as u32) as usize;
+        for particle in self.particles.iter_mut().skip(from).take(ADDED) {
+            *particle = Particle::new(near(place, TRIED, noise), 1.0 / COUNT as f64);
+        }
+    }
+
+    /// Draws particles anew, each as often as its weight says, when few are left that count: the low variance sampler
+    /// of *Probabilistic Robotics*, table 4.4.
+    pub(super) fn resample(&mut self, noise: &mut Noise) {
+        let [sum, squares] = self.particles.iter().fold([0.0; 2], |[sum, squares], particle| {
+            [sum + particle.weight, squares + particle.weight * particle.weight]
+        });
+        if sum * sum > FEWEST * squares {
+            return;
+        }
+        let step = sum / COUNT as f64;
+        let (mut target, mut reached) = (step * noise.uniform(), 0.0);
+        self.drawn.clear();
+        for particle in &self.particles {
+            reached += particle.weight;
+            while target < reached && self.drawn.len() < COUNT {
+                self.drawn.push(Particle { weight: 1.0 / COUNT as f64, ..*particle });
+                target += step;
+            }
+        }
+        // Rounding may leave the last one out.
+        let last = self.particles.last().copied();
+        while let Some(last) = last.filter(|_| self.drawn.len() < COUNT) {
+            self.drawn.push(Particle { weight: 1.0 / COUNT as f64, ..last });
+        }
+        mem::swap(&mut self.particles, &mut self.drawn);
+    }
+
+    /// The middle of the place that has the most weight; that of `believed` has a start.
+    pub(super) fn densest(&self, believed: Pose2) -> Pose2 {
+        let mut best = (believed, self.weight_near(believed) * MORE);
+        let all: f64 = self.particles.iter().map(|particle| particle.weight).sum();
+        if best.1 >= all {
+            return self.middle_near(believed);
+        }
+        for particle in self.particles.iter().step_by(COUNT / PLACES) {
+            let weight = self.weight_near(particle.pose);
+            if weight > best.1 {
+                best = (particle.pose, weight);
+            }
+        }
+        self.middle_near(best.0)
+    }
+
+    fn weight_near(&self, place: Pose2) -> f64 {
+        self.near(place).map(|particle| particle.weight).sum()
+    }
+
+    fn near(&self, place: Pose2) -> impl Iterator<Item = &Particle> {
+        self.particles.iter().filter(move |particle| is_near(particle.pose, place))
+    }
+
+    fn middle_near(&self, place: Pose2) -> Pose2 {
+        let mut sum = Vector3::zeros();
+        let mut weights = 0.0;
+        for Particle { pose, weight, .. } in self.near(place) {
+            let turned = wrap(pose.heading - place.heading);
+            sum += Vector3::new(pose.x - place.x, pose.y - place.y, turned) * *weight;
+            weights += weight;
+        }
+        if weights <= 0.0 {
+            return place;
+        }
+        let off = sum / weights;
+        let heading = wrap(place.heading + off.z);
+        Pose2 { x: place.x + off.x, y: place.y + off.y, heading }
+    }
+
+    /// How far particles are from a place, root mean square: metres and radians.
+    pub(super) fn spread(&self, place: Pose2) -> [f64; 2] {
+        let [mut off, mut turned, mut weights] = [0.0; 3];
+        for Particle { pose, weight, .. } in &self.particles {
+            let (x, y) = (pose.x - place.x, pose.y - place.y);
+            let turn = wrap(pose.heading - place.heading);
+            off += weight * (x * x + y * y);
+            turned += weight * turn * turn;
+            weights += weight;
+        }
+        [off, turned].map(|sum| libm::sqrt(sum / weights))
+    }
+}
+
+/// Whether two places are the same but for details.
+pub(super) fn is_near(one: Pose2, other: Pose2) -> bool {
+    let off = Vector2::new(one.x - other.x, one.y - other.y);
+    off.norm_squared() < NEAR * NEAR && wrap(one.heading - other.heading).abs() < ALIKE
+}
+
+/// A place near another.
+fn near(place: Pose2, [off, turned]: [f64; 2], noise: &mut Noise) -> Pose2 {
+    let [x, y] = [place.x, place.y].map(|at| at + off * noise.normal());
+    Pose2 { x, y, heading: place.heading + turned * noise.normal() }
+}

@@ -1,0 +1,155 @@
+//! A map in cells, and how far from obstacles each is.
+
+use crate::maps::map::Map;
+use crate::maps::room::Room;
+use nalgebra::Vector2;
+
+/// The side of a cell, metres; larger where a map has too many.
+const CELL: f64 = 0.05;
+/// At most so many cells.
+const MOST: f64 = 500_000.0;
+
+/// An occupancy grid for a robot, that knows for each cell how far away the nearest thing is, up to where it makes no
+/// difference to the robot.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    /// What the robot needs.
+    pub(crate) room: Room,
+    low: Vector2<f64>,
+    pub(crate) cell: f64,
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    clearance: Vec<f32>,
+}
+
+impl Grid {
+    /// Of all that a map shows.
+    pub(crate) fn new(map: &Map, room: Room) -> Self {
+        let [low, high] = map.bounds().map(Vector2::from);
+        let size = high - low;
+        let cell = CELL.max(libm::sqrt(size.x * size.y / MOST));
+        let [columns, rows] = [size.x, size.y].map(|side| libm::ceil(side / cell) as usize);
+        let clearance = vec![room.most; columns * rows];
+        let mut grid = Grid { room, low, cell, columns, rows, clearance };
+        for outline in map.outlines() {
+            grid.stamp(outline);
+        }
+        grid
+    }
+
+    /// How far the nearest thing is from the middle of a cell.
+    pub(crate) fn clearance(&self, index: usize) -> f32 {
+        self.clearance.get(index).copied().unwrap_or(0.0)
+    }
+
+    /// The cell of a place; none beyond the map.
+    pub(crate) fn index(&self, [x, y]: [f64; 2]) -> Option<usize> {
+        let [across, up] = [(x - self.low.x) / self.cell, (y - self.low.y) / self.cell];
+        let inside = across >= 0.0 && up >= 0.0;
+        let (column, row) = (across as usize, up as usize);
+        (inside && column < self.columns && row < self.rows).then(|| row * self.columns + column)
+    }
+
+    /// The middle of a cell.
+    pub(crate) fn place(&self, index: usize) -> [f64; 2] {
+        let (column, row) = (index % self.columns, index / self.columns);
+        let at = |low: f64, n: usize| low + (n as f64 + 0.5) * self.cell;
+        [at(self.low.x, column), at(self.low.y, row)]
+    }
+
+    /// The cells whose middles are within so many metres of a place or box of places.
+    pub(crate) fn around(
+        &self,
+        low: [f64; 2],
+        high: [f64; 2],
+        far: f64,
+    ) -> impl Iterator<Item = usize> + use<> {
+        let range = |low: f64, high: f64, from: f64, count: usize| {
+            let cell = |at: f64| ((at - from) / self.cell).clamp(0.0, count as f64) as usize;
+            cell(low - far)..(cell(high + far) + 1).min(count)
+        };
+        let across = range(low[0], high[0], self.low.x, self.columns);
+        let up = range(low[1], high[1], self.low.y, self.rows);
+        let columns = self.columns;
+        up.flat_map(move |row| across.clone().map(move |column| row * columns + column))
+    }
+
+    /// Takes something small at a place into account, as if it were so much farther away, metres.
+    pub(crate) fn add(&mut self, place: [f64; 2], farther: f64) {
+        for index in self.around(place, place, f64::from(self.room.most)) {
+            let [x, y] = self.place(index);
+            self.limit(index, libm::hypot(x - place[0], y - place[1]) + farther);
+        }
+    }
+
+    /// Takes the clearances of another grid of the same map.
+    pub(crate) fn clone_clearance(&mut self, other: &Grid) {
+        self.clearance.clone_from(&other.clearance);
+    }
+
+    fn stamp(&mut self, outline: &[Vector2<f64>]) {
+        let low = outline.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
+        let high = outline.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
+        for index in self.around(low.into(), high.into(), f64::from(self.room.most)) {
+            let off = distance(outline, self.place(index).into());
+            self.limit(index, off);
+        }
+    }
+
+    fn limit(&mut self, index: usize, clearance: f64) {
+        if let Some(known) = self.clearance.get_mut(index) {
+            *known = known.min(clearance as f32);
+        }
+    }
+}
+
+/// How far a place is from a convex outline; nothing inside of it.
+fn distance(outline: &[Vector2<f64>], place: Vector2<f64>) -> f64 {
+    let next = outline.iter().cycle().skip(1);
+    let sides = || outline.iter().zip(next.clone());
+    if sides().all(|(from, to)| (to - from).perp(&(place - from)) >= 0.0) {
+        return 0.0;
+    }
+    let off = |(from, to): (&Vector2<f64>, &Vector2<f64>)| {
+        let along = to - from;
+        let length = along.norm_squared().max(1e-12);
+        let share = ((place - from).dot(&along) / length).clamp(0.0, 1.0);
+        (place - from - along * share).norm()
+    };
+    sides().map(off).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::maps::room::tests::carbot;
+
+    const MOST: f32 = 0.6;
+
+    fn grid() -> Grid {
+        let map = Map::new([
+            vec![[0.0, 0.0], [2.0, 0.0], [2.0, 0.1], [0.0, 0.1]],
+            vec![[0.0, 1.9], [2.0, 1.9], [2.0, 2.0], [0.0, 2.0]],
+        ]);
+        Grid::new(&map, Room::of(&carbot()))
+    }
+
+    #[test]
+    fn a_cell_knows_its_clearance() {
+        let grid = grid();
+        let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
+        assert_eq!((grid.columns, grid.rows), (40, 40));
+        assert_eq!((clearance(1.0, 0.05), clearance(1.0, 1.0)), (0.0, MOST));
+        assert!((clearance(1.0, 0.324) - 0.225).abs() < 0.001);
+        assert_eq!((grid.index([-0.1, 0.0]), grid.index([0.0, 2.1])), (None, None));
+    }
+
+    #[test]
+    fn what_is_added_takes_room() {
+        let mut grid = grid();
+        grid.add([1.0, 1.0], 0.0);
+        let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
+        assert!(clearance(1.0, 1.0) < 0.04 && (clearance(1.324, 1.0) - 0.325).abs() < 0.03);
+        assert_eq!(clearance(0.2, 1.0), MOST);
+    }
+}

@@ -1,0 +1,156 @@
+//! Localisation as a sensor: what a platform needs to be a
+//! [`Localisation`](afp_carbot::devices::Localisation).
+//!
+//! The platform passes it each echo; the filter runs as a job, so that no poll waits for it, and what it believes is
+//! carried on by the odometry.
+
+use crate::maps::filter::{Filter, Ping, relative, wrap};
+use afp_carbot::devices::{Belief, Echo, Invalid, Motion, Reading};
+use afp_carbot::history::{History, Pose};
+use afp_core::quantity::{Angle, Length};
+use afp_core::{Duration, Fault, Instant, Job, Poll, Ticket, Worker};
+use afp_session::Pose2;
+
+/// So many pings wait for the filter at most: most of a second. The oldest make room.
+const WAITING: usize = 16;
+
+/// A filter and the pings that it is to take in.
+#[derive(Clone, Debug)]
+pub struct LocateJob {
+    filter: Filter,
+    pings: Vec<Ping>,
+}
+
+impl LocateJob {
+    /// With that filter, which lives here from now on.
+    pub fn new(filter: Filter) -> Self {
+        LocateJob { filter, pings: Vec::with_capacity(WAITING) }
+    }
+}
+
+impl Job for LocateJob {
+    /// Ten times what a core of a desktop computer takes for a ping when the robot is lost.
+    const TAKES: Duration = Duration::from_millis(5);
+
+    fn run(&mut self) -> Result<(), Fault> {
+        self.pings.iter().for_each(|ping| self.filter.update(ping));
+        Ok(())
+    }
+}
+
+/// Finds the robot on its map.
+#[derive(Clone, Debug)]
+pub struct Locator<W> {
+    worker: W,
+    history: History,
+    /// When the last ping that was heard was sent.
+    heard: Option<Instant>,
+    waiting: Vec<Ping>,
+    under_way: Option<(Ticket, Pose)>,
+    /// Why the job gives nothing any more.
+    failed: Option<Fault>,
+    /// What was believed last, and the odometry at which.
+    believed: (Belief, Pose),
+}
+
+impl<W: Worker<LocateJob>> Locator<W> {
+    /// With a worker that has one slot, whose filter was told this start.
+    pub fn new(worker: W, start: Pose2) -> Self {
+        let belief = Belief {
+            x: Length::from_si(start.x),
+            y: Length::from_si(start.y),
+            heading: Angle::from_si(start.heading),
+            spread: Length::from_si(0.0),
+            heading_spread: Angle::from_si(0.0),
+        };
+        Locator {
+            worker,
+            history: History::new(),
+            heard: None,
+            waiting: Vec::with_capacity(WAITING),
+            under_way: None,
+            failed: None,
+            believed: (belief, Pose { x: 0.0, y: 0.0, heading: 0.0 }),
+        }
+    }
+
+    /// Takes in what range sensor and odometry say, if it is new; to be called for each echo, whoever asks or not.
+    pub fn on_echo(&mut self, echo: Reading<Echo>, motion: Reading<Motion>, now: Instant) {
+        self.history.note(motion);
+        if self.heard.is_none_or(|last| echo.time > last)
+            && let Ok((Echo { distance, bearing }, robot)) = self.history.placed(echo).value
+        {
+            self.heard = Some(echo.time);
+            if self.waiting.len() == WAITING {
+                self.waiting.remove(0);
+            }
+            let distance = distance.map(Length::si);
+            self.waiting.push(Ping { robot, bearing: bearing.si(), distance });
+        }
+        self.fetch(now);
+        if let Err(fault) = self.begin(now) {
+            self.failed = Some(fault);
+        }
+    }
+
+    /// Where the robot is, by what was heard and by the odometry since.
+    ///
+    /// # Errors
+    /// The job panicked.
+    pub fn belief(
+        &mut self,
+        motion: Reading<Motion>,
+        now: Instant,
+    ) -> Result<Reading<Belief>, Fault> {
+        self.fetch(now);
+        self.failed.map_or(Ok(()), Err)?;
+        Ok(self.latest(motion))
+    }
+
+    /// The same without a look at the worker.
+    pub fn latest(&self, motion: Reading<Motion>) -> Reading<Belief> {
+        let (belief, at) = self.believed;
+        let carried = motion.value.map(|motion| carried(belief, at, motion.into()));
+        let finite = |belief: &Belief| belief.x.si().is_finite() && belief.y.si().is_finite();
+        let value =
+            carried.and_then(|belief| Some(belief).filter(finite).ok_or(Invalid::NotFinite));
+        Reading { time: motion.time, value }
+    }
+
+    /// Where the robot was at an instant of the last half second, by what is believed now.
+    pub fn belief_at(&self, when: Instant) -> Option<Belief> {
+        let (belief, at) = self.believed;
+        self.history.at(when).map(|pose| carried(belief, at, pose))
+    }
+
+    fn fetch(&mut self, now: Instant) {
+        let Some((ticket, at)) = self.under_way else { return };
+        match self.worker.poll(ticket, now) {
+            Ok(Poll::Pending) => return,
+            Ok(Poll::Ready(job)) => self.believed = (job.filter.belief(), at),
+            Err(fault) => self.failed = Some(fault),
+        }
+        self.under_way = None;
+    }
+
+    fn begin(&mut self, now: Instant) -> Result<(), Fault> {
+        let Some(last) = self.waiting.last().filter(|_| self.under_way.is_none()) else {
+            return Ok(());
+        };
+        let (at, waiting) = (last.robot, &self.waiting);
+        let mut prepare = |job: &mut LocateJob| job.pings.clone_from(waiting);
+        if let Some(ticket) = self.worker.begin(now, &mut prepare)? {
+            self.under_way = Some((ticket, at));
+            self.waiting.clear();
+        }
+        Ok(())
+    }
+}
+
+/// A belief, carried on from one pose of the odometry to another.
+fn carried(belief: Belief, from: Pose, to: Pose) -> Belief {
+    let pose = Pose2 { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() };
+    let Pose2 { x, y, heading } = pose.beyond(relative(from, to));
+    let heading = Angle::from_si(wrap(heading));
+    Belief { x: Length::from_si(x), y: Length::from_si(y), heading, ..belief }
+}

@@ -1,0 +1,38 @@
+//! Parts for the author of a robot: [`RealTime`] for robots that exist, and workers that compute the [`Job`]s of
+//! components.
+//!
+//! A real robot implements [`Hardware`] and the traits that its templates ask for. `[robot.hardware]` of a project
+//! names it; `afpc run --robot hardware` and the programs of `afpc build` then drive it.
+//!
+//! ```
+//! use afp_core::{Environment, Instant, Platform};
+//! use afp_platform::RealTime;
+//!
+//! struct Board { time: RealTime, /* and its connection */ }
+//!
+//! impl Environment for Board {
+//!     fn stop(&mut self, _: Instant) { /* stops the wheels */ }
+//!     fn emergency_stop(&mut self) { /* cuts their power */ }
+//! }
+//!
+//! impl Platform for Board {
+//!     type Clock = RealTime;
+//!     fn clock(&self) -> RealTime { self.time }
+//!     fn now(&self) -> Instant { self.time.now() }
+//!     fn advance(&mut self, to: Instant) { self.time.sleep_until(to) }
+//! }
+//! # let mut board = Board { time: RealTime::start() };
+//! # let to = board.now() + afp_core::Duration::from_millis(2);
+//! # board.advance(to);
+//! # assert!(board.now() >= to);
+//! ```
+//!
+//! [`Job`]: afp_core::Job
+#![forbid(unsafe_code)]
+
+mod real_time;
+mod worker;
+
+pub use afp_session::{Hardware, LastResort, Robot, SampleRef, Samples, Settings};
+pub use real_time::RealTime;
+pub use worker::{ThreadWorker, VirtualWorker};

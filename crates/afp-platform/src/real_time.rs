@@ -1,0 +1,60 @@
+//! The monotonic clock of a robot that exists.
+
+use std::thread;
+use std::time::{Duration as Span, Instant as Wall};
+
+use afp_core::{Clock, Duration, Instant};
+
+/// Time that passes by itself, from the moment at which it was made. It never goes back, whatever is done to the clock
+/// on the wall.
+#[derive(Clone, Copy, Debug)]
+pub struct RealTime {
+    began: Wall,
+}
+
+impl RealTime {
+    /// Begins to count, from zero.
+    pub fn start() -> Self {
+        RealTime { began: Wall::now() }
+    }
+
+    /// How much has passed.
+    pub fn now(&self) -> Instant {
+        let nanos = self.began.elapsed().as_nanos();
+        Instant::from_nanos(u64::try_from(nanos).unwrap_or(u64::MAX))
+    }
+
+    /// Sleeps up to an instant; not at all where it has passed. It wakes late, by what the system needs, never early.
+    pub fn sleep_until(&self, to: Instant) {
+        loop {
+            let left = to.since(self.now());
+            if left == Duration::ZERO {
+                return;
+            }
+            thread::sleep(Span::from_nanos(left.as_nanos()));
+        }
+    }
+}
+
+impl Clock for RealTime {
+    fn now(&self, step: Instant) -> Instant {
+        RealTime::now(self).max(step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nobody_wakes_early() {
+        let time = RealTime::start();
+        for millis in [1, 3, 2] {
+            let to = Instant::ZERO + Duration::from_millis(millis);
+            time.sleep_until(to);
+            assert!(time.now() >= to);
+        }
+        let future = time.now() + Duration::from_secs(5);
+        assert_eq!(Clock::now(&time, future), future, "a step is never before its clock");
+    }
+}

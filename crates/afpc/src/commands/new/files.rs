@@ -1,0 +1,94 @@
+//! New projects as texts: a plan for the Carbot, a toolbox of one's own, a robot of one's own.
+//!
+//! Each works as it is: it can be checked, run and tested. Nothing here writes a file: the command line and editors do.
+
+mod manifest;
+mod name;
+
+use afp_project::Origin;
+
+use name::Names;
+
+pub use name::NameError;
+
+/// What a project begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A plan for the Carbot, with a world and scenarios.
+    Plan,
+    /// A toolbox with a crate of its own, for the Carbot, and a plan that uses it.
+    Toolbox,
+    /// A simulated robot with its toolbox, and a plan for it.
+    Robot,
+}
+
+/// A file of a project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Its path below the project's folder, with '/'.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// A template of a file: path and text, with names in double braces.
+type Draft = (&'static str, &'static str);
+
+macro_rules! drafts {
+    ($kind:literal: $($path:literal from $file:literal),* $(,)?) => {
+        &[$(($path, include_str!(concat!("../../../projects/", $kind, "/", $file)))),*]
+    };
+}
+
+const PLAN: &[Draft] = drafts! { "plan":
+    "afp.toml" from "afp.toml",
+    "plans/{{name}}.afp" from "plan.afp",
+    "plans/tests/{{name}}.afp" from "scenarios.afp",
+    "worlds/{{name}}.toml" from "world.toml",
+};
+
+const TOOLBOX: &[Draft] = drafts! { "toolbox":
+    "afp.toml" from "afp.toml",
+    "{{name}}.afp" from "toolbox.afp",
+    "src/lib.rs" from "lib.rs",
+    "plans/{{name}}_plan.afp" from "plan.afp",
+    "plans/tests/{{name}}.afp" from "scenarios.afp",
+    "tests/scenarios.rs" from "scenarios.rs",
+};
+
+const ROBOT: &[Draft] = drafts! { "robot":
+    "afp.toml" from "afp.toml",
+    "{{name}}.afp" from "toolbox.afp",
+    "src/lib.rs" from "lib.rs",
+    "src/sim.rs" from "sim.rs",
+    "src/work.rs" from "work.rs",
+    "floors/room.txt" from "room.txt",
+    "plans/{{name}}_plan.afp" from "plan.afp",
+    "plans/tests/{{name}}.afp" from "scenarios.afp",
+    "tests/scenarios.rs" from "scenarios.rs",
+};
+
+/// The files of a new project of that name. `afp` says where its manifest takes the afp crates from; a path is that of
+/// the checkout.
+///
+/// # Errors
+/// A name that cannot be that of files, of a crate and of a plan.
+pub fn files(name: &str, kind: Kind, afp: &Origin) -> Result<Vec<File>, NameError> {
+    let names = Names::new(name)?;
+    let drafts = match kind {
+        Kind::Plan => PLAN,
+        Kind::Toolbox => TOOLBOX,
+        Kind::Robot => ROBOT,
+    };
+    let file = |(path, text): &Draft| File { path: names.fill(path), text: names.fill(text) };
+    let mut files: Vec<_> = drafts.iter().map(file).collect();
+    let add = |path: &str, text: String| File { path: path.to_owned(), text };
+    files.push(add(".gitignore", "target/\n".to_owned()));
+    if kind != Kind::Plan {
+        files.push(add("Cargo.toml", manifest::text(&names.name, kind, afp)));
+    }
+    Ok(files)
+}
+
+#[cfg(test)]
+mod tests;
