@@ -1,8 +1,8 @@
 // A document has one address, in the page as at the server.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { pathOf, uriOf } from "../page/addresses";
-import { hello, type Hello } from "../page/session";
+import { pathOf, uriOf } from "../page/documents/addresses";
+import { hello, type Hello } from "../page/server/session";
 import { inBrowser, shows } from "./browser";
 
 test("a path of the folder, and a whole one, become the address that the server writes, and back", () => {

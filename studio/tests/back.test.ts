@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { test } from "node:test";
-import { attach, log, push, redo, underWay, undo } from "../page/history";
+import { attach, log, push, redo, underWay, undo } from "../page/documents/history";
 import { inBrowser, settled } from "./browser";
 import { middle, name } from "./spots";
 

@@ -1,14 +1,14 @@
 // Texts, against a server of the test: what it is told gives the same texts, edits are made for their version alone.
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { inOrder } from "../page/changes";
-import { conflicts } from "../page/conflicts";
-import { again, begin, create, current, onText, open, saved, text, typed, unsent, version } from "../page/documents";
-import { apply, change, Stale } from "../page/edits";
-import { undo, undoLabel } from "../page/history";
-import { Refused, type Finish, type Lsp } from "../page/lsp";
-import { offset, position } from "../page/positions";
-import * as session from "../page/session";
+import { inOrder } from "../page/documents/changes";
+import { conflicts } from "../page/documents/conflicts";
+import { again, begin, create, current, onText, open, saved, text, typed, unsent, version } from "../page/documents/documents";
+import { apply, change, Stale } from "../page/documents/edits";
+import { undo, undoLabel } from "../page/documents/history";
+import { Refused, type Finish, type Lsp } from "../page/server/lsp";
+import { offset, position } from "../page/documents/positions";
+import * as session from "../page/server/session";
 import { random } from "./random";
 import { signal } from "@preact/signals";
 

@@ -1,10 +1,10 @@
 // Where a run is in the drawing: plans inside of plans, supervisors, edges that were taken.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Socket } from "../page/lsp";
-import { connect } from "../page/dap";
+import type { Socket } from "../page/server/lsp";
+import { connect } from "../page/server/dap";
 import { at, taken } from "../page/debug/follow";
-import { differs, hash } from "../page/hash";
+import { differs, hash } from "../page/documents/hash";
 
 test("a text has the hash that the debugger gives it, however its lines end", () => {
   assert.equal(hash(""), "cbf29ce484222325");

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Element } from "../page/drawing/shapes";
-import { facts, next, progress, STEPS, type Facts } from "../page/guide";
+import { facts, next, progress, STEPS, type Facts } from "../page/plan/guide";
 import { inBrowser } from "./browser";
 
 const NOTHING: Facts = { actors: 0, errors: 1, watched: 0, stoppers: 0, runs: 0 };

@@ -1,8 +1,8 @@
 // The one history: undo of any sequence gives the first texts back, redo the last ones.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { attach, backward, clear, EMPTY, forward, push, record, recorded, redo, redoLabel, undo, undoLabel, type Change, type Entry, type Step } from "../page/history";
-import { newest } from "../page/keep";
+import { attach, backward, clear, EMPTY, forward, push, record, recorded, redo, redoLabel, undo, undoLabel, type Change, type Entry, type Step } from "../page/documents/history";
+import { newest } from "../page/documents/keep";
 import { random } from "./random";
 
 /** Texts that are changed as `documents.ts` does it. */

@@ -3,9 +3,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { signal } from "@preact/signals";
 import { inBrowser, shows } from "./browser";
-import { begin, run, running, said, takeUp, type Done } from "../page/jobs";
-import type { Finish, Lsp } from "../page/lsp";
-import * as session from "../page/session";
+import { begin, run, running, said, takeUp, type Done } from "../page/jobs/jobs";
+import type { Finish, Lsp } from "../page/server/lsp";
+import * as session from "../page/server/session";
 
 /** A page with a server of the test. */
 async function page(): Promise<{ tell: (method: string, params: unknown) => void; greet: (jobs: session.Going[]) => Promise<unknown>; resumed: session.Going[] }> {

@@ -5,7 +5,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { mistakes } from "../page/mistakes";
+import { mistakes } from "../page/jobs/mistakes";
 import { AFPC } from "./browser";
 
 const PLAN = `use std

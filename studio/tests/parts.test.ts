@@ -1,11 +1,11 @@
 // Small parts without a page: positions, Markdown, names of keys, commands, the socket.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { command, commandFor, commands, isForField, keyName } from "../page/commands";
-import { matching } from "../page/ranking";
-import { connect, type Socket } from "../page/lsp";
-import { blocks } from "../page/markdown";
-import { offset, position } from "../page/positions";
+import { command, commandFor, commands, isForField, keyName } from "../page/screen/commands";
+import { matching } from "../page/screen/ranking";
+import { connect, type Socket } from "../page/server/lsp";
+import { blocks } from "../page/screen/markdown";
+import { offset, position } from "../page/documents/positions";
 
 test("positions and offsets are each other's inverse", () => {
   const text = "a\n\nö😀x\nlast";

@@ -2,12 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { signal } from "@preact/signals";
-import { difference } from "../page/changes";
-import { begin, open, text, typed } from "../page/documents";
-import { undo } from "../page/history";
-import type { Lsp } from "../page/lsp";
-import { offset } from "../page/positions";
-import * as session from "../page/session";
+import { difference } from "../page/documents/changes";
+import { begin, open, text, typed } from "../page/documents/documents";
+import { undo } from "../page/documents/history";
+import type { Lsp } from "../page/server/lsp";
+import { offset } from "../page/documents/positions";
+import * as session from "../page/server/session";
 import { random } from "./random";
 
 const URI = "file:///w/two.afp";

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { inBrowser, shows } from "./browser";
-import { counted, countedAll, grouped, mapOf, ROW, runsOf, sumOf, type Ending, type Run } from "../page/sweep";
+import { counted, countedAll, grouped, mapOf, ROW, runsOf, sumOf, type Ending, type Run } from "../page/jobs/sweep";
 
 const run = (nth: number, ending: Ending, seed: number, values: Record<string, number> = {}, why = ""): Run => ({
   run: nth, ending, seed, why, where: "go", time_s: 1, world: null, touched: {}, command: "",

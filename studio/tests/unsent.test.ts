@@ -1,7 +1,7 @@
 // What no server took: kept by page, offered once, never instead of what the file has already.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { claim, keep, kept } from "../page/unsent";
+import { claim, keep, kept } from "../page/documents/unsent";
 
 /** The storage of a browser. */
 function storage() {

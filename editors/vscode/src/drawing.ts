@@ -1,7 +1,7 @@
 // The drawing of a document: asks the language server for it, passes on what changes, and lets selection and cursor follow
 // each other. It knows neither the editor nor the page, so that it is tested against the real server alone.
 import type { Answer, Changed, Part } from "../../../studio/page/drawing/shapes";
-import type { Position, Range } from "../../../studio/page/positions";
+import type { Position, Range } from "../../../studio/page/documents/positions";
 
 /** The language server. */
 export interface Server {

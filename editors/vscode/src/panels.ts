@@ -2,8 +2,8 @@
 import * as vscode from "vscode";
 import { randomBytes } from "node:crypto";
 import type { Changed } from "../../../studio/page/drawing/shapes";
-import { differs } from "../../../studio/page/hash";
-import type { Range } from "../../../studio/page/positions";
+import { differs } from "../../../studio/page/documents/hash";
+import type { Range } from "../../../studio/page/documents/positions";
 import { Drawing, type Server } from "./drawing";
 import { programOf } from "./launch";
 import { page } from "./page";

@@ -1,7 +1,7 @@
 // The drawing against the real server: what it asks for, what reaches the page, what moves the cursor.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Range } from "../../../studio/page/positions";
+import type { Range } from "../../../studio/page/documents/positions";
 import { Drawing, type ToPage } from "../src/drawing";
 import { PLAN, serving, there, type Talk } from "./server";
 

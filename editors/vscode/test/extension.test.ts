@@ -5,7 +5,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, beforeEach, test } from "node:test";
-import { hash } from "../../../studio/page/hash";
+import { hash } from "../../../studio/page/documents/hash";
 import { activate, deactivate } from "../src/extension";
 import { LanguageClient } from "./client";
 import { AFPC, PLAN, there } from "./server";

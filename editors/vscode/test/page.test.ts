@@ -5,7 +5,7 @@ import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { after, test } from "node:test";
 import { chromium, type Browser, type Page } from "playwright-core";
-import type { Range } from "../../../studio/page/positions";
+import type { Range } from "../../../studio/page/documents/positions";
 import { Drawing, type FromPage } from "../src/drawing";
 import { page as written } from "../src/page";
 import { PLAN, serving, there, type Talk } from "./server";

@@ -1,12 +1,12 @@
 // Where a run stops: lines of the text, which are elements, exits, supervisors and entries of the drawing; they move with the
 // text and are remembered.
 import { effect, signal } from "@preact/signals";
-import { current, onText, text, type Told } from "../documents";
+import { current, onText, text, type Told } from "../documents/documents";
 import { drawing } from "../drawing/model";
-import { itemAt, spanOf } from "../places";
-import { offset, position } from "../positions";
+import { itemAt, spanOf } from "../plan/places";
+import { offset, position } from "../documents/positions";
 import type { Part } from "../drawing/shapes";
-import { selected } from "../selection";
+import { selected } from "../plan/selection";
 
 const KEY = "afp-studio-breakpoints";
 

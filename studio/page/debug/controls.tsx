@@ -1,13 +1,13 @@
 // Run, pause, step and stop in the bar; the card that says how a run has ended.
 import { useState } from "preact/hooks";
-import { hasNoPlan, Tool } from "../bar";
-import { command } from "../commands";
+import { hasNoPlan, Tool } from "../screen/bar";
+import { command } from "../screen/commands";
 import { reveal } from "../drawing/reveal";
 import { refuse } from "../drawing/say";
 import { words as drawn } from "../drawing/words";
-import { Sign } from "../icons";
-import { number } from "../problems";
-import { select } from "../selection";
+import { Sign } from "../screen/icons";
+import { number } from "../plan/problems";
+import { select } from "../plan/selection";
 import { words } from "../words";
 import { toggleSelected } from "./breakpoints";
 import { askWhy } from "./why";

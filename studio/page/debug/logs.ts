@@ -1,10 +1,10 @@
 // Logs of runs that are over: opened like runs, with the plan that ran, where the folder has it.
 import { effect } from "@preact/signals";
-import { pathOf } from "../addresses";
+import { pathOf } from "../documents/addresses";
 import { drawing, trail, wanted } from "../drawing/model";
 import { show } from "../panes/files";
-import { show as showPane } from "../layout";
-import { files } from "../session";
+import { show as showPane } from "../screen/layout";
+import { files } from "../server/session";
 import { launched, openLog, phase, seek } from "./run";
 
 /** Shows a log at a moment of it. */

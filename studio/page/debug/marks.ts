@@ -5,7 +5,7 @@ import { drawing } from "../drawing/model";
 import { rectOf, type Drawing, type Rect } from "../drawing/shapes";
 import { stops, type Stop } from "./breakpoints";
 import { at, taken, type At } from "./follow";
-import { onDrawing } from "../results";
+import { onDrawing } from "../jobs/results";
 import { resultMarks } from "./result-marks";
 import { active, frames, phase, state } from "./run";
 import { chips, holding, type Held } from "./values";

@@ -1,9 +1,9 @@
 // Whether the run is of another text than the one that is shown.
 import { computed, type ReadonlySignal } from "@preact/signals";
-import { pathOf } from "../addresses";
-import { isOpen, text } from "../documents";
-import { files } from "../session";
-import { differs } from "../hash";
+import { pathOf } from "../documents/addresses";
+import { isOpen, text } from "../documents/documents";
+import { files } from "../server/session";
+import { differs } from "../documents/hash";
 import type { State } from "./told";
 
 /** Whether a document that is open has another text than the one that runs. */

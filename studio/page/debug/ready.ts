@@ -1,13 +1,13 @@
 // Whether the plan that is shown can be run: what is in the way is shown, and said as long as it is.
 import { effect } from "@preact/signals";
-import { current } from "../documents";
+import { current } from "../documents/documents";
 import { drawing, plan, trail, wanted } from "../drawing/model";
 import type { Entry } from "../drawing/shapes";
 import { trouble } from "../panes/files";
-import { point } from "../places";
-import { number, problems } from "../problems";
-import { select } from "../selection";
-import { trusted } from "../trust";
+import { point } from "../plan/places";
+import { number, problems } from "../plan/problems";
+import { select } from "../plan/selection";
+import { trusted } from "../jobs/trust";
 import { words } from "../words";
 import { isWritten } from "./written";
 

@@ -1,11 +1,11 @@
 // A run of the plan: launched, paused, stepped, ended; what the page knows of it.
 import { computed, effect, signal } from "@preact/signals";
-import { pathOf } from "../addresses";
-import { connect, type Dap } from "../dap";
-import { current } from "../documents";
+import { pathOf } from "../documents/addresses";
+import { connect, type Dap } from "../server/dap";
+import { current } from "../documents/documents";
 import { report, trouble } from "../panes/files";
-import { reveal } from "../places";
-import type { Position } from "../positions";
+import { reveal } from "../plan/places";
+import type { Position } from "../documents/positions";
 import { words } from "../words";
 import { sensed, type Sensed } from "../world/sensed";
 import * as arranged from "./arranged";

@@ -1,7 +1,7 @@
 // Why an element runs, or does not: asked of the run about what is selected.
 import { effect, signal } from "@preact/signals";
 import { plan } from "../drawing/model";
-import { selected } from "../selection";
+import { selected } from "../plan/selection";
 import { frameOf } from "./follow";
 import { active, ask, frames, phase, state } from "./run";
 

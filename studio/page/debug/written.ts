@@ -1,5 +1,5 @@
 // Waits for the disk: what runs is read from there.
-import { saved } from "../documents";
+import { saved } from "../documents/documents";
 
 /** Waits a little until the server has written everything. */
 export function isWritten(): Promise<boolean> {

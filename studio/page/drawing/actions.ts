@@ -1,5 +1,5 @@
 // What is done to a plan from its drawing: each ends in one request and one entry of the history.
-import { select, selected } from "../selection";
+import { select, selected } from "../plan/selection";
 import * as ask from "./ask";
 import * as catalog from "./catalog";
 import { choose, type Choice } from "./choose";

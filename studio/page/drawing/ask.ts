@@ -1,9 +1,9 @@
 // The questions that drawing, palette and inspector put to the engine, each with the shape of its answer.
-import { current, text } from "../documents";
-import { change, type WorkspaceEdit } from "../edits";
-import { spanOf } from "../places";
-import { offset } from "../positions";
-import { lsp } from "../session";
+import { current, text } from "../documents/documents";
+import { change, type WorkspaceEdit } from "../documents/edits";
+import { spanOf } from "../plan/places";
+import { offset } from "../documents/positions";
+import { lsp } from "../server/session";
 import { refuse } from "./say";
 import type { Part, PartOf, Point } from "./shapes";
 

@@ -1,6 +1,6 @@
 // A template dragged from the palette into the drawing: onto the ground, onto an element, onto an edge.
 import { signal } from "@preact/signals";
-import { pen } from "../session";
+import { pen } from "../server/session";
 import { addAt } from "./actions";
 import type { Offer } from "./ask";
 import { DECIDES } from "./gesture";

@@ -1,7 +1,7 @@
 // What a plan can be made of, as the engine offers it: kept for the document that is shown.
 import { effect, signal } from "@preact/signals";
-import { current, onText } from "../documents";
-import { lsp } from "../session";
+import { current, onText } from "../documents/documents";
+import { lsp } from "../server/session";
 import * as ask from "./ask";
 
 export const offers = signal<readonly ask.Offer[]>([]);

@@ -1,6 +1,6 @@
 // Lists to choose from, at a place of the drawing: what to add, what then, which exit. `choices.tsx` shows them.
 import { signal } from "@preact/signals";
-import { matching } from "../ranking";
+import { matching } from "../screen/ranking";
 import type { Point } from "./shapes";
 
 export interface Choice {

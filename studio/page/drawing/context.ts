@@ -1,6 +1,6 @@
 // What can be done with what was pressed: the commands of the context menu, by what they are about. `context.tsx` shows them.
 import { signal } from "@preact/signals";
-import { commands, isEnabled, type Command } from "../commands";
+import { commands, isEnabled, type Command } from "../screen/commands";
 import type { Hit } from "./hit";
 import type { Point } from "./shapes";
 

@@ -1,6 +1,6 @@
 // Shows the menu of what was pressed: arrows walk, letters jump, `Escape` and a press elsewhere close it.
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { keysOf, type Command } from "../commands";
+import { keysOf, type Command } from "../screen/commands";
 import { useInSight } from "./choices";
 import { menu } from "./context";
 import { words } from "./words";

@@ -1,5 +1,5 @@
 // Entries of the plan: a new one, with its name, kind, type and value, asked for in one line each.
-import { askLine } from "../dialogs";
+import { askLine } from "../screen/dialogs";
 import * as actions from "./actions";
 import * as ask from "./ask";
 import { isName } from "./rename";

@@ -1,5 +1,5 @@
 // A plan that is begun in a file which has none.
-import { current, nameOf } from "../documents";
+import { current, nameOf } from "../documents/documents";
 import * as ask from "./ask";
 import { drawing } from "./model";
 import * as offers from "./offers";

@@ -1,8 +1,8 @@
 // The flow of data: arrows from an entry to what reads it, and to it from what writes it; of the entry under the pointer, of
 // what is selected, or of everything.
 import { computed, effect, signal } from "@preact/signals";
-import { lsp } from "../session";
-import { selected } from "../selection";
+import { lsp } from "../server/session";
+import { selected } from "../plan/selection";
 import { svg } from "./fragment";
 import { drawing } from "./model";
 import { hovered } from "./pointer";

@@ -1,6 +1,6 @@
 // Which boxes are folded: drawn without what they read and write, and with one tab for all their supervisors.
-import { current } from "../documents";
-import { selected } from "../selection";
+import { current } from "../documents/documents";
+import { selected } from "../plan/selection";
 import { drawing } from "./model";
 import { refuse } from "./say";
 import { holderOf } from "./shapes";

@@ -1,6 +1,6 @@
 // Which plan of the file is shown, and which led to it: a reload of the page keeps that.
 import { batch, effect } from "@preact/signals";
-import { current } from "../documents";
+import { current } from "../documents/documents";
 import { trail, wanted } from "./model";
 
 const KEY = "afp-studio-plan";

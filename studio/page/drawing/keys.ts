@@ -1,10 +1,10 @@
 // The keys of the drawing, each a command that `Ctrl+K` finds by name as well.
 import { signal } from "@preact/signals";
-import { command, type Command } from "../commands";
+import { command, type Command } from "../screen/commands";
 import { active, dismiss, ended } from "../debug/run";
-import * as layout from "../layout";
-import { pen } from "../session";
-import { select, selected } from "../selection";
+import * as layout from "../screen/layout";
+import { pen } from "../server/session";
+import { select, selected } from "../plan/selection";
 import * as actions from "./actions";
 import * as ask from "./ask";
 import { anatomy, choices } from "./anatomy";

@@ -1,7 +1,7 @@
 // Something that is drawn from one place of the drawing to another: an exit to what comes next, an entry to a port.
 import { signal } from "@preact/signals";
-import { select } from "../selection";
-import { pen } from "../session";
+import { select } from "../plan/selection";
+import { pen } from "../server/session";
 import * as actions from "./actions";
 import { anatomy, choices } from "./anatomy";
 import * as ask from "./ask";

@@ -1,8 +1,8 @@
 // What is wrong with each part of the drawing, found by the places of the problems in the text.
 import { computed, effect, signal } from "@preact/signals";
-import { current } from "../documents";
-import { itemAt } from "../places";
-import { problems, said, type Diagnostic } from "../problems";
+import { current } from "../documents/documents";
+import { itemAt } from "../plan/places";
+import { problems, said, type Diagnostic } from "../plan/problems";
 import { keyOf, type Drawing, type Part } from "./shapes";
 
 /** Problems by the key of the part that they are about. */

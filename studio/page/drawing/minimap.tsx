@@ -1,7 +1,7 @@
 // The whole drawing in a corner, with a frame around what is in sight: pressed or dragged, it shows what is there.
 import { computed } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { step } from "../guide";
+import { step } from "../plan/guide";
 import { colours } from "./far";
 import { drawing } from "./model";
 import { paint } from "./paint";

@@ -1,8 +1,8 @@
 // The drawing as the page keeps it: asked for once, then kept by differences, held while something is dragged.
 import { batch, computed, effect, signal } from "@preact/signals";
-import { current } from "../documents";
-import { LOST, Refused } from "../lsp";
-import { lsp } from "../session";
+import { current } from "../documents/documents";
+import { LOST, Refused } from "../server/lsp";
+import { lsp } from "../server/session";
 import { calledNow, changed, itemsNow, whole } from "./differences";
 import type { Answer, Changed, Drawing } from "./shapes";
 import { folded } from "./folded";

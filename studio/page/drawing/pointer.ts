@@ -1,7 +1,7 @@
 // Pointers on the drawing: feeds the state machine of `gesture.ts` and does what it says.
 import { signal } from "@preact/signals";
-import { pen } from "../session";
-import { select, selected } from "../selection";
+import { pen } from "../server/session";
+import { select, selected } from "../plan/selection";
 import * as actions from "./actions";
 import * as ask from "./ask";
 import { openMenu } from "./context";

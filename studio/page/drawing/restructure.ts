@@ -1,6 +1,6 @@
 // Elements into a plan of their own, and the elements of a plan in place of it.
-import { askLine } from "../dialogs";
-import { select, selected } from "../selection";
+import { askLine } from "../screen/dialogs";
+import { select, selected } from "../plan/selection";
 import * as actions from "./actions";
 import * as ask from "./ask";
 import { taken } from "./offers";

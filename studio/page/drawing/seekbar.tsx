@@ -1,7 +1,7 @@
 // The field of what is looked for: `Enter` goes to the next place, `Shift+Enter` to the one before, `Escape` ends it.
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { Tool } from "../bar";
-import { sought } from "../seek";
+import { Tool } from "../screen/bar";
+import { sought } from "../plan/seek";
 import { hits, next, nth } from "./seeking";
 import { words } from "./words";
 

@@ -1,7 +1,7 @@
 // What is looked for in the drawing: the parts whose names or texts hold it, one after the other selected.
 import { computed } from "@preact/signals";
-import { select, selected } from "../selection";
-import { sought } from "../seek";
+import { select, selected } from "../plan/selection";
+import { sought } from "../plan/seek";
 import { drawing } from "./model";
 import { reading } from "./navigate";
 import { reveal } from "./reveal";

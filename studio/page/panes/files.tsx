@@ -1,13 +1,13 @@
 // The files of the folder: opened, begun, copied from examples; and what is shown while there is none.
 import { effect, signal } from "@preact/signals";
-import { uriOf } from "../addresses";
-import { create, current, isOpen, open } from "../documents";
-import { askLine } from "../dialogs";
+import { uriOf } from "../documents/addresses";
+import { create, current, isOpen, open } from "../documents/documents";
+import { askLine } from "../screen/dialogs";
 import { showLog } from "../debug/logs";
-import { guide } from "../guide";
-import { Sign } from "../icons";
-import { run } from "../jobs";
-import { files, hello, more } from "../session";
+import { guide } from "../plan/guide";
+import { Sign } from "../screen/icons";
+import { run } from "../jobs/jobs";
+import { files, hello, more } from "../server/session";
 import { planText, words } from "../words";
 
 /** What went wrong last, as a sentence; shown until it is closed. */

@@ -1,7 +1,7 @@
 // What is forced in a run: a bar that cannot be folded, with what ends it; and the form that forces an entry.
 import { useState } from "preact/hooks";
 import { active, order, state, stop } from "../debug/run";
-import { Sign } from "../icons";
+import { Sign } from "../screen/icons";
 import { words } from "../words";
 
 /** Seconds that something is forced for. */

@@ -1,6 +1,6 @@
 // The card of the guide: one sentence about what to do next, and how far it is.
-import { leave, progress, step } from "../guide";
-import { Tool } from "../bar";
+import { leave, progress, step } from "../plan/guide";
+import { Tool } from "../screen/bar";
 import { words } from "../words";
 
 export function Guide() {

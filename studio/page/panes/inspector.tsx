@@ -12,12 +12,12 @@ import { isName } from "../drawing/rename";
 import { refuse } from "../drawing/say";
 import { nameOf, type Drawing, type Entry, type Part } from "../drawing/shapes";
 import { words } from "../drawing/words";
-import { Severity, Sign } from "../icons";
-import { AllAbout, Code } from "../book";
-import { nodes } from "../markdown";
-import { said, severityOf } from "../problems";
-import { select, selected } from "../selection";
-import { pen } from "../session";
+import { Severity, Sign } from "../screen/icons";
+import { AllAbout, Code } from "../screen/book";
+import { nodes } from "../screen/markdown";
+import { said, severityOf } from "../plan/problems";
+import { select, selected } from "../plan/selection";
+import { pen } from "../server/session";
 import { Value } from "./value";
 
 export function Inspector() {

@@ -1,12 +1,12 @@
 // Builds and sweeps: the plan made into a program, the plan run many times, with what jobs have said.
 import { effect, signal } from "@preact/signals";
-import { Code } from "../book";
-import { nameOf } from "../documents";
+import { Code } from "../screen/book";
+import { nameOf } from "../documents/documents";
 import { drawing } from "../drawing/model";
-import { Severity } from "../icons";
-import { said } from "../jobs";
-import { reveal } from "../places";
-import { build, built, busy, placeOf, plain, sweep, type Wrong } from "../results";
+import { Severity } from "../screen/icons";
+import { said } from "../jobs/jobs";
+import { reveal } from "../plan/places";
+import { build, built, busy, placeOf, plain, sweep, type Wrong } from "../jobs/results";
 import { words } from "../words";
 import { report } from "./files";
 import { Busy } from "./scenarios";

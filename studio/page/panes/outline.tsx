@@ -4,8 +4,8 @@ import { spoken } from "../drawing/say";
 import { keyOf, same, type Drawing } from "../drawing/shapes";
 import { at } from "../debug/follow";
 import { frames, state } from "../debug/run";
-import { tree, type Twig } from "../outline";
-import { select, selected } from "../selection";
+import { tree, type Twig } from "../plan/outline";
+import { select, selected } from "../plan/selection";
 import { words } from "../words";
 
 export function Outline() {

@@ -2,7 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { active, log, order } from "../debug/run";
-import { Sign } from "../icons";
+import { Sign } from "../screen/icons";
 import { press, tap } from "../world/press";
 import { points, type Point } from "../world/geometry";
 import { placeOn } from "../world/grab";

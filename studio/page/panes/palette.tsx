@@ -1,7 +1,7 @@
 // What a plan can be made of: searched, grouped, added by a click after the selection or by a drag where it is dropped.
 import { signal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
-import { current } from "../documents";
+import { current } from "../documents/documents";
 import { addAfter } from "../drawing/actions";
 import * as ask from "../drawing/ask";
 import { offers } from "../drawing/catalog";
@@ -9,7 +9,7 @@ import { Icon } from "../drawing/choices";
 import { carried, grab } from "../drawing/bring";
 import { choice } from "../drawing/offers";
 import { words } from "../drawing/words";
-import { pen } from "../session";
+import { pen } from "../server/session";
 
 const typed = signal("");
 const GROUPS = ["actor", "supervise", "computation", "subplan"] as const;

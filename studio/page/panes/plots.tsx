@@ -1,6 +1,6 @@
 // Curves above the rows of the timeline: what entries held and what sensors said, over the same window of time.
 import { signal } from "@preact/signals";
-import { Tool } from "../bar";
+import { Tool } from "../screen/bar";
 import { curves, valueAt, type Curve } from "../debug/curves";
 import type { Window } from "../debug/trace";
 import { spelled } from "../drawing/value";

@@ -1,10 +1,10 @@
 // What is wrong: a click selects it, a fix is made by a click.
 import { useEffect } from "preact/hooks";
-import { Code } from "../book";
-import { Severity } from "../icons";
-import { current } from "../documents";
-import { askFixes, fixes, mend, problems, said, severityOf, type Diagnostic } from "../problems";
-import { reveal } from "../places";
+import { Code } from "../screen/book";
+import { Severity } from "../screen/icons";
+import { current } from "../documents/documents";
+import { askFixes, fixes, mend, problems, said, severityOf, type Diagnostic } from "../plan/problems";
+import { reveal } from "../plan/places";
 import { words } from "../words";
 
 export function Problems() {

@@ -1,6 +1,6 @@
 // The run in words: what each entry holds, and what happened, a line each; a click shows where the text says so.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { Tool } from "../bar";
+import { Tool } from "../screen/bar";
 import { active, log, phase, revealSaid, said, state, why } from "../debug/run";
 import { words } from "../words";
 import { Force } from "./forced";

@@ -1,12 +1,12 @@
 // Scenarios: written and run from here, with what each came to; a failed one is shown at its moment.
 import { useState } from "preact/hooks";
-import { uriOf } from "../addresses";
-import { current } from "../documents";
-import { Severity, Sign } from "../icons";
-import { end, running } from "../jobs";
-import { reveal } from "../places";
-import { busy, coverage, results, runAll, showFailure, shown, writeSome, type Result } from "../results";
-import { files } from "../session";
+import { uriOf } from "../documents/addresses";
+import { current } from "../documents/documents";
+import { Severity, Sign } from "../screen/icons";
+import { end, running } from "../jobs/jobs";
+import { reveal } from "../plan/places";
+import { busy, coverage, results, runAll, showFailure, shown, writeSome, type Result } from "../jobs/results";
+import { files } from "../server/session";
 import { report } from "./files";
 import { words } from "../words";
 

@@ -1,8 +1,8 @@
 // Where a run stops, as a list: each with its line, its condition, or what it says in place of stopping.
 import { change, FILTERS, filters, stopsOf, toggle, type Stop } from "../debug/breakpoints";
-import { current, text } from "../documents";
-import { reveal } from "../places";
-import { Tool } from "../bar";
+import { current, text } from "../documents/documents";
+import { reveal } from "../plan/places";
+import { Tool } from "../screen/bar";
 import { words } from "../words";
 
 export function Stops() {

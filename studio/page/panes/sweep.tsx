@@ -2,10 +2,10 @@
 // run again where it can be watched.
 import { computed, signal } from "@preact/signals";
 import { active, repeat } from "../debug/run";
-import { Severity } from "../icons";
+import { Severity } from "../screen/icons";
 import { report } from "./files";
-import { counted, countedAll, grouped, isRepeatable, mapOf, runsOf, sumOf, type Ending, type OutcomeMap, type Run } from "../sweep";
-import { swept, sweptIn } from "../results";
+import { counted, countedAll, grouped, isRepeatable, mapOf, runsOf, sumOf, type Ending, type OutcomeMap, type Run } from "../jobs/sweep";
+import { swept, sweptIn } from "../jobs/results";
 import { words } from "../words";
 
 const runs = computed(() => runsOf(swept.value));

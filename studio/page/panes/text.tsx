@@ -1,8 +1,8 @@
 // The text of the plan that is shown.
 import { useEffect, useRef } from "preact/hooks";
-import { command } from "../commands";
-import { current, isOpen } from "../documents";
-import { askFixes } from "../problems";
+import { command } from "../screen/commands";
+import { current, isOpen } from "../documents/documents";
+import { askFixes } from "../plan/problems";
 import { edit } from "../text/editor";
 import { definition, format, mendHere, ordered, rename } from "../text/orders";
 import { words } from "../words";

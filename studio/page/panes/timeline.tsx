@@ -4,7 +4,7 @@ import { computed, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { phase, records, seek, state } from "../debug/run";
 import { beside, moments, rows, scale, within, zoomed, type Row, type Window } from "../debug/trace";
-import { Tool } from "../bar";
+import { Tool } from "../screen/bar";
 import { words } from "../words";
 import { Choose, Plots } from "./plots";
 

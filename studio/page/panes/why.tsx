@@ -1,5 +1,5 @@
 // The card that says why an element runs or does not, and lets an outcome happen.
-import { Tool } from "../bar";
+import { Tool } from "../screen/bar";
 import { log, order } from "../debug/run";
 import { close, why, type Edge } from "../debug/why";
 import { words } from "../words";

@@ -1,6 +1,6 @@
 // The world of a run: where it takes place, the floor from above, what a hand can do in it.
 import { useEffect, useRef } from "preact/hooks";
-import { Tool } from "../bar";
+import { Tool } from "../screen/bar";
 import { active, given, seed, world as chosen } from "../debug/run";
 import { putBack } from "../debug/arranged";
 import { arranged } from "../world/hand";

@@ -1,8 +1,8 @@
 // Colours of words by their meaning, and hints between them: both are the server's, and move with the text until it says more.
 import { StateEffect, StateField, type EditorState, type Extension, type Range as Placed } from "@codemirror/state";
 import { Decoration, EditorView, ViewPlugin, WidgetType, type DecorationSet, type ViewUpdate } from "@codemirror/view";
-import { legend, lsp } from "../session";
-import type { Position } from "../positions";
+import { legend, lsp } from "../server/session";
+import type { Position } from "../documents/positions";
 
 interface Hint {
   position: Position;

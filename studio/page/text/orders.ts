@@ -1,14 +1,14 @@
 // What is ordered at the cursor of the text: definition, rename, fixes, formatting.
 import type { EditorView } from "@codemirror/view";
-import { ask, askLine } from "../dialogs";
-import type { TextEdit } from "../changes";
-import { text, version } from "../documents";
-import { apply, change, type WorkspaceEdit } from "../edits";
+import { ask, askLine } from "../screen/dialogs";
+import type { TextEdit } from "../documents/changes";
+import { text, version } from "../documents/documents";
+import { apply, change, type WorkspaceEdit } from "../documents/edits";
 import { report, trouble } from "../panes/files";
-import { reveal } from "../places";
-import { offset, position, range, type Range } from "../positions";
-import { actionsAt, diagnostics, mend } from "../problems";
-import { files, lsp } from "../session";
+import { reveal } from "../plan/places";
+import { offset, position, range, type Range } from "../documents/positions";
+import { actionsAt, diagnostics, mend } from "../plan/problems";
+import { files, lsp } from "../server/session";
 import { words } from "../words";
 
 const cursor = (view: EditorView, uri: string) => ({ textDocument: { uri }, position: position(text(uri), view.state.selection.main.head) });

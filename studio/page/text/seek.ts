@@ -3,7 +3,7 @@ import { getSearchQuery, searchPanelOpen } from "@codemirror/search";
 import { StateEffect, StateField } from "@codemirror/state";
 import { Decoration, EditorView, type DecorationSet } from "@codemirror/view";
 import { effect } from "@preact/signals";
-import { sought } from "../seek";
+import { sought } from "../plan/seek";
 
 /** Places that are marked at most. */
 const MOST = 1000;

@@ -2,11 +2,11 @@
 import { snippet, type Completion, type CompletionContext, type CompletionResult } from "@codemirror/autocomplete";
 import type { EditorView, Tooltip } from "@codemirror/view";
 import { valueAt } from "../debug/run";
-import { inOrder, type TextEdit } from "../changes";
-import { text } from "../documents";
-import { nodes } from "../markdown";
-import { offset, position, type Range } from "../positions";
-import { lsp } from "../session";
+import { inOrder, type TextEdit } from "../documents/changes";
+import { text } from "../documents/documents";
+import { nodes } from "../screen/markdown";
+import { offset, position, type Range } from "../documents/positions";
+import { lsp } from "../server/session";
 import { words } from "../words";
 import { fromProtocol } from "./snippets";
 

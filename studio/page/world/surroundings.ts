@@ -1,13 +1,13 @@
 // The world that a run of the plan takes place in and the robot in it: known before any run, asked for anew after each.
 import { batch, effect, signal } from "@preact/signals";
-import { connect } from "../dap";
+import { connect } from "../server/dap";
 import { putBack } from "../debug/arranged";
-import { pathOf } from "../addresses";
+import { pathOf } from "../documents/addresses";
 import { active, address, given, log, phase, seed, state, world } from "../debug/run";
-import { current } from "../documents";
+import { current } from "../documents/documents";
 import { trouble } from "../panes/files";
-import { files, lsp } from "../session";
-import { trusted } from "../trust";
+import { files, lsp } from "../server/session";
+import { trusted } from "../jobs/trust";
 import { words } from "../words";
 import { extended, type Path, type Point, type World } from "./geometry";
 

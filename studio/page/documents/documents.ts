@@ -5,12 +5,12 @@ import { difference, withNewlines } from "./changes";
 import { conflicts, dispute, settle, type Keep } from "./conflicts";
 import { attach, clear, push, record, type Change, type Step } from "./history";
 import { tooLong } from "./limit";
-import { LOST, Refused, type Finish, type Lsp } from "./lsp";
+import { LOST, Refused, type Finish, type Lsp } from "../server/lsp";
 import * as pending from "./pending";
 import { position, type Range } from "./positions";
-import { select } from "./selection";
-import { files, lsp, pen, type Kept } from "./session";
-import { words } from "./words";
+import { select } from "../plan/selection";
+import { files, lsp, pen, type Kept } from "../server/session";
+import { words } from "../words";
 
 interface Document extends Kept {
   /** The last version that the room has written. */

@@ -2,15 +2,15 @@
 // all that there is to say of a template.
 import { signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
-import { current, text } from "./documents";
-import { templateAt } from "./drawing/anatomy";
+import { current, text } from "../documents/documents";
+import { templateAt } from "../drawing/anatomy";
 import { nodes } from "./markdown";
 import { useModal } from "./modal";
-import { report } from "./panes/files";
-import { spanOf } from "./places";
-import { offset, position } from "./positions";
-import { lsp } from "./session";
-import { words } from "./words";
+import { report } from "../panes/files";
+import { spanOf } from "../plan/places";
+import { offset, position } from "../documents/positions";
+import { lsp } from "../server/session";
+import { words } from "../words";
 
 /** The page that is open. */
 const page = signal<{ title: string; text: string } | null>(null);

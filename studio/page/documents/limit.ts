@@ -1,6 +1,6 @@
 // How long a text may get: what is longer the server neither writes nor opens again.
-import { hello } from "./session";
-import { words } from "./words";
+import { hello } from "../server/session";
+import { words } from "../words";
 
 /** A letter takes at most so many bytes in a file. */
 const BYTES = 3;

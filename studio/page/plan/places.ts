@@ -1,9 +1,9 @@
 // Places of the text and items of the plan, each found by the other, so that cursor and selection go together.
 import { effect, signal } from "@preact/signals";
-import { current, isOpen, open } from "./documents";
-import type { Position, Range } from "./positions";
-import { lsp } from "./session";
-import type { Part } from "./drawing/shapes";
+import { current, isOpen, open } from "../documents/documents";
+import type { Position, Range } from "../documents/positions";
+import { lsp } from "../server/session";
+import type { Part } from "../drawing/shapes";
 import { origin, select, selected, type Origin } from "./selection";
 
 /** Where the text pane shall put its cursor, or, where that stays, what it shall bring into sight: set by whoever selects elsewhere, taken by the pane. */

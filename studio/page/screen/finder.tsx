@@ -3,12 +3,12 @@ import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { commands, isEnabled, keysOf, type Command } from "./commands";
-import { nameOf } from "./documents";
+import { nameOf } from "../documents/documents";
 import { useModal } from "./modal";
-import { report } from "./panes/files";
-import { reveal, symbols } from "./places";
+import { report } from "../panes/files";
+import { reveal, symbols } from "../plan/places";
 import { matching } from "./ranking";
-import { words } from "./words";
+import { words } from "../words";
 
 /** Which list is open. */
 export const finding = signal<"commands" | "things" | null>(null);

@@ -1,7 +1,7 @@
 // Questions that stand before everything else: choices, and one line to be written.
 import { signal } from "@preact/signals";
 import { useModal } from "./modal";
-import { words } from "./words";
+import { words } from "../words";
 
 interface Question {
   title: string;

@@ -1,7 +1,7 @@
 // The one history of the page: typing, drawing, places, fixes and changes from outside are entries of one list.
 // The functions above `push` are pure: `(log, ...) -> log`.
 import { computed, signal } from "@preact/signals";
-import type { Part } from "./drawing/shapes";
+import type { Part } from "../drawing/shapes";
 
 /** Puts `insert` where `from..to` of a text stands. Those of a list are made one after the other. */
 export interface Change {

@@ -1,12 +1,12 @@
 // The commands of the page itself: history, panes, files, keys.
 import { command } from "./commands";
 import { finding, showingKeys } from "./finder";
-import { redo, redoLabel, undo, undoLabel } from "./history";
+import { redo, redoLabel, undo, undoLabel } from "../documents/history";
 import { bottom, isBottom, narrow, palette, right, show, world, type Narrow } from "./layout";
-import { makeNew, report } from "./panes/files";
-import { current } from "./documents";
-import { sought } from "./seek";
-import { words } from "./words";
+import { makeNew, report } from "../panes/files";
+import { current } from "../documents/documents";
+import { sought } from "../plan/seek";
+import { words } from "../words";
 
 export function register(): void {
   command({ id: "find", label: words.commands, key: "Ctrl+K", run: () => (finding.value = "commands") });

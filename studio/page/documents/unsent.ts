@@ -2,7 +2,7 @@
 // offered when their file is opened again. Each page has a key of its own, since several may show one file.
 import { effect } from "@preact/signals";
 import { offer, opened, saved, text, unsent } from "./documents";
-import { lsp } from "./session";
+import { lsp } from "../server/session";
 
 const PREFIX = "afp-studio-unsent-";
 /** Milliseconds that a text may be on its way before it is kept. */

@@ -1,8 +1,8 @@
 // Jobs that the server does for the page: what goes on, what it has said, what it came to.
 import { signal } from "@preact/signals";
-import { going, lsp, type Going, type Order } from "./session";
+import { going, lsp, type Going, type Order } from "../server/session";
 import { trusted } from "./trust";
-import { words } from "./words";
+import { words } from "../words";
 
 export interface Done {
   id: number;

@@ -1,6 +1,6 @@
 // The socket to the language server and the room: JSON-RPC 2.0, one message a text frame, connected anew when it is lost.
 import { signal, type Signal } from "@preact/signals";
-import { words } from "./words";
+import { words } from "../words";
 
 export interface Lsp {
   /** Asks; what is asked while there is no connection is sent as soon as there is one. */

@@ -1,17 +1,17 @@
 // The bar at the top: file, plans, what is saved, undo and redo, problems.
 import { batch } from "@preact/signals";
-import { current, isFailed, nameOf, saved } from "./documents";
-import { Controls } from "./debug/controls";
-import { log } from "./debug/run";
-import { drawing, leave, plan, trail, wanted } from "./drawing/model";
+import { current, isFailed, nameOf, saved } from "../documents/documents";
+import { Controls } from "../debug/controls";
+import { log } from "../debug/run";
+import { drawing, leave, plan, trail, wanted } from "../drawing/model";
 import { finding } from "./finder";
-import { redo, redoLabel, undo, undoLabel } from "./history";
+import { redo, redoLabel, undo, undoLabel } from "../documents/history";
 import { Severity, Sign, type Icon } from "./icons";
 import { bottom, show } from "./layout";
 import { Menu } from "./menu";
-import { Files, report } from "./panes/files";
-import { number } from "./problems";
-import { words } from "./words";
+import { Files, report } from "../panes/files";
+import { number } from "../plan/problems";
+import { words } from "../words";
 
 export function Bar() {
   return (

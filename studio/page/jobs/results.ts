@@ -1,17 +1,17 @@
 // What scenarios, sweeps and builds of the page came to: kept until the next ones.
 import { batch, computed, signal } from "@preact/signals";
-import { uriOf } from "./addresses";
-import { openLogAt } from "./debug/logs";
-import { world } from "./debug/run";
-import { current, nameOf, onText } from "./documents";
-import { drawing } from "./drawing/model";
+import { uriOf } from "../documents/addresses";
+import { openLogAt } from "../debug/logs";
+import { world } from "../debug/run";
+import { current, nameOf, onText } from "../documents/documents";
+import { drawing } from "../drawing/model";
 import { run, takeUp, type Done } from "./jobs";
 import { mistakes, type Mistake, type Place } from "./mistakes";
-import { report, trouble } from "./panes/files";
-import { itemAt } from "./places";
-import type { Position } from "./positions";
-import type { Going, Order } from "./session";
-import { words } from "./words";
+import { report, trouble } from "../panes/files";
+import { itemAt } from "../plan/places";
+import type { Position } from "../documents/positions";
+import type { Going, Order } from "../server/session";
+import { words } from "../words";
 
 /** An expectation that was not met. */
 export interface Broken {

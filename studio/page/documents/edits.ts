@@ -1,11 +1,11 @@
 // Edits of texts that the server computes: made for the very text that they are for, as one entry of the history.
 import { inOrder, type TextEdit } from "./changes";
 import { open, text, version } from "./documents";
-import type { Part } from "./drawing/shapes";
+import type { Part } from "../drawing/shapes";
 import { push, underWay, type Change } from "./history";
-import { LOST, Refused } from "./lsp";
-import { pen } from "./session";
-import { words } from "./words";
+import { LOST, Refused } from "../server/lsp";
+import { pen } from "../server/session";
+import { words } from "../words";
 
 export interface WorkspaceEdit {
   documentChanges?: (

@@ -1,7 +1,7 @@
 // Whether what lies in the folder may be built and run: asked once, where there is something.
-import { ask } from "./dialogs";
-import { lsp } from "./session";
-import { words } from "./words";
+import { ask } from "../screen/dialogs";
+import { lsp } from "../server/session";
+import { words } from "../words";
 
 /** Asks, where it has to be asked, whether what lies in the folder, or is needed for a file of it, may run; remembers the answer. */
 export async function trusted(file?: unknown, always = false): Promise<boolean> {

@@ -1,9 +1,9 @@
 // What the server says is wrong with each text, and the fixes that it has.
 import { computed, effect, signal } from "@preact/signals";
-import { current } from "./documents";
-import { apply, type WorkspaceEdit } from "./edits";
-import type { Range } from "./positions";
-import { lsp } from "./session";
+import { current } from "../documents/documents";
+import { apply, type WorkspaceEdit } from "../documents/edits";
+import type { Range } from "../documents/positions";
+import { lsp } from "../server/session";
 
 export type Severity = "error" | "warning" | "note";
 

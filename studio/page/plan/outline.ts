@@ -1,6 +1,6 @@
 // The plan as a tree: what hangs on what, in reading order. Pure.
-import { reading } from "./drawing/navigate";
-import { keyOf, type Drawing, type Part } from "./drawing/shapes";
+import { reading } from "../drawing/navigate";
+import { keyOf, type Drawing, type Part } from "../drawing/shapes";
 
 export interface Twig {
   part: Part;

@@ -1,6 +1,6 @@
 // The socket to the debugger: the Debug Adapter Protocol, one message a text frame. One connection is one run.
 import type { Socket } from "./lsp";
-import { words } from "./words";
+import { words } from "../words";
 
 export interface Dap {
   /** Asks; what is refused is an error with a sentence. */

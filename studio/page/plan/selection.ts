@@ -1,6 +1,6 @@
 // What is selected: items of the plan, or parts of them. Drawing, text and inspector show the same selection.
 import { signal } from "@preact/signals";
-import type { Part } from "./drawing/shapes";
+import type { Part } from "../drawing/shapes";
 
 export type Origin = "drawing" | "text" | "other";
 

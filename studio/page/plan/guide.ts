@@ -1,9 +1,9 @@
 // The first plan, built by the person: what the card says next follows from what the plan has, so that no order is forced.
 import { computed, signal } from "@preact/signals";
-import { current } from "./documents";
-import { ended } from "./debug/run";
-import { drawing } from "./drawing/model";
-import type { Drawing } from "./drawing/shapes";
+import { current } from "../documents/documents";
+import { ended } from "../debug/run";
+import { drawing } from "../drawing/model";
+import type { Drawing } from "../drawing/shapes";
 import { number } from "./problems";
 
 export const STEPS = ["drive", "connect", "run", "notice", "follow", "stop", "lead", "again"] as const;

@@ -1,5 +1,5 @@
 // Addresses of documents and paths of files. The server knows a document by its one address: it is written here as there.
-import { hello } from "./session";
+import { hello } from "../server/session";
 
 /** The path of a document, as the debugger says it. */
 export const pathOf = (uri: string): string => decodeURIComponent(new URL(uri).pathname);
