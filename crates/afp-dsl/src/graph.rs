@@ -16,40 +16,12 @@ use crate::toolbox::{Constant, Template, Toolbox};
 use crate::types::{Conversion, Type};
 use afp_syntax::source::{Source, Span};
 
-pub use afp_types::{EntryKind, Function};
+pub use afp_types::{
+    ElementId, EntryId, EntryKind, Function, PlanId, ReasonId, SupervisorId, ToolboxId,
+};
 pub use afp_syntax::ast::Operator;
 pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};
-
-macro_rules! index {
-    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub struct $name(pub u16);
-
-        impl $name {
-            /// The index, to be used on the table it belongs to.
-            pub fn index(self) -> usize {
-                usize::from(self.0)
-            }
-        }
-    )*};
-}
-
-index! {
-    /// A plan of [`Graph::plans`].
-    PlanId,
-    /// An entry of [`Plan::entries`].
-    EntryId,
-    /// An element of [`Plan::elements`].
-    ElementId,
-    /// A supervisor of [`Plan::supervisors`].
-    SupervisorId,
-    /// A toolbox of [`Graph::toolboxes`].
-    ToolboxId,
-    /// A text of [`Plan::reasons`].
-    ReasonId,
-}
 
 /// All plans that one plan needs, itself included.
 #[derive(Clone, Debug)]

@@ -13,6 +13,7 @@ mod decimal;
 mod exact;
 mod function;
 mod hash;
+mod id;
 mod kind;
 mod measured;
 mod read;
@@ -31,6 +32,7 @@ pub use function::{
     sqrt,
 };
 pub use hash::TextHash;
+pub use id::{ElementId, EntryId, PlanId, ReasonId, SupervisorId, ToolboxId};
 pub use kind::{ComponentKind, EntryKind};
 pub use measured::{EXACT, Measured};
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
