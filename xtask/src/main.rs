@@ -14,6 +14,7 @@ mod gallery;
 mod gate;
 mod image;
 mod install;
+mod lines;
 mod live;
 mod npm;
 mod opencv;
@@ -79,6 +80,8 @@ enum Chore {
         /// Suites by name; all without any.
         suites: Vec<String>,
     },
+    /// Counts the lines of code of each crate, without blanks, comments and tests.
+    Lines,
     /// Renders the book of docs/ with mdBook.
     Book,
     /// Packs the extension for Visual Studio Code and the grammar for tree-sitter.
@@ -112,6 +115,7 @@ fn main() -> ExitCode {
         Chore::Gate { suites } => suites::run(suites::GATE, &suites),
         Chore::Nightly { suites } => suites::run(suites::NIGHTLY, &suites),
         Chore::Lint { suites } => suites::run(suites::LINT, &suites),
+        Chore::Lines => lines::print(),
         Chore::Book => book::run(),
         Chore::Editors => editors::pack(),
         Chore::Gallery { plans } => gallery::run(&plans),

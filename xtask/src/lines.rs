@@ -1,0 +1,100 @@
+//! Counts the lines of code in `crates/`: no blanks, comments, tests or generated Rust.
+//!
+//! The count reads tokens, so a line counts if a token of code is on it. It reads each file as `rustfmt` leaves it: joining
+//! lines by hand changes nothing.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use proc_macro2::{TokenStream, TokenTree};
+
+use crate::shell::{Failure, output, program, root};
+
+/// Prints the lines of code of each crate, and their total.
+///
+/// # Errors
+/// A file cannot be read, or `rustfmt` cannot format it.
+pub fn print() -> Result<(), Failure> {
+    let listed = output(program("git").args([
+        "ls-files",
+        "-co",
+        "--exclude-standard",
+        "crates/*/src/*.rs",
+    ]))?;
+    let (mut files, mut tests) = (BTreeMap::new(), BTreeSet::new());
+    for path in
+        listed.lines().map(Path::new).filter(|path| counts(path) && root().join(path).exists())
+    {
+        let mut lines = BTreeSet::new();
+        collect(formatted(path)?.parse()?, path, &mut lines, &mut tests);
+        files.insert(path, lines.len());
+    }
+    files.retain(|path, _| !tests.contains(*path));
+    let mut crates: BTreeMap<_, usize> = BTreeMap::new();
+    for (path, lines) in &files {
+        *crates
+            .entry(path.iter().nth(1).and_then(OsStr::to_str).unwrap_or_default())
+            .or_default() += lines;
+    }
+    let total = crates.values().sum();
+    for (name, lines) in crates.into_iter().chain([("total", total)]) {
+        println!("{name:<16} {lines:>7}");
+    }
+    Ok(())
+}
+
+/// Whether a file holds code that people write for the crates themselves.
+fn counts(path: &Path) -> bool {
+    let apart = ["tests", "tests.rs", "benches", "examples", "proto"];
+    !path.iter().any(|part| apart.iter().any(|apart| part == *apart))
+}
+
+/// The text of a file as `rustfmt` prints it.
+fn formatted(path: &Path) -> Result<String, Failure> {
+    let mut rustfmt = program("rustfmt");
+    rustfmt.args(["--edition", "2024"]).stdin(fs::File::open(root().join(path))?);
+    let done = rustfmt.output()?;
+    if !done.status.success() {
+        return Err(format!("rustfmt cannot read {}", path.display()).into());
+    }
+    Ok(String::from_utf8(done.stdout)?)
+}
+
+/// Collects the lines on which a token of code is, and the files of modules that only tests have.
+fn collect(
+    tokens: TokenStream,
+    path: &Path,
+    lines: &mut BTreeSet<usize>,
+    tests: &mut BTreeSet<PathBuf>,
+) {
+    let mut tokens = tokens.into_iter().peekable();
+    while let Some(token) = tokens.next() {
+        let is_mark = matches!(&token, TokenTree::Punct(mark) if mark.as_char() == '#');
+        tokens.next_if(|next| is_mark && next.to_string() == "!");
+        let attribute = tokens.peek().filter(|_| is_mark).map(ToString::to_string);
+        let begins = |with| attribute.as_ref().is_some_and(|text| text.starts_with(with));
+        if begins("[cfg (test)") {
+            let item = tokens.by_ref().take_while(|token| !token.to_string().ends_with(['}', ';']));
+            if let [.., keyword, TokenTree::Ident(name)] = &item.collect::<Vec<_>>()[..]
+                && keyword.to_string() == "mod"
+            {
+                tests.insert(folder(path).join(format!("{name}.rs")));
+            }
+        } else if begins("[doc = \"") {
+            tokens.next();
+        } else if let TokenTree::Group(group) = token {
+            lines.extend([group.span_open().start().line, group.span_close().start().line]);
+            collect(group.stream(), path, lines, tests);
+        } else {
+            lines.extend(token.span().start().line..=token.span().end().line);
+        }
+    }
+}
+
+/// The folder of a file's modules.
+fn folder(path: &Path) -> PathBuf {
+    let root = ["lib.rs", "main.rs"].iter().any(|root| path.ends_with(root));
+    if root { path.with_file_name("") } else { path.with_extension("") }
+}
