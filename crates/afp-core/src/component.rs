@@ -4,6 +4,8 @@
 //! `toolbox!` makes from a toolbox file; the component traits by the author. States and events
 //! carry their outputs as payload, so "written only on that state" follows from the types.
 
+use core::task::Poll;
+
 use crate::fault::Fault;
 use crate::time::Instant;
 
@@ -33,15 +35,6 @@ impl Events {
     pub const fn contains(self, n: u16) -> bool {
         n < 64 && self.0 >> n & 1 == 1
     }
-}
-
-/// What a poll of an actor says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Poll<S> {
-    /// Go on.
-    Pending,
-    /// The actor has finished in this state.
-    Ready(S),
 }
 
 /// The ports and states of an actor, as its toolbox file declares them.

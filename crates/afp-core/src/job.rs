@@ -14,7 +14,8 @@
 //! In virtual time a job is ready when its declared time has passed, however long the machine took,
 //! so a trace is the same everywhere. The workers themselves are in `afp-platform`.
 
-use crate::component::Poll;
+use core::task::Poll;
+
 use crate::fault::{Fault, Reason};
 use crate::time::{Duration, Instant};
 

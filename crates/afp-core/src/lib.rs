@@ -4,6 +4,7 @@
 //! standard library, allocates nothing, and never panics.
 #![no_std]
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod clock;
@@ -22,10 +23,12 @@ mod time;
 pub mod trace;
 mod value;
 
+pub use core::task::Poll;
+
 pub use afp_types::MAX_TRANSITIONS_PER_STEP;
 pub use clock::{Clock, StillClock};
 pub use component::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Supervisor,
     SupervisorTemplate,
 };
 pub use fault::{Detail, Failure, Fault, Reason, Subject};

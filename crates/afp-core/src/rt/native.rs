@@ -1,9 +1,10 @@
 //! What typed components and typed plans need of the scheduler: the steps of a component's life
 //! as one call each, so that generated code reads as a list of what is started and polled.
 
+use core::task::Poll;
+
 use crate::component::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Events, Poll, Supervisor,
-    SupervisorTemplate,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Events, Supervisor, SupervisorTemplate,
 };
 use crate::fault::{BadValue, Fault};
 use crate::rt::formula::parse_choice;
