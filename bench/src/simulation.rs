@@ -153,13 +153,13 @@ fn follow(world: &World, log: &mut impl RobotSink) {
 fn drive(plan: impl Plan<Simulation>, world: &World, log: &mut impl RobotSink) -> (Instant, bool) {
     let mut sim = Simulation::new(world, SEED).unwrap_or_else(|why| panic!("{why:?}"));
     let mut plan = Scheduler::new(plan);
-    let wake = plan.start(&mut sim, log, &StillClock, Instant::ZERO);
+    let wake = plan.start((&mut sim, &mut *log, &StillClock), Instant::ZERO);
     let mut wake = wake.unwrap_or_else(|why| panic!("{why:?}"));
     while let Wake::At(due) = wake
         && due <= END
     {
         sim.advance_to(due);
-        wake = plan.step(&mut sim, log, &StillClock, due);
+        wake = plan.step((&mut sim, &mut *log, &StillClock), due);
         log.robot(&sim);
     }
     (sim.now(), plan.ending().is_some())

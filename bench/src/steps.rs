@@ -22,7 +22,7 @@ where
     let mut board = Board::quiet();
     let mut plan = Scheduler::new(plan);
     let mut last = 0;
-    let started = plan.start(&mut board, &mut sink, &clock, Instant::ZERO);
+    let started = plan.start((&mut board, &mut sink, &clock), Instant::ZERO);
     assert!(started.is_ok(), "all inputs have defaults");
     move |count| {
         let mut at = last;
@@ -31,7 +31,7 @@ where
             let (plan, board) = (black_box(&mut plan), black_box(&mut board));
             let now = Instant::from_nanos(black_box(at));
             // By reference: a copy of what has just been written in parts would stall for longer than the step takes.
-            black_box(&plan.step(board, &mut sink, &clock, now));
+            black_box(&plan.step((&mut *board, &mut sink, &clock), now));
         }
         last = at;
         assert!(plan.ending().is_none(), "nothing happens that could end it");

@@ -98,9 +98,8 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
     }
 
     fn start(&mut self) -> Option<Wake> {
-        let (scheduler, platform) = (&mut self.scheduler, &mut self.platform);
-        let (sink, clock) = (&mut self.sink, &self.clock);
-        let start = || scheduler.start(platform, sink, clock, Instant::ZERO);
+        let on = (&mut self.platform, &mut self.sink, &self.clock);
+        let start = || self.scheduler.start(on, Instant::ZERO);
         match catch_unwind(AssertUnwindSafe(start)) {
             Ok(Ok(wake)) => Some(self.noted(wake)),
             Ok(Err(StartError::InputMissing(entry))) => {
@@ -153,9 +152,8 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
         if self.script.copied {
             self.scheduler = self.scheduler.try_clone().expect("all components can be copied");
         }
-        let (scheduler, platform) = (&mut self.scheduler, &mut self.platform);
-        let (sink, clock) = (&mut self.sink, &self.clock);
-        let step = || scheduler.step(platform, sink, clock, now);
+        let on = (&mut self.platform, &mut self.sink, &self.clock);
+        let step = || self.scheduler.step(on, now);
         match catch_unwind(AssertUnwindSafe(step)) {
             Ok(wake) => self.noted(wake),
             Err(_) => self.abort(),
@@ -163,8 +161,8 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
     }
 
     fn abort(&mut self) -> Wake {
-        let (platform, sink) = (&mut self.platform, &mut self.sink);
-        self.scheduler.abort(platform, sink, Fault::PANIC)
+        let on = (&mut self.platform, &mut self.sink, &self.clock);
+        self.scheduler.abort(on, Fault::PANIC)
     }
 
     fn noted(&self, wake: Wake) -> Wake {

@@ -59,7 +59,7 @@ fn run(text: &str) -> Option<Value> {
     let graph = graph("run", text).unwrap_or_else(|errors| panic!("{errors}"));
     let mut scheduler = Scheduler::new(load(&graph));
     let mut platform = Platform::new(Script::default(), Log::default(), CostClock::default());
-    let wake = scheduler.start(&mut platform, &mut NoTrace, &StillClock, Instant::ZERO);
+    let wake = scheduler.start((&mut platform, &mut NoTrace, &StillClock), Instant::ZERO);
     match wake.expect("nothing is missing") {
         Wake::At(_) => Some(scheduler.plan().get("x").expect("there is an x").to_owned()),
         Wake::Ended(ending) => {

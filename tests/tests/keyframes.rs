@@ -73,8 +73,8 @@ impl Run {
         while let Wake::At(at) = self.wake
             && at <= Instant::from_nanos(end * 1_000_000)
         {
-            let (platform, sink) = (&mut self.platform, &mut self.sink);
-            self.wake = self.scheduler.step(platform, sink, &self.clock, at);
+            let on = (&mut self.platform, &mut self.sink, &self.clock);
+            self.wake = self.scheduler.step(on, at);
         }
         self.sink.1.lines()[before..].to_vec()
     }
@@ -86,11 +86,8 @@ fn a_copy_in_mid_run_and_its_original_go_on_alike() {
     let graph = graph("keyframes", &case.plan).unwrap_or_else(|errors| panic!("{errors}"));
     for at in [0, 10, 55, 60, 100, 110, 145, 150, 160] {
         let mut run = Run::on(Scheduler::new(load(&graph)), &case.script, Wake::At(Instant::ZERO));
-        let (platform, sink) = (&mut run.platform, &mut run.sink);
-        run.wake = run
-            .scheduler
-            .start(platform, sink, &run.clock, Instant::ZERO)
-            .expect("nothing is missing");
+        let on = (&mut run.platform, &mut run.sink, &run.clock);
+        run.wake = run.scheduler.start(on, Instant::ZERO).expect("nothing is missing");
         run.until(at);
         let copy = run.scheduler.try_clone().expect("all components can be copied");
         let mut copy = Run::on(copy, &case.script, run.wake);

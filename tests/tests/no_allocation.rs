@@ -62,13 +62,13 @@ fn run<P: Plan<Platform>>(plan: P) -> (u64, u64) {
     let steps = steps();
     let mut platform = Platform::new(script(steps), Log::default(), CostClock::default());
     let mut scheduler = Scheduler::new(plan);
-    let started = scheduler.start(&mut platform, &mut NoTrace, &StillClock, Instant::ZERO);
+    let started = scheduler.start((&mut platform, &mut NoTrace, &StillClock), Instant::ZERO);
     assert!(matches!(started, Ok(Wake::At(_))));
     let (before, mut changes) = (allocations(), 0);
     for step in 1..=steps {
         let active = scheduler.active();
         let now = Instant::from_nanos(step * 1_000_000);
-        let wake = scheduler.step(&mut platform, &mut NoTrace, &StillClock, now);
+        let wake = scheduler.step((&mut platform, &mut NoTrace, &StillClock), now);
         assert!(matches!(wake, Wake::At(_)), "it ended at {now}");
         changes += u64::from(scheduler.active() != active);
     }

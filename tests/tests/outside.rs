@@ -102,9 +102,9 @@ fn every_component_reports_its_faults_and_a_supervisor_its_misses() {
         .and_then(|calls| calls.on("second.s", "Seen", tell("s saw")))
         .unwrap_or_else(|why| panic!("{why}"));
     let mut platform = Platform::new(script, log, clock.clone());
-    scheduler.start(&mut platform, &mut calls, &clock, Instant::ZERO).expect("it can start");
+    scheduler.start((&mut platform, &mut calls, &clock), Instant::ZERO).expect("it can start");
     for at in [10_000_000, 45_000_000] {
-        scheduler.step(&mut platform, &mut calls, &clock, Instant::from_nanos(at));
+        scheduler.step((&mut platform, &mut calls, &clock), Instant::from_nanos(at));
     }
     drop(calls);
     let expected =

@@ -49,15 +49,15 @@ fn an_object_is_another_one_than_the_one_that_was_carried() {
     let mut platform = Platform::new(script, Log::default(), clock.clone());
     let mut scheduler = Scheduler::new(load(&old));
     let at = |millis: u64| Instant::from_nanos(millis * 1_000_000);
-    scheduler.start(&mut platform, &mut NoTrace, &clock, at(0)).expect("it can start");
+    scheduler.start((&mut platform, &mut NoTrace, &clock), at(0)).expect("it can start");
     let mut next = load(&new);
     assert_eq!(next.carry(scheduler.plan()), ["map"]);
     let mut calls = Callbacks::new(&next)
         .on("stay.other", "Changed", |at| told.borrow_mut().push(at))
         .unwrap_or_else(|why| panic!("{why}"));
-    scheduler.replace(next, &mut platform, &mut calls, &clock, at(0)).expect("it can start");
+    scheduler.replace(next, (&mut platform, &mut calls, &clock), at(0)).expect("it can start");
     for millis in [10, 20, 30, 40] {
-        scheduler.step(&mut platform, &mut calls, &clock, at(millis));
+        scheduler.step((&mut platform, &mut calls, &clock), at(millis));
     }
     drop(calls);
     assert_eq!(told.into_inner(), [at(30)]);

@@ -35,7 +35,7 @@ pub use fault::{Detail, Failure, Fault, Reason, Subject};
 pub use job::{Job, Ticket, Worker};
 pub use platform::Platform;
 pub use reading::{Invalid, Reading};
-pub use rt::{NamedPlan, Plan, PlanState, Scale, Unit, WriteError};
+pub use rt::{NamedPlan, Plan, PlanState, Run, Scale, Unit, WriteError};
 pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, SetError, StartError, TypedEntry, Wake};
 pub use time::{Duration, Instant};
 pub use trace::Ending;

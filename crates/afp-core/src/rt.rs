@@ -32,7 +32,6 @@ pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
 pub use probe::{ActorSupported, Probe, SupervisorSupported, Unsupported};
 pub use row::{RowInputs, row};
 pub use run::Run;
-pub(crate) use run::With;
 pub use state::{AtElement, Plan, PlanState, WriteError};
 pub use store::{Any, Choice, Discrete, Entry, Number, Object, Stored, Writable};
 pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
@@ -40,7 +39,7 @@ pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow,
 pub use crate::fault::BadValue;
 
 pub use crate::component::{
-    Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Poll, Supervisor,
+    Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Supervisor,
     SupervisorTemplate,
 };
 pub use crate::machine::{Flow, Machine};

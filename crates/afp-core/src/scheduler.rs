@@ -13,7 +13,7 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, Machine};
-use crate::rt::{Cx, Place, Plan, PlanState, StepState, With};
+use crate::rt::{Cx, Place, Plan, PlanState, Run, StepState};
 use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink, TraceEntryId};
 use crate::value::Value;
@@ -187,22 +187,13 @@ impl<P: PlanState> Scheduler<P> {
     ///
     /// # Errors
     /// [`StartError`]; nothing has happened then.
-    pub fn start<E, S, C>(
-        &mut self,
-        env: &mut E,
-        sink: &mut S,
-        clock: &C,
-        now: Instant,
-    ) -> Result<Wake, StartError>
+    pub fn start<R: Run>(&mut self, mut on: R, now: Instant) -> Result<Wake, StartError>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         match self.state {
             State::Ready => {}
-            State::Broken { outside } => return Ok(self.broken(outside, env, sink)),
+            State::Broken { outside } => return Ok(self.broken(outside, on)),
             State::Running | State::Ended(_) => return Err(StartError::AlreadyStarted),
         }
         if let Some(entry) = self.machine.plan().missing_input() {
@@ -210,14 +201,15 @@ impl<P: PlanState> Scheduler<P> {
         }
         self.state = State::Running;
         self.last = now;
-        self.prepare(clock, now);
+        self.prepare(on.parts().2, now);
         if self.stop_requested {
-            return Ok(self.stop_now(env, sink, clock));
+            return Ok(self.stop_now(on));
         }
+        let (env, sink, clock) = on.parts();
         let flow = guarded(&mut self.state, (sink, clock), |sink, clock| {
-            self.machine.start(&mut context(env, sink, clock, now, &mut self.step))
+            self.machine.start(&mut context((env, sink, clock), now, &mut self.step))
         });
-        Ok(self.conclude(flow, env, sink))
+        Ok(self.conclude(flow, on))
     }
 
     /// Does everything that is due at `now` and says when to call again. Before the start it does
@@ -226,28 +218,27 @@ impl<P: PlanState> Scheduler<P> {
     /// Never allocates. Time grows linearly with the number of due supervisors. A time before
     /// that of the last step is traced and counts as that one.
     #[inline]
-    pub fn step<E, S, C>(&mut self, env: &mut E, sink: &mut S, clock: &C, now: Instant) -> Wake
+    pub fn step<R: Run>(&mut self, mut on: R, now: Instant) -> Wake
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         if self.state != State::Running {
-            return self.not_running(env, sink);
+            return self.not_running(on);
         }
         if now < self.last {
-            guarded(&mut self.state, (&mut *sink, clock), |sink, _| {
+            let (_, sink, clock) = on.parts();
+            guarded(&mut self.state, (sink, clock), |sink, _| {
                 sink.record(self.last, &Record::ClockWentBack { asked: now });
             });
         }
         self.last = self.last.max(now);
-        self.prepare(clock, self.last);
+        self.prepare(on.parts().2, self.last);
         if self.stop_requested {
-            return self.stop_now(env, sink, clock);
+            return self.stop_now(on);
         }
+        let (env, sink, clock) = on.parts();
         let flow = guarded(&mut self.state, (sink, clock), |sink, clock| {
-            let mut cx = context(env, sink, clock, self.last, &mut self.step);
+            let mut cx = context((env, sink, clock), self.last, &mut self.step);
             if !self.writes.is_empty() {
                 while let Some((entry, value)) = self.writes.pop_front() {
                     self.machine.plan_mut().stage(entry, &value);
@@ -258,25 +249,20 @@ impl<P: PlanState> Scheduler<P> {
         });
         match flow {
             Flow::Running(wake) => Wake::At(wake),
-            flow => self.conclude(flow, env, sink),
+            flow => self.conclude(flow, on),
         }
     }
 
     /// The plan cannot be stepped any more, for instance because a component panicked: the
     /// platform stops, the run ends in `Error` unless it has ended before.
-    pub fn abort<E: Environment + ?Sized, S: Sink>(
-        &mut self,
-        env: &mut E,
-        sink: &mut S,
-        fault: Fault,
-    ) -> Wake {
+    pub fn abort<R: Run>(&mut self, mut on: R, fault: Fault) -> Wake {
         match self.state {
             State::Ended(ending) => {
-                env.emergency_stop();
+                on.parts().0.emergency_stop();
                 Wake::Ended(ending)
             }
-            State::Broken { outside } => self.broken(outside, env, sink),
-            State::Ready | State::Running => self.conclude(Flow::Fatal(fault), env, sink),
+            State::Broken { outside } => self.broken(outside, on),
+            State::Ready | State::Running => self.conclude(Flow::Fatal(fault), on),
         }
     }
 
@@ -288,35 +274,25 @@ impl<P: PlanState> Scheduler<P> {
     }
 
     #[cold]
-    fn not_running<E: Environment + ?Sized, S: Sink>(&mut self, env: &mut E, sink: &mut S) -> Wake {
+    fn not_running<R: Run>(&mut self, on: R) -> Wake {
         match self.state {
             State::Ended(ending) => Wake::Ended(ending),
-            State::Broken { outside } => self.broken(outside, env, sink),
+            State::Broken { outside } => self.broken(outside, on),
             State::Ready | State::Running => Wake::NotStarted,
         }
     }
 
     /// Ends a run after a panic: nobody is asked, not even to be interrupted.
-    fn broken<E: Environment + ?Sized, S: Sink>(
-        &mut self,
-        outside: bool,
-        env: &mut E,
-        sink: &mut S,
-    ) -> Wake {
+    fn broken<R: Run>(&mut self, outside: bool, on: R) -> Wake {
         match outside {
-            true => self.fatal(ComponentId(0), Fault::PANIC_OUTSIDE, env, sink),
-            false => self.fatal(self.step.called, Fault::PANIC, env, sink),
+            true => self.fatal(ComponentId(0), Fault::PANIC_OUTSIDE, on),
+            false => self.fatal(self.step.called, Fault::PANIC, on),
         }
     }
 
     /// The platform stops, the run ends in `Error`.
-    fn fatal<E: Environment + ?Sized, S: Sink>(
-        &mut self,
-        component: ComponentId,
-        fault: Fault,
-        env: &mut E,
-        sink: &mut S,
-    ) -> Wake {
+    fn fatal<R: Run>(&mut self, component: ComponentId, fault: Fault, mut on: R) -> Wake {
+        let (env, sink, _) = on.parts();
         env.emergency_stop();
         let (plan, ending) = (ComponentId(0), Ending::Error(fault));
         // An actor that could not be interrupted has been noted already.
@@ -330,15 +306,13 @@ impl<P: PlanState> Scheduler<P> {
         Wake::Ended(ending)
     }
 
-    fn stop_now<E, S, C>(&mut self, env: &mut E, sink: &mut S, clock: &C) -> Wake
+    fn stop_now<R: Run>(&mut self, mut on: R) -> Wake
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
+        let (env, sink, clock) = on.parts();
         let flow = guarded(&mut self.state, (sink, clock), |sink, clock| {
-            let mut cx = context(env, sink, clock, self.last, &mut self.step);
+            let mut cx = context((env, sink, clock), self.last, &mut self.step);
             cx.trace(&Record::StopRequested);
             match self.machine.interrupt(&mut cx) {
                 Ok(()) => {
@@ -349,33 +323,26 @@ impl<P: PlanState> Scheduler<P> {
                 Err(fault) => Flow::Fatal(fault),
             }
         });
-        self.conclude(flow, env, sink)
+        self.conclude(flow, on)
     }
 
     /// Turns a level's flow into the run's state.
-    fn conclude<E: Environment + ?Sized, S: Sink>(
-        &mut self,
-        flow: Flow,
-        env: &mut E,
-        sink: &mut S,
-    ) -> Wake {
+    fn conclude<R: Run>(&mut self, flow: Flow, on: R) -> Wake {
         match flow {
             Flow::Running(wake) => Wake::At(wake),
             Flow::Ended(ending) => {
                 self.state = State::Ended(ending);
                 Wake::Ended(ending)
             }
-            Flow::Fatal(fault) => self.fatal(ComponentId(0), fault, env, sink),
+            Flow::Fatal(fault) => self.fatal(ComponentId(0), fault, on),
         }
     }
 }
 
 fn context<'a, E: Environment + ?Sized, S: Sink, C: Clock>(
-    env: &'a mut E,
-    sink: &'a mut S,
-    clock: &'a C,
+    (env, sink, clock): (&'a mut E, &'a mut S, &'a C),
     now: Instant,
     step: &'a mut StepState,
-) -> Cx<'a, With<E, S, C>> {
+) -> Cx<'a, (&'a mut E, &'a mut S, &'a C)> {
     Cx { env, now, sink, clock, step, place: Place::OUTERMOST }
 }

@@ -35,11 +35,11 @@ fn a_million_steps_allocate_nothing() {
         .says("work", 0, 100_000..250_000)
         .says("inner", 0, 250_000..300_000);
     let mut scheduler = Scheduler::new(Scripted::new(plan.build()));
-    let started = scheduler.start(&mut world, &mut NoTrace, &StillClock, ms(0));
+    let started = scheduler.start((&mut world, &mut NoTrace, &StillClock), ms(0));
     assert!(started.is_ok());
     let before = allocations();
     for at in 1..=1_000_000 {
-        let wake = scheduler.step(&mut world, &mut NoTrace, &StillClock, ms(at));
+        let wake = scheduler.step((&mut world, &mut NoTrace, &StillClock), ms(at));
         assert!(matches!(wake, Wake::At(_)));
     }
     assert_eq!(allocations() - before, 0);

@@ -201,10 +201,10 @@ fn story<P: Plan<Script> + NamedPlan>(
     plan.set_input(speed, &Value::Float(0.5)).unwrap();
     let mut sink = Lines { names: plan.names(), lines: Vec::new() };
     let mut scheduler = Scheduler::new(plan);
-    let mut wake = scheduler.start(&mut script, &mut sink, &StillClock, Instant::ZERO).unwrap();
+    let mut wake = scheduler.start((&mut script, &mut sink, &StillClock), Instant::ZERO).unwrap();
     for _ in 0..60 {
         match wake {
-            Wake::At(at) => wake = scheduler.step(&mut script, &mut sink, &StillClock, at),
+            Wake::At(at) => wake = scheduler.step((&mut script, &mut sink, &StillClock), at),
             Wake::Ended(_) | Wake::NotStarted => break,
         }
     }

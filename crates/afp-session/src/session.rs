@@ -317,7 +317,7 @@ where
     /// Ends the plan here and now because nothing of it can be trusted any more.
     pub fn abort(&mut self, fault: Fault, to: &mut [&mut dyn Observer]) {
         let now = self.robot.now();
-        let wake = self.scheduler.abort(&mut self.robot, &mut self.sink, fault);
+        let wake = self.scheduler.abort((&mut self.robot, &mut self.sink, &self.clock), fault);
         self.woke(wake, now, to);
     }
 
@@ -336,10 +336,11 @@ where
     #[inline]
     fn step(&mut self, now: Instant, to: &mut [&mut dyn Observer]) -> Result<(), StartError> {
         let Session { scheduler, robot, sink, clock, .. } = self;
+        let on = (robot, sink, &*clock);
         self.stepping = true;
         let wake = match self.started {
-            true => scheduler.step(robot, sink, clock, now),
-            false => match scheduler.start(robot, sink, clock, now) {
+            true => scheduler.step(on, now),
+            false => match scheduler.start(on, now) {
                 Ok(wake) => wake,
                 Err(why) => {
                     self.stepping = false;

@@ -63,7 +63,7 @@ fn run(seed: u64) -> Outcome {
     let plan = load();
     let mut sink = Actors { names: plan.names(), started: Vec::new() };
     let mut scheduler = Scheduler::new(plan);
-    let start = scheduler.start(&mut sim, &mut sink, &StillClock, Instant::ZERO);
+    let start = scheduler.start((&mut sim, &mut sink, &StillClock), Instant::ZERO);
     let mut wake = start.expect("the plan starts");
     let mut out = Outcome::default();
     for tick in 1..=3000 {
@@ -72,7 +72,7 @@ fn run(seed: u64) -> Outcome {
             && due <= look
         {
             sim.advance_to(due);
-            wake = scheduler.step(&mut sim, &mut sink, &StillClock, due);
+            wake = scheduler.step((&mut sim, &mut sink, &StillClock), due);
         }
         sim.advance_to(look);
         let (since, actor) = sink.started.last().expect("something was started");

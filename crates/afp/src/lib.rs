@@ -19,12 +19,13 @@
 //! - What happens: [`Callbacks`] by name, [`trace::Observe`] for every record.
 //! - Templates of one's own: [`toolbox!`], [`Actor`], [`Supervisor`], [`Computation`].
 //! - Tests: [`scenarios!`].
+#![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub use afp_core as core;
 pub use afp_core::{
     Actor, Clock, Computation, Detail, Duration, Ending, Environment, Events, Failure, Fault,
-    Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Scheduler, SetError,
+    Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Run, Scheduler, SetError,
     StartError, StillClock, Subject, Supervisor, Text, Ticket, TypedEntry, Value, ValueRef, Wake,
     Worker, WriteError, quantity, trace,
 };

@@ -22,7 +22,7 @@ afp_macros::plan!("../../plans/wall_following.afp");
 pub extern "C" fn _start() -> ! {
     let mut robot = Robot::new();
     let mut plan = Scheduler::new(WallFollowing::new());
-    let started = plan.start(&mut robot, &mut NoTrace, &StillClock, timer());
+    let started = plan.start((&mut robot, &mut NoTrace, &StillClock), timer());
     let mut wake = started.unwrap_or(Wake::At(Instant::ZERO));
     while let Wake::At(due) = wake {
         let now = timer();
@@ -30,7 +30,7 @@ pub extern "C" fn _start() -> ! {
             plan.request_stop();
         }
         if now >= due {
-            wake = plan.step(&mut robot, &mut NoTrace, &StillClock, now);
+            wake = plan.step((&mut robot, &mut NoTrace, &StillClock), now);
         }
     }
     robot.emergency_stop();

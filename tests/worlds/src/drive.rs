@@ -97,7 +97,7 @@ pub fn run(case: &Case) -> Outcome {
     for (entry, value) in &case.inputs {
         scheduler.set_named(entry, value).expect("the plan has such an input");
     }
-    let start = scheduler.start(&mut robot, &mut sink, &clock, Instant::ZERO);
+    let start = scheduler.start((&mut robot, &mut sink, &clock), Instant::ZERO);
     let mut wake = start.expect("every entry has a value");
     let (mut end, mut look, mut next) = (case.until, Instant::ZERO, 0);
     let (mut seen, mut at) = (Seen::default(), case.until);
@@ -119,7 +119,7 @@ pub fn run(case: &Case) -> Outcome {
         case.chance.happen(&mut next, &mut robot.sim);
         if due <= now {
             watch.borrow_mut().step(now);
-            wake = scheduler.step(&mut robot, &mut sink, &clock, now);
+            wake = scheduler.step((&mut robot, &mut sink, &clock), now);
             watch.borrow_mut().stepped(now);
             if matches!(wake, Wake::Ended(_)) {
                 // Nobody helps the robot: what the plan did must be enough.

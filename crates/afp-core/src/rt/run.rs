@@ -1,26 +1,49 @@
 //! What a plan runs with.
 
-use core::marker::PhantomData;
-
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::trace::Sink;
 
-/// The platform, the trace and the clock of a run, as one type parameter of all that a step goes through.
+/// What a plan runs with: the platform, the sink of the trace, and the clock that times polls.
+///
+/// Three borrowed values in parentheses are a run. [`NoTrace`](crate::trace::NoTrace) and
+/// [`StillClock`](crate::StillClock) are for programs that need no trace and no deadlines:
+///
+/// ```
+/// # use afp_core::{Environment, Instant, Plan, Scheduler, StartError, StillClock, Wake, trace::NoTrace};
+/// # fn drive<E: Environment, P: Plan<E>>(robot: &mut E, plan: P) -> Result<(), StartError> {
+/// let mut plan = Scheduler::new(plan);
+/// let mut wake = plan.start((&mut *robot, &mut NoTrace, &StillClock), Instant::ZERO)?;
+/// while let Wake::At(due) = wake {
+///     wake = plan.step((&mut *robot, &mut NoTrace, &StillClock), due);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "a plan cannot run with `{Self}`",
+    note = "write three references: `(&mut platform, &mut sink, &clock)`"
+)]
 pub trait Run {
     /// The platform.
     type Env: Environment + ?Sized;
-    /// What takes the trace.
+    /// The sink of the trace.
     type Sink: Sink;
-    /// What times polls.
+    /// The clock that times polls.
     type Clock: Clock;
+
+    /// The three, borrowed.
+    #[doc(hidden)]
+    fn parts(&mut self) -> (&mut Self::Env, &mut Self::Sink, &Self::Clock);
 }
 
-/// The run with these three. There is no value of it.
-pub(crate) struct With<E: ?Sized, S, C>(PhantomData<fn(&E, &S, &C)>);
-
-impl<E: Environment + ?Sized, S: Sink, C: Clock> Run for With<E, S, C> {
+impl<E: Environment + ?Sized, S: Sink, C: Clock> Run for (&mut E, &mut S, &C) {
     type Env = E;
     type Sink = S;
     type Clock = C;
+
+    #[inline(always)]
+    fn parts(&mut self) -> (&mut E, &mut S, &C) {
+        (self.0, self.1, self.2)
+    }
 }

@@ -1,10 +1,9 @@
 //! Driving a plan on a platform, and replacing a plan by another one.
 
 use super::{Scheduler, StartError, State, Wake};
-use crate::clock::Clock;
 use crate::component::Environment;
 use crate::platform::Platform;
-use crate::rt::{Plan, PlanState};
+use crate::rt::{Plan, PlanState, Run};
 use crate::time::Instant;
 use crate::trace::{Ending, NoTrace, Sink};
 
@@ -80,9 +79,9 @@ impl<P: PlanState> Scheduler<P> {
     {
         let (clock, now) = (robot.clock(), robot.now());
         let mut wake = match self.state {
-            State::Ready => self.start(robot, sink, &clock, now)?,
+            State::Ready => self.start((&mut *robot, &mut *sink, &clock), now)?,
             State::Running | State::Broken { .. } | State::Ended(_) => {
-                self.step(robot, sink, &clock, now)
+                self.step((&mut *robot, &mut *sink, &clock), now)
             }
         };
         while let Wake::At(at) = wake {
@@ -92,7 +91,7 @@ impl<P: PlanState> Scheduler<P> {
             if now < due && now >= until {
                 return Ok(wake);
             }
-            wake = self.step(robot, sink, &clock, now);
+            wake = self.step((&mut *robot, &mut *sink, &clock), now);
         }
         let now = robot.now();
         robot.stop(now);
@@ -108,26 +107,16 @@ impl<P: PlanState> Scheduler<P> {
     ///
     /// # Errors
     /// [`StartError::InputMissing`] of the new plan; this one goes on then.
-    pub fn replace<E, S, C>(
-        &mut self,
-        plan: P,
-        env: &mut E,
-        sink: &mut S,
-        clock: &C,
-        now: Instant,
-    ) -> Result<Wake, StartError>
+    pub fn replace<R: Run>(&mut self, plan: P, mut on: R, now: Instant) -> Result<Wake, StartError>
     where
-        E: Environment + ?Sized,
-        S: Sink,
-        C: Clock,
-        P: Plan<E>,
+        P: Plan<R::Env>,
     {
         if let Some(entry) = plan.missing_input() {
             return Err(StartError::InputMissing(entry));
         }
         if matches!(self.state, State::Running | State::Broken { .. }) {
             self.request_stop();
-            let wake = self.step(env, sink, clock, now);
+            let wake = self.step(on.parts(), now);
             if matches!(wake, Wake::Ended(Ending::Error(_))) {
                 return Ok(wake);
             }
@@ -136,6 +125,6 @@ impl<P: PlanState> Scheduler<P> {
         *self = Scheduler::new(plan);
         // By their commits objects are known, those that were taken over from this plan, too.
         self.step.commits = commits;
-        self.start(env, sink, clock, now)
+        self.start(on, now)
     }
 }

@@ -127,7 +127,7 @@ fn another_plan_takes_the_place_of_one_that_runs() {
     let missing = plan("q").entry("size", EntryKind::In, Value::Unset).with(actor("c"));
     let mut put = |running: &mut Scheduler<Scripted>, plan: Builder, at| {
         let plan = Scripted::new(plan.build());
-        running.replace(plan, &mut world, &mut NoTrace, &clock, ms(at))
+        running.replace(plan, (&mut world, &mut NoTrace, &clock), ms(at))
     };
     assert_eq!(put(&mut running, missing, 6), Err(StartError::InputMissing(0)));
     assert_eq!(running.active(), Some(0), "the old plan goes on");
@@ -140,7 +140,7 @@ fn nothing_takes_the_place_of_a_plan_that_cannot_be_stopped() {
     let mut run = Run::started(two(), World::default().fails("a", Phase::Interrupt, 0..100));
     let clock = run.world.clock.clone();
     let other = Scripted::new(two().build());
-    let wake = run.scheduler.replace(other, &mut run.world, &mut NoTrace, &clock, ms(5));
+    let wake = run.scheduler.replace(other, (&mut run.world, &mut NoTrace, &clock), ms(5));
     assert_eq!(wake, Ok(Wake::Ended(Ending::Error(SCRIPTED))));
     assert_eq!(run.calls("start"), ["0 start a"]);
     assert_eq!(run.emergency_stops(), 1);

@@ -120,13 +120,13 @@ fn a_panic_of_the_sink_or_the_clock_is_nobodys_of_the_plan() {
         let mut sink = Observe(|_: Instant, record: &Record<'_>| {
             assert!(!matches!(record, Record::Polled { .. }), "the disk is full");
         });
-        run.scheduler.step(&mut run.world, &mut sink, &StillClock, ms(20));
+        run.scheduler.step((&mut run.world, &mut sink, &StillClock), ms(20));
     };
     // The first reading begins the step, the second comes after a poll.
     let of_clock = |run: &mut Run, readings: u32| {
         let clock = BreakingClock(Cell::new(readings));
         let mut sink = Observe(|_: Instant, _: &Record<'_>| {});
-        run.scheduler.step(&mut run.world, &mut sink, &clock, ms(20));
+        run.scheduler.step((&mut run.world, &mut sink, &clock), ms(20));
     };
     let cases: [&dyn Fn(&mut Run); 3] =
         [&of_sink, &|run| of_clock(run, 0), &|run| of_clock(run, 1)];

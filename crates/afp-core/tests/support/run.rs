@@ -52,15 +52,15 @@ impl Run {
     }
 
     pub fn start(&mut self) -> Result<Wake, StartError> {
-        let (world, sink) = (&mut self.world, &mut self.sink);
-        self.wake = self.scheduler.start(world, sink, &self.clock, Instant::ZERO)?;
+        let on = (&mut self.world, &mut self.sink, &self.clock);
+        self.wake = self.scheduler.start(on, Instant::ZERO)?;
         Ok(self.wake)
     }
 
     /// One step at this millisecond.
     pub fn step(&mut self, at: u64) -> Wake {
-        let (world, sink) = (&mut self.world, &mut self.sink);
-        self.wake = self.scheduler.step(world, sink, &self.clock, ms(at));
+        let on = (&mut self.world, &mut self.sink, &self.clock);
+        self.wake = self.scheduler.step(on, ms(at));
         self.wake
     }
 
@@ -70,8 +70,8 @@ impl Run {
             if at > ms(end) {
                 break;
             }
-            let (world, sink) = (&mut self.world, &mut self.sink);
-            let wake = self.scheduler.step(world, sink, &self.clock, at);
+            let on = (&mut self.world, &mut self.sink, &self.clock);
+            let wake = self.scheduler.step(on, at);
             assert!(!matches!(wake, Wake::At(next) if next <= at), "the scheduler spins at {at}");
             self.wake = wake;
         }
@@ -94,7 +94,7 @@ impl Run {
 
     pub fn abort(&mut self) {
         let fault = afp_core::Fault::PANIC;
-        self.wake = self.scheduler.abort(&mut self.world, &mut self.sink, fault);
+        self.wake = self.scheduler.abort((&mut self.world, &mut self.sink, &self.clock), fault);
     }
 
     pub fn entry(&self, name: &str) -> Value {
