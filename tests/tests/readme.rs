@@ -1,6 +1,6 @@
 //! The README shows what is there.
 
-#[allow(dead_code, missing_docs)]
+#[allow(dead_code)]
 #[path = "readme/signals.rs"]
 mod signals;
 

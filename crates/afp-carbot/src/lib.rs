@@ -13,6 +13,7 @@
 //! finished actor is as safe as an interrupted one.
 #![no_std]
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! A [`Recorder`] takes trace records and robot data on the control path and writes them on a
 //! thread of its own; [`read`] reads a log back. The files are plain MCAP with the public Foxglove
 //! protobuf schemas and AFP's own (`proto/afp.proto`), readable without any code of ours.
+#![warn(missing_docs)]
 
 mod doctor;
 mod encode;

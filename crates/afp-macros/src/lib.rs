@@ -3,6 +3,7 @@
 //!
 //! All emit `include_str!` of the files they read, so an edit rebuilds. Every diagnostic becomes
 //! a compile error of its own, rendered as `afpc check` renders it.
+#![warn(missing_docs)]
 
 mod sources;
 #[cfg(test)]

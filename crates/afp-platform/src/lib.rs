@@ -29,6 +29,7 @@
 //!
 //! [`Job`]: afp_core::Job
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
 mod real_time;
 mod worker;

@@ -11,7 +11,6 @@ use std::thread;
 use std::time::Duration as Span;
 
 mod templates {
-    #![allow(missing_docs)]
     afp_macros::toolbox!("tests/sums.afp", robot = super::Bench);
 }
 

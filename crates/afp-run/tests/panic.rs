@@ -14,7 +14,6 @@ use afp_syntax::source::Source;
 use clap::{Args, Command, FromArgMatches};
 
 mod templates {
-    #![allow(missing_docs)]
     afp_macros::toolbox!("tests/panicking.afp", robot: super::Navigator);
 }
 

@@ -20,6 +20,7 @@
 //!
 //! Nothing here knows a clock on the wall, a file, a thread or a terminal.
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod any;

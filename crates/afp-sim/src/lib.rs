@@ -9,6 +9,7 @@
 //! physics steps on its own grid of [`STEP`], rapier runs with its cross-platform determinism,
 //! trigonometry goes through `libm`, and every noise has a stream of its own.
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod chassis;

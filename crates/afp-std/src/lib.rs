@@ -1,6 +1,7 @@
 //! The `std` toolbox: templates that need no robot, so they run on every platform.
 #![no_std]
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod assign;

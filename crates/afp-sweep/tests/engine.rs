@@ -16,7 +16,6 @@ use afp_sweep::{Ending, Engine, Outcome, Row, Setting, Sweep, WorldChoice, axis,
 use afp_syntax::source::Source;
 
 mod templates {
-    #![allow(missing_docs)]
     afp_macros::toolbox!("../afp-run/tests/panicking.afp", robot: super::Navigator);
 }
 

@@ -4,6 +4,7 @@
 //! asks for what the scenario says, and looks at the trace and at the robot's signals for what is expected.
 //! `afpc test` and the tests that `afp::scenarios!` makes are thin over it.
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
 mod coverage;
 mod drive;

@@ -7,6 +7,7 @@
 //! operating system.
 #![no_std]
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
 mod arithmetic;
 mod decimal;

@@ -65,6 +65,6 @@ fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
         false => "",
     };
     Ok(format!(
-        "#[allow(dead_code, missing_docs, unused_imports)]\nmod {name} {{\n{rust}{runs}}}\n"
+        "#[allow(dead_code, unused_imports)]\nmod {name} {{\n{rust}{runs}}}\n"
     ))
 }

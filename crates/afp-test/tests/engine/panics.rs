@@ -16,7 +16,6 @@ use afp_test::{Setting, Verdict};
 use super::robot;
 
 mod templates {
-    #![allow(missing_docs)]
     afp_macros::toolbox!("../afp-run/tests/panicking.afp", robot: super::Navigator);
 }
 
