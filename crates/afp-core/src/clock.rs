@@ -3,7 +3,7 @@
 //! The time of a step comes from whoever drives the scheduler and stands still within the step.
 //! A clock only tells how long polls took.
 
-use crate::time::Instant;
+use afp_types::Instant;
 
 /// Tells the time within a step.
 pub trait Clock {

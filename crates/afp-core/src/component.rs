@@ -6,8 +6,9 @@
 
 use core::task::Poll;
 
+use afp_types::Instant;
+
 use crate::fault::Fault;
-use crate::time::Instant;
 
 /// What every platform offers, whatever devices it has.
 pub trait Environment {

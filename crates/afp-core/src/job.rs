@@ -16,8 +16,9 @@
 
 use core::task::Poll;
 
+use afp_types::{Duration, Instant};
+
 use crate::fault::{Fault, Reason};
-use crate::time::{Duration, Instant};
 
 /// A long computation together with its buffers: what it works on and what it gives.
 pub trait Job: Send + 'static {

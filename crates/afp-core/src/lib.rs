@@ -19,13 +19,11 @@ mod reading;
 #[doc(hidden)]
 pub mod rt;
 mod scheduler;
-mod time;
 pub mod trace;
-mod value;
 
 pub use core::task::Poll;
 
-pub use afp_types::MAX_TRANSITIONS_PER_STEP;
+pub use afp_types::{Duration, Instant, MAX_TEXT, MAX_TRANSITIONS_PER_STEP, Text, Value, ValueRef};
 pub use clock::{Clock, StillClock};
 pub use component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Supervisor,
@@ -37,6 +35,4 @@ pub use platform::Platform;
 pub use reading::{Invalid, Reading};
 pub use rt::{NamedPlan, Plan, PlanState, Run, Scale, Unit, WriteError};
 pub use scheduler::{MAX_WRITES_PER_STEP, Scheduler, SetError, StartError, TypedEntry, Wake};
-pub use time::{Duration, Instant};
 pub use trace::Ending;
-pub use value::{TEXT_CAPACITY, Text, Value, ValueRef};

@@ -25,8 +25,8 @@ mod sweep;
 
 use crate::fault::Fault;
 use crate::rt::{Committer, Cx, ElementRow, Plan, PlanState, Polled, Run, Slot, Tables, Target};
-use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
+use afp_types::Instant;
 use at::StepAt;
 use sweep::Seen;
 
@@ -272,8 +272,8 @@ impl<P: PlanState> Level<P> {
         };
         for entry in 0..t.table().entries {
             match self.plan.entry(entry) {
-                crate::value::ValueRef::Unset => {}
-                value => committer.wrote(entry, crate::value::ValueRef::Unset, value),
+                afp_types::ValueRef::Unset => {}
+                value => committer.wrote(entry, afp_types::ValueRef::Unset, value),
             }
         }
     }

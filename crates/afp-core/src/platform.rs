@@ -1,8 +1,9 @@
 //! Platforms: a simulator, a computer on a robot or a microcontroller, with its own way to let time pass.
 
+use afp_types::Instant;
+
 use crate::clock::Clock;
 use crate::component::Environment;
-use crate::time::Instant;
 
 /// An environment in which time passes.
 ///

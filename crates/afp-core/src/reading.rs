@@ -1,6 +1,6 @@
 //! A measured value with its time and its validity.
 
-use crate::time::{Duration, Instant};
+use afp_types::{Duration, Instant};
 
 /// Why a reading has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

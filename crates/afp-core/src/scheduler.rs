@@ -6,7 +6,7 @@ mod outside;
 
 use core::fmt;
 
-use afp_types::MAX_TRANSITIONS_PER_STEP;
+use afp_types::{Instant, MAX_TRANSITIONS_PER_STEP, Value};
 use heapless::Deque;
 
 use crate::clock::Clock;
@@ -14,9 +14,7 @@ use crate::component::Environment;
 use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, Machine};
 use crate::rt::{Cx, Place, Plan, PlanState, Run, StepState};
-use crate::time::Instant;
 use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink, TraceEntryId};
-use crate::value::Value;
 
 use guard::guarded;
 

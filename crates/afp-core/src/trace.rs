@@ -6,9 +6,9 @@
 mod display;
 mod hash;
 
+use afp_types::{Duration, Instant, ValueRef};
+
 use crate::fault::{Detail, Fault};
-use crate::time::{Duration, Instant};
-use crate::value::ValueRef;
 
 pub use afp_types::{ComponentKind, EntryKind};
 pub use display::Line;

@@ -5,6 +5,7 @@ use afp_core::rt::{
     parse_bool, parse_choice, parse_float, parse_int, parse_quantity, print_quantity, rem,
 };
 use afp_core::{Duration, Fault, Instant, Text};
+use afp_types::Error;
 
 const LENGTHS: [Unit<'static>; 3] = [
     Unit { name: "m", scale: Scale::Decimal(0) },
@@ -83,7 +84,7 @@ fn a_text_holds_64_bytes_and_is_never_cut() {
     assert_eq!(join(&half, &half).unwrap().as_str().len(), 64);
     assert_eq!(join(&half, &format!("{half}x")).err(), Some(Fault::TOO_LONG));
     let mut text = Text::try_from(half.as_str()).unwrap();
-    assert_eq!(text.push(&"x".repeat(33)), Err(Fault::TOO_LONG));
+    assert_eq!(text.push(&"x".repeat(33)), Err(Error::TooLong));
     assert_eq!(text.as_str(), half);
 }
 

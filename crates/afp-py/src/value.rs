@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use afp_core::trace::{EntryName, Names, TraceEntryId};
-use afp_core::{Fault, TEXT_CAPACITY, Text, Value, ValueRef};
+use afp_core::{Fault, MAX_TEXT, Text, Value, ValueRef};
 use afp_dsl::types::Type;
 use afp_session::AnySession;
 use afp_syntax::diagnostics::words::a;
@@ -210,7 +210,7 @@ fn text(value: &Bound<'_, PyString>) -> PyResult<String> {
 
 /// What to say of a text that no entry holds.
 fn too_long(text: &str) -> String {
-    format!("a text has at most {TEXT_CAPACITY} bytes of UTF-8, not {}", text.len())
+    format!("a text has at most {MAX_TEXT} bytes of UTF-8, not {}", text.len())
 }
 
 /// The beginning of what may be long.

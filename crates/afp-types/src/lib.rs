@@ -1,5 +1,6 @@
-//! What compiler and run time say alike: the arithmetic of formulas, how texts become numbers and numbers texts, and
-//! what components, entries and parts of rows are, how much one step may do, and which number tells texts apart.
+//! What compiler and run time say alike: times and values, the arithmetic of formulas, how texts become numbers and
+//! numbers texts, what components, entries and parts of rows are, how much one step may do, and which number tells
+//! texts apart.
 //!
 //! A formula that is constant is computed by the compiler, any other by the interpreter or by
 //! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
@@ -21,6 +22,8 @@ mod read;
 mod row;
 mod single;
 mod text;
+mod time;
+mod value;
 
 pub use arithmetic::{
     bool_to_float, bool_to_int, finite, float_to_int, int_add, int_mul, int_neg, int_rem, int_sub,
@@ -40,6 +43,8 @@ pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int,
 pub use row::{Child, ElementKind, Range};
 pub use single::SingleUnit;
 pub use text::{Nanoseconds, Rounded};
+pub use time::{Duration, Instant};
+pub use value::{Text, Value, ValueRef};
 
 use core::fmt;
 

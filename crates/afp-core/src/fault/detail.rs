@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use afp_types::{Measured, Quantity};
+use afp_types::{Error, Measured, Quantity};
 
 use super::Fault;
 use crate::trace::{ComponentId, Names, PortName, TextPlace, TraceEntryId};
@@ -54,6 +54,12 @@ pub(crate) enum Port {
 impl From<Fault> for BadValue {
     fn from(fault: Fault) -> Self {
         BadValue { fault, port: None, value: None }
+    }
+}
+
+impl From<Error> for BadValue {
+    fn from(error: Error) -> Self {
+        Fault::from(error).into()
     }
 }
 

@@ -1,12 +1,13 @@
 //! Polling supervisors: who is due, who is late, whose event is taken.
 
+use afp_types::{Duration, Instant};
+
 use super::held::is_held;
 use super::{Edge, Level, Stop, component, supervisor_id};
 use crate::clock::Clock;
 use crate::fault::Fault;
 use crate::machine::Flow;
 use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, Run, SupervisorRow, Tables, Target};
-use crate::time::{Duration, Instant};
 use crate::trace::{Author, Cause, DEADLINE_MISSED, Ending, Record, Sink, Verdict};
 
 /// What a sweep over the supervisors brought.

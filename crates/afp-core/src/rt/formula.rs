@@ -2,10 +2,9 @@
 //!
 //! Interpreter and generated code call these functions, the compiler the ones behind them.
 
-use afp_types::{Error, Quantity};
+use afp_types::{Error, Quantity, Text};
 
 use crate::fault::Fault;
-use crate::value::Text;
 
 pub use afp_types::{
     Scale, Unit, abs, atan2, bool_to_float, bool_to_int, cos, hypot, int_max, int_min,
@@ -118,7 +117,7 @@ pub fn join(a: &str, b: &str) -> Result<Text, Fault> {
 /// [`Fault::TOO_LONG`] when it does not fit; [`Fault::ARITHMETIC`] when it is not finite.
 pub fn print_quantity(value: f64, unit: &str) -> Result<Text, Fault> {
     let value = afp_types::finite(value)?;
-    Text::print(Quantity { value, unit })
+    Ok(Text::print(Quantity { value, unit })?)
 }
 
 /// A number with one of `units` from a text, in SI units, as the same literal in a plan.

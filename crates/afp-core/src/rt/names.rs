@@ -1,5 +1,7 @@
 //! The names of a plan as static rows, and plans that can be addressed by name.
 
+use afp_types::{Text, Value};
+
 use crate::fault::Fault;
 use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 use crate::rt::state::PlanState;
@@ -7,7 +9,6 @@ use crate::trace::{
     ComponentId, ComponentKind, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Names,
     PortName, Reaction, TextPlace, TraceEntryId,
 };
-use crate::value::{Text, Value};
 
 /// The names of a generated plan, sub-plans unfolded.
 #[derive(Clone, Copy, Debug)]
@@ -172,7 +173,7 @@ pub trait NamedPlan: PlanState {
             "bool" => parse_bool(text).map(Value::Bool),
             "int" => parse_int(text).map(Value::Int),
             "float" => parse_float(text).map(Value::Float),
-            "string" => Text::try_from(text).map(Value::Text),
+            "string" => Ok(Value::Text(Text::try_from(text)?)),
             _ if !unit.is_empty() => parse_quantity(text, self.units(entry)).map(Value::Float),
             ty => {
                 let name = text.trim().strip_prefix(ty).and_then(|rest| rest.strip_prefix('.'));

@@ -3,6 +3,8 @@
 
 use core::task::Poll;
 
+use afp_types::{Text, Value, ValueRef};
+
 use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Events, Supervisor, SupervisorTemplate,
 };
@@ -13,7 +15,6 @@ use crate::rt::ports::{Outcome, Ports};
 use crate::rt::run::Run;
 use crate::rt::state::WriteError;
 use crate::rt::store::{Choice, Entry, Stored, Writable};
-use crate::value::{Text, Value, ValueRef};
 
 impl<R: Run> Cx<'_, R> {
     /// Starts an actor with its inputs.
@@ -294,7 +295,7 @@ pub fn store_text(scratch: &mut Text, text: Text) -> &str {
 /// [`Fault::TOO_LONG`].
 pub fn print_choice<T: Choice>(value: T) -> Result<Text, Fault> {
     let name = T::NAMES.get(usize::from(value.index())).ok_or(Fault::INTERNAL)?;
-    Text::try_from(*name)
+    Ok(Text::try_from(*name)?)
 }
 
 /// The value of an enum that a text names.

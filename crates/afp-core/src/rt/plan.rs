@@ -2,6 +2,8 @@
 
 use core::num::NonZeroU32;
 
+use afp_types::{Instant, ValueRef};
+
 use crate::fault::{BadValue, Detail, Failure, Fault, Port, Subject};
 use crate::machine::{Flow, Machine};
 use crate::rt::ports::Ports;
@@ -9,9 +11,7 @@ use crate::rt::run::Run;
 use crate::rt::state::{Plan, PlanState};
 use crate::rt::store::{Entry, Stored};
 use crate::rt::table::Child;
-use crate::time::Instant;
 use crate::trace::{Author, ComponentId, DEADLINE_MISSED, Ending, Record, Sink, TraceEntryId};
-use crate::value::ValueRef;
 
 /// When a supervisor is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

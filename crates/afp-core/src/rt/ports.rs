@@ -5,11 +5,12 @@
 
 use core::any::Any as Dynamic;
 
+use afp_types::{Text, Value, ValueRef};
+
 use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Supervisor, SupervisorTemplate,
 };
 use crate::fault::{BadValue, Fault};
-use crate::value::{Text, Value, ValueRef};
 
 /// The inputs of a component, or those read anew at each poll.
 pub trait Ports {

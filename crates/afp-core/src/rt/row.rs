@@ -1,10 +1,11 @@
 //! Tables of constants: what reads a row of one has ports that the plan's own table gives it, so that no
 //! toolbox implements it.
 
+use afp_types::ValueRef;
+
 use crate::fault::BadValue;
 use crate::rt::native::within_int;
 use crate::rt::ports::Ports;
-use crate::value::ValueRef;
 
 /// What is read before a row is: which one.
 #[derive(Clone, Copy, Debug)]

@@ -1,12 +1,13 @@
 //! What the scheduler asks of a plan.
 
+use afp_types::{Value, ValueRef};
+
 use crate::component::Events;
 use crate::fault::{BadValue, Fault};
 use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
 use crate::rt::run::Run;
 use crate::rt::table::Tables;
 use crate::trace::Sink;
-use crate::value::{Value, ValueRef};
 
 /// A plan, whatever its platform: its rows, entries, staged outputs. `plan!` and the loader of plans
 /// implement it; programs name it in bounds.

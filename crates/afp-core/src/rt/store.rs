@@ -1,13 +1,13 @@
 //! Entries of the configuration as generated plans hold them.
 
-use core::cmp::Ordering;
 use core::fmt;
+
+use afp_types::{Text, Value, ValueRef};
 
 use crate::fault::Fault;
 use crate::quantity::Quantity;
 use crate::rt::formula::int_to_float;
 use crate::rt::state::WriteError;
-use crate::value::{Text, Value, ValueRef};
 
 /// A value that an entry can hold. The default is what unset storage holds.
 pub trait Stored: Default {
@@ -267,14 +267,3 @@ impl Stored for Value {
 
 impl Any for Value {}
 impl Number for Value {}
-
-impl PartialOrd for Value {
-    /// Numbers of one kind compare; the compiler gives all `number` ports of a component one type.
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        match (self, other) {
-            (Value::Int(a), Value::Int(b)) => a.partial_cmp(b),
-            (Value::Float(a), Value::Float(b)) => a.partial_cmp(b),
-            _ => None,
-        }
-    }
-}

@@ -1,8 +1,9 @@
 //! The static part of a plan: rows of numbers that the scheduler reads.
 
+use afp_types::Duration;
+
 use crate::component::Events;
 use crate::fault::Fault;
-use crate::time::Duration;
 
 pub use afp_types::{Child, ElementKind, Range};
 

@@ -1,10 +1,11 @@
 //! Driving a plan on a platform, and replacing a plan by another one.
 
+use afp_types::Instant;
+
 use super::{Scheduler, StartError, State, Wake};
 use crate::component::Environment;
 use crate::platform::Platform;
 use crate::rt::{Plan, PlanState, Run};
-use crate::time::Instant;
 use crate::trace::{Ending, NoTrace, Sink};
 
 /// Stands around the driving of a platform: dropped by the unwinding of a panic, it stops the platform.

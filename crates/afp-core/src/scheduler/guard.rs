@@ -2,9 +2,10 @@
 
 use core::cell::Cell;
 
+use afp_types::Instant;
+
 use super::State;
 use crate::clock::Clock;
-use crate::time::Instant;
 use crate::trace::{Record, Sink};
 
 /// Whether a sink or a clock is being called.

@@ -3,11 +3,12 @@
 use core::fmt;
 use core::marker::PhantomData;
 
+use afp_types::{Value, ValueRef};
+
 use super::{Scheduler, State};
 use crate::fault::Fault;
 use crate::rt::{NamedPlan, PlanState, Writable, WriteError};
 use crate::trace::{EntryKind, Names, TraceEntryId};
-use crate::value::{Value, ValueRef};
 
 /// An entry of the plan `P` that takes values of type `T` from outside. `plan!` makes a constant of
 /// each `in` and `var` entry: `Patrol::WAY`.

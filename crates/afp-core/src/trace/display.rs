@@ -2,14 +2,12 @@
 
 use core::fmt;
 
-use afp_types::{Measured, Quantity};
+use afp_types::{Instant, Measured, Quantity, ValueRef};
 
 use super::{
     Author, Cause, ComponentId, ComponentKind, ERROR, Ending, Names, Record, TraceEntryId, Verdict,
 };
 use crate::fault::Fault;
-use crate::time::Instant;
-use crate::value::ValueRef;
 
 /// One record as a line: time in seconds, component, what happened.
 ///

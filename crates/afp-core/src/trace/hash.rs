@@ -2,10 +2,9 @@
 
 use core::fmt::{self, Write};
 
-use afp_types::TextHash;
+use afp_types::{Instant, TextHash};
 
 use super::{Line, Names, Record, Verdict};
-use crate::time::Instant;
 
 /// The FNV-1a hash of a trace as text, a [`Line`] for each record.
 ///

@@ -75,10 +75,10 @@ impl Converter {
             (Converter::PrintQuantity(unit), Value::Float(value)) => print_quantity(*value, unit),
             (Converter::PrintChoice(names), Value::Choice(value)) => {
                 let name = names.get(usize::from(*value)).ok_or(Fault::INTERNAL)?;
-                Text::try_from(name.as_str())
+                Ok(Text::try_from(name.as_str())?)
             }
-            (Converter::Print, Value::Bool(value)) => Text::print(value),
-            (Converter::Print, Value::Int(value)) => Text::print(value),
+            (Converter::Print, Value::Bool(value)) => Ok(Text::print(value)?),
+            (Converter::Print, Value::Int(value)) => Ok(Text::print(value)?),
             _ => Err(Fault::INTERNAL),
         }
     }

@@ -1,15 +1,13 @@
-//! Values as the trace, outside writers and loaded plans see them.
+//! Values as the trace, outside writers and loaded plans see them, and the text that an entry holds in place.
 
+use core::cmp::Ordering;
 use core::fmt;
 
-use crate::fault::Fault;
+use crate::{Error, MAX_TEXT};
 
-/// Bytes of UTF-8 that a text entry holds.
-pub const TEXT_CAPACITY: usize = 64;
-
-/// A text of at most [`TEXT_CAPACITY`] bytes, in place.
+/// A text of at most [`MAX_TEXT`] bytes, in place.
 #[derive(Clone, Default, PartialEq, Eq)]
-pub struct Text(heapless::String<TEXT_CAPACITY>);
+pub struct Text(heapless::String<MAX_TEXT>);
 
 /// A value that borrows its text: cheap to pass to a trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,27 +62,27 @@ impl Text {
     /// Appends a text.
     ///
     /// # Errors
-    /// [`Fault::TOO_LONG`] when it does not fit; the text is then as before.
-    pub fn push(&mut self, more: &str) -> Result<(), Fault> {
-        self.0.push_str(more).map_err(|_| Fault::TOO_LONG)
+    /// [`Error::TooLong`] when it does not fit; the text is then as before.
+    pub fn push(&mut self, more: &str) -> Result<(), Error> {
+        self.0.push_str(more).map_err(|_| Error::TooLong)
     }
 
     /// A text from anything that prints.
     ///
     /// # Errors
-    /// [`Fault::TOO_LONG`] when it does not fit.
-    pub fn print(value: impl fmt::Display) -> Result<Self, Fault> {
+    /// [`Error::TooLong`] when it does not fit.
+    pub fn print(value: impl fmt::Display) -> Result<Self, Error> {
         use fmt::Write;
         let mut text = Text::new();
-        write!(text.0, "{value}").map_err(|_| Fault::TOO_LONG)?;
+        write!(text.0, "{value}").map_err(|_| Error::TooLong)?;
         Ok(text)
     }
 }
 
 impl TryFrom<&str> for Text {
-    type Error = Fault;
+    type Error = Error;
 
-    fn try_from(text: &str) -> Result<Self, Fault> {
+    fn try_from(text: &str) -> Result<Self, Error> {
         let mut new = Text::new();
         new.push(text)?;
         Ok(new)
@@ -121,7 +119,7 @@ impl ValueRef<'_> {
         }
     }
 
-    /// The same value, owning its text; one longer than [`TEXT_CAPACITY`], which no plan has, is empty.
+    /// The same value, owning its text; one longer than [`MAX_TEXT`], which no plan has, is empty.
     pub fn to_owned(self) -> Value {
         match self {
             ValueRef::Unset => Value::Unset,
@@ -146,6 +144,17 @@ impl fmt::Display for ValueRef<'_> {
             ValueRef::Text(value) => write!(f, "{value:?}"),
             ValueRef::Choice(value) => write!(f, "#{value}"),
             ValueRef::Object(value) => write!(f, "object#{value}"),
+        }
+    }
+}
+
+impl PartialOrd for Value {
+    /// Numbers of one kind compare; the compiler gives all `number` ports of a component one type.
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match (self, other) {
+            (Value::Int(a), Value::Int(b)) => a.partial_cmp(b),
+            (Value::Float(a), Value::Float(b)) => a.partial_cmp(b),
+            _ => None,
         }
     }
 }
