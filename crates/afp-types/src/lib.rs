@@ -1,6 +1,6 @@
 //! What compiler and run time say alike: times and values, the arithmetic of formulas, how texts become numbers and
-//! numbers texts, what components, entries and parts of rows are, how much one step may do, and which number tells
-//! texts apart.
+//! numbers texts, what components, entries, devices and parts of rows are, how much one step may do, and which number
+//! tells texts apart.
 //!
 //! A formula that is constant is computed by the compiler, any other by the interpreter or by
 //! generated Rust; `35 cm` may stand in a plan, in a text that an entry is read from, or on a command
@@ -12,6 +12,7 @@
 
 mod arithmetic;
 mod decimal;
+pub mod devices;
 mod exact;
 mod function;
 mod hash;
