@@ -80,15 +80,15 @@ pub struct SignalRow {
     pub help: &'static str,
 }
 
-/// What the values of a signal are.
+/// What the values of a signal are. `U` says what a number measures: an SI unit, empty for none, or a dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SignalType {
+pub enum SignalType<U = &'static str> {
     /// A truth value.
     Bool,
     /// A whole number.
     Int,
-    /// A number in this SI unit, empty for none.
-    Float(&'static str),
+    /// A number or a quantity.
+    Float(U),
     /// A text.
     Text,
     /// Where one frame stands in another.

@@ -1,7 +1,7 @@
 //! The devices of a toolbox: their table, controls, faults and signals as Rust names.
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use super::type_paths;
 use crate::layout::doc;
@@ -278,17 +278,11 @@ fn fault_row(devices: &TokenStream, fault: &Fault) -> TokenStream {
 fn signal_row(devices: &TokenStream, signal: &Signal) -> TokenStream {
     let (name, help, truth) = (&signal.name, help(&signal.doc), signal.truth);
     let ty = match signal.ty {
-        SignalType::Bool => quote!(Bool),
-        SignalType::Int => quote!(Int),
         SignalType::Float(dimension) => {
             let unit = dimension.si_unit();
             quote!(Float(#unit))
         }
-        SignalType::Text => quote!(Text),
-        SignalType::Pose => quote!(Pose),
-        SignalType::Range => quote!(Range),
-        SignalType::Image => quote!(Image),
-        SignalType::Outline => quote!(Outline),
+        plain => ident(&format!("{plain:?}")).into_token_stream(),
     };
     quote!(#devices::SignalRow { name: #name, ty: #devices::SignalType::#ty, truth: #truth, help: #help })
 }

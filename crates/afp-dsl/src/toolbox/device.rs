@@ -88,25 +88,7 @@ pub struct Signal {
 }
 
 /// What the values of a signal are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SignalType {
-    /// `bool`
-    Bool,
-    /// `int`
-    Int,
-    /// `float` or a quantity.
-    Float(Dimension),
-    /// `string`
-    Text,
-    /// `pose`: where one frame stands in another.
-    Pose,
-    /// `range`: a reading of a range sensor.
-    Range,
-    /// `image`: a picture.
-    Image,
-    /// `outline`: the outline of something that moves.
-    Outline,
-}
+pub type SignalType = afp_types::devices::SignalType<Dimension>;
 
 /// Types of signals that the language has no values of; for logs and pictures.
 pub(crate) const SHOWN: &[(&str, SignalType)] = &[
