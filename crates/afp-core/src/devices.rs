@@ -2,7 +2,11 @@
 
 use afp_types::Duration;
 
-pub use afp_types::devices::*;
+pub use afp_types::devices::{
+    AmountRow, ControlId, ControlRow, DeviceRow, FaultId, FaultRow, SignalId, SignalRow,
+    SignalType, amount, controls, faults, find_control, find_fault, find_signal, find_stop,
+    signals,
+};
 
 /// What can be wrong between a sensor and the plan: the faults that every sensor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
