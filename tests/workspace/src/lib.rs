@@ -1,4 +1,7 @@
-//! What cargo knows of the workspace: its packages, and which of them a package is built from.
+//! What cargo knows of the workspace: its packages, and which of them a package is built from. The modules of a package.
+
+pub mod modules;
+mod paths;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
