@@ -5,9 +5,9 @@ use crate::devices::{
     Glow, InfraredSensor, Invalid, Lens, Motion, Navigator, Odometry, Reading, RotatingTelemetry,
     Rotator, TouchSensor, Ultrasonic,
 };
-use crate::motion::wrap;
-use crate::path::Path;
-use crate::trail::Trail;
+use crate::helpers::motion::wrap;
+use crate::helpers::trail::Trail;
+use crate::objects::Path;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed, Voltage};
 use afp_core::{
     Actor, ActorTemplate, Duration, Environment, Events, Fault, Instant, Poll, Supervisor,

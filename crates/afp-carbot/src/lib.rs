@@ -19,113 +19,32 @@
 #[cfg(test)]
 extern crate std;
 
-mod appearance;
-mod approach_infrared;
-mod approaching;
-mod check_battery;
-mod check_color;
-mod check_distance;
-mod check_driving_lane;
-mod check_escape_button;
-mod check_escape_button_click;
-mod check_infrared;
-mod check_line;
-mod check_motion;
-mod check_progress;
-mod check_touch_sensor;
-mod check_touch_sensor_click;
-mod choose_view;
-mod curve;
-mod describe_object;
+mod actors;
+mod computations;
 pub mod devices;
-mod distance_map;
-mod drive_to;
-mod eye;
-mod find_object;
-mod follow_object;
-mod follow_path;
-mod forward;
-pub mod guard;
-pub mod history;
-mod hold;
-mod learn_object;
-mod line_fit;
-mod look_around;
-mod motion;
-mod new_path;
-mod own_motion;
-mod path;
-mod plan_path;
-mod press;
-mod pursuit;
-mod repeats;
-mod retrace;
-mod search_wall;
-mod seeking;
-mod sighting;
-mod signal;
-mod stop;
-mod sweep;
+mod helpers;
+mod objects;
+mod supervisors;
 pub mod table;
-pub mod templates {
-    //! The templates of the toolbox as types: ports, states and events.
-    use crate::devices::{
-        Battery, ColorSensor, FlowCamera, InfraredSensor, Localisation, PathPlanner, Signals,
-    };
-
-    afp_macros::toolbox!("carbot.afp",
-        robot: crate::Carbot + Battery + ColorSensor + FlowCamera + InfraredSensor + Localisation + PathPlanner + Signals
-    );
-}
-pub mod tracking;
-pub mod trail;
-mod turn;
-mod turn_to_infrared;
-mod turning;
-mod wall_forward;
-mod widest_gap;
+pub mod templates;
 
 #[cfg(test)]
 mod fake;
 
-pub use appearance::Appearance;
-pub use approach_infrared::ApproachInfrared;
-pub use check_battery::CheckBattery;
-pub use check_color::CheckColor;
-pub use check_distance::CheckDistance;
-pub use check_driving_lane::CheckDrivingLane;
-pub use check_escape_button::CheckEscapeButton;
-pub use check_escape_button_click::CheckEscapeButtonClick;
-pub use check_infrared::CheckInfrared;
-pub use check_line::CheckLine;
-pub use check_motion::CheckMotion;
-pub use check_progress::CheckProgress;
-pub use check_touch_sensor::CheckTouchSensor;
-pub use check_touch_sensor_click::CheckTouchSensorClick;
-pub use choose_view::ChooseView;
-pub use curve::Curve;
-pub use describe_object::DescribeObject;
-pub use distance_map::DistanceMap;
-pub use drive_to::DriveTo;
-pub use find_object::FindObject;
-pub use follow_object::FollowObject;
-pub use follow_path::FollowPath;
-pub use forward::Forward;
-pub use hold::Hold;
-pub use learn_object::LearnObject;
-pub use look_around::LookAround;
-pub use new_path::NewPath;
-pub use path::Path;
-pub use plan_path::PlanPath;
-pub use retrace::Retrace;
-pub use search_wall::SearchWall;
-pub use sighting::Sighting;
-pub use signal::Signal;
-pub use stop::Stop;
-pub use turn::Turn;
-pub use turn_to_infrared::TurnToInfrared;
-pub use wall_forward::WallForward;
-pub use widest_gap::WidestGap;
+pub use actors::{
+    ApproachInfrared, ChooseView, Curve, DriveTo, FindObject, FollowObject, FollowPath, Forward,
+    Hold, LearnObject, LookAround, Retrace, SearchWall, Signal, Stop, Turn, TurnToInfrared,
+    WallForward,
+};
+pub use computations::{DescribeObject, NewPath, WidestGap};
+pub use helpers::sighting::Sighting;
+pub use helpers::{guard, history, tracking, trail};
+pub use objects::{Appearance, DistanceMap, Path};
+pub use supervisors::{
+    CheckBattery, CheckColor, CheckDistance, CheckDrivingLane, CheckEscapeButton,
+    CheckEscapeButtonClick, CheckInfrared, CheckLine, CheckMotion, CheckProgress, CheckTouchSensor,
+    CheckTouchSensorClick, PlanPath,
+};
 
 /// What [`register!`] names in the crates of others.
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! Motion as counted at the wheels.
 
 use super::Reading;
-use crate::trail::Trail;
+use crate::helpers::trail::Trail;
 use afp_core::Instant;
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 

@@ -1,6 +1,6 @@
 //! Paths on the map, searched for by a job.
 
-use crate::path::Path;
+use crate::objects::Path;
 use afp_core::quantity::Length;
 use afp_core::{Fault, Instant, Poll, Ticket};
 

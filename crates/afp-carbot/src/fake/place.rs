@@ -2,8 +2,8 @@
 
 use super::{Fake, reading};
 use crate::devices::{Aim, Belief, Localisation, Odometry, PathPlanner, Reading, Signals, Trip};
-use crate::motion::wrap;
-use crate::path::Path;
+use crate::helpers::motion::wrap;
+use crate::objects::Path;
 use afp_core::quantity::{Angle, Frequency, Length};
 use afp_core::{Duration, Fault, Instant, Poll, Ticket};
 

@@ -1,0 +1,148 @@
+//! Drive along an arc.
+
+use crate::devices::{Motion, Navigator, Odometry};
+use crate::helpers::tracking::{DRIVE_STALLED, Tracking};
+use crate::helpers::turning::{CLOSE, Progress, Turning};
+use crate::templates;
+use crate::templates::curve::{Inputs, Live, State};
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// The arc counts as driven when less than this is left, metres, and no more than of a turn in place.
+const CLOSE_WAY: f64 = 0.004;
+/// The way may be off the arc's length by this share of it, and by so many metres while the wheels are being steered.
+const OFF_ARC: f64 = 0.25;
+const STEERED: f64 = 0.1;
+
+/// Drives an arc of a circle until the heading has turned by an angle, by odometry.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    turning: Turning,
+    angle: f64,
+    radius: f64,
+    speed: f64,
+    tracking: Tracking,
+    /// The distance driven so far, metres, and where that was.
+    driven: f64,
+    last: Option<Motion>,
+}
+
+impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let close = CLOSE.min(CLOSE_WAY / inputs.radius.si());
+        Ok(Curve {
+            turning: Turning::new(inputs.angle, close, env, now)?,
+            angle: inputs.angle.si(),
+            radius: inputs.radius.si(),
+            speed: inputs.speed.si(),
+            tracking: Tracking::new(now),
+            driven: 0.0,
+            last: None,
+        })
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        match self.turning.progress(env, now)? {
+            Progress::Unknown => self.tracking.halt(env, now),
+            Progress::Left(left, motion) => {
+                self.check_arc(self.angle - left, motion)?;
+                let speed = self.tracking.speed(left.abs() * self.radius, self.speed, now);
+                let rate = speed.copysign(left) / self.radius;
+                self.tracking.drive(env, &motion, (speed, rate), now)?;
+            }
+            Progress::Turned { by, stands } => {
+                self.tracking.halt(env, now);
+                if stands {
+                    return Ok(Poll::Ready(State::CurveSuccessful { turned: by }));
+                }
+            }
+        }
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+impl Curve {
+    /// Compares the distance driven with the angle turned: a wheel that does not follow makes another arc, of which each part may be
+    /// near enough to what was commanded.
+    ///
+    /// # Errors
+    /// [`DRIVE_STALLED`] when the arc is another one.
+    fn check_arc(&mut self, turned: f64, motion: Motion) -> Result<(), Fault> {
+        if let Some(last) = self.last.replace(motion) {
+            self.driven += libm::hypot((motion.x - last.x).si(), (motion.y - last.y).si());
+        }
+        let arc = self.radius * turned.abs();
+        let off = (self.driven - arc).abs();
+        if off > STEERED + OFF_ARC * arc { Err(DRIVE_STALLED) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use crate::helpers::guard::NO_ODOMETRY;
+    use afp_core::quantity::{Angle, Length, Speed};
+
+    fn curve(robot: &mut Fake, degrees: f64) -> Result<Option<State>, Fault> {
+        let (radius, speed) = (Length::from_si(0.5), Speed::from_si(0.2));
+        let inputs = Inputs { radius, angle: Angle::from_deg(degrees), speed };
+        robot.run::<templates::Curve, Curve>(inputs, || Live {}, 40)
+    }
+
+    #[test]
+    fn a_quarter_of_a_circle_ends_beside_its_centre() {
+        for degrees in [90.0_f64, -90.0] {
+            let mut robot = Fake::new(&[]);
+            let state = curve(&mut robot, degrees);
+            let Ok(Some(State::CurveSuccessful { turned })) = state else { panic!("{state:?}") };
+            assert!((turned.si().to_degrees() - degrees).abs() < 1.0, "{turned:?}");
+            let (x, y) = (robot.motion.x.si(), robot.motion.y.si());
+            assert!((x - 0.5).abs() < 0.01 && (y - 0.5 * degrees.signum()).abs() < 0.01, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn a_wide_arc_is_driven_to_its_end() {
+        for (radius, degrees) in [(10.0, 20.0), (100.0, 2.0)] {
+            let mut robot = Fake::new(&[]);
+            let (angle, speed) = (Angle::from_deg(degrees), Speed::from_si(0.2));
+            let inputs = Inputs { radius: Length::from_si(radius), angle, speed };
+            let state = robot.run::<templates::Curve, Curve>(inputs, || Live {}, 40);
+            assert!(matches!(state, Ok(Some(_))), "{state:?}");
+            let end = radius * angle.si().sin();
+            assert!((robot.motion.x.si() - end).abs() < 0.01, "{radius}: {:?}", robot.motion);
+        }
+    }
+
+    #[test]
+    fn a_whole_circle_leads_back() {
+        let mut robot = Fake::new(&[]);
+        assert!(matches!(curve(&mut robot, 360.0), Ok(Some(_))));
+        assert!(robot.motion.x.si().abs() < 0.01 && robot.motion.y.si().abs() < 0.01);
+    }
+
+    #[test]
+    fn another_arc_than_the_one_asked_for_is_a_fault() {
+        // Both are near enough to the command at every instant, and neither is a circle of 50 cm.
+        for follows in [(0.6, 1.0), (1.0, 0.6)] {
+            let mut robot = Fake::new(&[]);
+            robot.follows = follows;
+            assert_eq!(curve(&mut robot, 270.0), Err(DRIVE_STALLED), "{follows:?}");
+        }
+        let mut robot = Fake::new(&[]);
+        robot.follows = (0.9, 1.0);
+        assert!(matches!(curve(&mut robot, 270.0), Ok(Some(_))), "its circle is a little smaller");
+    }
+
+    #[test]
+    fn faults_without_odometry() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_odometry = true;
+        assert_eq!(curve(&mut robot, 90.0), Err(NO_ODOMETRY));
+    }
+}

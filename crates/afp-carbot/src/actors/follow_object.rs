@@ -1,0 +1,106 @@
+//! Drive towards an object, wherever it goes.
+
+use crate::devices::{Camera, Navigator, Odometry, Reading};
+use crate::helpers::approaching::{Approached, Approaching, Sight};
+use crate::helpers::eye::Eye;
+use crate::helpers::guard::NO_PICTURE;
+use crate::helpers::sighting::Sighting;
+use crate::templates;
+use crate::templates::follow_object::{Inputs, Live, State};
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// What is not seen to stand on the floor is taken to be so far away, metres.
+const FAR: f64 = 10.0;
+
+/// Steers by where the camera shows the object and where its foot meets the floor, and stops in front of it.
+#[derive(Clone, Debug)]
+pub struct FollowObject {
+    eye: Eye,
+    /// From the robot's front, metres.
+    distance: f64,
+    approaching: Approaching,
+}
+
+impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::FollowObject, E> for FollowObject {
+    fn start(inputs: Inputs<'_>, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let approaching = Approaching::new(inputs.speed, NO_PICTURE, env, now);
+        let eye = Eye::new(inputs.look.clone(), env);
+        Ok(FollowObject { eye, distance: inputs.distance.si(), approaching })
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        let Reading { time, value } = self.eye.look(env);
+        let front = (env.body().front - env.lens().forward).si();
+        let sight = |seen: Sighting| Sight {
+            bearing: seen.bearing.si(),
+            distance: seen.distance.si().min(FAR) - front - self.distance,
+        };
+        let sight = Reading { time, value: value.map(|seen| seen.map(sight)) };
+        Ok(match self.approaching.poll(sight, env, now)? {
+            Some(Approached::Reached) => Poll::Ready(State::ObjectReached),
+            Some(Approached::Lost) => Poll::Ready(State::ObjectLost),
+            None => Poll::Pending,
+        })
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use crate::objects::Appearance;
+    use afp_core::quantity::{Length, Speed};
+
+    fn follow(robot: &mut Fake) -> Result<Option<State>, Fault> {
+        let look = Appearance::of_color([0.7, 0.15, 0.15], 0.08);
+        let inputs =
+            Inputs { look: &look, distance: Length::from_si(0.5), speed: Speed::from_si(0.2) };
+        robot.run::<templates::FollowObject, FollowObject>(inputs, || Live {}, 30)
+    }
+
+    #[test]
+    fn stops_so_far_before_the_object() {
+        for (x, y) in [(2.0, 0.0), (2.0, 0.7), (1.5, -0.6)] {
+            let mut robot = Fake::new(&[]);
+            robot.post = Some((x, y));
+            assert_eq!(follow(&mut robot), Ok(Some(State::ObjectReached)), "{x} {y}");
+            let far = f64::hypot(x - robot.motion.x.si(), y - robot.motion.y.si());
+            // The front is 20 cm before the turning centre, where this robot's camera is.
+            assert!((far - 0.7).abs() < 0.06, "{x} {y}: {far}");
+        }
+    }
+
+    #[test]
+    fn what_is_near_enough_is_reached_at_once() {
+        let mut robot = Fake::new(&[]);
+        robot.post = Some((0.6, 0.0));
+        assert_eq!(follow(&mut robot), Ok(Some(State::ObjectReached)));
+        assert!(robot.motion.x.si().abs() < 0.01);
+    }
+
+    #[test]
+    fn what_goes_out_of_sight_is_lost_where_the_robot_stands() {
+        let mut robot = Fake::new(&[]);
+        (robot.post, robot.post_goes) = (Some((3.0, 0.0)), 2000);
+        assert_eq!(follow(&mut robot), Ok(Some(State::ObjectLost)));
+        assert!((2500..2900).contains(&robot.millis()), "{}", robot.millis());
+    }
+
+    #[test]
+    fn a_dead_camera_and_one_that_repeats_itself_are_faults() {
+        for freezes in [0, 1000] {
+            let mut robot = Fake::new(&[]);
+            (robot.post, robot.camera_freezes) = (Some((3.0, 0.0)), freezes);
+            assert_eq!(follow(&mut robot), Err(NO_PICTURE));
+            assert!(robot.millis() < freezes + 700);
+        }
+        let mut robot = Fake::new(&[]);
+        robot.dead_camera = true;
+        assert_eq!(follow(&mut robot), Err(NO_PICTURE));
+    }
+}

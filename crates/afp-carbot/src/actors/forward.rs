@@ -1,0 +1,116 @@
+//! Drive straight ahead or back.
+
+use crate::devices::{Motion, Navigator, Odometry};
+use crate::helpers::guard::{Guard, NO_ODOMETRY};
+use crate::helpers::tracking::Tracking;
+use crate::templates;
+use crate::templates::forward::{Inputs, Live, State};
+use afp_core::quantity::Length;
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// The way counts as driven when less than this is left.
+const CLOSE: f64 = 0.004;
+/// How sharply the heading is held: turn rate per radian off.
+const HOLD: f64 = 2.5;
+
+/// Drives a distance on the heading it starts with, by odometry.
+#[derive(Clone, Debug)]
+pub struct Forward {
+    distance: f64,
+    speed: f64,
+    tracking: Tracking,
+    odometry: Guard,
+    /// Where the drive began; none until the first reading.
+    from: Option<Motion>,
+}
+
+impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let mut odometry = Guard::new(NO_ODOMETRY, now);
+        let from = odometry.current(env.motion(), now)?;
+        Ok(Forward {
+            distance: inputs.distance.si(),
+            speed: inputs.speed.si(),
+            tracking: Tracking::new(now),
+            odometry,
+            from,
+        })
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        let Some(motion) = self.odometry.current(env.motion(), now)? else {
+            self.tracking.halt(env, now);
+            return Ok(Poll::Pending);
+        };
+        let from = *self.from.get_or_insert(motion);
+        let driven = motion.seen_from(&from).0.si();
+        let ahead = if self.distance < 0.0 { -1.0 } else { 1.0 };
+        let rest = ahead * (self.distance - driven);
+        if rest < CLOSE {
+            self.tracking.halt(env, now);
+            return Ok(if motion.stands() {
+                Poll::Ready(State::ForwardSuccessful { driven: Length::from_si(driven) })
+            } else {
+                Poll::Pending
+            });
+        }
+        let rate = self.tracking.speed(rest, self.speed, now);
+        let turn = HOLD * (from.heading - motion.heading).si();
+        self.tracking.drive(env, &motion, (ahead * rate, turn), now)?;
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use crate::helpers::tracking::{DRIVE_BLOCKED, DRIVE_STALLED};
+    use afp_core::quantity::Speed;
+
+    fn drive(robot: &mut Fake, distance: f64, seconds: u64) -> Result<Option<State>, Fault> {
+        let inputs = Inputs { distance: Length::from_si(distance), speed: Speed::from_si(0.2) };
+        robot.run::<templates::Forward, Forward>(inputs, || Live {}, seconds)
+    }
+
+    #[test]
+    fn drives_the_distance_ahead_and_back() {
+        for distance in [1.0, -0.3] {
+            let mut robot = Fake::new(&[]);
+            let state = drive(&mut robot, distance, 10);
+            let Ok(Some(State::ForwardSuccessful { driven })) = state else { panic!("{state:?}") };
+            assert!((driven.si() - distance).abs() < 0.01, "{driven:?}");
+            assert!((robot.motion.x.si() - distance).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn an_interrupt_stops_in_the_middle() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(drive(&mut robot, 5.0, 2), Ok(None));
+        assert!(robot.motion.x.si() > 0.2);
+    }
+
+    #[test]
+    fn a_blocked_robot_and_one_that_drives_in_circles_are_faults() {
+        let mut robot = Fake::new(&[]);
+        robot.follows = (0.0, 0.0);
+        assert_eq!(drive(&mut robot, 1.0, 5), Err(DRIVE_BLOCKED));
+        let mut robot = Fake::new(&[]);
+        (robot.follows, robot.drifts) = ((0.5, 0.5), 0.4);
+        assert_eq!(drive(&mut robot, 1.0, 30), Err(DRIVE_STALLED));
+    }
+
+    #[test]
+    fn stands_still_without_odometry_and_faults_after_half_a_second() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_odometry = true;
+        assert_eq!(drive(&mut robot, 1.0, 5), Err(NO_ODOMETRY));
+        assert_eq!((robot.command(), robot.millis()), ((0.0, 0.0), 510));
+    }
+}

@@ -1,0 +1,100 @@
+//! Learn an object from one picture.
+
+use crate::devices::{Camera, Frame, Invalid, Navigator, Odometry, Reading};
+use crate::helpers::guard::{Guard, NO_ODOMETRY, NO_PICTURE};
+use crate::objects::Appearance;
+use crate::templates;
+use crate::templates::learn_object::{Inputs, Live, State};
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// Stands, takes one picture, and keeps the colours that its middle alone shows.
+#[derive(Clone, Debug)]
+pub struct LearnObject {
+    share: f64,
+    odometry: Guard,
+    pictures: Guard,
+    /// Since when the robot stands, and the number of the camera's picture then: only a newer one counts.
+    stood: Option<(Instant, u64)>,
+}
+
+impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::LearnObject, E> for LearnObject {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        env.halt(now);
+        Ok(LearnObject {
+            share: inputs.share,
+            odometry: Guard::new(NO_ODOMETRY, now),
+            pictures: Guard::new(NO_PICTURE, now),
+            stood: None,
+        })
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        env.halt(now);
+        let Some((since, number)) = self.stood else {
+            let motion = self.odometry.current(env.motion(), now)?;
+            if motion.is_some_and(|motion| motion.stands()) {
+                let number = env.frame().value.map_or(0, |frame| frame.number);
+                (self.stood, self.pictures) = (Some((now, number)), Guard::new(NO_PICTURE, now));
+            }
+            return Ok(Poll::Pending);
+        };
+        let Reading { time, value } = env.frame();
+        let new = |frame: Frame<'_>| frame.number != number;
+        let value = value.and_then(|frame| new(frame).then_some(frame).ok_or(Invalid::Frozen));
+        let reading = Reading { time, value };
+        let Some(frame) = self.pictures.next(reading, since, now)? else {
+            return Ok(Poll::Pending);
+        };
+        Ok(Poll::Ready(match Appearance::learnt(&frame, self.share) {
+            Some(look) => State::ObjectLearnt { look },
+            None => State::NothingSpecial,
+        }))
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+
+    /// What it learns before what is ahead; none where that is nothing special.
+    fn learn(robot: &mut Fake) -> Result<Option<Appearance>, Fault> {
+        let inputs = Inputs { share: 0.2 };
+        let state = robot.run::<templates::LearnObject, LearnObject>(inputs, || Live {}, 5)?;
+        Ok(match state.expect("it does not take that long") {
+            State::ObjectLearnt { look } => Some(look),
+            State::NothingSpecial => None,
+        })
+    }
+
+    #[test]
+    fn what_is_ahead_is_learnt_and_what_is_around_it_is_not() {
+        let mut robot = Fake::new(&[]);
+        robot.post = Some((0.8, 0.0));
+        let look = learn(&mut robot).unwrap().expect("it is special");
+        assert!(look.has([180, 40, 40]) && look.has([90, 20, 20]) && !look.has([120, 120, 120]));
+    }
+
+    #[test]
+    fn before_nothing_there_is_nothing_to_learn() {
+        assert_eq!(learn(&mut Fake::new(&[])), Ok(None));
+    }
+
+    #[test]
+    fn a_dead_or_frozen_camera_and_a_dead_odometer_are_faults() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_camera = true;
+        assert_eq!(learn(&mut robot), Err(NO_PICTURE));
+        let mut robot = Fake::new(&[]);
+        robot.camera_freezes = 0;
+        assert_eq!(learn(&mut robot), Err(NO_PICTURE));
+        let mut robot = Fake::new(&[]);
+        robot.dead_odometry = true;
+        assert_eq!(learn(&mut robot), Err(NO_ODOMETRY));
+    }
+}

@@ -1,0 +1,217 @@
+//! Go back by the path on which the robot came.
+
+use crate::devices::{Motion, Navigator, Odometry};
+use crate::helpers::guard::{Guard, NO_ODOMETRY};
+use crate::helpers::history::Pose;
+use crate::helpers::tracking::Tracking;
+use crate::helpers::trail::Trail;
+use crate::templates;
+use crate::templates::retrace::{Inputs, Live, State};
+use afp_core::quantity::Length;
+use afp_core::{Actor, Fault, Instant, Poll};
+
+/// A place counts as reached within this, metres.
+const CLOSE: f64 = 0.004;
+
+/// Drives and turns back along the trail that the platform keeps; beyond its end straight back.
+#[derive(Clone, Debug)]
+pub struct Retrace {
+    /// How far back, metres.
+    distance: f64,
+    speed: f64,
+    tracking: Tracking,
+    odometry: Guard,
+    /// The path; none until the first reading.
+    path: Option<PathBack>,
+}
+
+/// What is left of the path back.
+#[derive(Clone, Debug)]
+struct PathBack {
+    trail: Trail,
+    /// Where the robot came from to where it goes now.
+    from: Pose,
+    to: Pose,
+    /// From there on, metres.
+    rest: f64,
+    /// What a turn counts.
+    lever: Length,
+}
+
+impl PathBack {
+    fn new(trail: Trail, here: Pose, rest: f64, lever: Length) -> Self {
+        let trail = trail.back_from(&here, lever);
+        let mut path = PathBack { trail, from: here, to: here, rest, lever };
+        path.next();
+        path
+    }
+
+    /// Goes on to the place before, or as far towards it as is left.
+    fn next(&mut self) {
+        self.from = self.to;
+        let before = self.trail.place(1);
+        self.trail.drop_newest();
+        let to = before.unwrap_or_else(|| self.from.behind(self.rest));
+        let leg = self.from.distance_to(&to, self.lever);
+        let share = (self.rest / leg.max(CLOSE)).min(1.0);
+        let mix = |from: f64, to: f64| from + (to - from) * share;
+        self.to = Pose {
+            x: mix(self.from.x, to.x),
+            y: mix(self.from.y, to.y),
+            heading: mix(self.from.heading, to.heading),
+        };
+        self.rest = (self.rest - leg.max(CLOSE)).max(0.0);
+    }
+
+    /// How far the robot is from where it goes, along the leg; negative beyond it.
+    fn left(&self, here: &Pose) -> f64 {
+        let lever = self.lever.si();
+        let part = |from: &Pose, to: &Pose| {
+            [to.x - from.x, to.y - from.y, lever * (to.heading - from.heading)]
+        };
+        let (leg, rest) = (part(&self.from, &self.to), part(here, &self.to));
+        let along: f64 = leg.iter().zip(rest).map(|(leg, rest)| leg * rest).sum();
+        along / self.from.distance_to(&self.to, self.lever).max(CLOSE)
+    }
+
+    /// Where to, once all that is reached already is behind: ahead in metres and to the left in radians, and how far it is
+    /// to the end. None at the end.
+    fn ahead(&mut self, motion: &Motion) -> Option<(f64, f64, f64)> {
+        let here = Pose::from(*motion);
+        while self.left(&here) < CLOSE {
+            if self.rest <= 0.0 {
+                return None;
+            }
+            self.next();
+        }
+        let ahead = self.to.standing().seen_from(motion).0.si();
+        Some((ahead, self.to.heading - here.heading, self.left(&here) + self.rest))
+    }
+}
+
+impl<E: Navigator + Odometry + ?Sized> Actor<templates::Retrace, E> for Retrace {
+    fn start(inputs: Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
+        let mut retrace = Retrace {
+            distance: inputs.distance.si(),
+            speed: inputs.speed.si(),
+            tracking: Tracking::new(now),
+            odometry: Guard::new(NO_ODOMETRY, now),
+            path: None,
+        };
+        retrace.look(env, now)?;
+        Ok(retrace)
+    }
+
+    fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
+        let Some(motion) = self.look(env, now)? else {
+            self.tracking.halt(env, now);
+            return Ok(Poll::Pending);
+        };
+        let Some((ahead, turn, rest)) = self.path.as_mut().and_then(|path| path.ahead(&motion))
+        else {
+            self.tracking.halt(env, now);
+            return Ok(if motion.stands() { Poll::Ready(State::Retraced) } else { Poll::Pending });
+        };
+        let rate = self.tracking.speed(rest, self.speed, now);
+        let share = rate / libm::hypot(ahead, env.body().lever().si() * turn).max(CLOSE);
+        self.tracking.drive(env, &motion, (share * ahead, share * turn), now)?;
+        Ok(Poll::Pending)
+    }
+
+    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+        env.halt(now);
+        Ok(())
+    }
+}
+
+impl Retrace {
+    /// What the odometry says; takes the path that it lies at the end of.
+    fn look<E>(&mut self, env: &E, now: Instant) -> Result<Option<Motion>, Fault>
+    where
+        E: Navigator + Odometry + ?Sized,
+    {
+        let motion = self.odometry.current(env.motion(), now)?;
+        if let (Some(motion), None) = (motion, &self.path) {
+            self.path =
+                Some(PathBack::new(env.trail(), motion.into(), self.distance, env.body().lever()));
+        }
+        Ok(motion)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use crate::helpers::tracking::DRIVE_BLOCKED;
+    use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
+
+    fn back(robot: &mut Fake, distance: f64) -> Result<Option<State>, Fault> {
+        let (distance, speed) = (Length::from_si(distance), Speed::from_si(0.2));
+        robot.run::<templates::Retrace, Retrace>(Inputs { distance, speed }, || Live {}, 20)
+    }
+
+    fn turn(robot: &mut Fake, degrees: f64) {
+        let (angle, speed) = (Angle::from_deg(degrees), AngularSpeed::from_si(0.8));
+        let inputs = templates::turn::Inputs { angle, speed };
+        let live = || templates::turn::Live {};
+        robot.run::<templates::Turn, crate::Turn>(inputs, live, 20).unwrap().unwrap();
+    }
+
+    fn forward(robot: &mut Fake, distance: f64) {
+        let (distance, speed) = (Length::from_si(distance), Speed::from_si(0.2));
+        let inputs = templates::forward::Inputs { distance, speed };
+        let live = || templates::forward::Live {};
+        robot.run::<templates::Forward, crate::Forward>(inputs, live, 20).unwrap().unwrap();
+    }
+
+    #[test]
+    fn undoes_a_turn_and_then_the_way_before_it() {
+        for degrees in [40.0, -40.0] {
+            let mut robot = Fake::new(&[]);
+            forward(&mut robot, 0.3);
+            turn(&mut robot, degrees);
+            let turned = robot.body().lever().si() * 40_f64.to_radians();
+            assert_eq!(back(&mut robot, turned + 0.1), Ok(Some(State::Retraced)));
+            let at = robot.motion;
+            assert!((at.x.si() - 0.2).abs() < 0.02 && at.y.si().abs() < 0.01, "{at:?}");
+            assert!(at.heading.si().abs() < 0.06, "{at:?}");
+        }
+    }
+
+    #[test]
+    fn goes_farther_back_the_second_time() {
+        let mut robot = Fake::new(&[]);
+        forward(&mut robot, 0.4);
+        for left in [0.3, 0.2] {
+            assert_eq!(back(&mut robot, 0.1), Ok(Some(State::Retraced)));
+            assert!((robot.motion.x.si() - left).abs() < 0.02, "{:?}", robot.motion);
+        }
+    }
+
+    #[test]
+    fn goes_straight_back_where_nothing_is_known() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(back(&mut robot, 0.15), Ok(Some(State::Retraced)));
+        assert!((robot.motion.x.si() + 0.15).abs() < 0.01, "{:?}", robot.motion);
+    }
+
+    #[test]
+    fn what_is_silent_or_blocked_is_a_fault() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_odometry = true;
+        assert_eq!(back(&mut robot, 0.15), Err(NO_ODOMETRY));
+        let mut robot = Fake::new(&[]);
+        robot.follows = (0.0, 0.0);
+        assert_eq!(back(&mut robot, 0.15), Err(DRIVE_BLOCKED));
+    }
+
+    #[test]
+    fn an_interrupt_stops_in_the_middle() {
+        let mut robot = Fake::new(&[]);
+        let (distance, speed) = (Length::from_si(1.0), Speed::from_si(0.2));
+        let inputs = Inputs { distance, speed };
+        assert_eq!(robot.run::<templates::Retrace, Retrace>(inputs, || Live {}, 2), Ok(None));
+        assert!(robot.motion.x.si() < -0.2 && robot.motion.x.si() > -0.5, "{:?}", robot.motion);
+    }
+}

@@ -1,0 +1,173 @@
+//! What of the picture's flow the robot's own motion explains.
+//!
+//! A place of the picture shows something between the nearest that there can be and, below the
+//! horizon, the floor. What stands still there moves in the picture along a straight stretch: from how
+//! the farthest would move to how the nearest would. Flow that ends off this stretch is of something
+//! that moves by itself.
+
+use crate::devices::Lens;
+use crate::helpers::history::History;
+use afp_core::Instant;
+
+/// Nothing is nearer to the lens than this, metres: the bumper would know.
+const NEAREST: f64 = 0.25;
+/// The floor is not known better than this: the robot pitches a little.
+const FLOOR: f64 = 1.15;
+
+/// How the camera has moved from one picture to the next, in the frame of the earlier one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Step {
+    /// Metres.
+    ahead: f64,
+    left: f64,
+    /// Sine and cosine of the turn to the left.
+    turn: (f64, f64),
+}
+
+/// A place in the picture against its middle, pixels to the right and down.
+pub(crate) type Place = [f64; 2];
+
+impl Step {
+    /// The move of the camera from one instant to another, if both are known.
+    pub(crate) fn between(
+        history: &History,
+        lens: &Lens,
+        from: Instant,
+        to: Instant,
+    ) -> Option<Step> {
+        let (from, to) = (history.at(from)?, history.at(to)?);
+        let (sin, cos) = libm::sincos(from.heading);
+        let (x, y) = (to.x - from.x, to.y - from.y);
+        let (sin_turn, cos_turn) = libm::sincos(to.heading - from.heading);
+        let arm = lens.forward.si();
+        Some(Step {
+            ahead: x * cos + y * sin + arm * (cos_turn - 1.0),
+            left: y * cos - x * sin + arm * sin_turn,
+            turn: (sin_turn, cos_turn),
+        })
+    }
+
+    /// How far, in pixels, something that stood still and was seen at `place` is at least from where
+    /// `found` is, and how far it can have moved in the picture at most. `focus` is the lens's focal
+    /// length in pixels.
+    pub(crate) fn unexplained(
+        &self,
+        lens: &Lens,
+        focus: f64,
+        place: Place,
+        found: Place,
+    ) -> Option<Unexplained> {
+        let floor = lens.height.si() * focus / place[1];
+        let farthest = if place[1] > 0.0 { floor * FLOOR } else { f64::INFINITY };
+        let far = self.seen(focus, place, farthest)?;
+        let near = self.seen(focus, place, NEAREST.min(farthest))?;
+        let along = [near[0] - far[0], near[1] - far[1]];
+        let off = [found[0] - far[0], found[1] - far[1]];
+        let length = along[0] * along[0] + along[1] * along[1];
+        let share = if length > 0.0 {
+            ((off[0] * along[0] + off[1] * along[1]) / length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let still = [0, 1].map(|i| far[i] + along[i] * share);
+        Some(Unexplained {
+            pixels: libm::hypot(found[0] - still[0], found[1] - still[1]),
+            explained: libm::hypot(still[0] - place[0], still[1] - place[1]),
+        })
+    }
+
+    /// Where something at `place`, so far ahead, is seen after the step.
+    fn seen(&self, focus: f64, [right, down]: Place, depth: f64) -> Option<Place> {
+        // All divided by the depth, so that it may be infinite.
+        let ahead = 1.0 - self.ahead / depth;
+        let left = -right / focus - self.left / depth;
+        let (sin, cos) = self.turn;
+        let (ahead, left) = (ahead * cos + left * sin, left * cos - ahead * sin);
+        (ahead > 0.0).then(|| [-left / ahead * focus, down / ahead])
+    }
+}
+
+/// Flow against what the robot's own motion explains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Unexplained {
+    /// How much it is off, pixels.
+    pub(crate) pixels: f64,
+    /// How much of it is explained, pixels.
+    pub(crate) explained: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::devices::{Motion, Reading};
+    use afp_core::Duration;
+    use afp_core::quantity::{Angle, Length};
+
+    const FOCUS: f64 = 114.0;
+
+    fn lens() -> Lens {
+        Lens {
+            forward: Length::from_si(0.18),
+            height: Length::from_si(0.2),
+            opening: Angle::from_deg(70.0),
+            columns: 160,
+            rows: 120,
+        }
+    }
+
+    fn at(millis: u64) -> Instant {
+        Instant::ZERO + Duration::from_millis(millis)
+    }
+
+    /// The step of a robot that drove and turned evenly for 50 ms.
+    fn step(ahead: f64, turned: f64) -> Step {
+        let mut history = History::new();
+        for tick in 0..=10 {
+            let share = tick as f64 / 10.0;
+            let motion = Motion {
+                x: Length::from_si(ahead * share),
+                heading: Angle::from_si(turned * share),
+                ..Motion::default()
+            };
+            history.note(Reading::valid(motion, at(5 * tick)));
+        }
+        Step::between(&history, &lens(), at(0), at(50)).unwrap()
+    }
+
+    fn off(step: Step, place: Place, found: Place) -> f64 {
+        step.unexplained(&lens(), FOCUS, place, found).unwrap().pixels
+    }
+
+    #[test]
+    fn a_standing_robot_explains_no_flow() {
+        let step = step(0.0, 0.0);
+        assert!(off(step, [10.0, -5.0], [10.0, -5.0]) < 1e-9);
+        assert!((off(step, [10.0, -5.0], [13.0, -1.0]) - 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_turn_to_the_left_moves_everything_to_the_right() {
+        let step = step(0.0, 0.02);
+        let expected = FOCUS * 0.02;
+        assert!(off(step, [0.0, -10.0], [expected, -10.0]) < 0.1);
+        assert!(off(step, [0.0, -10.0], [-expected, -10.0]) > expected);
+    }
+
+    #[test]
+    fn driving_ahead_everything_moves_away_from_the_middle_by_no_more_than_what_is_near() {
+        let step = step(0.02, 0.0);
+        assert!(off(step, [40.0, -20.0], [40.4, -20.2]) < 1e-9, "a wall");
+        assert!(off(step, [40.0, -20.0], [39.0, -19.5]) > 1.0, "it comes towards the middle");
+        assert!(off(step, [40.0, -20.0], [41.0, -23.0]) > 2.0, "it goes across");
+        assert!(off(step, [40.0, -20.0], [60.0, -30.0]) > 15.0, "nothing is as near as that");
+    }
+
+    #[test]
+    fn the_floor_is_no_farther_than_it_is() {
+        // The floor under this row is 0.2 m * 114 / 50 ahead of the lens.
+        let (depth, step) = (0.456, step(0.02, 0.0));
+        let scale = depth / (depth - 0.02);
+        assert!(off(step, [30.0, 50.0], [30.0 * scale, 50.0 * scale]) < 1e-9);
+        assert!(off(step, [30.0, 50.0], [30.0, 50.0]) > 1.0, "it comes along");
+    }
+}

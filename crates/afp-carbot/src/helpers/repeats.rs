@@ -1,0 +1,132 @@
+//! Sensors that repeat themselves: a frozen one claims to measure, and says the same for ever.
+//!
+//! Noise does not let a sound one do that while what it measures changes, which it does where the robot moves.
+
+use crate::devices::{Echo, Motion, Reading};
+use crate::helpers::guard::FROZEN_RANGE;
+use crate::helpers::history::Pose;
+use afp_core::quantity::Length;
+use afp_core::{Fault, Instant};
+
+/// The same while the robot moved by so much, metres.
+const WAY: f64 = 0.2;
+/// A turn by a radian counts as so much way, metres: what a sensor looks at changes with either.
+const TURN: f64 = 0.2;
+/// And in so many readings at least: a fast robot gets far from one to the next.
+const READINGS: u32 = 10;
+
+/// Compares each new reading of a sensor with the one before.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Repeats<T> {
+    fault: Fault,
+    time: Instant,
+    /// What the sensor says again and again; none where it has measured nothing.
+    same: Option<T>,
+    /// How often it has said so, and the way since then, metres.
+    times: u32,
+    way: f64,
+    /// Where the robot was at the last reading.
+    last: Option<Pose>,
+}
+
+impl<T: Copy + PartialEq> Repeats<T> {
+    /// Begins at `now`; `fault` is that of a sensor that is frozen.
+    pub(crate) fn new(fault: Fault, now: Instant) -> Self {
+        Repeats { fault, time: now, same: None, times: 0, way: 0.0, last: None }
+    }
+
+    /// Takes in what the sensor and the odometry say. Silence and darkness, none, may repeat, and what was driven while the odometry
+    /// said nothing does not count.
+    ///
+    /// # Errors
+    /// The sensor has said exactly the same while the robot moved.
+    pub(crate) fn check(
+        &mut self,
+        reading: Reading<Option<T>>,
+        counted: Reading<Motion>,
+    ) -> Result<(), Fault> {
+        let Ok(value) = reading.value else { return Ok(()) };
+        if reading.time <= self.time {
+            return Ok(());
+        }
+        self.time = reading.time;
+        let Ok(motion) = counted.value else {
+            self.last = None;
+            return Ok(());
+        };
+        let (here, turn) = (Pose::from(motion), Length::from_si(TURN));
+        let step = self.last.replace(here).map_or(0.0, |last| last.distance_to(&here, turn));
+        if value.is_none() || value != self.same {
+            (self.same, self.times, self.way) = (value, 0, 0.0);
+            return Ok(());
+        }
+        self.times += 1;
+        self.way += step;
+        if self.times >= READINGS && self.way > WAY { Err(self.fault) } else { Ok(()) }
+    }
+}
+
+impl Repeats<Length> {
+    /// Of the range sensor.
+    pub(crate) fn of_echoes(now: Instant) -> Self {
+        Repeats::new(FROZEN_RANGE, now)
+    }
+
+    /// As [`Repeats::check`], of the distance that an echo tells.
+    ///
+    /// # Errors
+    /// [`FROZEN_RANGE`].
+    pub(crate) fn check_echo(
+        &mut self,
+        Reading { time, value }: Reading<Echo>,
+        counted: Reading<Motion>,
+    ) -> Result<(), Fault> {
+        self.check(Reading { time, value: value.map(|echo| echo.distance) }, counted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::devices::Invalid;
+    use afp_core::Duration;
+
+    /// Checks so many readings of a robot that goes `step` metres from one to the next; which of them is the fault.
+    fn checked(readings: u32, step: f64, value: impl Fn(u32) -> Option<f64>) -> Option<u32> {
+        let mut repeats = Repeats::new(FROZEN_RANGE, Instant::ZERO);
+        (1..=readings).find(|n| {
+            let at = Instant::ZERO + Duration::from_millis(50 * u64::from(*n));
+            let x = Length::from_si(step * f64::from(*n));
+            let counted = Reading::valid(Motion { x, ..Motion::default() }, at);
+            let reading = Reading::valid(value(*n), at);
+            let once = repeats.check(reading, counted);
+            // The same reading again is no repetition.
+            assert!(once.is_err() || repeats.check(reading, counted).is_ok());
+            once.is_err()
+        })
+    }
+
+    #[test]
+    fn the_same_on_twenty_centimetres_and_ten_readings_is_frozen() {
+        assert_eq!(checked(100, 0.0101, |_| Some(1.0)), Some(21));
+        assert_eq!(checked(100, -0.0101, |_| Some(1.0)), Some(21));
+        assert_eq!(checked(100, 0.5, |_| Some(1.0)), Some(11));
+    }
+
+    #[test]
+    fn silence_may_repeat_and_so_may_what_a_standing_robot_measures() {
+        assert_eq!(checked(100, 0.01, |_| None), None);
+        assert_eq!(checked(100, 0.0, |_| Some(1.0)), None);
+        assert_eq!(checked(100, 0.01, |n| Some(f64::from(n / 15))), None);
+    }
+
+    #[test]
+    fn a_silent_odometry_tells_of_no_way() {
+        let mut repeats = Repeats::new(FROZEN_RANGE, Instant::ZERO);
+        for n in 1..100 {
+            let at = Instant::ZERO + Duration::from_millis(50 * n);
+            let silent = Reading::invalid(Invalid::NoAnswer, at);
+            assert_eq!(repeats.check(Reading::valid(Some(1.0), at), silent), Ok(()));
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! What the drive is told, and whether the robot does that: the tracking error of its drive.
+
+use crate::devices::{Motion, Navigator};
+use crate::helpers::motion::{ACCELERATION, Ramp, TURN_ACCELERATION};
+use afp_core::quantity::{AngularSpeed, Speed};
+use afp_core::{Duration, Fault, Instant, Reason};
+
+/// The wheels stand though they should turn.
+pub const DRIVE_BLOCKED: Fault = Fault::new(&Reason {
+    code: "drive-blocked",
+    text: "the wheels stood still for 300 ms though they were to turn: something blocks them, or the battery is empty",
+});
+/// The robot moves otherwise than it should.
+pub const DRIVE_STALLED: Fault = Fault::new(&Reason {
+    code: "drive-stalled",
+    text: "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low",
+});
+/// The odometry counts no distance.
+pub const NO_PROGRESS: Fault = Fault::new(&Reason {
+    code: "no-progress",
+    text: "the robot was told to go 10 cm, and the odometry counted less than a quarter of it",
+});
+
+/// For so long the robot may move otherwise than told: motors lag and wheels have to be steered.
+pub const TOLERATED: Duration = Duration::from_millis(300);
+
+/// The drive follows its commands with about this time constant, seconds.
+const LAG: f64 = 0.15;
+/// Commands below this are not judged: metres a second at the body's side.
+const SLOWEST: f64 = 0.008;
+/// An error of this share of what is expected is one, as is none below the other; what lies between counts in part.
+const ERROR: f64 = 0.4;
+const SLACK: f64 = 0.2;
+/// Less than this share of what is expected is a standstill.
+const STANDSTILL: f64 = 0.25;
+/// After so much was commanded, metres at the body's side, the odometry must have counted some.
+const JUDGED: f64 = 0.1;
+/// After a longer gap between polls nothing is known of what the drive did.
+const LONGEST_GAP: Duration = Duration::from_millis(100);
+
+/// Commands a drive and compares what the odometry says with what was commanded.
+///
+/// The speed profiles are here, too, so that whoever drives on after a halt begins from a standstill.
+#[derive(Clone, Debug)]
+pub(crate) struct Tracking {
+    speed: Ramp,
+    turn: Ramp,
+    last: Option<(Instant, Motion)>,
+    command: (f64, f64),
+    /// What the command lets expect by now: metres and radians a second.
+    expected: (f64, f64),
+    /// For how long the robot has moved otherwise than expected, seconds; what it moved as expected since is taken off, so
+    /// that wheels which slip through now and then do not hide what holds the robot.
+    astray: f64,
+    /// The distances expected and counted since the last comparison, metres at the body's side.
+    distances: (f64, f64),
+}
+
+impl Tracking {
+    /// Of a drive that stands at `now`.
+    pub(crate) fn new(now: Instant) -> Self {
+        Tracking {
+            speed: Ramp::new(ACCELERATION, now),
+            turn: Ramp::new(TURN_ACCELERATION, now),
+            last: None,
+            command: (0.0, 0.0),
+            expected: (0.0, 0.0),
+            astray: 0.0,
+            distances: (0.0, 0.0),
+        }
+    }
+
+    /// The speed to command now with `rest` metres to go, at most `cruise`.
+    pub(crate) fn speed(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
+        self.speed.rate(rest, cruise, now)
+    }
+
+    /// The turn rate to command now with `rest` radians to go, negative to the right, at most `cruise` to either side.
+    pub(crate) fn turn(&mut self, rest: f64, cruise: f64, now: Instant) -> f64 {
+        self.turn.rate(rest.abs(), cruise, now).copysign(rest)
+    }
+
+    /// Commands a motion: metres a second ahead, radians a second to the left; `motion` is the odometry's latest.
+    ///
+    /// # Errors
+    /// [`DRIVE_BLOCKED`], [`DRIVE_STALLED`] or [`NO_PROGRESS`] when the robot has not done what it was told before;
+    /// then nothing is commanded, and the platform is told if it was to go ahead.
+    pub(crate) fn drive<E: Navigator + ?Sized>(
+        &mut self,
+        env: &mut E,
+        motion: &Motion,
+        (speed, turn): (f64, f64),
+        now: Instant,
+    ) -> Result<(), Fault> {
+        if let Err(fault) = self.compare(motion, env.body().lever().si(), now) {
+            if self.command.0 > 0.0 {
+                env.note_blocked(now);
+            }
+            return Err(fault);
+        }
+        let (speed, turn) = (Speed::from_si(speed), AngularSpeed::from_si(turn));
+        let (able, ably) = env.reduced(speed, turn);
+        self.command = (able.si(), ably.si());
+        env.drive(speed, turn, now);
+        Ok(())
+    }
+
+    /// Commands a standstill, which is not judged: only what stops is safe to wait for.
+    pub(crate) fn halt<E: Navigator + ?Sized>(&mut self, env: &mut E, now: Instant) {
+        *self = Tracking::new(now);
+        env.halt(now);
+    }
+
+    fn compare(&mut self, motion: &Motion, lever: f64, now: Instant) -> Result<(), Fault> {
+        let before = self.last.replace((now, *motion));
+        let Some((last, before)) = before.filter(|(at, _)| now.since(*at) <= LONGEST_GAP) else {
+            (self.astray, self.distances) = (0.0, (0.0, 0.0));
+            self.expected = (motion.speed.si(), motion.turn.si());
+            return Ok(());
+        };
+        let gap = now.since(last).as_secs_f64();
+        let share = (gap / LAG).min(1.0);
+        self.expected.0 += share * (self.command.0 - self.expected.0);
+        self.expected.1 += share * (self.command.1 - self.expected.1);
+        self.check_speed(motion, gap, lever)?;
+        self.check_distance([&before, motion], gap, lever)
+    }
+
+    fn check_speed(&mut self, motion: &Motion, gap: f64, lever: f64) -> Result<(), Fault> {
+        let (speed, turn) = (motion.speed.si(), motion.turn.si());
+        let expected = rim(self.expected, lever);
+        let error = self.error((speed, turn), lever);
+        let share = if expected < SLOWEST { 0.0 } else { error / expected };
+        let counts = ((share - SLACK) / (ERROR - SLACK)).clamp(-1.0, 1.0);
+        self.astray = (self.astray + gap * counts).max(0.0);
+        if self.astray <= TOLERATED.as_secs_f64() {
+            return Ok(());
+        }
+        let stands = rim((speed, turn), lever) < STANDSTILL * expected;
+        Err(if stands { DRIVE_BLOCKED } else { DRIVE_STALLED })
+    }
+
+    /// How far a motion is off everything between what a slow drive does by now and what it was told, metres a
+    /// second at the body's side: a drive without any lag errs as little.
+    fn error(&self, (speed, turn): (f64, f64), lever: f64) -> f64 {
+        let (slow, command) = (self.expected, self.command);
+        let (along, across) = (command.0 - slow.0, (command.1 - slow.1) * lever);
+        let length = along * along + across * across;
+        let (ahead, aside) = (speed - slow.0, (turn - slow.1) * lever);
+        let share = if length > 0.0 { (ahead * along + aside * across) / length } else { 0.0 };
+        let share = share.clamp(0.0, 1.0);
+        libm::hypot(ahead - share * along, aside - share * across)
+    }
+
+    fn check_distance(
+        &mut self,
+        [before, motion]: [&Motion; 2],
+        gap: f64,
+        lever: f64,
+    ) -> Result<(), Fault> {
+        let length = libm::hypot((motion.x - before.x).si(), (motion.y - before.y).si());
+        let (expected, counted) = &mut self.distances;
+        *expected += gap * rim(self.expected, lever);
+        *counted += rim((length, (motion.heading - before.heading).si()), lever);
+        if *expected < JUDGED {
+            return Ok(());
+        }
+        let enough = *counted >= STANDSTILL * *expected;
+        self.distances = (0.0, 0.0);
+        if enough { Ok(()) } else { Err(NO_PROGRESS) }
+    }
+}
+
+/// How fast, or how far, a motion carries a side of a body, by its [`Body::lever`](crate::devices::Body::lever).
+fn rim((ahead, turn): (f64, f64), lever: f64) -> f64 {
+    libm::hypot(ahead, turn * lever)
+}
+
+#[cfg(test)]
+mod tests;

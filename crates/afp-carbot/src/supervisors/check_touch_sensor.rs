@@ -1,0 +1,71 @@
+//! Watch the bumper.
+
+use crate::devices::TouchSensor;
+use crate::helpers::guard::{Guard, NO_TOUCH};
+use crate::templates;
+use crate::templates::check_touch_sensor::{Event, Inputs, Live};
+use afp_core::{Events, Fault, Instant, Supervisor};
+
+/// Reports while the bumper is pressed.
+#[derive(Clone, Debug)]
+pub struct CheckTouchSensor {
+    guard: Guard,
+}
+
+impl<E: TouchSensor + ?Sized> Supervisor<templates::CheckTouchSensor, E> for CheckTouchSensor {
+    fn start(_: Inputs, _: &mut E, now: Instant) -> Result<Self, Fault> {
+        Ok(CheckTouchSensor { guard: Guard::new(NO_TOUCH, now) })
+    }
+
+    fn poll(
+        &mut self,
+        _: Live,
+        wanted: Events,
+        env: &mut E,
+        now: Instant,
+    ) -> Result<Option<Event>, Fault> {
+        let pressed = self.guard.current(env.touched(), now)?.unwrap_or(false);
+        Ok((pressed && wanted.contains(0)).then_some(Event::TouchSensorPressed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fake::Fake;
+    use afp_core::Duration;
+
+    type Template = templates::CheckTouchSensor;
+
+    fn poll(robot: &mut Fake, wanted: u64, after: u64) -> Result<Option<Event>, Fault> {
+        let now = robot.now;
+        let mut watch: CheckTouchSensor =
+            Supervisor::<Template, Fake>::start(Inputs {}, robot, now)?;
+        let now = now + Duration::from_millis(after);
+        robot.now = now;
+        Supervisor::<Template, Fake>::poll(
+            &mut watch,
+            Live {},
+            Events::from_bits(wanted),
+            robot,
+            now,
+        )
+    }
+
+    #[test]
+    fn reports_a_wanted_press_only() {
+        let mut robot = Fake::new(&[]);
+        assert_eq!(poll(&mut robot, 1, 5), Ok(None));
+        robot.touched = true;
+        assert_eq!(poll(&mut robot, 1, 5), Ok(Some(Event::TouchSensorPressed)));
+        assert_eq!(poll(&mut robot, 0, 5), Ok(None));
+    }
+
+    #[test]
+    fn a_dead_switch_is_a_fault_after_half_a_second() {
+        let mut robot = Fake::new(&[]);
+        robot.dead_switches = true;
+        assert_eq!(poll(&mut robot, 1, 500), Ok(None));
+        assert_eq!(poll(&mut robot, 1, 501), Err(NO_TOUCH));
+    }
+}
