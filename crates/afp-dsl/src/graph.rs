@@ -16,10 +16,10 @@ use crate::toolbox::{Constant, Template, Toolbox};
 use crate::types::{Conversion, Type};
 use afp_syntax::source::{Source, Span};
 
+pub use afp_syntax::ast::Operator;
 pub use afp_types::{
     ElementId, EntryId, EntryKind, Function, PlanId, ReasonId, SupervisorId, ToolboxId,
 };
-pub use afp_syntax::ast::Operator;
 pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};
 

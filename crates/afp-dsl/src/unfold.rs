@@ -12,8 +12,8 @@ use crate::graph::{
     Component, EdgeSpans, Element, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming,
 };
 use crate::types::Type;
-pub use afp_types::ComponentKind;
 use afp_syntax::source::Span;
+pub use afp_types::ComponentKind;
 use ports::Ports;
 pub use texts::{PlanTexts, TextPlace};
 

@@ -8,8 +8,8 @@ use afp_dsl::Compiled;
 use afp_dsl::files::Disk;
 use afp_dsl::toolbox::Toolboxes;
 use afp_project::{CrateLink, ProjectError, ProjectFile};
-use afp_toolboxes::project::OwnToolboxes;
 use afp_syntax::source::Source;
+use afp_toolboxes::project::OwnToolboxes;
 use proc_macro2::TokenStream;
 use quote::quote;
 

@@ -1,5 +1,6 @@
-//! Parts for the author of a robot: [`RealTime`] for robots that exist, and workers that compute the [`Job`]s of
-//! components.
+//! Parts for the author of a robot: [`RealTime`] for robots that exist, workers that compute the [`Job`]s of
+//! components, and for simulated robots a sensor's [`Line`] to the plan, [`Noise`], a [`VirtualClock`] and a [`Grid`] as a
+//! world.
 //!
 //! A real robot implements [`Hardware`] and the traits that its templates ask for. `[robot.hardware]` of a project
 //! names it; `afpc run --robot hardware` and the programs of `afpc build` then drive it.
@@ -31,9 +32,17 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod grid;
+mod line;
+mod noise;
 mod real_time;
+mod virtual_clock;
 mod worker;
 
 pub use afp_session::{Hardware, LastResort, Robot, SampleRef, Samples, Settings};
+pub use grid::{Contact, Grid};
+pub use line::Line;
+pub use noise::Noise;
 pub use real_time::RealTime;
+pub use virtual_clock::VirtualClock;
 pub use worker::{ThreadWorker, VirtualWorker};

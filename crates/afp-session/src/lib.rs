@@ -33,7 +33,6 @@ mod hardware;
 mod holds;
 mod not_set;
 mod observer;
-pub mod parts;
 mod recipe;
 mod record;
 mod request;

@@ -28,7 +28,7 @@ mod wall;
 pub mod world;
 
 pub use afp_carbot::table::{Defect, Fault};
-pub use afp_session::parts::VirtualClock;
+pub use afp_platform::VirtualClock;
 pub use film::Film;
 #[cfg(feature = "load")]
 pub use load::carbot;

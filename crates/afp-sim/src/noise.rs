@@ -1,6 +1,6 @@
 //! The streams of noise of the Carbot.
 
-pub(crate) use afp_session::parts::Noise;
+pub(crate) use afp_platform::Noise;
 
 /// What a stream is for; the number is part of every recorded run and never changes.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@
 //! | [`WorldOf`] | world files for a robot with such a body, and with tables of its own ([`OwnTables`]) |
 //!
 //! The line from a sensor to the plan with its faults, seeded noise and the clock of virtual time are in
-//! [`afp_session::parts`]. What is computed here is the same on every machine.
+//! [`afp_platform`]. What is computed here is the same on every machine.
 
 pub use crate::chassis::{Chassis, Footprint};
 pub use crate::devices::bumper::Switch;

@@ -10,12 +10,12 @@ use afp_core::{Duration, Instant, StartError};
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
-use afp_toolboxes::project::own_toolbox_texts;
 use afp_run::{RunError, hashes};
 use afp_session::{
     AnyRobot, AnySession, Applied, Build, Datum, Go, Holder, Loader, NamedRecord, Observer, Recipe,
     RequestError, RequestId, SampleRef, Sampling, TextFile, View,
 };
+use afp_toolboxes::project::own_toolbox_texts;
 
 use crate::Recording;
 use crate::setting::Setting;

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use afp_dsl::files::{Disk, read_text};
-use afp_toolboxes::project::OwnToolboxes;
 use afp_session::Loader;
 use afp_syntax::source::Source;
+use afp_toolboxes::project::OwnToolboxes;
 
 use crate::{Setting, run};
 

@@ -9,10 +9,10 @@ use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
 use afp_project::ProjectError;
-use afp_toolboxes::project::OwnToolboxes;
 use afp_run::RunError;
 use afp_session::{Recipe, TextFile};
 use afp_syntax::source::Source;
+use afp_toolboxes::project::OwnToolboxes;
 
 use crate::nearby::unreadable;
 use crate::reader::Reader;

@@ -12,8 +12,8 @@ use std::process::Command;
 use afp_build::{Parts, Product};
 use afp_dsl::graph::Graph;
 use afp_project::ProjectFile;
-use afp_toolboxes::project::OwnToolboxes;
 use afp_run::RunError;
+use afp_toolboxes::project::OwnToolboxes;
 
 use crate::plan_file::NoPlan;
 use crate::{FEATURES, Linked};

@@ -3,9 +3,9 @@
 use afp_dsl::graph::Graph;
 use afp_dsl::timing::{BUILT_IN, Target, check_target};
 use afp_project::Project;
-use afp_toolboxes::project::OwnToolboxes;
 use afp_run::RunError;
 use afp_syntax::diagnostics::{Diagnostics, words};
+use afp_toolboxes::project::OwnToolboxes;
 
 /// The target of that name, from `afp.toml` or built in; without a name all that `afp.toml` has.
 ///

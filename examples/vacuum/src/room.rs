@@ -1,6 +1,6 @@
 //! The rooms that the robot cleans: floors drawn with letters, `*` for dirt and `o` for a drop.
 
-use afp_session::parts::Grid;
+use afp_platform::Grid;
 use afp_session::{Drawing, Pose2, Shape, World, WorldError};
 
 /// Radius and height of the robot's body, metres.

@@ -12,12 +12,12 @@ use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
 use crate::index::{Recorder, Word};
 use crate::toolbox::TemplateKind;
-use afp_types::MAX_TEXT;
 use afp_syntax::ast::{Edge, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
+use afp_types::MAX_TEXT;
 
 /// The two edges that need no declaration.
 pub(crate) const ERROR: &str = "Error";

@@ -4,10 +4,10 @@
 //! as the very same double.
 
 use crate::types::{Dimension, Type};
-use afp_types::{Nanoseconds, RADIANS_PER_DEGREE, Rounded};
 use afp_syntax::diagnostics::words;
 use afp_syntax::literal::Literal;
 use afp_syntax::units::Unit;
+use afp_types::{Nanoseconds, RADIANS_PER_DEGREE, Rounded};
 
 /// A value in SI units with the unit that makes the text shortest, the usual one where two do.
 ///

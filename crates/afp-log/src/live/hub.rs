@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::{LogError, Messages};
 use afp_core::devices::{DeviceRow, controls, faults};
 use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant};
-use crate::{LogError, Messages};
 use afp_session::{AnySession, Datum, Request};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::JoinHandle;
 
+use crate::Messages;
 use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, Instant};
-use crate::Messages;
 use afp_session::{AnySession, Datum, HOLD, Holder, Request, Stimulus};
 
 use super::admission::Tokens;

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use afp_dsl::files::{Disk, Files};
 use afp_dsl::toolbox::Toolboxes;
 use afp_dsl::{Compiled, compile_plan};
-use afp_toolboxes::project::OwnToolboxes;
 use afp_run::{RunError, write_whole};
 use afp_syntax::source::Source;
+use afp_toolboxes::project::OwnToolboxes;
 use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};

@@ -5,11 +5,11 @@ use std::path::Path;
 use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
 use afp_log::About;
-use afp_toolboxes::project::own_toolbox_texts;
 use afp_run::world::LoadedWorld;
 use afp_run::{RunError, check_apart, hashes};
 use afp_session::{Build, Recipe, TextFile};
 use afp_syntax::source::Source;
+use afp_toolboxes::project::own_toolbox_texts;
 
 /// What a run begins with.
 pub struct Setting<'a> {

@@ -1,8 +1,8 @@
 //! What the numbers of a world's file measure, and the units in which they may be written on a command line: those of plans.
 
 use afp_core::rt::{Scale, Unit, parse_quantity};
-use afp_types::SingleUnit;
 use afp_session::some_units;
+use afp_types::SingleUnit;
 
 /// What a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@ use afp_carbot::devices::{
 use afp_carbot::trail::Trail;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed};
 use afp_core::{Environment, Fault, Instant, Poll, Ticket};
-use afp_session::parts::Line;
+use afp_platform::Line;
 
 impl Environment for Simulation {
     fn stop(&mut self, now: Instant) {

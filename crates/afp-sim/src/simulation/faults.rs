@@ -7,8 +7,8 @@ use afp_carbot::devices::{Charge, Color, Echo, Glow, Motion, Reading};
 use afp_carbot::table::{Defect, Fault};
 use afp_core::quantity::Angle;
 use afp_core::{Duration, Instant};
+use afp_platform::Line;
 use afp_session::Active;
-use afp_session::parts::Line;
 use std::sync::Arc;
 
 /// From each sensor to the plan.

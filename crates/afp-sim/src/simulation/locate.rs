@@ -13,9 +13,9 @@ use afp_carbot::devices::Navigator;
 use afp_carbot::table::signal;
 use afp_core::Instant;
 use afp_navigation::maps::{Filter, LocateJob, Locator, Planner, SearchJob};
+use afp_platform::VirtualWorker;
 use afp_session::frames::{BY_LOCALISATION, WORLD};
 use afp_session::{SampleRef, Samples, Shape};
-use afp_platform::VirtualWorker;
 use std::f64::consts::TAU;
 
 /// The filter in virtual time.

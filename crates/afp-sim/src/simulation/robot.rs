@@ -3,8 +3,8 @@
 use afp_carbot::devices::{Color, Ultrasonic};
 use afp_carbot::table::{Carbot, Control, Fault, signal};
 use afp_core::{Instant, Platform};
+use afp_platform::VirtualClock;
 use afp_session::frames::{BODY, BY_ODOMETRY, WORLD};
-use afp_session::parts::VirtualClock;
 use afp_session::{
     Active, Droppable, Figure, FigureValue, Image, Measure, Pose2, Put, Ranging, Refused,
     RequestError, Robot, SampleRef, Samples, Shape, Simulated, Span, Transform,

@@ -11,8 +11,8 @@ use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_dsl::toolbox::Toolboxes;
+use afp_platform::{Line, Noise, VirtualClock};
 use afp_session::frames::{BODY, WORLD};
-use afp_session::parts::{Line, Noise, VirtualClock};
 use afp_session::{
     Active, Drawing, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated,
     Span, Transform,

@@ -7,9 +7,9 @@ use afp_carbot::devices::{
 use afp_core::quantity::Length;
 use afp_core::{Duration, Instant, Poll};
 use afp_navigation::maps::{EchoField, Filter, LocateJob, Locator, Planner, SearchJob};
+use afp_platform::VirtualWorker;
 use afp_sim::parts::Chassis;
 use afp_sim::{Pose, Simulation, World};
-use afp_platform::VirtualWorker;
 
 /// The errors while it wanders: metres and degrees, ten times a second.
 fn wander(robot: &mut Wanderer, seconds: u64) -> Vec<[f64; 2]> {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use afp_session::parts::Noise;
+use afp_platform::Noise;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::{Kind, Node, node_span, parse};
 

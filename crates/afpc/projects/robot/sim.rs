@@ -4,7 +4,7 @@ use afp::core::Platform;
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp::{Duration, Environment, Instant, Reading};
 use afp_session::frames;
-use afp_session::parts::{Grid, Line, Noise, VirtualClock};
+use afp_platform::{Grid, Line, Noise, VirtualClock};
 use afp_session::{
     Active, Drawing, Pose2, Refused, Robot, SampleRef, Samples, Shape, Simulated, Transform, World,
     WorldError,

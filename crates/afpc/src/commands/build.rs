@@ -7,8 +7,8 @@ use afp_build::{crate_folder, no_hardware, origin};
 use afp_codegen::{CrateFile, CrateOptions, Hardware, crate_files};
 use afp_dsl::graph::Graph;
 use afp_project::{HardwareLink, RobotLink};
-use afp_toolboxes::project::OwnToolbox;
 use afp_run::{EXIT_OK, RunError, say};
+use afp_toolboxes::project::OwnToolbox;
 use clap::Args;
 use serde_json::{Value, json};
 

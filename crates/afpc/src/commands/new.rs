@@ -13,8 +13,8 @@ use afp_session::shell_word;
 use clap::Args;
 
 use super::print;
-use files::{Kind, NameError};
 use crate::plan_file::NoPlan;
+use files::{Kind, NameError};
 
 /// Arguments of `afpc new`.
 #[derive(Args, Debug)]

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox, Toolboxes};
 use afp_project::ProjectFile;
-use afp_toolboxes::project::OwnToolboxes;
 use afp_run::{RunError, say};
 use afp_syntax::diagnostics::words::nearest;
 use afp_syntax::source::{Sources, Span};
+use afp_toolboxes::project::OwnToolboxes;
 use clap::Args;
 
 use super::print;

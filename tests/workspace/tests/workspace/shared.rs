@@ -88,7 +88,8 @@ fn what_macros_and_programs_share_is_built_once() {
 fn what_the_tests_are_built_from_is_not_built_again_for_others() {
     let tests: BTreeSet<_> = libraries(TESTS).into_iter().map(|unit| unit.way).collect();
     // What has less than tests have, and all above it.
-    let of_first = ["afpc", "afp-log", "afp-run", "afp-sweep", "afp-test", "afp-build", "itertools"];
+    let of_first =
+        ["afpc", "afp-log", "afp-run", "afp-sweep", "afp-test", "afp-build", "itertools"];
     // That, and what the Python package has alone.
     let of_python = [
         "afp-log",

@@ -3,8 +3,8 @@
 use super::sonar::likelihood;
 use super::{Ping, wrap};
 use crate::maps::field::EchoField;
+use afp_platform::Noise;
 use afp_session::Pose2;
-use afp_session::parts::Noise;
 use nalgebra::{Vector2, Vector3};
 use std::mem;
 

@@ -7,8 +7,8 @@ use super::cloud::is_near;
 use super::memory::Echo;
 use super::sonar::{self, likelihood};
 use crate::maps::field::{EchoField, Expected};
+use afp_platform::Noise;
 use afp_session::Pose2;
-use afp_session::parts::Noise;
 use std::f64::consts::TAU;
 
 /// So many places anywhere are tried at each update while the belief is doubted, and while it is not.

@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use afp_build::Parts;
 use afp_debug::{Adapter, Launch};
-use afp_toolboxes::project::OwnToolboxes;
 use afp_studio::{Debugging, Trusted};
+use afp_toolboxes::project::OwnToolboxes;
 use serde_json::{Value, json};
 
 use super::super::dap::{Arrived, Simulator, converse};

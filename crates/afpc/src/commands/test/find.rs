@@ -5,10 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::files::read_text_file;
-use afp_types::TextHash;
 use afp_project::{ProjectFile, Unread};
 use afp_run::RunError;
 use afp_syntax::may_have_scenario;
+use afp_types::TextHash;
 
 /// Where the logs of failed ones go.
 const LOGS: &str = "target/afp/tests";

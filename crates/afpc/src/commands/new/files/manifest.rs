@@ -7,9 +7,10 @@ use super::Kind;
 /// Its text.
 pub(crate) fn text(name: &str, kind: Kind, afp: &Origin) -> String {
     let (needs, tests): (&[_], &[_]) = match kind {
-        Kind::Robot => {
-            (&[("afp", ""), ("afp-session", "load")], &[("afp-std", ""), ("afp-test", "")])
-        }
+        Kind::Robot => (
+            &[("afp", ""), ("afp-platform", ""), ("afp-session", "load")],
+            &[("afp-std", ""), ("afp-test", "")],
+        ),
         Kind::Plan | Kind::Toolbox => {
             (&[("afp", ""), ("afp-carbot", "")], &[("afp-sim", "load"), ("afp-test", "")])
         }

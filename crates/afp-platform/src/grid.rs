@@ -15,9 +15,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::parts::Noise;
-use crate::sample::{Pose2, Shape, frames};
-use crate::world::{Drawing, Patch, Thing, WorldError};
+use afp_session::{Drawing, Patch, Pose2, Shape, Thing, WorldError, frames};
+
+use crate::noise::Noise;
 
 /// The letter of a wall.
 const WALL: char = '#';

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use afp_core::devices::Defect;
 use afp_core::{Duration, Instant, Invalid, Reading};
 
-use crate::parts::VirtualClock;
+use crate::virtual_clock::VirtualClock;
 
 /// What the plan reads of one sensor, with the faults that every sensor has.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Floors drawn with letters.
 
 use super::{Contact, Grid};
-use crate::sample::Pose2;
+use afp_session::Pose2;
 
 const HALL: &str = "Hall\ncell 50 cm\n\n#####\n# * #\n#> o#\n#####\n";
 
