@@ -1,4 +1,4 @@
-//! Wording that all who speak of mistakes share: lists, articles, and the name that was probably meant.
+//! Wording that all who speak of mistakes share: lists, articles, quoted words, and the name that was probably meant.
 
 /// `'a', 'b' and 'c'`, in single quotes.
 pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String {
@@ -14,6 +14,22 @@ pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String
 pub fn a(name: &str) -> String {
     let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
     format!("{article} {name}")
+}
+
+/// A word as a shell takes it: quoted where it has to be.
+///
+/// ```
+/// use afp_excerpt::words::shell_word;
+///
+/// assert_eq!(shell_word("plans/square.afp"), "plans/square.afp");
+/// assert_eq!(shell_word("name=it's"), r"'name=it'\''s'");
+/// ```
+pub fn shell_word(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "._-+=:/,@%".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
 }
 
 /// What to write instead of a name that nothing has: the one of `known` that was probably meant, or that there are those.

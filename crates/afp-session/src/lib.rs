@@ -24,7 +24,6 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod any;
-mod command;
 mod counts;
 mod event;
 mod faults;
@@ -46,7 +45,6 @@ mod units;
 mod world;
 
 pub use any::{AnySession, SetError, refusal};
-pub use command::{DEFAULT_UNTIL, shell_word};
 pub use counts::{Counts, Usage};
 pub use event::{
     Datum, Done, EndingKind, EventKind, Holder, Miss, OUTSIDE, Requested, RunEvent, author,
@@ -60,7 +58,7 @@ pub use not_set::{NotSet, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
-pub use request::{HOLD, Put, Request, RequestError, RequestId};
+pub use request::{DEFAULT_UNTIL, HOLD, Put, Request, RequestError, RequestId};
 pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulated};
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]

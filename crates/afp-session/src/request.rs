@@ -11,6 +11,9 @@ use afp_core::{Duration, Instant, Value, WriteError};
 
 use crate::sample::Pose2;
 
+/// How long `afpc run` lets a plan run in virtual time by default.
+pub const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
+
 /// How long something is held down unless anybody says otherwise.
 pub const HOLD: Duration = Duration::from_millis(200);
 

@@ -2,7 +2,8 @@
 
 use afp_core::{Duration, Instant};
 use afp_dsl::types::text::duration;
-use afp_session::{DEFAULT_UNTIL, HOLD, Stimulus, shell_word};
+use afp_excerpt::words::shell_word;
+use afp_session::{DEFAULT_UNTIL, HOLD, Stimulus};
 
 use super::Launch;
 use super::ended::By;

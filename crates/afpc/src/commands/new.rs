@@ -9,7 +9,7 @@ use afp_build::{crate_folder, origin};
 use afp_codegen::Origin;
 use afp_project::ProjectFile;
 use afp_run::{EXIT_OK, RunError, write_whole};
-use afp_session::shell_word;
+use afp_excerpt::words::shell_word;
 use clap::Args;
 
 use super::print;
