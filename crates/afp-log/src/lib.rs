@@ -23,6 +23,7 @@ pub mod robot;
 mod scan;
 mod session;
 pub mod statistics;
+pub mod svg;
 mod write;
 
 pub use afp_session::{Kept, OwnedRecord};

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use afp_dsl::Compiled;
 use afp_dsl::scenario::{InvalidScenario, Scenario as Checked};
-use afp_run::check_apart;
 use afp_excerpt::words::shell_word;
+use afp_run::check_apart;
 use afp_syntax::source::Span;
 use afp_test::{Recording, Setting};
 use pyo3::IntoPyObjectExt;

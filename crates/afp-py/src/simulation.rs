@@ -20,7 +20,7 @@ use afp_core::devices::faults as faults_of;
 use afp_core::trace::{Names as _, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::Compiled;
-use afp_run::{SoFar, draw_run};
+use afp_log::svg::{SoFar, draw_run};
 use afp_session::{Outlines, Request, SessionError, Track, Waypoint};
 use numpy::PyArray2;
 use pyo3::exceptions::PyRuntimeError;

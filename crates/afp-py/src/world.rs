@@ -140,7 +140,7 @@ impl World {
 
     /// What a notebook shows.
     fn _repr_svg_(&self) -> String {
-        afp_run::draw_world(&*self.loaded.world)
+        afp_log::svg::draw_world(&*self.loaded.world)
     }
 
     /// As it was pickled.

@@ -4,6 +4,7 @@
 //! Neither knows the language or a robot.
 
 mod again;
+mod drawn;
 mod error;
 mod hash;
 pub mod inputs;
@@ -19,7 +20,6 @@ pub mod requests;
 mod run;
 mod stderr;
 mod stop;
-mod svg;
 pub mod world;
 
 use std::process::ExitCode;
@@ -35,6 +35,7 @@ use clap::{Args, Command, FromArgMatches};
 
 use crate::options::{OnRobot, RunOptions};
 
+pub use drawn::{draw_film, draw_log, draw_sonar, is_of_hardware};
 pub use error::{EXIT_FAILED, EXIT_OK, EXIT_PLAN_ERROR, EXIT_USAGE, RunError};
 pub use hash::hash;
 pub use output::{check_apart, check_writable, is_same_file, write_whole};
@@ -43,9 +44,6 @@ pub use report::{event_line, line, timeline};
 pub use run::{MakeSession, OpenHardware, hashes, run, run_on_hardware};
 pub use stderr::{say, warn};
 pub use stop::StopFlag;
-pub use svg::{
-    SoFar, draw_film, draw_log, draw_run, draw_sonar, draw_world, follow, is_of_hardware,
-};
 
 /// A plan and where it comes from.
 #[derive(Clone, Copy, Debug)]

@@ -11,6 +11,7 @@ use std::path::Path;
 
 use afp_core::trace::Names;
 use afp_core::{Ending, Instant};
+use afp_log::svg::{self, Picture};
 use afp_log::{About, LogError, OwnedNames, SessionLog, WhenFull, Written};
 use afp_project::ProjectFile;
 use afp_session::{
@@ -29,7 +30,6 @@ use crate::picture::Rasterizer;
 use crate::report::{Ran, Report, Requests, RunFigures, Shown, StoppedBy, Summary};
 use crate::stderr::warn;
 use crate::stop::StopFlag;
-use crate::svg::{self, Picture};
 use crate::world::{BUILT_IN, LoadedWorld};
 use crate::{Program, inputs, requests};
 

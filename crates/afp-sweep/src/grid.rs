@@ -5,9 +5,9 @@ use std::fmt::Write;
 
 use afp_core::Duration;
 use afp_dsl::types::text::duration;
+use afp_excerpt::words::shell_word;
 use afp_run::options::{Failure, Press, unquoted};
 use afp_run::world::LoadedWorld;
-use afp_excerpt::words::shell_word;
 
 use crate::ranges::Seeds;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use afp::load::PlanNames;
 use afp_core::Instant;
-use afp_run::{SoFar, draw_run, follow};
+use afp_log::svg::{SoFar, draw_run, follow};
 use afp_session::{Outlines, Pose2};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use afp_build::{crate_folder, origin};
 use afp_codegen::Origin;
+use afp_excerpt::words::shell_word;
 use afp_project::ProjectFile;
 use afp_run::{EXIT_OK, RunError, write_whole};
-use afp_excerpt::words::shell_word;
 use clap::Args;
 
 use super::print;

@@ -7,14 +7,12 @@ use std::fmt::Write;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Names};
-use afp_log::{LogData, OwnedNames};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::canvas::escape;
-use super::from_log::follow;
-use super::{NOBODY, PALETTE, known_actors};
-use crate::error::RunError;
+use super::{NOBODY, PALETTE, follow, known_actors};
+use crate::{LogData, OwnedNames};
 use still::fewer_colors;
 
 /// A longer film is thinned out evenly to so many pictures.
@@ -46,14 +44,10 @@ struct Shot<'a> {
     actor: Option<ComponentId>,
 }
 
-/// Draws the film strip of a logged run.
-///
-/// # Errors
-/// The log has no pictures of a camera.
-pub fn draw_film(log: &LogData) -> Result<String, RunError> {
+/// Draws the film strip of a logged run; `None` for a log without pictures of a camera.
+pub fn draw_film(log: &LogData) -> Option<String> {
     if log.images.is_empty() {
-        let help = "log a run with them: 'afpc run plan.afp --camera --log run.mcap'";
-        return Err(RunError::usage("the log holds no pictures of the camera", help));
+        return None;
     }
     let names = &log.names;
     let (path, _) = follow(&log.events, &log.poses, names);
@@ -81,7 +75,7 @@ pub fn draw_film(log: &LogData) -> Result<String, RunError> {
         draw(&mut svg, &shot, names, &known, (x, y));
     }
     svg.push_str("</svg>\n");
-    Ok(svg)
+    Some(svg)
 }
 
 /// At most so many pictures, from the first to the last.

@@ -3,8 +3,9 @@
 //! A camera's grain changes every pixel a little, so that a strip of forty pictures has megabytes of it. With
 //! fewer levels most of the grain is gone, and nobody who looks at a strip sees a difference.
 
-use afp_log::pixels;
 use png::{ColorType, Compression, Encoder, EncodingError};
+
+use crate::picture::pixels;
 
 /// From one level that is left to the next, of 256.
 const STEP: u8 = 8;

@@ -4,16 +4,12 @@
 //! from where its odometry took it to be, which shows what a map made on board would look like.
 
 use afp_core::Instant;
-use afp_log::robot::Pose2;
-use afp_log::{Heard, LogData};
-
-use afp_session::AnyRobot;
+use afp_session::{AnyWorld, Pose2};
 
 use super::canvas::View;
-use super::from_log::{follow, world_of};
 use super::legend::Legend;
-use super::{bounds, marks, room, subtitle};
-use crate::error::RunError;
+use super::{bounds, follow, marks, room, subtitle};
+use crate::{Heard, LogData};
 
 /// An echo in the world: where it seems to come from, and the ends of the arc that the cone leaves open.
 struct Echo {
@@ -22,17 +18,12 @@ struct Echo {
     range: f64,
 }
 
-/// Draws the echoes of a logged run over the walls of its world.
-///
-/// # Errors
-/// The log has no world or one that this release does not understand, or no echoes.
-pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
-    let world = world_of(log, robot)?;
+/// Draws the echoes of a logged run over the walls of its world; `None` for a log without echoes.
+pub fn draw_sonar(log: &LogData, world: &dyn AnyWorld) -> Option<String> {
     let drawing = world.drawing().ended(&log.things);
     let heard = log.rangings.iter().filter(|heard| heard.range.is_some()).count();
     if heard == 0 || log.poses.is_empty() {
-        let help = "log a longer run, with something in reach of the range sensor";
-        return Err(RunError::usage("the log holds no echoes", help));
+        return None;
     }
     let names = &log.names;
     let (path, marks) = follow(&log.events, &log.poses, names);
@@ -58,11 +49,11 @@ pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunErro
     canvas.scale_bar();
     let mut legend = Legend::new(view);
     let fact = |key: &str| log.facts.get(key).map_or("", String::as_str);
-    legend.head(fact("plan"), &subtitle(&*world, fact("seed")));
+    legend.head(fact("plan"), &subtitle(world, fact("seed")));
     legend.sonar();
     legend.events(marks::counted(&marks, &kinds, names));
     legend.figures(&figures(log, heard));
-    Ok(canvas.finish(legend))
+    Some(canvas.finish(legend))
 }
 
 fn figures(log: &LogData, heard: usize) -> Vec<(String, String)> {

@@ -1,13 +1,12 @@
-//! The picture of a run from its log alone, and where the robot was from what is told of a run.
+//! Pictures of logged runs: the world of a log, and what is wrong with a log that cannot be drawn.
 
-use afp_core::Instant;
-use afp_core::trace::Names;
-use afp_log::{LogData, WORLD};
 use std::sync::Arc;
 
-use afp_session::{AnyRobot, AnyWorld, Mark, NoWorld, Pose2, RunEvent, Track, Waypoint};
+use afp_core::Instant;
+use afp_log::svg::{self, SoFar, follow};
+use afp_log::{LogData, WORLD};
+use afp_session::{AnyRobot, AnyWorld, NoWorld};
 
-use super::{SoFar, draw_run};
 use crate::error::RunError;
 use crate::run::HARDWARE;
 use crate::world::named;
@@ -30,7 +29,30 @@ pub fn draw_log(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError>
         marks: &marks,
         things: &log.things,
     };
-    Ok(draw_run(&run, names))
+    Ok(svg::draw_run(&run, names))
+}
+
+/// Draws the echoes of a logged run over the walls of its world.
+///
+/// # Errors
+/// The log has no world or one that this release does not understand, or no echoes.
+pub fn draw_sonar(log: &LogData, robot: &dyn AnyRobot) -> Result<String, RunError> {
+    let world = world_of(log, robot)?;
+    svg::draw_sonar(log, &*world).ok_or_else(|| {
+        let help = "log a longer run, with something in reach of the range sensor";
+        RunError::usage("the log holds no echoes", help)
+    })
+}
+
+/// Draws the film strip of a logged run.
+///
+/// # Errors
+/// The log has no pictures of a camera.
+pub fn draw_film(log: &LogData) -> Result<String, RunError> {
+    svg::draw_film(log).ok_or_else(|| {
+        let help = "log a run with them: 'afpc run plan.afp --camera --log run.mcap'";
+        RunError::usage("the log holds no pictures of the camera", help)
+    })
 }
 
 /// Whether a logged run was one of the robot itself, which is in no world that a program knows.
@@ -42,7 +64,7 @@ pub fn is_of_hardware(log: &LogData) -> bool {
 ///
 /// # Errors
 /// The log has none, or one that this release does not understand.
-pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, RunError> {
+fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, RunError> {
     if is_of_hardware(log) {
         return Ok(Arc::new(NoWorld));
     }
@@ -64,26 +86,4 @@ pub(super) fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn An
         None => Ok(world),
         Some(start) => world.started_at(start).map_err(|why| content(why, None, text)),
     }
-}
-
-/// The path with the actor at each point, and the events on it, from what happened and where the robot was when, both in the
-/// order of time.
-pub fn follow<'a>(
-    events: impl IntoIterator<Item = &'a RunEvent>,
-    poses: &[(Instant, Pose2)],
-    names: &dyn Names,
-) -> (Vec<Waypoint>, Vec<Mark>) {
-    let mut track = Track::new(&[]);
-    let mut poses = poses.iter().copied().peekable();
-    for event in events {
-        // At an instant the robot is looked at before the step.
-        while let Some((at, pose)) = poses.next_if(|(at, _)| *at <= event.at) {
-            track.note_pose(at, pose);
-        }
-        if let Some(record) = event.record() {
-            track.note_record(event.at, &record, names);
-        }
-    }
-    poses.for_each(|(at, pose)| track.note_pose(at, pose));
-    (track.path, track.marks)
 }

@@ -1,20 +1,19 @@
-//! The path of a run over its world, as a picture.
+//! Pictures of runs as SVG: the path over the world, what the range sensor heard, what the camera saw.
 
 mod canvas;
 mod film;
-mod from_log;
 mod legend;
 mod marks;
 mod sonar;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Names};
-use afp_log::OwnedNames;
-use afp_session::{AnyWorld, Drawing, Mark, Outlines, Pose2, Waypoint};
+use afp_session::{AnyWorld, Drawing, Mark, Outlines, Pose2, RunEvent, Track, Waypoint};
+
+use crate::OwnedNames;
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
-pub use from_log::{draw_log, follow, is_of_hardware};
 use legend::Legend;
 pub use sonar::draw_sonar;
 
@@ -31,11 +30,13 @@ const PALETTE: [&str; 8] =
 const NOBODY: &str = "#9a9a9a";
 
 /// What a picture shows.
-pub(crate) struct Picture<'a> {
+#[derive(Debug)]
+pub struct Picture<'a> {
     /// The room.
     pub world: &'a Drawing,
     /// Two lines above the legend.
     pub title: String,
+    /// The second line.
     pub subtitle: String,
     /// Where the robot was.
     pub path: &'a [Waypoint],
@@ -99,7 +100,7 @@ fn subtitle(world: &dyn AnyWorld, seed: &str) -> String {
 }
 
 /// Draws the path of a run.
-pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
+pub fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     let Picture { world, path, marks, .. } = picture;
     let (actors, known) = (actors(path), known_actors(path, names));
     let color = |actor: Option<ComponentId>| {
@@ -148,6 +149,28 @@ pub(crate) fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
         legend.figures(&picture.figures);
     }
     canvas.finish(legend)
+}
+
+/// The path with the actor at each point, and the events on it, from what happened and where the robot was when, both in the
+/// order of time.
+pub fn follow<'a>(
+    events: impl IntoIterator<Item = &'a RunEvent>,
+    poses: &[(Instant, Pose2)],
+    names: &dyn Names,
+) -> (Vec<Waypoint>, Vec<Mark>) {
+    let mut track = Track::new(&[]);
+    let mut poses = poses.iter().copied().peekable();
+    for event in events {
+        // At an instant the robot is looked at before the step.
+        while let Some((at, pose)) = poses.next_if(|(at, _)| *at <= event.at) {
+            track.note_pose(at, pose);
+        }
+        if let Some(record) = event.record() {
+            track.note_record(event.at, &record, names);
+        }
+    }
+    poses.for_each(|(at, pose)| track.note_pose(at, pose));
+    (track.path, track.marks)
 }
 
 /// The floor with everything that stands on it, and where it began what stands elsewhere in the end.
