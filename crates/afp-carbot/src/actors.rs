@@ -1,5 +1,15 @@
 //! The actors of the toolbox, a file each.
 
+/// How an actor that only drives is interrupted: the drive stops.
+macro_rules! halts_when_interrupted {
+    () => {
+        fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
+            env.halt(now);
+            Ok(())
+        }
+    };
+}
+
 mod approach_infrared;
 mod choose_view;
 mod curve;

@@ -1,4 +1,7 @@
 //! What the robot's devices offer, one trait each.
+//!
+//! The list `devices!` below has the traits that templates ask for. [`Carbot`] and [`register!`](crate::register) follow
+//! from it.
 
 mod battery;
 mod buttons;
@@ -7,6 +10,7 @@ mod color_sensor;
 mod flow;
 mod infrared_sensor;
 mod localisation;
+mod motion;
 mod navigator;
 mod odometry;
 mod planner;
@@ -23,10 +27,48 @@ pub use color_sensor::{Color, ColorSensor};
 pub use flow::{Flow, FlowCamera, Grid, Shift};
 pub use infrared_sensor::{Glow, InfraredSensor};
 pub use localisation::{Belief, Localisation};
+pub use motion::Motion;
 pub use navigator::{Body, Navigator};
-pub use odometry::{Bump, Motion, Odometry};
+pub use odometry::{Bump, Odometry};
 pub use planner::{Aim, PathPlanner, Trip};
 pub use rotator::{RotatingTelemetry, Rotator};
 pub use signals::Signals;
 pub use touch_sensor::TouchSensor;
 pub use ultrasonic::{Beam, Echo, Ultrasonic};
+
+use afp_core::Environment;
+
+/// Makes what follows from the list of devices; `$d` is a dollar sign, for the macro that it makes.
+macro_rules! devices {
+    ($d:tt $($device:ident),+) => {
+        /// A robot with every device that the templates of the toolbox use.
+        pub trait Carbot: Environment $(+ $device)+ {}
+
+        impl<E: Environment $(+ $device)+ + ?Sized> Carbot for E {}
+
+        /// Registers those templates of the toolbox for which a platform has the devices.
+        ///
+        /// `afp_carbot::register!(registry, Vacuum)` takes a registry of that platform, whose type must be concrete. A plan
+        /// that uses another template is refused when it is loaded, with the traits of [`devices`](crate::devices) that the
+        /// platform does not implement. [`templates::register`](crate::templates::register) is for platforms that have them
+        /// all.
+        #[macro_export]
+        macro_rules! register {
+            ($d registry:expr, $d platform:ty) => {
+                $crate::__private::register!(
+                    $crate::__private::afp_core,
+                    "carbot.afp",
+                    $crate,
+                    $d registry,
+                    $d platform,
+                    [$($crate::devices::$device),+]
+                )
+            };
+        }
+    };
+}
+
+devices!($
+    Navigator, Odometry, Ultrasonic, Rotator, RotatingTelemetry, TouchSensor, Buttons, InfraredSensor, ColorSensor,
+    FlowCamera, Battery, Localisation, PathPlanner, Signals
+);

@@ -7,7 +7,6 @@ pub mod history;
 pub(crate) mod line_fit;
 pub(crate) mod motion;
 pub(crate) mod own_motion;
-pub(crate) mod press;
 pub(crate) mod pursuit;
 pub(crate) mod repeats;
 pub(crate) mod seeking;

@@ -37,6 +37,7 @@ pub use actors::{
     WallForward,
 };
 pub use computations::{DescribeObject, NewPath, WidestGap};
+pub use devices::Carbot;
 pub use helpers::sighting::Sighting;
 pub use helpers::{guard, history, tracking, trail};
 pub use objects::{Appearance, DistanceMap, Path};
@@ -50,67 +51,4 @@ pub use supervisors::{
 #[doc(hidden)]
 pub mod __private {
     pub use {afp_core, afp_macros::register};
-}
-
-use afp_core::Environment;
-use devices::{Buttons, Navigator, Odometry, RotatingTelemetry, Rotator, TouchSensor, Ultrasonic};
-
-/// Registers those templates of the toolbox for which a platform has the devices.
-///
-/// `afp_carbot::register!(registry, Vacuum)` takes a registry of that platform, whose type must be concrete. A plan
-/// that uses another template is refused when it is loaded, with the traits of [`devices`] that the platform does not
-/// implement. [`templates::register`] is for platforms that have them all.
-#[macro_export]
-macro_rules! register {
-    ($registry:expr, $platform:ty) => {
-        $crate::__private::register!(
-            $crate::__private::afp_core,
-            "carbot.afp",
-            $crate,
-            $registry,
-            $platform,
-            [
-                $crate::devices::Navigator,
-                $crate::devices::Odometry,
-                $crate::devices::Ultrasonic,
-                $crate::devices::Rotator,
-                $crate::devices::RotatingTelemetry,
-                $crate::devices::TouchSensor,
-                $crate::devices::Buttons,
-                $crate::devices::InfraredSensor,
-                $crate::devices::ColorSensor,
-                $crate::devices::FlowCamera,
-                $crate::devices::Battery,
-                $crate::devices::Localisation,
-                $crate::devices::PathPlanner,
-                $crate::devices::Signals,
-            ]
-        )
-    };
-}
-
-/// A robot that can follow walls: every device that the templates of the toolbox use.
-pub trait Carbot:
-    Environment
-    + Navigator
-    + Odometry
-    + Ultrasonic
-    + Rotator
-    + RotatingTelemetry
-    + TouchSensor
-    + Buttons
-{
-}
-
-impl<E> Carbot for E where
-    E: Environment
-        + Navigator
-        + Odometry
-        + Ultrasonic
-        + Rotator
-        + RotatingTelemetry
-        + TouchSensor
-        + Buttons
-        + ?Sized
-{
 }

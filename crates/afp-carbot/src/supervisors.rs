@@ -4,26 +4,22 @@ mod check_battery;
 mod check_color;
 mod check_distance;
 mod check_driving_lane;
-mod check_escape_button;
-mod check_escape_button_click;
 mod check_infrared;
 mod check_line;
 mod check_motion;
 mod check_progress;
-mod check_touch_sensor;
-mod check_touch_sensor_click;
 mod plan_path;
+mod switches;
 
 pub use check_battery::CheckBattery;
 pub use check_color::CheckColor;
 pub use check_distance::CheckDistance;
 pub use check_driving_lane::CheckDrivingLane;
-pub use check_escape_button::CheckEscapeButton;
-pub use check_escape_button_click::CheckEscapeButtonClick;
 pub use check_infrared::CheckInfrared;
 pub use check_line::CheckLine;
 pub use check_motion::CheckMotion;
 pub use check_progress::CheckProgress;
-pub use check_touch_sensor::CheckTouchSensor;
-pub use check_touch_sensor_click::CheckTouchSensorClick;
 pub use plan_path::PlanPath;
+pub use switches::{
+    CheckEscapeButton, CheckEscapeButtonClick, CheckTouchSensor, CheckTouchSensorClick,
+};

@@ -42,10 +42,7 @@ where
         })
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 impl ApproachInfrared {

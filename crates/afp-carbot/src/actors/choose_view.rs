@@ -57,10 +57,7 @@ where
         Ok(Poll::Pending)
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

@@ -59,10 +59,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Curve, E> for Curve {
         Ok(Poll::Pending)
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 impl Curve {

@@ -54,10 +54,7 @@ impl<E: Navigator + Odometry + Localisation + ?Sized> Actor<templates::DriveTo, 
         })
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

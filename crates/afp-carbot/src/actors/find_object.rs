@@ -32,10 +32,7 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::FindObject, E> 
         })
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

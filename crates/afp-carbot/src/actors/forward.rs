@@ -60,10 +60,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Forward, E> for Forward 
         Ok(Poll::Pending)
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

@@ -20,10 +20,7 @@ impl<E: Navigator + ?Sized> Actor<templates::Hold, E> for Hold {
         Ok(Poll::Pending)
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

@@ -51,10 +51,7 @@ impl<E: Navigator + Odometry + Camera + ?Sized> Actor<templates::LearnObject, E>
         }))
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

@@ -74,10 +74,7 @@ where
         Ok(Poll::Ready(self.result(env.beam().opening.si() / 2.0, felt, lane)))
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 impl SearchWall {

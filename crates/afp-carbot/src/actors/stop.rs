@@ -25,10 +25,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Stop, E> for Stop {
         Ok(if stands { Poll::Ready(State::Stopped) } else { Poll::Pending })
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

@@ -41,10 +41,7 @@ impl<E: Navigator + Odometry + ?Sized> Actor<templates::Turn, E> for Turn {
         Ok(Poll::Pending)
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]

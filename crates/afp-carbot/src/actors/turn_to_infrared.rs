@@ -37,10 +37,7 @@ where
         })
     }
 
-    fn interrupt(&mut self, env: &mut E, now: Instant) -> Result<(), Fault> {
-        env.halt(now);
-        Ok(())
-    }
+    halts_when_interrupted!();
 }
 
 #[cfg(test)]
