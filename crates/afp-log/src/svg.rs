@@ -5,6 +5,7 @@ mod film;
 mod legend;
 mod marks;
 mod sonar;
+mod symbol;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Names};
@@ -148,7 +149,7 @@ pub fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
         legend.events(marks::counted(marks, &kinds, names));
         legend.figures(&picture.figures);
     }
-    canvas.finish(legend)
+    canvas.finish(legend.finish())
 }
 
 /// The path with the actor at each point, and the events on it, from what happened and where the robot was when, both in the

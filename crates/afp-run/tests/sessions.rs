@@ -101,7 +101,7 @@ fn a_log_tells_of_the_way_as_the_run_does() {
         session.run(at(26), &mut Open, &mut [&mut track, &mut log]).unwrap();
         log.finish(&session).unwrap();
         let read = afp_log::read(&path).unwrap();
-        let (way, marks) = afp_run::follow(&read.events, &read.poses, &names);
+        let (way, marks) = afp_log::svg::follow(&read.events, &read.poses, &names);
         assert!(!marks.is_empty() && way.len() == track.path.len());
         for (here, there) in marks.iter().zip(&track.marks) {
             assert_eq!((here.at, here.supervisor), (there.at, there.supervisor));

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use afp_core::Instant;
 use afp_session::Pose2;
 
-use super::legend::Legend;
-use super::{marks, placed};
+use super::placed;
+use super::symbol::symbol;
 
 /// Around the room, pixels.
 pub(super) const MARGIN: f64 = 28.0;
@@ -174,7 +174,7 @@ impl Canvas {
     /// A symbol where an event was taken; its title tells when.
     pub(super) fn mark(&mut self, pose: Pose2, kind: usize, size: f64, at: Instant) {
         let (x, y) = self.view.point([pose.x, pose.y]);
-        let symbol = marks::symbol(kind, x, y, size);
+        let symbol = symbol(kind, x, y, size);
         let secs = at.as_secs_f64();
         self.put(format_args!("<g class=\"mark\"><title>{secs:.3} s</title>{symbol}</g>"));
     }
@@ -231,8 +231,8 @@ impl Canvas {
         ));
     }
 
-    pub(super) fn finish(self, legend: Legend) -> String {
-        let (legend, right, lowest) = legend.finish();
+    /// The picture with the legend next to it: its elements, its right end and its lower end.
+    pub(super) fn finish(self, (legend, right, lowest): (String, f64, f64)) -> String {
         let (_, below) = self.view.end();
         let (width, height) = (right + MARGIN, (below + 40.0).max(lowest + MARGIN));
         let body = self.body;

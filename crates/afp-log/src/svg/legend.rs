@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::canvas::{ECHO, MARGIN, View, escape};
-use super::marks;
+use super::symbol::symbol;
 
 /// The height of a line, pixels.
 const LINE: f64 = 21.0;
@@ -47,7 +47,7 @@ impl Legend {
             if number == 0 {
                 self.section("EVENTS");
             }
-            let symbol = marks::symbol(kind, self.x + 10.0, self.y - 4.5, 1.0);
+            let symbol = symbol(kind, self.x + 10.0, self.y - 4.5, 1.0);
             self.put(format_args!(r#"<g class="mark">{symbol}</g>"#));
             let times = if count > 1 { format!("  ×{count}") } else { String::new() };
             self.text("name", INDENT, &format!("{name}{times}"));

@@ -53,7 +53,7 @@ pub fn draw_sonar(log: &LogData, world: &dyn AnyWorld) -> Option<String> {
     legend.sonar();
     legend.events(marks::counted(&marks, &kinds, names));
     legend.figures(&figures(log, heard));
-    Some(canvas.finish(legend))
+    Some(canvas.finish(legend.finish()))
 }
 
 fn figures(log: &LogData, heard: usize) -> Vec<(String, String)> {
