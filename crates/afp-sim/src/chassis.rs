@@ -1,9 +1,14 @@
 //! What a robot is to the engine and to its worlds: a shape with a mass.
 
 use crate::truth::Pose;
-use crate::vehicle::{HALF_LENGTH, HALF_WIDTH, MASS};
 use rapier2d::parry::shape::SharedShape;
 
+/// Half the length of the Carbot's body, metres; the turning centre is its middle.
+pub const HALF_LENGTH: f64 = 0.20;
+/// Half its width, metres.
+pub const HALF_WIDTH: f64 = 0.175;
+/// Its mass, kilograms.
+pub(crate) const MASS: f64 = 4.7;
 /// So many corners stand for a circle in pictures.
 const CORNERS: u32 = 32;
 

@@ -24,15 +24,15 @@ mod simulation;
 mod stage;
 mod truth;
 mod vehicle;
-mod wall;
 pub mod world;
 
 pub use afp_carbot::table::{Defect, Fault};
 pub use afp_platform::VirtualClock;
+pub use chassis::{HALF_LENGTH, HALF_WIDTH};
 pub use film::Film;
 #[cfg(feature = "load")]
 pub use load::carbot;
-pub use simulation::{Bare, STEP, Simulation, Snapshot, Sonar};
-pub use truth::{Collision, Pose, Truth};
-pub use vehicle::{HALF_LENGTH, HALF_WIDTH};
+pub use simulation::{Bare, Simulation, Snapshot, Sonar};
+pub use stage::{Collision, STEP};
+pub use truth::{Pose, Truth};
 pub use world::{World, WorldError};

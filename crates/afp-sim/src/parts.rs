@@ -16,8 +16,6 @@
 pub use crate::chassis::{Chassis, Footprint};
 pub use crate::devices::bumper::Switch;
 pub use crate::devices::sonar::{RangeModel, RangeSensor};
-pub use crate::simulation::STEP;
-pub use crate::stage::{Met, Stage, Touch};
-pub use crate::truth::Collision;
+pub use crate::stage::{Collision, Met, STEP, Stage, Touch};
 pub use crate::vehicle::{Demand, Footing, Motor, Push, Twist, TwoWheels, WheelModel};
 pub use crate::world::{Body, NoTables, Obstacle, OwnTables, World, WorldOf};

@@ -5,48 +5,37 @@ mod bumper;
 mod devices;
 mod faults;
 mod hand;
-mod keyframe;
 mod locate;
 mod obstacles;
 mod ping;
 mod robot;
 mod see;
+mod sensors;
 mod snapshot;
+mod wall;
 
 pub use bare::Bare;
 pub use snapshot::{Snapshot, Sonar};
 
 use crate::chassis::Chassis;
-use crate::devices::battery::Battery;
-use crate::devices::bumper::Switch;
-use crate::devices::camera::Exposure;
-use crate::devices::color::ColorSensor;
-use crate::devices::infrared::Infrared;
-use crate::devices::odometer::Odometer;
-use crate::devices::rotator::Rotator;
 use crate::devices::sonar;
-use crate::noise::Source;
 use crate::scene::Scene;
-use crate::stage::{DT, Stage};
+use crate::stage::{DT, STEP, Stage};
 use crate::truth::{Pose, Truth};
 use crate::vehicle::drive::Drive;
 use crate::world::{Audible, Light, World, WorldError};
-use afp_carbot::devices::{Bump, Color, Echo, Glow, Invalid, Reading};
+use afp_carbot::devices::Bump;
 use afp_carbot::table::Fault;
 use afp_carbot::trail::Trail;
 use afp_core::quantity::Frequency;
 use afp_core::{Duration, Instant};
 use afp_navigation::flow::{FlowJob, FlowSensor, LucasKanade};
-use afp_platform::VirtualClock;
-use afp_platform::VirtualWorker;
+use afp_platform::{VirtualClock, VirtualWorker};
 use afp_session::Faults;
-use faults::Lines;
 use locate::{Located, SimulatedLocator, SimulatedPlanner};
 use rapier2d::math::Pose as Isometry;
+use sensors::Sensors;
 use std::sync::Arc;
-
-/// The physics' own grid.
-pub const STEP: Duration = Duration::from_millis(5);
 
 /// Physics steps between two pings.
 const PING_STEPS: u64 = sonar::PERIOD.as_nanos() / STEP.as_nanos();
@@ -55,6 +44,9 @@ const PING_STEPS: u64 = sonar::PERIOD.as_nanos() / STEP.as_nanos();
 type SimulatedFlow = FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>>;
 
 /// A robot in a world. It implements every device trait of the Carbot.
+///
+/// A clone has the same clock; a keyframe has its own.
+#[derive(Clone)]
 pub struct Simulation {
     stage: Stage,
     /// Where the robot started.
@@ -62,27 +54,13 @@ pub struct Simulation {
     now: Instant,
     steps: u64,
     drive: Drive,
-    odometer: Odometer,
-    rotator: Rotator,
-    sonar: sonar::RangeSensor,
-    /// The ping that is under way: when its echo arrives and what it will say.
-    ping: Option<(Instant, Reading<Echo>)>,
-    echo: Reading<Echo>,
-    switch: Switch,
+    sensors: Sensors,
     /// Where the bumper was pressed last.
     bump: Option<Bump>,
     /// The way by which the robot came.
     trail: Trail,
-    battery: Battery,
     scene: Scene,
     lights: Vec<Light>,
-    infrared: Infrared,
-    glow: Reading<Option<Glow>>,
-    color_sensor: ColorSensor,
-    color: Reading<Color>,
-    exposure: Reading<Arc<Exposure>>,
-    /// The one before, for the truth about how pictures move.
-    exposed_before: Option<Arc<Exposure>>,
     /// Made for whoever asks for the flow first.
     flow: Option<Box<SimulatedFlow>>,
     /// What the range sensor should hear; all simulations of a world share it.
@@ -96,16 +74,10 @@ pub struct Simulation {
     /// Whether the lamp is on, and what sounds.
     shown: (bool, Option<Frequency>),
     seed: u64,
-    /// Whether somebody holds the bumper in.
-    held: bool,
-    escape: bool,
     /// After an emergency stop.
     stopped: bool,
     /// What was injected, for those who drive it by hand.
     faults: Faults<Fault>,
-    lines: Lines,
-    /// Whether a line delays.
-    delayed: bool,
     clock: VirtualClock,
     /// The edge of the map, see [`World::map`].
     map: Vec<[f64; 2]>,
@@ -123,34 +95,17 @@ impl Simulation {
     /// An obstacle without an area; [`World::parse`] lets none through.
     pub fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
         let stage = Stage::new(world, Chassis::CARBOT)?;
-        let mut differences = Source::Build.of(seed);
         Ok(Simulation {
             stage,
             start: world.start,
             now: Instant::ZERO,
             steps: 0,
             drive: Drive::new(),
-            odometer: Odometer::new(seed, &mut differences),
-            rotator: Rotator::new(),
-            sonar: sonar::RangeSensor::new(
-                sonar::CARBOT,
-                Source::Ultrasonic.of(seed),
-                &mut differences,
-            ),
-            ping: None,
-            echo: Reading::invalid(Invalid::NotYet, Instant::ZERO),
-            switch: Switch::new(Source::Bumper.of(seed)),
+            sensors: Sensors::new(world, seed),
             bump: None,
             trail: Trail::new(),
-            battery: Battery::new(world.charge),
             scene: Scene::new(world),
             lights: world.lights.clone(),
-            infrared: Infrared::new(seed),
-            glow: Reading::invalid(Invalid::NotYet, Instant::ZERO),
-            color_sensor: ColorSensor::new(seed),
-            color: Reading::invalid(Invalid::NotYet, Instant::ZERO),
-            exposure: Reading { time: Instant::ZERO, value: Err(Invalid::NotYet) },
-            exposed_before: None,
             flow: None,
             locator: None,
             located: Located::default(),
@@ -158,12 +113,8 @@ impl Simulation {
             audible: world.audible.clone(),
             shown: (false, None),
             seed,
-            held: false,
-            escape: false,
             stopped: false,
             faults: Faults::default(),
-            lines: Lines::default(),
-            delayed: false,
             clock: VirtualClock::default(),
             map: world.map.clone(),
             left_map: None,
@@ -215,22 +166,22 @@ impl Simulation {
 
     /// Holds the escape button down.
     pub fn press_escape(&mut self) {
-        self.escape = true;
+        self.sensors.escape = true;
     }
 
     /// Lets the escape button go.
     pub fn release_escape(&mut self) {
-        self.escape = false;
+        self.sensors.escape = false;
     }
 
     /// Holds the bumper in, as if something stood there.
     pub fn press_bumper(&mut self) {
-        self.held = true;
+        self.sensors.held = true;
     }
 
     /// Lets the bumper go.
     pub fn release_bumper(&mut self) {
-        self.held = false;
+        self.sensors.held = false;
     }
 
     /// What only a judge may know.
@@ -242,8 +193,11 @@ impl Simulation {
             asked: self.drive.asked(),
             stage: &self.stage,
             left_map: self.left_map,
-            pictures: [self.exposed_before.as_ref(), self.exposure.value.as_ref().ok()]
-                .map(|picture| picture.map(Arc::as_ref)),
+            pictures: [
+                self.sensors.exposed_before.as_ref(),
+                self.sensors.exposure.value.as_ref().ok(),
+            ]
+            .map(|picture| picture.map(Arc::as_ref)),
         }
     }
 
@@ -261,10 +215,7 @@ impl Simulation {
         self.push(now);
         let Simulation { stage, scene, .. } = self;
         stage.step_noting(now, |n, at, direction| scene.place(n, at, direction));
-        self.odometer.step(self.drive.wheels(), DT);
-        self.rotator.step(DT);
-        let [left, right] = self.drive.wheels();
-        self.battery.step([left.speed(), right.speed()], DT);
+        self.sensors.step(self.drive.wheels());
         self.now = now;
         self.feel(now);
         self.note_motion(now);
@@ -280,7 +231,7 @@ impl Simulation {
 
     /// Lets the wheels push the body.
     fn push(&mut self, now: Instant) {
-        let push = self.drive.step(self.stage.twist(), now, self.battery.speed(), DT);
+        let push = self.drive.step(self.stage.twist(), now, self.sensors.battery.speed(), DT);
         self.stage.push(push);
     }
 }

@@ -4,28 +4,33 @@
 
 mod alone;
 mod build;
+mod collisions;
 mod movers;
 mod ray;
 mod split;
 mod touch;
 
 use crate::chassis::Chassis;
-use crate::simulation::STEP;
-use crate::truth::{Collision, Collisions, Pose};
+use crate::truth::Pose;
 use crate::vehicle::{Push, Twist};
 use crate::world::{Obstacle, World, WorldError};
-use afp_core::Instant;
+use afp_core::{Duration, Instant};
 use alone::Surroundings;
+use collisions::Collisions;
 use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::shape::SharedShape;
 use rapier2d::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle};
 
+pub use collisions::Collision;
 pub use ray::Met;
 pub use touch::Touch;
 
 pub(crate) use build::{Built, HIGH, ROBOT, build, collider};
 pub(crate) use movers::Mover;
 pub(crate) use ray::Rays;
+
+/// The physics' own grid.
+pub const STEP: Duration = Duration::from_millis(5);
 
 /// A step in seconds.
 pub(crate) const DT: f64 = STEP.as_nanos() as f64 / 1e9;

@@ -1,4 +1,4 @@
-//! The vehicle: its body's measures, its wheels and the controller that drives them.
+//! The vehicle: its wheels and the controller that drives them.
 
 mod floor;
 mod place;
@@ -11,10 +11,3 @@ pub(crate) mod wheel;
 pub use floor::{Demand, Footing, Motor, Push, Twist};
 pub(crate) use place::Place;
 pub use two_wheels::{TwoWheels, WheelModel};
-
-/// Half the body's length, metres; the turning centre is its middle.
-pub const HALF_LENGTH: f64 = 0.20;
-/// Half the body's width, metres.
-pub const HALF_WIDTH: f64 = 0.175;
-/// Mass, kilograms.
-pub(crate) const MASS: f64 = 4.7;

@@ -6,6 +6,7 @@
 mod audible;
 mod error;
 mod file;
+mod limits;
 mod look;
 mod map;
 mod outline;
@@ -22,6 +23,7 @@ pub use path::Path;
 
 pub(crate) use audible::Audible;
 use error::at_key;
+pub(crate) use limits::FARTHEST;
 pub(crate) use outline::isometry;
 pub(crate) use session::shape;
 pub use world_of::{Body, NoTables, OwnTables, WorldOf};
@@ -29,12 +31,6 @@ pub use world_of::{Body, NoTables, OwnTables, WorldOf};
 use crate::chassis::Chassis;
 use crate::truth::Pose;
 use rapier2d::parry::query;
-
-/// Nothing lies farther from the origin than this, metres: beyond it single precision is coarse.
-pub(crate) const FARTHEST: f64 = 1000.0;
-/// Nothing is smaller, lighter, slower or weaker than this, metres, kilograms, metres a second and the strength of lights: in
-/// single precision what is much less is nothing, or pushed by nothing.
-const SMALLEST: f64 = 0.001;
 
 /// A world as read from its file.
 #[derive(Clone, Debug, PartialEq)]

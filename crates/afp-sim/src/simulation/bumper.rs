@@ -1,7 +1,8 @@
 //! Contacts: what the bumper feels, and what the judge counts; the way that the robot came; and the edge of a map, which nothing feels.
 
 use super::Simulation;
-use crate::vehicle::HALF_LENGTH;
+use super::sensors::Raw;
+use crate::chassis::HALF_LENGTH;
 use crate::world::is_beyond;
 use afp_carbot::devices::{Bump, Navigator};
 use afp_core::Instant;
@@ -14,19 +15,19 @@ impl Simulation {
     pub(super) fn feel(&mut self, now: Instant) {
         let mut touched = false;
         self.stage.feel(now, |touch| touched |= touch.at[0] > HALF_LENGTH - WRAP);
-        self.switch.step(touched);
+        self.sensors.switch.step(touched);
     }
 
     /// Whether something or somebody presses the bumper.
     pub(super) fn is_touched(&self) -> bool {
-        self.held || self.switch.says()
+        self.sensors.held || self.sensors.switch.says()
     }
 
     /// Remembers by what way the robot came and where the bumper is pressed, as far as it can tell.
     pub(super) fn note_motion(&mut self, now: Instant) {
-        let Ok(at) = self.lines.odometry.read(self.raw_motion()).value else { return };
+        let Ok(at) = self.sensors.lines.odometry.read(Raw::odometry(self)).value else { return };
         self.trail.note(at, &self.body());
-        if self.lines.touch.read(self.raw_touched()).value == Ok(true) {
+        if self.sensors.lines.touch.read(Raw::touch(self)).value == Ok(true) {
             self.bump = Some(Bump { at, time: now });
         }
     }

@@ -1,24 +1,19 @@
-//! The simulation as the Carbot's devices.
+//! The simulation as the Carbot's devices, but for its sensors.
 
 use super::Simulation;
-use crate::devices::{camera, infrared, sonar};
+use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
 use crate::vehicle::drive::reduced;
-use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use afp_carbot::Path;
 use afp_carbot::devices::{
-    Battery, Beam, Belief, Body, Bump, Button, Buttons, Camera, Charge, Color, ColorSensor, Echo,
-    Flow, FlowCamera, Frame, Glow, InfraredSensor, Lens, Localisation, Motion, Navigator, Odometry,
-    PathPlanner, Reading, RotatingTelemetry, Rotator, Signals, TouchSensor, Trip, Ultrasonic,
+    Belief, Body, Localisation, Navigator, Odometry, PathPlanner, Reading, Rotator, Signals, Trip,
 };
-use afp_carbot::trail::Trail;
 use afp_core::quantity::{Angle, AngularSpeed, Frequency, Length, Speed};
 use afp_core::{Environment, Fault, Instant, Poll, Ticket};
-use afp_platform::Line;
 
 impl Environment for Simulation {
     fn stop(&mut self, now: Instant) {
         self.drive.command(0.0, 0.0, now);
-        self.rotator.hold();
+        self.sensors.rotator.hold();
         self.shown = (false, None);
     }
 
@@ -27,7 +22,7 @@ impl Environment for Simulation {
     fn emergency_stop(&mut self) {
         self.stopped = true;
         self.drive.block();
-        self.rotator.hold();
+        self.sensors.rotator.hold();
         self.shown = (false, None);
     }
 }
@@ -41,42 +36,6 @@ impl Simulation {
     /// Whether the robot has been stopped and obeys nobody.
     pub fn emergency_stopped(&self) -> bool {
         self.stopped
-    }
-
-    /// A reading as it arrives at the plan.
-    fn deliver<T: Clone>(&self, line: &Line<T>, raw: Reading<T>) -> Reading<T> {
-        line.sense(raw, self.now, &self.clock)
-    }
-
-    /// Takes the time that one use of a sensor costs.
-    fn charge_for<T: Clone>(&self, line: &Line<T>) {
-        if let Some(cost) = line.cost() {
-            self.clock.spend(self.now, cost);
-        }
-    }
-
-    fn measured<T>(&self, value: T) -> Reading<T> {
-        Reading { time: self.grid(self.steps), value: Ok(value) }
-    }
-
-    pub(super) fn raw_bearing(&self) -> Reading<Angle> {
-        self.measured(self.rotator.telemetry())
-    }
-
-    pub(super) fn raw_motion(&self) -> Reading<Motion> {
-        self.measured(self.odometer.motion())
-    }
-
-    pub(super) fn raw_touched(&self) -> Reading<bool> {
-        self.measured(self.is_touched())
-    }
-
-    pub(super) fn raw_escape(&self) -> Reading<bool> {
-        Reading::valid(self.escape, self.now)
-    }
-
-    pub(super) fn raw_charge(&self) -> Reading<Charge> {
-        self.measured(self.battery.charge())
     }
 }
 
@@ -105,93 +64,11 @@ impl Navigator for Simulation {
     }
 }
 
-impl Odometry for Simulation {
-    fn motion(&self) -> Reading<Motion> {
-        self.deliver(&self.lines.odometry, self.raw_motion())
-    }
-
-    fn last_bump(&self) -> Option<Bump> {
-        self.bump
-    }
-
-    fn trail(&self) -> Trail {
-        self.trail
-    }
-}
-
-impl Ultrasonic for Simulation {
-    fn echo(&self) -> Reading<Echo> {
-        self.deliver(&self.lines.ultrasonic, self.echo)
-    }
-
-    fn beam(&self) -> Beam {
-        sonar::beam()
-    }
-}
-
 impl Rotator for Simulation {
     fn point(&mut self, bearing: Angle, _: Instant) {
         if !self.stopped {
-            self.rotator.aim(bearing.si());
+            self.sensors.rotator.aim(bearing.si());
         }
-    }
-}
-
-impl RotatingTelemetry for Simulation {
-    fn bearing(&self) -> Reading<Angle> {
-        self.deliver(&self.lines.rotator, self.raw_bearing())
-    }
-}
-
-impl TouchSensor for Simulation {
-    fn touched(&self) -> Reading<bool> {
-        self.deliver(&self.lines.touch, self.raw_touched())
-    }
-}
-
-impl Buttons for Simulation {
-    fn pressed(&self, button: Button) -> Reading<bool> {
-        match button {
-            Button::Escape => self.deliver(&self.lines.buttons, self.raw_escape()),
-        }
-    }
-}
-
-impl InfraredSensor for Simulation {
-    fn glow(&self) -> Reading<Option<Glow>> {
-        self.deliver(&self.lines.infrared, self.glow)
-    }
-
-    fn field_of_view(&self) -> Angle {
-        Angle::from_si(infrared::FIELD)
-    }
-}
-
-impl ColorSensor for Simulation {
-    fn color(&self) -> Reading<Color> {
-        self.deliver(&self.lines.color, self.color)
-    }
-}
-
-impl Camera for Simulation {
-    fn frame(&self) -> Reading<Frame<'_>> {
-        self.charge_for(&self.lines.camera);
-        let Reading { time, value } = self.lines.camera.look(&self.exposure);
-        Reading { time, value: value.map(|exposure| exposure.frame()) }
-    }
-
-    fn lens(&self) -> Lens {
-        camera::lens()
-    }
-}
-
-impl FlowCamera for Simulation {
-    fn flow(&mut self, now: Instant) -> Result<Reading<Flow<'_>>, Fault> {
-        self.charge_for(&self.lines.camera);
-        let Reading { time, value } = self.lines.camera.look(&self.exposure);
-        let frame = Reading { time, value: value.map(|exposure| exposure.frame()) };
-        let sensor = self.flow.get_or_insert_with(|| Box::new(camera::flow_sensor()));
-        sensor.look(frame, now)
     }
 }
 
@@ -217,11 +94,5 @@ impl Signals for Simulation {
         if !self.stopped {
             self.shown = (light, tone);
         }
-    }
-}
-
-impl Battery for Simulation {
-    fn charge(&self) -> Reading<Charge> {
-        self.deliver(&self.lines.battery, self.raw_charge())
     }
 }

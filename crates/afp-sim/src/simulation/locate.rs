@@ -6,6 +6,7 @@ pub(super) use located::Located;
 
 use super::Simulation;
 use super::robot::frame;
+use super::sensors::Raw;
 use crate::devices::sonar;
 use crate::truth::Pose;
 use crate::world::isometry;
@@ -34,7 +35,7 @@ impl Simulation {
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
         let Simulation { locator, audible, stage, start, seed, .. } = self;
         locator.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles, &stage.chassis);
+            let field = audible.field(&stage.obstacles, &stage.chassis, &sonar::beam());
             let filter = Filter::new(field, &sonar::beam(), *start, *seed);
             Box::new(Locator::new(VirtualWorker::new([LocateJob::new(filter)]), *start))
         })
@@ -45,7 +46,7 @@ impl Simulation {
         let body = self.body();
         let Simulation { planner, audible, stage, .. } = self;
         planner.get_or_insert_with(|| {
-            let field = audible.field(&stage.obstacles, &stage.chassis);
+            let field = audible.field(&stage.obstacles, &stage.chassis, &sonar::beam());
             Box::new(Planner::new(field, &body, sonar::beam().forward, VirtualWorker::new))
         })
     }
@@ -66,7 +67,7 @@ impl Simulation {
         };
         to.put(signal::LOCALISATION_OFF, SampleRef::Float(off));
         to.put(signal::LOCALISATION_HEADING_OFF, SampleRef::Float(turned));
-        let belief = locator.latest(self.lines.odometry.read(self.raw_motion()));
+        let belief = locator.latest(self.sensors.lines.odometry.read(Raw::odometry(self)));
         let Ok(belief) = belief.value else { return };
         let pose = Pose { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() };
         to.put(signal::LOCALISATION_POSE, frame(WORLD, BY_LOCALISATION, pose, 0.0));
@@ -85,7 +86,7 @@ impl Simulation {
 
     /// Lets ways lead round what stands right before the robot, where it takes itself to be.
     pub(super) fn plan_round(&mut self, now: Instant) {
-        let motion = self.lines.odometry.read(self.raw_motion());
+        let motion = self.sensors.lines.odometry.read(Raw::odometry(self));
         if let (Some(planner), Some(locator)) = (&mut self.planner, &self.locator)
             && let Ok(place) = locator.latest(motion).value
         {
@@ -96,9 +97,9 @@ impl Simulation {
     /// Lets the filter hear what range sensor and odometry say, by lines that may be broken.
     pub(super) fn locate(&mut self) {
         let (now, truth) = (self.now, self.truth().pose());
-        let echo = self.lines.ultrasonic.read(self.echo);
-        let motion = self.lines.odometry.read(self.raw_motion());
-        let touched = self.raw_touched();
+        let echo = self.sensors.lines.ultrasonic.read(self.sensors.echo);
+        let motion = self.sensors.lines.odometry.read(Raw::odometry(self));
+        let touched = Raw::touch(self);
         let Some(locator) = &mut self.locator else { return };
         locator.on_echo(echo, motion, now);
         if let Some(planner) = &mut self.planner {
@@ -107,7 +108,7 @@ impl Simulation {
                 planner.on_echo(&echo, &place, now);
             }
         }
-        if self.lines.touch.read(touched).value == Ok(true) {
+        if self.sensors.lines.touch.read(touched).value == Ok(true) {
             self.plan_round(now);
         }
         let Some(locator) = &self.locator else { return };

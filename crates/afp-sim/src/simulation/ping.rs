@@ -9,19 +9,20 @@ impl Simulation {
     /// Sends a ping from where the sensor is now.
     pub(super) fn ping(&mut self, now: Instant) {
         let rays = self.stage.rays(sonar::FORWARD);
-        let range = self.sonar.ping_along(rays.along(self.rotator.position()), &rays);
-        let bearing = self.rotator.telemetry();
+        let range =
+            self.sensors.sonar.ping_along(rays.along(self.sensors.rotator.position()), &rays);
+        let bearing = self.sensors.rotator.telemetry();
         let value = match range {
             Some(range) => sonar::beam().echo(range, bearing),
             None => Ok(Echo { distance: None, bearing }),
         };
-        self.ping = Some((now + sonar::flight(range), Reading { time: now, value }));
+        self.sensors.ping = Some((now + sonar::flight(range), Reading { time: now, value }));
     }
 
     /// Takes the echo that has arrived by now.
     pub(super) fn receive(&mut self) {
-        if let Some((_, echo)) = self.ping.take_if(|(arrival, _)| *arrival <= self.now) {
-            self.echo = echo;
+        if let Some((_, echo)) = self.sensors.ping.take_if(|(arrival, _)| *arrival <= self.now) {
+            self.sensors.echo = echo;
         }
     }
 }

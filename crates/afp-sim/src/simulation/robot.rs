@@ -1,22 +1,17 @@
 //! The simulation as a robot that sessions drive.
 
-use afp_carbot::devices::{Color, Ultrasonic};
 use afp_carbot::table::{Carbot, Control, Fault, signal};
 use afp_core::{Instant, Platform};
 use afp_platform::VirtualClock;
-use afp_session::frames::{BODY, BY_ODOMETRY, WORLD};
+use afp_session::frames::{BODY, WORLD};
 use afp_session::{
-    Active, Droppable, Figure, FigureValue, Image, Measure, Pose2, Put, Ranging, Refused,
-    RequestError, Robot, SampleRef, Samples, Shape, Simulated, Span, Transform,
+    Active, Droppable, Figure, FigureValue, Measure, Pose2, Put, Refused, RequestError, Robot,
+    SampleRef, Samples, Shape, Simulated, Span, Transform,
 };
 
-use super::{Simulation, Snapshot, hand};
-use crate::devices::camera;
-use crate::wall::WallDistance;
+use super::wall::WallDistance;
+use super::{Simulation, hand};
 use crate::world::{World, shape};
-
-const SONAR: &str = "sonar";
-const CAMERA: &str = "camera";
 
 impl Platform for Simulation {
     type Clock = VirtualClock;
@@ -66,19 +61,7 @@ impl Robot for Simulation {
 
     fn sample(&self, to: &mut Samples<'_, '_>) {
         self.sample_truth(to);
-        self.sample_ranging(to);
-        let Snapshot { odometry, rotator, touched, .. } = self.snapshot();
-        if to.wants(signal::ODOMETRY_POSE) {
-            let moved =
-                Pose2 { x: odometry.x.si(), y: odometry.y.si(), heading: odometry.heading.si() };
-            let pose = self.start.beyond(moved);
-            to.put(signal::ODOMETRY_POSE, frame(WORLD, BY_ODOMETRY, pose, 0.0));
-        }
-        to.put(signal::ROTATOR_BEARING, SampleRef::Float(rotator));
-        to.put(signal::TOUCH_TOUCHED, SampleRef::Bool(touched));
-        to.put(signal::BUTTONS_ESCAPE, SampleRef::Bool(self.escape));
-        to.put(signal::BATTERY_LEFT, SampleRef::Float(self.battery.charge().left));
-        self.sample_light(to);
+        self.sample_sensors(to);
         self.sample_localisation(to);
         let (speed, turn) = self.drive.asked();
         to.put(signal::NAVIGATOR_ASKED_SPEED, SampleRef::Float(speed));
@@ -88,15 +71,7 @@ impl Robot for Simulation {
         if let Some(tone) = tone {
             to.put(signal::SIGNALS_TONE, SampleRef::Float(tone.si()));
         }
-        let eye = Pose2 { x: camera::FORWARD, ..Pose2::default() };
-        to.put(signal::CAMERA_FRAME, frame(BODY, CAMERA, eye, camera::HEIGHT));
-        if to.wants(signal::CAMERA_PICTURE)
-            && let Some((time, picture)) = self.view()
-        {
-            let (width, height) = (picture.width as u32, picture.height as u32);
-            let image = Image { time, frame: CAMERA, width, height, rgb: picture.rgb };
-            to.put(signal::CAMERA_PICTURE, SampleRef::Image(image));
-        }
+        self.sample_camera(to);
         if to.wants(signal::WORLD_OUTLINE) {
             for obstacle in self.movers() {
                 if let Some(shape) = self.shape(obstacle) {
@@ -107,7 +82,7 @@ impl Robot for Simulation {
     }
 
     fn keyframe(&self) -> Option<Self> {
-        Some(self.split())
+        Some(Simulation { clock: self.clock.split(), ..self.clone() })
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -139,35 +114,6 @@ impl Simulation {
         to.put(signal::COLLISION, SampleRef::Bool(touched.is_some()));
         let contact = touched.and_then(|last| self.stage.obstacles.get(last.obstacle));
         to.put(signal::CONTACT, SampleRef::Text(contact.map_or("", |it| &it.name)));
-    }
-
-    /// What the sensors for light said last, before their lines make anything of it.
-    fn sample_light(&self, to: &mut Samples<'_, '_>) {
-        if let Ok(Some(glow)) = self.glow.value {
-            to.put(signal::INFRARED_DIRECTION, SampleRef::Float(glow.bearing.si()));
-            to.put(signal::INFRARED_STRENGTH, SampleRef::Float(glow.strength));
-        }
-        if let Ok(Color { red, green, blue }) = self.color.value {
-            to.put(signal::COLOR_RED, SampleRef::Float(red));
-            to.put(signal::COLOR_GREEN, SampleRef::Float(green));
-            to.put(signal::COLOR_BLUE, SampleRef::Float(blue));
-        }
-    }
-
-    fn sample_ranging(&self, to: &mut Samples<'_, '_>) {
-        if !to.wants(signal::ULTRASONIC_ECHO) && !to.wants(signal::ULTRASONIC_FRAME) {
-            return;
-        }
-        let (beam, Snapshot { rotator, sonar, .. }) = (self.beam(), self.snapshot());
-        let height = self.stage.chassis.ranging_height;
-        let sensor = Pose2 { x: beam.forward.si(), y: 0.0, heading: rotator };
-        to.put(signal::ULTRASONIC_FRAME, frame(BODY, SONAR, sensor, height));
-        if let Some(sonar) = sonar {
-            let pose = Pose2 { heading: sonar.bearing, ..sensor };
-            let (half_angle, range) = (beam.opening.si() / 2.0, sonar.distance);
-            let ranging = Ranging { time: sonar.time, frame: BODY, pose, half_angle, range };
-            to.put(signal::ULTRASONIC_ECHO, SampleRef::Range(ranging));
-        }
     }
 
     /// An obstacle where it is now, as a scene shows it.

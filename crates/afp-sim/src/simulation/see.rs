@@ -1,8 +1,9 @@
 //! The sensors that see: infrared, colour and camera, each at its own rate.
 
-use super::{STEP, Simulation};
+use super::Simulation;
 use crate::devices::camera::{self, Exposure};
 use crate::devices::{color, infrared};
+use crate::stage::STEP;
 use crate::vehicle::Place;
 use afp_carbot::devices::Reading;
 use afp_core::{Duration, Instant};
@@ -18,17 +19,18 @@ impl Simulation {
             step.is_multiple_of(every).then_some(step / every)
         };
         if nth(color::PERIOD).is_some() {
-            let color = self.color_sensor.look(&self.scene, robot);
-            self.color = Reading::valid(color, now);
+            let color = self.sensors.color_sensor.look(&self.scene, robot);
+            self.sensors.color = Reading::valid(color, now);
         }
         if nth(infrared::PERIOD).is_some() {
-            let glow = self.infrared.look(&self.lights, &self.scene, robot);
-            self.glow = Reading::valid(glow, now);
+            let glow = self.sensors.infrared.look(&self.lights, &self.scene, robot);
+            self.sensors.glow = Reading::valid(glow, now);
         }
         if let Some(number) = nth(camera::PERIOD) {
             let exposure = Exposure::new(self.scene.clone(), robot, self.seed, number);
             let latest = Reading { time: now, value: Ok(Arc::new(exposure)) };
-            self.exposed_before = mem::replace(&mut self.exposure, latest).value.ok();
+            self.sensors.exposed_before =
+                mem::replace(&mut self.sensors.exposure, latest).value.ok();
         }
     }
 }

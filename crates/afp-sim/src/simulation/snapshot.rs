@@ -37,22 +37,22 @@ impl Simulation {
     /// The latest picture of the camera, whatever its line makes of it, and when it was taken; `None`
     /// before the first. It is drawn when it is first looked at.
     pub fn view(&self) -> Option<(Instant, Frame<'_>)> {
-        let exposure = self.exposure.value.as_ref().ok()?;
-        Some((self.exposure.time, exposure.frame()))
+        let exposure = self.sensors.exposure.value.as_ref().ok()?;
+        Some((self.sensors.exposure.time, exposure.frame()))
     }
 
     /// What logs and pictures show of this instant.
     pub fn snapshot(&self) -> Snapshot {
-        let sonar = self.echo.value.ok().map(|echo| Sonar {
-            time: self.echo.time,
+        let sonar = self.sensors.echo.value.ok().map(|echo| Sonar {
+            time: self.sensors.echo.time,
             bearing: echo.bearing.si(),
             distance: echo.distance.map(|distance| distance.si()),
         });
         Snapshot {
             time: self.now,
             pose: self.truth().pose(),
-            odometry: self.odometer.motion(),
-            rotator: self.rotator.position(),
+            odometry: self.sensors.odometer.motion(),
+            rotator: self.sensors.rotator.position(),
             sonar,
             touched: self.is_touched(),
         }

@@ -82,7 +82,7 @@ impl Stage {
 mod tests {
     use super::*;
     use crate::chassis::Chassis;
-    use crate::simulation::STEP;
+    use crate::stage::STEP;
     use crate::vehicle::Push;
     use crate::world::World;
     use afp_core::Instant;

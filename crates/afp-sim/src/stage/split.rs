@@ -3,9 +3,9 @@
 use super::Stage;
 use rapier2d::prelude::{CCDSolver, CollisionPipeline, PhysicsPipeline, PhysicsWorld};
 
-impl Stage {
-    /// The same at the same instant: both go on alike.
-    pub fn split(&self) -> Stage {
+/// The same at the same instant: both go on alike.
+impl Clone for Stage {
+    fn clone(&self) -> Self {
         Stage {
             physics: physics(&self.physics),
             body: self.body,

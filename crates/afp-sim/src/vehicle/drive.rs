@@ -4,11 +4,11 @@
 //! controller turns a command (speed, turn rate) into the direction and speed of each wheel, and
 //! stops by itself when commands cease.
 
-use super::MASS;
 use super::floor::{Demand, Footing};
 use super::wheel::{WHEEL_X, WHEEL_Y, Wheel};
 use super::{Push, Twist};
 use crate::chassis::Chassis;
+use crate::chassis::MASS;
 use afp_core::{Duration, Instant};
 
 /// Without a new command for so long the controller stops the robot.

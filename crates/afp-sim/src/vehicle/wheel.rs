@@ -2,9 +2,9 @@
 //!
 //! It pushes the body where it touches the floor, see [`super::floor`].
 
-use super::MASS;
 use super::floor::{Demand, Motor};
 use super::servo::Servo;
+use crate::chassis::MASS;
 
 /// The wheels stand this far before the turning centre and to its sides, metres.
 pub(crate) const WHEEL_X: f64 = 0.13;

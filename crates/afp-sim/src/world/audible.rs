@@ -2,7 +2,7 @@
 
 use super::{Obstacle, World};
 use crate::chassis::Chassis;
-use crate::devices::sonar;
+use afp_carbot::devices::Beam;
 use afp_navigation::maps::{EchoField, Map};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -19,10 +19,10 @@ impl World {
 pub(crate) struct Audible(Arc<OnceLock<EchoField>>);
 
 impl Audible {
-    /// What the Carbot's sensor should hear on such a chassis where these obstacles stand.
-    pub(crate) fn field(&self, obstacles: &[Obstacle], robot: &Chassis) -> EchoField {
+    /// What the Carbot's sensor, with this beam, should hear on such a chassis where these obstacles stand.
+    pub(crate) fn field(&self, obstacles: &[Obstacle], robot: &Chassis, beam: &Beam) -> EchoField {
         let map = map(obstacles, robot);
-        let made = |map| EchoField::new(map, &sonar::beam());
+        let made = |map| EchoField::new(map, beam);
         let known = self.0.get_or_init(|| made(map.clone()));
         // Whoever changed a copy of a world has obstacles of another one.
         if *known.map() == map { known.clone() } else { made(map) }
@@ -49,11 +49,13 @@ fn map(obstacles: &[Obstacle], robot: &Chassis) -> Map {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::devices::sonar;
 
     #[test]
     fn copies_share_what_is_heard_until_their_obstacles_differ() {
         let world = World::random(3);
-        let of = |world: &World| world.audible.field(&world.obstacles, &Chassis::CARBOT);
+        let of =
+            |world: &World| world.audible.field(&world.obstacles, &Chassis::CARBOT, &sonar::beam());
         let (one, other) = (of(&world), of(&world.clone()));
         assert!(one.shares_with(&other));
         let mut emptier = world.clone();

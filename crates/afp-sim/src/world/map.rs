@@ -8,7 +8,7 @@ mod picture;
 mod settings;
 
 use super::{FARTHEST, World, WorldError};
-use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
+use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
 use boxes::{Cells, Rectangle};
 use picture::Grey;
 use settings::{Cell, Settings};

@@ -3,8 +3,8 @@
 //! A room is written as the text of a world file, so that a log or a person can keep it.
 
 use super::World;
+use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
 use crate::noise::{Noise, Source};
-use crate::vehicle::{HALF_LENGTH, HALF_WIDTH};
 use std::fmt::Write;
 
 /// Between two things, and between a thing in the open and a wall, there is room for the robot:

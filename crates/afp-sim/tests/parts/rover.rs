@@ -267,7 +267,7 @@ impl Robot for Rover {
 
     fn keyframe(&self) -> Option<Self> {
         Some(Rover {
-            stage: self.stage.split(),
+            stage: self.stage.clone(),
             wheels: self.wheels.clone(),
             ranger: self.ranger.clone(),
             switch: self.switch.clone(),

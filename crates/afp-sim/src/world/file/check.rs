@@ -2,7 +2,8 @@
 
 use crate::truth::Pose;
 use crate::world::error::at_key;
-use crate::world::{FARTHEST, SMALLEST, WorldError};
+use crate::world::limits::{FARTHEST, SMALLEST};
+use afp_session::WorldError;
 
 /// Corners nearer to each other than this are one, metres; and the edges of one turn by so much at least, square metres.
 const SAME: f64 = 1e-6;

@@ -4,7 +4,7 @@ use afp_core::trace::{ComponentId, ComponentKind, Record};
 use afp_core::{Duration, Instant, ValueRef};
 use afp_session::{Figure, FigureValue, Measure, NamedRecord, SAMPLE};
 
-use crate::simulation::Simulation;
+use super::Simulation;
 
 /// Wall following counts from so long after its start.
 const SETTLING: Duration = Duration::from_secs(2);
