@@ -280,7 +280,8 @@ fn a_number_that_is_not_finite_is_a_fault_of_who_writes_it() {
 #[test]
 fn an_input_without_a_default_must_be_given() {
     let mut scheduler = Scheduler::new(Everything::new());
-    let started = scheduler.start((&mut Script::default(), &mut NoTrace, &StillClock), Instant::ZERO);
+    let started =
+        scheduler.start((&mut Script::default(), &mut NoTrace, &StillClock), Instant::ZERO);
     assert_eq!(format!("{started:?}"), "Err(InputMissing(1))");
 }
 

@@ -15,7 +15,8 @@ impl Environment for Nowhere {
 #[test]
 fn a_plan_uses_plans_and_enums_of_another_file() {
     let mut scheduler = Scheduler::new(Pauses::new());
-    let mut wake = scheduler.start((&mut Nowhere, &mut NoTrace, &StillClock), Instant::ZERO).unwrap();
+    let mut wake =
+        scheduler.start((&mut Nowhere, &mut NoTrace, &StillClock), Instant::ZERO).unwrap();
     let mut last = Instant::ZERO;
     while let Wake::At(now) = wake {
         last = now;

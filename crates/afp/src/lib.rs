@@ -25,9 +25,9 @@
 pub use afp_core as core;
 pub use afp_core::{
     Actor, Clock, Computation, Detail, Duration, Ending, Environment, Events, Failure, Fault,
-    Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Run, Scheduler, SetError,
-    StartError, StillClock, Subject, Supervisor, Text, Ticket, TypedEntry, Value, ValueRef, Wake,
-    Worker, WriteError, quantity, trace,
+    Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Run, Scheduler,
+    SetError, StartError, StillClock, Subject, Supervisor, Text, Ticket, TypedEntry, Value,
+    ValueRef, Wake, Worker, WriteError, quantity, trace,
 };
 
 mod callbacks;

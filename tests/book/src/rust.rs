@@ -64,7 +64,5 @@ fn module(page: &str, blocks: &[&Block], folder: &Path) -> io::Result<String> {
         }
         false => "",
     };
-    Ok(format!(
-        "#[allow(dead_code, unused_imports)]\nmod {name} {{\n{rust}{runs}}}\n"
-    ))
+    Ok(format!("#[allow(dead_code, unused_imports)]\nmod {name} {{\n{rust}{runs}}}\n"))
 }
