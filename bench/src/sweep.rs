@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use afp_core::Duration;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_sweep::{Engine, Row, Seeds, Setting, Sweep};
 use afp_syntax::source::Source;
 

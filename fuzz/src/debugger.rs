@@ -9,7 +9,7 @@ use afp_debug::wire::Frames;
 use afp_debug::{Adapter, Host, Launch, LogTarget, Outgoing, Program, Target};
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_session::{EventKind, RunEvent};
 use afp_syntax::source::Source;
 use serde_json::Value;

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use afp_draw::layout_file::Layout;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_ide::edit::{Binding, Change, TextEdit, apply, edit, follow};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;

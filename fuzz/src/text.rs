@@ -7,7 +7,7 @@ use afp_draw::{Options, svg};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::{Scenario, Window};
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_format::format;
 use afp_sim::{Simulation, World};
 use afp_syntax::diagnostics::Diagnostics;

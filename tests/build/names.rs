@@ -8,7 +8,8 @@ use std::io;
 use afp_codegen::Options;
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::{Toolbox, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Source;
 
 /// The words of generated code, by what makes two names of a text the same: neither case nor `_`.

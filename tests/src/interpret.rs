@@ -4,7 +4,7 @@ use afp::load::{LoadedPlan, Registry};
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 use crate::drive::drive;

@@ -11,7 +11,7 @@ use afp::trace::NoTrace;
 use afp::{Instant, Scheduler, Wake};
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_dsl::{Compiled, compile};
 use afp_ide::edit::{Change, apply, edit};
 use afp_sim::{Simulation, World};

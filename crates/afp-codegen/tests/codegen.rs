@@ -11,7 +11,8 @@ use afp_codegen::{
 };
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::toolbox::{Toolbox, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Source;
 use similar::TextDiff;
 

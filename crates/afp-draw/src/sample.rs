@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_dsl::{Compiled, compile};
 use afp_syntax::source::Source;
 

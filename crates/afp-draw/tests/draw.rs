@@ -2,7 +2,7 @@
 
 use afp_draw::{Options, dot, json, svg};
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_dsl::{Compiled, compile};
 use afp_syntax::source::Source;
 use serde_json::Value;

@@ -42,12 +42,12 @@ use std::sync::Arc;
 
 use crate::files::relative;
 use crate::flow::{self, Model};
-use crate::gather::PlanFile;
+use crate::gather::{PlanFile, Toolboxes};
 use crate::graph::{self, Graph};
 use crate::index::{self, Declared, Index, Meanings, Recorder};
 use crate::outline::{self, Material, Outline};
 use crate::scenario::Scenario;
-use crate::toolbox::{Toolbox, Toolboxes};
+use crate::toolbox::Toolbox;
 use afp_syntax::ast::{self, Item, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};

@@ -1,19 +1,23 @@
-//! Collects the plan files of a compilation: the one that is compiled, and those that it uses,
+//! Collects the files of a compilation: toolboxes, the plan file that is compiled, and those that it uses,
 //! directly or through others.
 //!
 //! Each file is read once, however many use it; files may use one another in a circle, since only
 //! plans that contain themselves have no meaning.
 
+mod toolboxes;
+
 use std::sync::Arc;
 
 use crate::files::{Files, joined, normalised};
-use crate::toolbox::Toolboxes;
 use afp_syntax::ast::{File, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::{Source, Sources, Span};
 use afp_syntax::unquote;
 use afp_syntax::{Parse, parse};
 use rustc_hash::FxHashMap;
+
+pub(crate) use toolboxes::ToolboxFile;
+pub use toolboxes::Toolboxes;
 
 /// A plan file of a compilation.
 pub(crate) struct PlanFile {

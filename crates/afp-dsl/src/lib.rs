@@ -21,3 +21,4 @@ pub mod unfold;
 pub use check::scenario::{VERBS, outputs};
 pub use check::watch;
 pub use compile::{Compiled, compile, compile_plan, compile_unchecked, index_files};
+pub use gather::Toolboxes;

@@ -1,7 +1,6 @@
 //! What a toolbox file declares: templates with their ports, timing, help and icons; devices.
 
 pub mod device;
-mod set;
 
 use crate::table::Table;
 use crate::types::{Enum, Object, Type};
@@ -10,7 +9,6 @@ use std::sync::Arc;
 
 pub use afp_syntax::ast::TemplateKind;
 pub use device::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalType};
-pub use set::Toolboxes;
 
 /// A checked toolbox file.
 #[derive(Clone, Debug)]

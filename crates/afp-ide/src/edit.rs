@@ -33,7 +33,7 @@ use std::rc::Rc;
 use buffer::TextBuffer;
 use project::Workspace;
 
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::item::Item;
 use afp_syntax::kind::Kind;

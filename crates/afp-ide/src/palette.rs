@@ -123,7 +123,7 @@ mod tests {
     use super::palette;
     use crate::View;
     use afp_dsl::compile;
-    use afp_dsl::toolbox::Toolboxes;
+    use afp_dsl::Toolboxes;
     use afp_syntax::source::Source;
 
     const VACUUM: &str = include_str!("../../../examples/vacuum/vacuum.afp");

@@ -5,7 +5,8 @@
 
 use std::sync::Arc;
 
-use afp_dsl::toolbox::{Device, Toolbox, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::{Device, Toolbox};
 
 /// A robot.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use afp_dsl::toolbox::{Toolbox, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::Toolbox;
 use afp_dsl::{Compiled, compile};
 use afp_ide::View;
 use afp_project::Project;

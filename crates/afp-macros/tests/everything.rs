@@ -173,7 +173,7 @@ use afp_core::rt::{NamedPlan, Plan, PlanState};
 use afp_core::trace::{Line, Names, NoTrace, Record, Sink};
 use afp_core::{Instant, Scheduler, StillClock, Value, Wake};
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 use kit::templates::seek::State;
 use kit::{Place, Script};

@@ -4,7 +4,8 @@ use std::mem;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use afp_dsl::toolbox::{Template, TemplateKind, Toolbox as Declared, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::{Template, TemplateKind, Toolbox as Declared};
 use afp_syntax::source::Source;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

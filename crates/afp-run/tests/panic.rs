@@ -5,7 +5,7 @@ use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_run::options::RunOptions;
 use afp_run::{EXIT_PLAN_ERROR, Program, run};
 use afp_session::{AnyWorld, EndingKind, EventKind, Loader, simulated};

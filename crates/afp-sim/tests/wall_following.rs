@@ -6,7 +6,7 @@ use afp_core::trace::{ComponentKind, Names, Record, Sink};
 use afp_core::{Duration, Instant, Scheduler, StillClock, Wake};
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_sim::{Simulation, World};
 use afp_syntax::source::Source;
 

@@ -8,7 +8,7 @@ use afp_carbot::devices::Navigator;
 use afp_core::{Actor, Duration, Fault, Instant, Poll};
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_run::RunError;
 use afp_session::AnySession;
 use afp_sim::Simulation;

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_session::Loader;
 use afp_syntax::source::Source;
 use afp_test::{Setting, Verdict};

@@ -13,7 +13,7 @@ use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::rt::Registry as _;
 use afp_dsl::Compiled;
 use afp_dsl::scenario::{DEFAULT_UNTIL, Scenario};
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_session::Loader;
 use afp_sim::Simulation;
 use afp_syntax::source::Source;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::{env, fs};
 
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 use afp_test::mutate::{Bench, Judged, MutantStatus, Suite, Tally, mutants};
 

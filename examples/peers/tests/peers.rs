@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use afp::load::Registry;
 use afp_dsl::Compiled;
-use afp_dsl::toolbox::{Toolbox, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::Toolbox;
 use afp_session::simulated;
 use afp_syntax::source::Source;
 use afp_test::{Setting, run};

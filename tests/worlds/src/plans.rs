@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use afp_dsl::compile_plan;
 use afp_dsl::files::Disk;
 use afp_dsl::graph::Graph;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 /// Where plans are, seen from the root of the checkout; first those that AFP ships.

@@ -9,7 +9,7 @@ use afp_debug::{Adapter, ClientId, Host, Launch, Outgoing, Program, SessionTarge
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_session::{AnySession, Loader};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};

@@ -6,7 +6,7 @@ use crate::layout_file::{Layout, Position};
 use crate::sample::{WALL_FOLLOWING, afp_files, compiled, generated, is_toolbox};
 use crate::{Options, dot, json, picture, svg};
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_dsl::{Compiled, compile};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;

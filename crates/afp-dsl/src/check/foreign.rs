@@ -4,7 +4,8 @@
 //! what the templates of that toolbox ask of them.
 
 use crate::check::signature::Signature;
-use crate::toolbox::{Device, DeviceKind, TemplateKind, Toolbox, Toolboxes};
+use crate::gather::Toolboxes;
+use crate::toolbox::{Device, DeviceKind, TemplateKind, Toolbox};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
@@ -64,7 +65,7 @@ fn sensors(toolbox: &Toolbox) -> impl Iterator<Item = &Device> {
 mod tests {
     use crate::compile_plan;
     use crate::files::Texts;
-    use crate::toolbox::Toolboxes;
+    use crate::gather::Toolboxes;
     use afp_syntax::source::Source;
 
     const CRANE: &str = "toolbox crane version \"1\"\ndevice arm { fault stuck }\nsensor eye { signal near: bool }\n\

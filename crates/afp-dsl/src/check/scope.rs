@@ -11,10 +11,10 @@ use crate::check::{
     PlanHead, Program, choices, endings, entries, enums, recursion, shadows, tables,
 };
 use crate::files::relative;
-use crate::gather::PlanFile;
+use crate::gather::{PlanFile, Toolboxes};
 use crate::index::Recorder;
 use crate::table::Table;
-use crate::toolbox::{Toolbox, Toolboxes};
+use crate::toolbox::Toolbox;
 use crate::types::{Enum, is_built_in};
 use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::Diagnostics;

@@ -9,7 +9,8 @@ use std::sync::Arc;
 use crate::check::names::DeclaredNames;
 use crate::check::types::Types;
 use crate::check::{enums, imports, shadows, size};
-use crate::index::{self, Declared, Meanings, Recorder};
+use crate::gather::{ToolboxFile, Toolboxes};
+use crate::index::{self, Meanings, Recorder};
 use crate::rows::MAX_ROWS;
 use crate::toolbox::{Device, Template, Toolbox};
 use crate::types::{Object, is_built_in};
@@ -47,22 +48,36 @@ impl Toolbox {
     }
 }
 
-/// What a toolbox file comes to.
-pub(crate) struct ToolboxFile {
-    /// The toolbox, unless there are errors.
-    pub toolbox: Option<Toolbox>,
-    /// What it is called, however broken the rest of it is.
-    pub name: Option<Name>,
-    /// Everything there is to say about it.
-    pub diags: Diagnostics,
-    /// What its names mean.
-    pub meanings: Meanings,
-    /// What it declares.
-    pub declared: Vec<Declared>,
+impl Toolboxes {
+    /// Reads a toolbox file and adds it. `rust_path` is the path of the crate that implements it. Gives the name that the file
+    /// says, if it says one.
+    ///
+    /// Its diagnostics are kept, see [`Toolboxes::diagnostics`]. A toolbox of a name that is there
+    /// already takes the place of the earlier one.
+    pub fn add(&mut self, source: Source, rust_path: &str) -> Option<String> {
+        let source = Arc::new(source);
+        let file = self.add_source(source.clone())?;
+        let read = read_file(&source, file, rust_path);
+        let name = read.name.as_ref().map(|name| name.text.clone());
+        self.add_read(read);
+        name
+    }
+}
+
+/// Reads toolbox files, each given as the name of its file, its text, and the path of the crate that
+/// implements it, as `afp_toolboxes::sources()` gives them.
+impl<'a> FromIterator<(&'a str, &'a str, &'a str)> for Toolboxes {
+    fn from_iter<I: IntoIterator<Item = (&'a str, &'a str, &'a str)>>(files: I) -> Toolboxes {
+        let mut toolboxes = Toolboxes::default();
+        for (name, text, rust_path) in files {
+            toolboxes.add(Source::new(name, text), rust_path);
+        }
+        toolboxes
+    }
 }
 
 /// Reads a toolbox file; parameters as of [`Toolbox::parse`].
-pub(crate) fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
+fn read_file(source: &Source, file: u16, rust_path: &str) -> ToolboxFile {
     let mut diags = Diagnostics::default();
     let tree = parse(&source.text, file, &mut diags).file();
     let record = Recorder::default();

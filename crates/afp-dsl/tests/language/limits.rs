@@ -5,7 +5,7 @@ use crate::support;
 use std::fmt::Write;
 
 use afp_dsl::Compiled;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 const MOST: usize = 65_535;

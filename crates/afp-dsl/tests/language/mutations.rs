@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use afp_dsl::Compiled;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Edit, Severity};
 use afp_syntax::source::Source;
 use proptest::strategy::{Strategy, ValueTree};

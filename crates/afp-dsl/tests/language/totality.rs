@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::diagnostics::Severity;
 use proptest::prelude::*;
 

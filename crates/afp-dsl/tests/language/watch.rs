@@ -3,7 +3,8 @@
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::{EntryId, Graph};
-use afp_dsl::toolbox::{Constant, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::Constant;
 use afp_dsl::watch::Watch;
 use afp_syntax::source::Source;
 

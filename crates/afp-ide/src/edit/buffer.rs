@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::diagnostics::{Diagnostics, Edit, Severity};
 use afp_syntax::source::Span;
 use afp_syntax::{Node, parse};

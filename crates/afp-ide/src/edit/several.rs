@@ -11,7 +11,7 @@ use std::rc::Rc;
 use super::project::Workspace;
 use super::tree::{self, Scope, children, name_of};
 use super::{Change, Item, Refused, TextEdit, begin, end, fragment, make, name};
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
 

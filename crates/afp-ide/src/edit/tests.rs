@@ -10,7 +10,7 @@ mod structure;
 mod tables;
 
 use super::{Binding, Change, Item, Refused, TextEdit, apply};
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_format::format;
 use afp_syntax::source::Source;
 

@@ -2,7 +2,7 @@
 
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_ide::edit::{Change, apply};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;

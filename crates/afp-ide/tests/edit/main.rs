@@ -11,7 +11,7 @@ mod mutate;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_ide::edit::{Binding, Change, Refused, TextEdit, apply};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;

@@ -13,7 +13,7 @@ use afp_core::{
 };
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_session::{
     Active, Figure, FigureValue, Hardware, Pose2, Refused, Robot, SampleRef, Samples, Settings,
     Transform,

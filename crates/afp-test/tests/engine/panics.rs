@@ -7,7 +7,7 @@ use afp_carbot::devices::Navigator;
 use afp_core::{Actor, Fault, Instant, Poll};
 use afp_dsl::Compiled;
 use afp_dsl::files::Texts;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_run::RunError;
 use afp_session::{AnyRobot, AnySession, AnyWorld, Loader, SessionError};
 use afp_syntax::source::Source;

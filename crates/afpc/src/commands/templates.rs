@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use afp_dsl::toolbox::{Template, TemplateKind, Toolbox, Toolboxes};
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::{Template, TemplateKind, Toolbox};
 use afp_project::ProjectFile;
 use afp_run::{RunError, say};
 use afp_syntax::diagnostics::words::nearest;

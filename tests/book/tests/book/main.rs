@@ -15,7 +15,7 @@ mod toml_blocks;
 use std::path::{Path, PathBuf};
 
 use afp_book::Block;
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 
 /// The book's folder.
 fn docs() -> PathBuf {

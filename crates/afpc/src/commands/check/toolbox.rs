@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_syntax::ast::Item;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Source;

@@ -1,6 +1,6 @@
 //! The texts of new projects are sound, whatever the name.
 
-use afp_dsl::toolbox::Toolboxes;
+use afp_dsl::Toolboxes;
 use afp_project::Origin;
 use afp_syntax::source::Source;
 

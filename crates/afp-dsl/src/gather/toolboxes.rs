@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::check::toolbox::read_file;
 use crate::index::{Declared, Meanings};
 use crate::toolbox::{Device, Toolbox};
 use afp_syntax::ast::Name;
@@ -23,18 +22,29 @@ pub struct Toolboxes {
     declared: Vec<Declared>,
 }
 
+/// What a toolbox file comes to.
+pub(crate) struct ToolboxFile {
+    /// The toolbox, unless there are errors.
+    pub toolbox: Option<Toolbox>,
+    /// What it is called, however broken the rest of it is.
+    pub name: Option<Name>,
+    /// Everything there is to say about it.
+    pub diags: Diagnostics,
+    /// What its names mean.
+    pub meanings: Meanings,
+    /// What it declares.
+    pub declared: Vec<Declared>,
+}
+
 impl Toolboxes {
-    /// Reads a toolbox file and adds it. `rust_path` is the path of the crate that implements it. Gives the name that the file
-    /// says, if it says one.
-    ///
-    /// Its diagnostics are kept, see [`Toolboxes::diagnostics`]. A toolbox of a name that is there
-    /// already takes the place of the earlier one.
-    pub fn add(&mut self, source: Source, rust_path: &str) -> Option<String> {
-        let source = Arc::new(source);
-        // With so many files, spans could no longer tell them apart.
-        let file = self.sources.add(source.clone())?;
-        let read = read_file(&source, file, rust_path);
-        let name = read.name.as_ref().map(|name| name.text.clone());
+    /// Adds a text and returns its index among [`Toolboxes::sources`]; `None` if spans could no longer tell so many
+    /// files apart.
+    pub(crate) fn add_source(&mut self, source: Arc<Source>) -> Option<u16> {
+        self.sources.add(source)
+    }
+
+    /// Adds what was read from a file. A toolbox replaces an earlier one of the same name.
+    pub(crate) fn add_read(&mut self, read: ToolboxFile) {
         match read.toolbox {
             Some(toolbox) => {
                 self.list.retain(|known| known.name != toolbox.name);
@@ -45,7 +55,6 @@ impl Toolboxes {
         self.diags.extend(read.diags);
         self.meanings.extend(read.meanings);
         self.declared.extend(read.declared);
-        name
     }
 
     /// The toolbox of that name; `None` when there is none or it has errors.
@@ -121,18 +130,6 @@ impl Toolboxes {
     /// Where a toolbox that was added under that name and has errors says its name.
     pub(crate) fn broken(&self, name: &str) -> Option<Span> {
         self.broken.iter().find(|known| known.text == name).map(|known| known.span)
-    }
-}
-
-/// Reads toolbox files, each given as the name of its file, its text, and the path of the crate that
-/// implements it, as `afp_toolboxes::sources()` gives them.
-impl<'a> FromIterator<(&'a str, &'a str, &'a str)> for Toolboxes {
-    fn from_iter<I: IntoIterator<Item = (&'a str, &'a str, &'a str)>>(files: I) -> Toolboxes {
-        let mut toolboxes = Toolboxes::default();
-        for (name, text, rust_path) in files {
-            toolboxes.add(Source::new(name, text), rust_path);
-        }
-        toolboxes
     }
 }
 
