@@ -12,8 +12,8 @@ mod values;
 use std::sync::Arc;
 
 use crate::rows::Rows;
-use crate::toolbox::{Constant, Template, Toolbox};
-use crate::types::{Conversion, Type};
+use crate::toolbox::{Template, Toolbox};
+use crate::types::{Constant, Conversion, Type};
 use afp_syntax::source::{Source, Span};
 
 pub use afp_syntax::ast::Operator;

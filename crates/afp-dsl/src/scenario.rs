@@ -11,7 +11,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::graph::Graph;
-use crate::toolbox::{Constant, SignalType};
+use crate::toolbox::SignalType;
+use crate::types::Constant;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 

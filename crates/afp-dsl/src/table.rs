@@ -1,7 +1,6 @@
 //! Tables of constants, which files of plans declare and `Row` of `std` reads.
 
-use crate::toolbox::Constant;
-use crate::types::Type;
+use crate::types::{Constant, Type};
 use afp_syntax::source::Span;
 
 /// A table as its file declares it.

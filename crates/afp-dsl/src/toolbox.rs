@@ -8,6 +8,7 @@ use afp_syntax::source::Span;
 use std::sync::Arc;
 
 pub use afp_syntax::ast::TemplateKind;
+pub use crate::types::Constant;
 pub use device::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalType};
 
 /// A checked toolbox file.
@@ -159,19 +160,4 @@ pub struct Outcome {
     pub once: bool,
     /// The name in the text.
     pub span: Span,
-}
-
-/// A value known when a toolbox is read, already of its port's type.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Constant {
-    /// A truth value.
-    Bool(bool),
-    /// An integer.
-    Int(i64),
-    /// A number or a quantity in SI units.
-    Float(f64),
-    /// A text.
-    Text(String),
-    /// A value of an enum, by position.
-    Choice(u16),
 }

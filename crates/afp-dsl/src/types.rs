@@ -1,5 +1,6 @@
 //! Types of entries, ports and formulas.
 
+mod constant;
 pub mod readable;
 pub mod text;
 
@@ -9,6 +10,7 @@ use std::sync::Arc;
 use afp_syntax::source::Span;
 
 pub use afp_syntax::dimension::Dimension;
+pub use constant::Constant;
 
 /// The type of an entry, a port or a formula.
 #[derive(Clone, Debug, PartialEq)]

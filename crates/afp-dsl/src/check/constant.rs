@@ -11,9 +11,8 @@ use afp_types::{
 };
 
 use crate::graph::{Formula, FormulaKind, Function, Operator};
-use crate::toolbox::Constant;
 use crate::types::readable::readable;
-use crate::types::{Conversion, Type};
+use crate::types::{Constant, Conversion, Type};
 
 /// The value of a formula; `Ok(None)` when it depends on what is known at run time only.
 ///
@@ -200,7 +199,7 @@ fn from_text(text: &str, ty: &Type) -> Result<Constant, Error> {
 mod tests {
     use super::{Error, binary, call};
     use crate::graph::{Function, Operator};
-    use crate::toolbox::Constant;
+    use crate::types::Constant;
 
     #[test]
     fn what_divides_by_a_constant_zero_fails_whatever_is_divided() {

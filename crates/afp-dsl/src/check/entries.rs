@@ -8,8 +8,7 @@ use crate::check::types::Types;
 use crate::flow::view::each_entry;
 use crate::graph::{EntryId, EntryKind, Formula};
 use crate::index::Recorder;
-use crate::toolbox::Constant;
-use crate::types::Type;
+use crate::types::{Constant, Type};
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 

@@ -1,7 +1,6 @@
 //! Ranges of ports and entries: `from 0 cm/s to 1 m/s`, both ends belong to it.
 
-use crate::toolbox::Constant;
-use crate::types::Type;
+use crate::types::{Constant, Type};
 use crate::types::text;
 use afp_syntax::ast::Formula;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use crate::check::PlanHead;
 use crate::graph::{Component, EntryKind, PlanId, TemplateId, ToolboxId};
 use crate::table::Table;
-use crate::toolbox::{Constant, Template, TemplateKind, Toolbox};
-use crate::types::{Enum, Type};
+use crate::toolbox::{Template, TemplateKind, Toolbox};
+use crate::types::{Constant, Enum, Type};
 use afp_syntax::source::Span;
 
 /// Ports and outcomes of a template or plan.

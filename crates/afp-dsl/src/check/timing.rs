@@ -2,10 +2,9 @@
 
 use crate::check::convert;
 use crate::check::formula::Scope;
-use crate::toolbox::Constant;
 use crate::types::text::a_dimension;
 use crate::types::text::duration;
-use crate::types::{Dimension, Type};
+use crate::types::{Constant, Dimension, Type};
 use afp_syntax::ast::{Formula, FormulaKind, Name, Timing};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::literal::Literal;

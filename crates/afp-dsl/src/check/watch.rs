@@ -15,8 +15,7 @@ use crate::check::types::Types;
 use crate::graph::{EntryId, Formula, Graph, Plan, PlanId};
 use crate::index::Recorder;
 use crate::scenario::Comparison;
-use crate::toolbox::Constant;
-use crate::types::{Enum, Type};
+use crate::types::{Constant, Enum, Type};
 use afp_syntax::ast::{self, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 

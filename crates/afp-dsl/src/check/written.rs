@@ -10,8 +10,8 @@ use crate::check::range;
 use crate::check::signature::Signature;
 use crate::graph::{Formula, Output};
 use crate::table::Table;
-use crate::toolbox::{Constant, Template};
-use crate::types::Type;
+use crate::toolbox::Template;
+use crate::types::{Constant, Type};
 use afp_syntax::diagnostics::{Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 

@@ -12,7 +12,7 @@ use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{
     Component, Element, ElementId, Formula, Output, Plan, Supervisor, SupervisorId, Target,
 };
-use crate::toolbox::Constant;
+use crate::types::Constant;
 use afp_syntax::source::Span;
 
 /// A node of a [`View`].

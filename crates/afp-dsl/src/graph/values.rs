@@ -2,7 +2,7 @@
 
 use crate::check::constant::evaluate;
 use crate::graph::{Entry, EntryId, EntryKind, Formula, Plan};
-use crate::toolbox::Constant;
+use crate::types::Constant;
 
 impl Plan {
     /// The entries with an initial value, in the order in which these may refer to one another: `const`, `in`, the rest.

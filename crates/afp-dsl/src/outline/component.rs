@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{ElementId, EntryId, Findings, PlanId};
-use crate::toolbox::{Constant, Toolbox};
-use crate::types::Type;
+use crate::toolbox::Toolbox;
+use crate::types::{Constant, Type};
 use afp_syntax::ast::Name;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;

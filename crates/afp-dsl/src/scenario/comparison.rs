@@ -1,6 +1,6 @@
 //! How values are compared.
 
-use crate::toolbox::Constant;
+use crate::types::Constant;
 
 /// How two values compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

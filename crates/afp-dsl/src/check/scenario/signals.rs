@@ -5,8 +5,8 @@ use super::compare::{Compared, Named};
 use super::robot::{Found, with_devices};
 use crate::check::names::unknown;
 use crate::scenario::{Claim, Comparison, Field, Operand, Part, Subject};
-use crate::toolbox::{Constant, Signal, SignalType};
-use crate::types::{Dimension, Type};
+use crate::toolbox::{Signal, SignalType};
+use crate::types::{Constant, Dimension, Type};
 use afp_syntax::ast::{Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 

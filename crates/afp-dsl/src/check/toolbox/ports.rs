@@ -6,8 +6,8 @@ use crate::check::names::{DeclaredNames, unknown};
 use crate::check::range;
 use crate::check::types::Types;
 use crate::index::Recorder;
-use crate::toolbox::{Constant, Device, InPort, OutPort, Outcome, TemplateKind};
-use crate::types::Type;
+use crate::toolbox::{Device, InPort, OutPort, Outcome, TemplateKind};
+use crate::types::{Constant, Type};
 use afp_syntax::ast::{self, Formula};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 

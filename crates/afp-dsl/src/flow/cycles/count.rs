@@ -10,7 +10,7 @@ use super::decided::{self, Known};
 use super::ways::Ways;
 use crate::flow::view::{Edge, Node, View};
 use crate::graph::{Element, ElementId};
-use crate::toolbox::Constant;
+use crate::types::Constant;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 
 /// Edges that may be taken in one step.

@@ -14,7 +14,7 @@ use super::is_quick;
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
-use crate::toolbox::Constant;
+use crate::types::Constant;
 
 /// The state in which `Count` goes on, and that in which it begins again with zero.
 const AGAIN: u16 = 0;

@@ -10,7 +10,7 @@ use crate::check::constant::{convert, evaluate};
 use crate::flow::view::{Cause, Edge, Node, View, each_entry, takes_time};
 use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
 use crate::table::Table;
-use crate::toolbox::Constant;
+use crate::types::Constant;
 
 /// Values of entries; those of others are not known.
 pub(super) type Known = BTreeMap<EntryId, Constant>;

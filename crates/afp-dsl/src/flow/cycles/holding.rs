@@ -11,8 +11,7 @@ use crate::flow::view::{Cause, Edge, View, takes_time};
 use crate::graph::{
     Component, Element, EntryId, Formula, FormulaKind, Output, Supervisor, TemplateId,
 };
-use crate::toolbox::Constant;
-use crate::types::{Conversion, Type};
+use crate::types::{Constant, Conversion, Type};
 
 /// The event of `CheckValue` that reports a value below its limit; the other one reports one above.
 const BELOW: u16 = 0;
