@@ -8,7 +8,6 @@ pub(crate) mod bindings;
 mod callee;
 mod choices;
 mod consequences;
-pub(crate) mod constant;
 mod convert;
 pub(crate) mod edges;
 mod endings;

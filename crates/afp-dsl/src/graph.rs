@@ -4,6 +4,7 @@
 //! Everything is resolved: names are indices, conversions are nodes of the formulas, defaults are
 //! filled in, polling order is fixed. A plan with errors has no graph.
 
+pub(crate) mod constant;
 mod dump;
 mod reactions;
 mod resume;
@@ -257,6 +258,13 @@ pub enum FormulaKind {
     Call(Function, Vec<Formula>),
     /// A conversion.
     Convert(Conversion, Box<Formula>),
+}
+
+impl Element {
+    /// Whether it is an actor or a sub-plan, so that supervisors watch it.
+    pub(crate) fn takes_time(&self) -> bool {
+        !matches!(self.component, Component::Computation(_))
+    }
 }
 
 impl Graph {

@@ -7,6 +7,7 @@
 
 mod before;
 mod check;
+mod contribution;
 mod cost;
 mod held;
 mod level;
@@ -22,7 +23,8 @@ use crate::flow::{self, Model};
 use crate::graph::Graph;
 use afp_syntax::source::Span;
 
-use level::{Levels, Outside};
+use contribution::Outside;
+use level::Levels;
 use response::Bounds;
 
 pub(crate) use check::check_everywhere;

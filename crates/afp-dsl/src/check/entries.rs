@@ -5,7 +5,6 @@ use crate::check::formula::Scope;
 use crate::check::names::Indices;
 use crate::check::range;
 use crate::check::types::Types;
-use crate::flow::view::each_entry;
 use crate::graph::{EntryId, EntryKind, Formula};
 use crate::index::Recorder;
 use crate::types::{Constant, Type};
@@ -189,7 +188,7 @@ fn limit(
     let mut ranged_by = Vec::new();
     let mut constant = |formula: &ast::Formula, ty: Option<&Type>, diags: &mut Diagnostics| {
         let (formula, value) = scope.check(formula, ty, diags)?;
-        each_entry(&formula, &mut |id, _| ranged_by.push(id));
+        formula.each_entry(&mut |id, _| ranged_by.push(id));
         value
     };
     let range = range::read(&written, ty, &mut constant, diags);

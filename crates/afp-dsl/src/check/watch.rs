@@ -6,13 +6,12 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::check::constant;
 use crate::check::convert::compared_as;
 use crate::check::entries::EntryDraft;
 use crate::check::formula::Scope;
 use crate::check::names::Indices;
 use crate::check::types::Types;
-use crate::graph::{EntryId, Formula, Graph, Plan, PlanId};
+use crate::graph::{constant, EntryId, Formula, Graph, Plan, PlanId};
 use crate::index::Recorder;
 use crate::scenario::Comparison;
 use crate::types::{Constant, Enum, Type};

@@ -3,7 +3,7 @@
 
 use afp_types::Error;
 
-use crate::check::constant::convert;
+use crate::graph::constant::convert;
 use crate::check::entries::EntryDraft;
 use crate::check::formula::{Scope, fault_diagnostic};
 use crate::check::range;

@@ -16,12 +16,12 @@ mod ways;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::flow::strong;
-use crate::flow::view::{Cause, Edge, Node, View, takes_time};
+use crate::flow::view::{Cause, Edge, Node, View};
 use crate::flow::{INTERRUPTED, OK};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
 
-pub(crate) use counters::{Counters, components, open_to_writes, unwind};
+pub(crate) use counters::{components, open_to_writes, unwind};
 use decided::Known;
 pub(super) use holding::standard;
 
@@ -84,7 +84,7 @@ pub(super) fn instant_endings(view: &View<'_>) -> ([bool; 2], bool) {
 /// Whether a plan consists of computations only.
 fn timeless(view: &View<'_>) -> bool {
     view.elements().all(|(_, element)| {
-        !takes_time(element) || view.summary(element).is_some_and(|inner| inner.timeless)
+        !element.takes_time() || view.summary(element).is_some_and(|inner| inner.timeless)
     })
 }
 
@@ -92,7 +92,7 @@ fn timeless(view: &View<'_>) -> bool {
 fn is_sure(view: &View<'_>, cause: Cause) -> bool {
     let Cause::State(id, _) = cause else { return false };
     let element = &view.plan.elements[id.index()];
-    !takes_time(element) || view.summary(element).is_some_and(|inner| inner.timeless)
+    !element.takes_time() || view.summary(element).is_some_and(|inner| inner.timeless)
 }
 
 /// Whether an edge can be taken in the step in which its origin is entered.
@@ -100,7 +100,7 @@ pub(crate) fn is_quick(view: &View<'_>, edge: &Edge) -> bool {
     match edge.cause {
         Cause::State(id, state) => {
             let element = &view.plan.elements[id.index()];
-            !takes_time(element)
+            !element.takes_time()
                 || view.summary(element).is_some_and(|inner| inner.instant[usize::from(state)])
         }
         Cause::Error(_) => true,

@@ -1,7 +1,7 @@
 //! Inputs of global supervisors that are read once, at the start of the plan, from entries that
 //! change afterwards.
 
-use crate::flow::view::{View, each_entry};
+use crate::flow::view::View;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// Warns of every such input, at the entry that it reads.
@@ -21,7 +21,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
             if port.live {
                 continue;
             }
-            each_entry(formula, &mut |entry, span| {
+            formula.each_entry(&mut |entry, span| {
                 if !written[entry.index()] {
                     return;
                 }

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::flow::cycles::standard;
 use crate::flow::dataflow::{WIDTH, propagate};
-use crate::flow::view::{Cause, Edge, Node, View, takes_time};
+use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, SupervisorId};
 use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -111,7 +111,7 @@ fn commands(view: &View<'_>, element: &Element) -> bool {
 /// Warns of events that hold for ever once they do, and replace what another such event has started, as that one does.
 fn alternate(view: &View<'_>, all: &[(Recovery, Vec<usize>)], diags: &mut Diagnostics) {
     let lasts = |(id, ..): &Recovery| standard(view, view.supervisor(*id)) == Some("CheckTimeout");
-    let acts = |(.., to): &Recovery| view.element(*to).is_some_and(takes_time);
+    let acts = |(.., to): &Recovery| view.element(*to).is_some_and(Element::takes_time);
     let lasting: Vec<_> = all.iter().filter(|(it, _)| lasts(it) && acts(it)).collect();
     let holds = |during: &Recovery, other: &Recovery| {
         view.of_globals(during.2).any(|edge| recovery_of(view, edge) == Some(*other))
@@ -148,7 +148,7 @@ fn report(
         let mut edges = view.of_globals(node);
         node != edge.to && only(node) && edges.any(|other| recovery_of(view, other) == Some(wanted))
     };
-    let mut recovery = view.elements().filter(|(node, other)| takes_time(other) && again(*node));
+    let mut recovery = view.elements().filter(|(node, other)| other.takes_time() && again(*node));
     let Some((_, other)) = recovery.next() else { return };
     let label = view.label(edge.cause);
     let (first, next) = (&target.name, &other.name);

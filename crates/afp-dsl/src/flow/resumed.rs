@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::flow::view::{Cause, Node, View, each_entry, takes_time};
+use crate::flow::view::{Cause, Node, View};
 use crate::graph::{
     Component, Element, ElementId, EntryId, EntryKind, Formula, Supervisor, SupervisorId, Target,
     chain,
@@ -18,7 +18,7 @@ use afp_syntax::source::Span;
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let globals = || (0..view.plan.globals).map(SupervisorId);
     let of_all = written(view, globals().flat_map(|id| own(view, id)), diags);
-    for (node, element) in view.elements().filter(|(_, element)| takes_time(element)) {
+    for (node, element) in view.elements().filter(|(_, element)| element.takes_time()) {
         let mut changed =
             written(view, element.supervisors.iter().flat_map(|id| own(view, *id)), diags);
         if element.reactions.is_empty() {
@@ -134,7 +134,7 @@ fn frozen(
     changed: &BTreeSet<EntryId>,
     diags: &mut Diagnostics,
 ) {
-    each_entry(formula, &mut |entry, span| {
+    formula.each_entry(&mut |entry, span| {
         if changed.contains(&entry) {
             let entry = &view.plan.entries[entry.index()].name;
             let message = format!(

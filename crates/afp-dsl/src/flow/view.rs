@@ -5,15 +5,18 @@
 //! that some element replaces (`on`) has a node of its own, which stands for the others. Edges to
 //! `ignore` and `resume` are left out: what goes on is where it was.
 
+mod counter;
+
 use std::cell::OnceCell;
 
-use crate::flow::cycles::Counters;
 use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{
     Component, Element, ElementId, Formula, Output, Plan, Supervisor, SupervisorId, Target,
 };
 use crate::types::Constant;
 use afp_syntax::source::Span;
+
+pub(crate) use counter::{Counter, Counters};
 
 /// A node of a [`View`].
 pub(crate) type Node = usize;
@@ -62,7 +65,8 @@ pub(crate) struct View<'a> {
     replaced: Vec<(SupervisorId, Option<u16>)>,
     summaries: &'a [Option<Summary>],
     first: Vec<u32>,
-    counters: OnceCell<Counters>,
+    /// The counters of the plan, once something has asked for them.
+    pub counters: OnceCell<Counters>,
 }
 
 impl<'a> View<'a> {
@@ -112,7 +116,7 @@ impl<'a> View<'a> {
         for supervisor in &element.supervisors {
             self.add_supervisor(node, *supervisor);
         }
-        if takes_time(element) {
+        if element.takes_time() {
             self.activate(node, self.anywhere(), id);
             for at in 0..self.replaced.len() {
                 let (supervisor, event) = self.replaced[at];
@@ -299,11 +303,6 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The counters of the plan.
-    pub fn counters(&self) -> &Counters {
-        self.counters.get_or_init(|| Counters::of(self))
-    }
-
     /// The outputs that surely are committed when an edge is taken.
     pub fn writes(&self, cause: Cause) -> impl Iterator<Item = &'a Output> {
         let carried = match cause {
@@ -419,30 +418,4 @@ fn replaced(plan: &Plan) -> Vec<(SupervisorId, Option<u16>)> {
     replaced.sort_unstable();
     replaced.dedup();
     replaced
-}
-
-/// Whether an element is an actor or a sub-plan, so that supervisors watch it.
-pub(crate) fn takes_time(element: &Element) -> bool {
-    !matches!(element.component, Component::Computation(_))
-}
-
-/// Calls `visit` with every entry that a formula reads, and its place.
-pub(crate) fn each_entry(
-    formula: &crate::graph::Formula,
-    visit: &mut dyn FnMut(crate::graph::EntryId, Span),
-) {
-    use crate::graph::FormulaKind;
-    let mut open = vec![formula];
-    while let Some(formula) = open.pop() {
-        match &formula.kind {
-            FormulaKind::Entry(id) => visit(*id, formula.span),
-            FormulaKind::Neg(inner) | FormulaKind::Convert(_, inner) => open.push(inner),
-            FormulaKind::Binary(_, left, right) => {
-                open.push(right);
-                open.push(left);
-            }
-            FormulaKind::Call(_, operands) => open.extend(operands.iter().rev()),
-            _ => {}
-        }
-    }
 }

@@ -4,7 +4,6 @@ use crate::graph::{
     Component, Element, ElementId, Graph, Plan, Supervisor, SupervisorId, resuming,
 };
 use crate::rows::ids::blocks;
-use crate::rows::size::has_sweep;
 use crate::rows::wanted::{elsewhere, wanted};
 use crate::rows::{Child, ElementKind, ElementRow, Range, Rows, SupervisorRow, polling_order};
 
@@ -97,7 +96,7 @@ fn polled(
     elsewhere: &[(SupervisorId, ElementId)],
     (index, element): (usize, &Element),
 ) -> Option<Vec<u16>> {
-    if !has_sweep(element.component) {
+    if !element.takes_time() {
         return Some(Vec::new());
     }
     let globals = (0..plan.globals).map(SupervisorId);

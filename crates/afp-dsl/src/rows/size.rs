@@ -1,6 +1,6 @@
 //! How many rows the tables of a plan have.
 
-use crate::graph::{Component, Plan};
+use crate::graph::Plan;
 use crate::rows::wanted::elsewhere;
 
 /// Greatest number of rows of one table.
@@ -38,7 +38,7 @@ pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 7] {
     let events = plan.supervisors.iter().map(|supervisor| supervisor.events.len());
     let reactions = plan.elements.iter().flat_map(|element| &element.reactions);
     let reactions = reactions.map(|table| table.events.len());
-    let watched = plan.elements.iter().filter(|element| has_sweep(element.component));
+    let watched = plan.elements.iter().filter(|element| element.takes_time());
     let polled = watched.map(|element| usize::from(plan.globals) + element.supervisors.len());
     [
         (Table::Entries, plan.entries.len()),
@@ -49,9 +49,4 @@ pub(crate) fn tables(plan: &Plan) -> [(Table, usize); 7] {
         (Table::Reasons, plan.reasons.len()),
         (Table::Sweeps, polled.sum()),
     ]
-}
-
-/// Whether supervisors are polled while an element is active; a computation takes no time.
-pub(super) fn has_sweep(component: Component) -> bool {
-    !matches!(component, Component::Computation(_))
 }

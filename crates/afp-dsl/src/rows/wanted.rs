@@ -4,7 +4,6 @@
 //! nor is in the look one that would start its own element anew.
 
 use crate::graph::{ElementId, Plan, SupervisorId, Target};
-use crate::rows::size::has_sweep;
 
 /// The events that lead to something other than `ignore` and the element `there`; `None` where they are
 /// too many for a set.
@@ -40,5 +39,5 @@ pub(super) fn elsewhere(plan: &Plan) -> Vec<(SupervisorId, ElementId)> {
 /// The element behind an edge, unless it is a computation, while which nobody watches.
 fn watched(plan: &Plan, target: Target) -> Option<ElementId> {
     let Target::Element(id) = target else { return None };
-    plan.elements.get(id.index()).filter(|element| has_sweep(element.component)).map(|_| id)
+    plan.elements.get(id.index()).filter(|element| element.takes_time()).map(|_| id)
 }

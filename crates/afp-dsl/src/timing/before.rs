@@ -6,14 +6,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::flow::view::{Cause, View, takes_time};
+use crate::flow::view::{Cause, View};
 use crate::graph::{ElementId, SupervisorId, Target};
 use crate::rows::polling_order;
 
 use super::cost::Cost;
 use super::held::{interrupts, poll};
 use super::level::Levels;
-use super::response::interrupting;
 use super::step::until_look;
 
 /// What comes before the poll of a supervisor in its step, on the level of its plan.
@@ -59,7 +58,7 @@ pub(super) fn before(view: &View<'_>, levels: &Levels, index: usize) -> Vec<Befo
                 *own = own.and(&budget);
                 most_locals = most_locals.or(own);
                 if let Some(led) = led.get(&id.0) {
-                    let (interrupt, _) = interrupting(view, levels, &plan.elements[owner.index()]);
+                    let (interrupt, _) = levels.interrupting(view, &plan.elements[owner.index()]);
                     interrupted = interrupted.or(&interrupt.and(led));
                 }
             }
@@ -82,7 +81,7 @@ fn led(view: &View<'_>) -> BTreeMap<u16, Cost> {
         };
         let Some(element) = view.element(edge.to) else { continue };
         let to = u16::try_from(edge.to).map(|to| Target::Element(ElementId(to)));
-        if takes_time(element) || to.is_ok_and(|target| interrupts(view, target)) {
+        if element.takes_time() || to.is_ok_and(|target| interrupts(view, target)) {
             for id in by {
                 let known = led.entry(id.0).or_insert(Cost::ZERO);
                 *known = known.or(&costs[edge.to]);

@@ -7,7 +7,8 @@ use crate::graph::{Component, Graph};
 use crate::types::text::duration;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
-use super::level::{Levels, Outside};
+use super::contribution::Outside;
+use super::level::Levels;
 use super::{Response, SupervisorTiming, Target, Timing, model, timing};
 
 /// Reports what no target can do: more than all of its processor, and supervisors whose response may be longer than their

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::flow;
 use crate::flow::view::{Edge, View};
-use crate::graph::{Component, ElementId, SupervisorId, Target, chain};
+use crate::graph::{Component, Element, ElementId, SupervisorId, Target, chain};
 
 use super::cost::Cost;
 
@@ -14,6 +14,16 @@ pub(super) fn poll(view: &View<'_>, id: SupervisorId) -> Cost {
     let targets = view.plan.targets(id);
     let chains = targets.fold(Cost::ZERO, |most, target| most.or(&held(view, target)));
     Cost::budget(view.model.template(view.supervisor(id).template)).and(&chains)
+}
+
+/// One poll of each supervisor of an element.
+pub(super) fn locals(view: &View<'_>, element: &Element) -> Cost {
+    sum(view, element.supervisors.iter().copied())
+}
+
+/// One poll of each supervisor.
+pub(super) fn sum(view: &View<'_>, supervisors: impl Iterator<Item = SupervisorId>) -> Cost {
+    supervisors.fold(Cost::ZERO, |sum, id| sum.and(&poll(view, id)))
 }
 
 /// Whether an edge of a supervisor can interrupt what it watches.

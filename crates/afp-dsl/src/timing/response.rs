@@ -1,12 +1,13 @@
 //! The response of every supervisor, and the bound of the interruption that it causes.
 
 use crate::flow::view::View;
-use crate::graph::{Component, Element, Supervisor, SupervisorId};
+use crate::graph::{Supervisor, SupervisorId};
 
 use super::before::{Before, before};
 use super::cost::Cost;
 use super::held::{interrupts, poll};
-use super::level::{Levels, Outside};
+use super::contribution::Outside;
+use super::level::Levels;
 use super::{Interruption, Response, SupervisorTiming, Trust};
 
 /// What holds for every supervisor of the plan that runs.
@@ -126,19 +127,5 @@ fn interrupted(
         let level = &levels.all[index];
         return (level.interrupt.clone(), level.stop.clone());
     };
-    interrupting(view, levels, &view.plan.elements[owner.index()])
-}
-
-/// What it costs to interrupt an element, and until that stands still.
-pub(super) fn interrupting(view: &View<'_>, levels: &Levels, element: &Element) -> (Cost, Cost) {
-    match element.component {
-        Component::SubPlan(id) => {
-            let level = &levels.all[id.index()];
-            (level.interrupt.clone(), level.stop.clone())
-        }
-        Component::Actor(id) | Component::Computation(id) => {
-            let template = view.model.template(id);
-            (Cost::budget(template), Cost::stop(template))
-        }
-    }
+    levels.interrupting(view, &view.plan.elements[owner.index()])
 }

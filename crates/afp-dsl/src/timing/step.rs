@@ -1,11 +1,12 @@
 //! What entering an element may cost: everything that is entered behind it in the same step.
 
-use crate::flow::view::{Cause, Edge, Node, View, takes_time};
+use crate::flow::view::{Cause, Edge, Node, View};
 use crate::flow::{self, strong};
 use crate::graph::Component;
 
 use super::cost::Cost;
-use super::level::{Level, locals};
+use super::held::locals;
+use super::level::Level;
 
 /// For each node the cost of entering it: its supervisors are started and asked, it is started, and
 /// so on along every edge that takes no time.
@@ -19,7 +20,7 @@ pub(super) fn entering(view: &View<'_>, levels: &[Level]) -> Vec<Cost> {
 /// starts of the supervisors of what is entered.
 pub(super) fn until_look(view: &View<'_>) -> Vec<Cost> {
     let is_watched = |node| view.element(node).is_some_and(|it| !it.supervisors.is_empty());
-    let is_computation = |node| view.element(node).is_some_and(|element| !takes_time(element));
+    let is_computation = |node| view.element(node).is_some_and(|element| !element.takes_time());
     let once = |node| Once {
         look: locals_of(view, node),
         itself: if is_computation(node) { itself(view, &[], node) } else { Cost::ZERO },
@@ -106,7 +107,7 @@ fn turns(
 
 /// One start, or poll, of each supervisor of an element that is entered.
 fn locals_of(view: &View<'_>, node: Node) -> Cost {
-    let element = view.element(node).filter(|element| takes_time(element));
+    let element = view.element(node).filter(|element| element.takes_time());
     element.map_or(Cost::ZERO, |element| locals(view, element))
 }
 

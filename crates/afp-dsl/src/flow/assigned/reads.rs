@@ -1,6 +1,6 @@
 //! Where the formulas of a plan read entries.
 
-use crate::flow::view::{Node, View, each_entry};
+use crate::flow::view::{Node, View};
 use crate::graph::{EntryId, Formula, Supervisor};
 use afp_syntax::source::Span;
 
@@ -40,7 +40,7 @@ impl<'a> Reads<'a> {
 
     fn add(&mut self, inputs: &[Formula], node: Option<Node>, supervisor: Option<&'a Supervisor>) {
         for formula in inputs {
-            each_entry(formula, &mut |entry, span| {
+            formula.each_entry(&mut |entry, span| {
                 self.by_entry[entry.index()].push(Read { node, supervisor, span });
             });
         }

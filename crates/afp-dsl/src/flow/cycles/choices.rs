@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{decided, holding};
-use crate::flow::view::{Cause, Edge, View, each_entry};
+use crate::flow::view::{Cause, Edge, View};
 use crate::graph::EntryId;
 
 /// Whether the computations of a cycle choose as they have chosen: nothing on it writes what they read, and none may fail
@@ -22,7 +22,7 @@ pub(super) fn never_change(view: &View<'_>, cycle: &[Edge]) -> bool {
         }
         let mut read = BTreeSet::new();
         let inputs = element.inputs.iter();
-        inputs.for_each(|input| each_entry(input, &mut |entry, _| _ = read.insert(entry)));
+        inputs.for_each(|input| input.each_entry(&mut |entry, _| _ = read.insert(entry)));
         let stays = written.is_disjoint(&read) && read_by_others.is_disjoint(&read);
         read_by_others.extend(read);
         stays && decided::chooses_by_inputs(view, element)

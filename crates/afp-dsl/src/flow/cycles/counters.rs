@@ -12,7 +12,7 @@ use super::decided;
 use super::holding::standard_template;
 use super::is_quick;
 use crate::flow::strong;
-use crate::flow::view::{Cause, Edge, Node, View};
+use crate::flow::view::{Cause, Counter, Counters, Edge, Node, View};
 use crate::graph::{Component, Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
 use crate::types::Constant;
 
@@ -24,17 +24,6 @@ pub(super) const MOST_ROUNDS: u64 = MAX_TRANSITIONS_PER_STEP as u64;
 /// How deep cycles with counters are looked into that lie in others.
 const DEEPEST: u32 = 8;
 
-/// A `Count` of which is known how far it counts.
-#[derive(Clone, Copy)]
-pub(super) struct Counter {
-    /// What it counts in.
-    pub entry: EntryId,
-    /// Its limit.
-    pub limit: i64,
-    /// The least value that its entry has before anything counts in it: zero, which `Done` writes, or less.
-    least: i64,
-}
-
 impl Counter {
     /// How often it says `Again` at most before it says `Done`.
     fn most(&self) -> u64 {
@@ -42,9 +31,12 @@ impl Counter {
     }
 }
 
-/// The counters of a plan.
-#[derive(Default)]
-pub(crate) struct Counters(BTreeMap<ElementId, Counter>);
+impl View<'_> {
+    /// The counters of the plan.
+    pub fn counters(&self) -> &Counters {
+        self.counters.get_or_init(|| Counters::of(self))
+    }
+}
 
 impl Counters {
     /// Finds them among the elements that can be reached.

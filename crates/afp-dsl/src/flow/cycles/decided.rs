@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::holding::standard_template;
-use crate::check::constant::{convert, evaluate};
-use crate::flow::view::{Cause, Edge, Node, View, each_entry, takes_time};
+use crate::graph::constant::{convert, evaluate};
+use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
 use crate::table::Table;
 use crate::types::Constant;
@@ -23,7 +23,7 @@ pub(super) fn at_start(view: &View<'_>) -> Known {
     let mut read = BTreeSet::new();
     for (_, element) in view.elements().filter(|(_, element)| name(view, element).is_some()) {
         let inputs = element.inputs.iter();
-        inputs.for_each(|input| each_entry(input, &mut |entry, _| _ = read.insert(entry)));
+        inputs.for_each(|input| input.each_entry(&mut |entry, _| _ = read.insert(entry)));
     }
     if read.is_empty() || read.len() > MOST {
         return Known::new();
@@ -102,12 +102,12 @@ fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: 
     let element = &view.plan.elements[id.index()];
     let is_choice = is_choice(element, state);
     // How far a counter counts is known already.
-    if takes_time(element) || !is_choice || view.counters().has(id) {
+    if element.takes_time() || !is_choice || view.counters().has(id) {
         return false;
     }
     let mut reads_changed = false;
     let mut look = |entry: EntryId, _| reads_changed |= changed.contains(&entry);
-    element.inputs.iter().for_each(|input| each_entry(input, &mut look));
+    element.inputs.iter().for_each(|input| input.each_entry(&mut look));
     match outcome(view, element, known) {
         Some(decided) => decided != state,
         None => reads_changed,

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use afp_types::MAX_TEXT;
 
 use crate::flow::strong;
-use crate::flow::view::{Cause, Edge, View, takes_time};
+use crate::flow::view::{Cause, Edge, View};
 use crate::graph::{
     Component, Element, EntryId, Formula, FormulaKind, Output, Supervisor, TemplateId,
 };
@@ -47,7 +47,7 @@ fn can_fail(view: &View<'_>, element: &Element) -> bool {
     }
     let computes = element.inputs.iter().any(|input| view.constant(input).is_none());
     // An actor writes in the end.
-    let writes = !takes_time(element) && !element.outputs.iter().all(|it| fits(view, it));
+    let writes = !element.takes_time() && !element.outputs.iter().all(|it| fits(view, it));
     computes || writes || !view.model.template(id).uses.is_empty()
 }
 
