@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 use afp_codegen::Options;
+use afp_dsl::Toolboxes;
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 use names::Words;

@@ -3,9 +3,9 @@
 
 use std::hint::black_box;
 
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_syntax::count_tokens;
 use afp_syntax::source::Source;
 

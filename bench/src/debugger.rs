@@ -5,9 +5,9 @@ use std::time::{Duration as Wall, Instant as Clock};
 
 use afp_core::{Duration, Instant};
 use afp_debug::{Adapter, ClientId, Host, Launch, Program, SessionTarget, Target};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_session::Loader;
 use afp_syntax::source::Source;
 use serde_json::{Value, json};

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use afp_draw::layout_file::{Layout, Position};
 use afp_draw::{Options, Scene, dot, svg};
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_dsl::{Compiled, compile};
 use afp_syntax::source::Source;
 

@@ -1,8 +1,8 @@
 //! The plans of the benchmarks, compiled in and loaded.
 
 use afp::load::{LoadedPlan, Registry};
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_syntax::source::Source;
 
 use crate::board::{Board, templates};

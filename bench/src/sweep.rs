@@ -11,8 +11,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use afp_core::Duration;
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_sweep::{Engine, Row, Seeds, Setting, Sweep};
 use afp_syntax::source::Source;
 

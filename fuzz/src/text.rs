@@ -4,10 +4,10 @@ use std::borrow::Cow;
 
 use afp_draw::layout_file::Layout;
 use afp_draw::{Options, svg};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::{Scenario, Window};
-use afp_dsl::Toolboxes;
 use afp_format::format;
 use afp_sim::{Simulation, World};
 use afp_syntax::diagnostics::Diagnostics;

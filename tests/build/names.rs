@@ -6,9 +6,9 @@ use std::fmt::Write;
 use std::io;
 
 use afp_codegen::Options;
+use afp_dsl::Toolboxes;
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Source;
 

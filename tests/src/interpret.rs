@@ -1,10 +1,10 @@
 //! Plans of the tests, loaded at run time.
 
 use afp::load::{LoadedPlan, Registry};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile_unchecked;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 use crate::drive::drive;

@@ -9,9 +9,9 @@ use std::{env, fs};
 use afp_codegen::{
     CrateFile, CrateOptions, Dependency, Features, Module, Options, Origin, RUST_MADE_BY,
 };
+use afp_dsl::Toolboxes;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::source::Source;
 use similar::TextDiff;

@@ -8,9 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_draw::{Options, PlanScene, Point, Scene};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Disk;
-use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 const TABLE: &str = "tests/draw/counted.txt";

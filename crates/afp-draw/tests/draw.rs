@@ -1,8 +1,8 @@
 //! Drawings as callers get them: JSON and GraphViz text of whole plans.
 
 use afp_draw::{Options, dot, json, svg};
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_dsl::{Compiled, compile};
 use afp_syntax::source::Source;
 use serde_json::Value;

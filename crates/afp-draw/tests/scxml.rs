@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 
 use afp_draw::{Options, scxml};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 use roxmltree::{Document, Node};
 

@@ -9,18 +9,22 @@ mod callee;
 mod choices;
 mod consequences;
 mod convert;
+mod draft;
 pub(crate) mod edges;
 mod endings;
 mod entries;
 mod enums;
 mod foreign;
 mod formula;
+mod head;
 mod imports;
 mod meant;
 mod names;
+mod outline;
 pub(crate) mod partial;
 mod places;
 mod plan;
+mod program;
 mod range;
 mod reactions;
 mod recursion;
@@ -30,6 +34,7 @@ pub(crate) mod scenario;
 mod scope;
 pub(crate) mod signature;
 mod size;
+mod synonyms;
 mod tables;
 pub(crate) mod timing;
 pub(crate) mod toolbox;
@@ -37,79 +42,22 @@ mod types;
 pub mod watch;
 mod written;
 
-use std::sync::Arc;
-
-use crate::files::relative;
 use crate::flow::{self, Model};
 use crate::gather::{PlanFile, Toolboxes};
 use crate::graph::{self, Graph};
 use crate::index::{self, Declared, Index, Meanings, Recorder};
-use crate::outline::{self, Material, Outline};
+use crate::outline::Outline;
 use crate::scenario::Scenario;
-use crate::toolbox::Toolbox;
-use afp_syntax::ast::{self, Item, Name};
+use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::words;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
-use afp_syntax::source::Span;
 
-use entries::EntryDraft;
-use names::Indices;
+pub(crate) use head::PlanHead;
+use outline::Material;
 use partial::{Partial, Parts};
-pub(crate) use plan::{Made, Members, WrittenParts};
-use scope::FileScope;
-use signature::Signatures;
+pub(crate) use plan::Members;
+pub(crate) use scope::{Context, Program};
 use toolbox::names_only;
-
-/// Everything that a compilation has read.
-pub(crate) struct Program<'a> {
-    /// All toolboxes that could be used.
-    pub toolboxes: &'a Toolboxes,
-    /// Those that some file uses; [`crate::graph::ToolboxId`] is an index into them.
-    pub linked: Vec<Arc<Toolbox>>,
-    /// What each plan file can name.
-    pub files: Vec<FileScope<'a>>,
-    /// The plans of all files, file by file.
-    pub plans: Vec<PlanHead>,
-    /// For each plan the plans that it uses, each with the place where it does.
-    pub sub_plans: Vec<Vec<(usize, Span)>>,
-    /// The ports and outcomes of all that plans can use.
-    pub signatures: Signatures,
-    /// What is found out about names.
-    pub record: &'a Recorder,
-}
-
-/// A compilation as one of its files sees it.
-#[derive(Clone, Copy)]
-pub(crate) struct Context<'a> {
-    /// All files.
-    pub program: &'a Program<'a>,
-    /// This one.
-    pub file: &'a FileScope<'a>,
-}
-
-impl Context<'_> {
-    /// The file, seen from the folder of the compiled one; `None` when it is that one.
-    fn file_from_main(&self) -> Option<String> {
-        let (main, own) = (self.program.files.first()?.path, self.file.path);
-        (own != main).then(|| relative(main, own).unwrap_or_else(|| own.to_owned()))
-    }
-}
-
-/// What other plans need to know of a plan.
-pub(crate) struct PlanHead {
-    /// The plan as written.
-    pub node: ast::Plan,
-    /// Its name.
-    pub name: Option<Name>,
-    /// The file that it stands in.
-    pub file: usize,
-    /// Its entries.
-    pub entries: Vec<EntryDraft>,
-    /// Where the entries stand.
-    pub indices: Indices,
-    /// The edge by which it can end as `Interrupted`.
-    pub interrupting: Option<Span>,
-}
 
 /// Whether flow is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,7 +99,7 @@ pub(crate) fn check(
     }
     let bytes: usize = files.iter().map(|file| file.source.text.len()).sum();
     let record = Recorder::for_text(bytes);
-    let program = scope::program(files, toolboxes, &record, diags);
+    let program = program::program(files, toolboxes, &record, diags);
     let order = recursion::order(&program, diags);
     let (mut plans, mut inputs) = (Vec::new(), Vec::new());
     let (mut users, mut members) = (Vec::new(), Vec::new());

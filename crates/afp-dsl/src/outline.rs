@@ -10,9 +10,7 @@
 //! second one has `#2` behind it, and so on; one without a name is `#1`, since no name begins so.
 //! States, events and ports of one component are told apart by [`Exit::nth`] and [`Input::nth`].
 
-mod build;
 mod component;
-mod draft;
 mod findings;
 mod identity;
 mod look_up;
@@ -24,12 +22,10 @@ use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
-pub(crate) use build::{Material, build};
 pub use component::{
     Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Input, MadeFrom, Output,
     Target, TemplateUse, Times, Value,
 };
-pub(crate) use draft::draft;
 pub use identity::{Identity, Part};
 
 macro_rules! index {
@@ -44,7 +40,7 @@ macro_rules! index {
                 self.0 as usize
             }
 
-            fn new(index: usize) -> $name {
+            pub(crate) fn new(index: usize) -> $name {
                 $name(u32::try_from(index).unwrap_or(u32::MAX))
             }
         }

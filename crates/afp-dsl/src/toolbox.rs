@@ -7,8 +7,8 @@ use crate::types::{Enum, Object, Type};
 use afp_syntax::source::Span;
 use std::sync::Arc;
 
-pub use afp_syntax::ast::TemplateKind;
 pub use crate::types::Constant;
+pub use afp_syntax::ast::TemplateKind;
 pub use device::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalType};
 
 /// A checked toolbox file.

@@ -122,8 +122,8 @@ fn item(kind: ComponentKind, template: &str, body: Vec<Piece>) -> Vec<Piece> {
 mod tests {
     use super::palette;
     use crate::View;
-    use afp_dsl::compile;
     use afp_dsl::Toolboxes;
+    use afp_dsl::compile;
     use afp_syntax::source::Source;
 
     const VACUUM: &str = include_str!("../../../examples/vacuum/vacuum.afp");

@@ -4,9 +4,9 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use afp_dsl::Compiled;
+use afp_dsl::Toolboxes;
 use afp_dsl::index::{Definition, DefinitionId, Index, Name};
 use afp_dsl::outline::{Component, Outline, Plan};
-use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::{Template, Toolbox};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::kind::Kind;

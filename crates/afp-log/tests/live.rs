@@ -15,10 +15,10 @@ use std::time::{Duration, Instant as Wall};
 
 use afp::load::{LoadedPlan, Registry};
 use afp_core::Instant;
+use afp_dsl::Toolboxes;
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::Toolboxes;
 use afp_log::live::Live;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
 use afp_session::{AnySession, Go, Loader, Opened, Settings};

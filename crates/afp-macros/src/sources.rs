@@ -5,8 +5,8 @@ use std::{env, fs};
 
 use afp_codegen::compile_error;
 use afp_dsl::Compiled;
-use afp_dsl::files::Disk;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Disk;
 use afp_project::{CrateLink, ProjectError, ProjectFile};
 use afp_syntax::source::Source;
 use afp_toolboxes::project::OwnToolboxes;

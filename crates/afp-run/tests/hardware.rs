@@ -9,9 +9,9 @@ use afp_carbot::table::Carbot;
 use afp_core::devices::{Devices, controls, find_signal};
 use afp_core::trace::Ending;
 use afp_core::{Clock, Duration, Environment, Instant, Platform, rt::Registry as _};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_run::options::RunOptions;
 use afp_run::{EXIT_OK, EXIT_PLAN_ERROR, Program, RunError, run, run_on_hardware};
 use afp_session::{

@@ -3,9 +3,9 @@
 use afp_carbot::devices::Navigator;
 use afp_core::quantity::{AngularSpeed, Speed};
 use afp_core::{Actor, Fault, Instant, Poll};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_run::options::RunOptions;
 use afp_run::{EXIT_PLAN_ERROR, Program, run};
 use afp_session::{AnyWorld, EndingKind, EventKind, Loader, simulated};

@@ -4,9 +4,9 @@ use afp::load::{LoadedPlan, Registry};
 use afp_carbot::table::{TABLE, signal};
 use afp_core::devices::{find_control, find_fault};
 use afp_core::{Duration, Instant};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
 use afp_session::{
     AnySession, Counts, Go, Observer, Open, Request, Robot, SampleRef, Session, Simulated, Track,

@@ -4,9 +4,9 @@ use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{ComponentKind, Names, Record, Sink};
 use afp_core::{Duration, Instant, Scheduler, StillClock, Wake};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_sim::{Simulation, World};
 use afp_syntax::source::Source;
 

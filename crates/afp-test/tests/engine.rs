@@ -12,8 +12,8 @@ mod panics;
 use std::path::Path;
 
 use afp_dsl::Compiled;
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_session::Loader;
 use afp_syntax::source::Source;
 use afp_test::{Setting, Verdict};

@@ -9,9 +9,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use afp_dsl::Compiled;
+use afp_dsl::Toolboxes;
 use afp_dsl::files::read_text_file;
 use afp_dsl::graph::Graph;
-use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::Toolbox;
 use afp_project::{CrateLink, Mistake, ProjectError, ProjectFile, ToolboxFile, shown};
 use afp_syntax::source::Source;

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use afp_dsl::Toolboxes;
 use afp_dsl::compile_plan;
 use afp_dsl::files::Disk;
 use afp_dsl::graph::Graph;
-use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 /// Where plans are, seen from the root of the checkout; first those that AFP ships.

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use afp_debug::{Adapter, ClientId, Host, Launch, Outgoing, Program, SessionTarget, Target};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::Toolboxes;
 use afp_session::{AnySession, Loader};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};

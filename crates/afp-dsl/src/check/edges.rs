@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use crate::check::formula::too_long;
-use crate::check::meant;
 use crate::check::names::{Indices, is_word, unknown};
 use crate::check::resume;
 use crate::check::signature::{Signature, SignatureKind};
+use crate::check::synonyms::{self, Leads};
 use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
 use crate::index::{Recorder, Word};
 use crate::toolbox::TemplateKind;
@@ -361,17 +361,6 @@ fn hides_reason(edge: &WrittenEdge, diags: &mut Diagnostics) {
     }
 }
 
-/// What names an element.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Leads {
-    /// The start of the plan.
-    Start,
-    /// A state, or what is not known to be an event.
-    Edge,
-    /// An event.
-    Event,
-}
-
 /// The element of that name; reports when there is none. Edges may lead to words instead.
 pub(crate) fn find(
     to: &Name,
@@ -391,7 +380,7 @@ pub(crate) fn find(
             true => "add an element, and name that",
             false => "add an element of that name",
         };
-        let meant = meant::target(&to.text, leads);
+        let meant = synonyms::target(&to.text, leads);
         diags.push(match meant.filter(|_| words::nearest(&to.text, elements.names()).is_none()) {
             Some(word) => Diagnostic::new(Code::E0216, to.span, message)
                 .help(format!("write '{word}'"))

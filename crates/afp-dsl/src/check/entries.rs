@@ -2,39 +2,15 @@
 //! known: `const`, then `in`, then the others.
 
 use crate::check::formula::Scope;
+use crate::check::head::EntryDraft;
 use crate::check::names::Indices;
 use crate::check::range;
 use crate::check::types::Types;
-use crate::graph::{EntryId, EntryKind, Formula};
+use crate::graph::EntryKind;
 use crate::index::Recorder;
-use crate::types::{Constant, Type};
+use crate::types::Type;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
-
-/// An entry, as far as it is understood.
-#[derive(Clone, Debug)]
-pub(crate) struct EntryDraft {
-    /// Its name.
-    pub name: ast::Name,
-    /// Its `///` lines.
-    pub doc: String,
-    /// Who may set it.
-    pub kind: EntryKind,
-    /// Whether it is given its value anew while the plan runs as a sub-plan.
-    pub live: bool,
-    /// Its type, where that is known.
-    pub ty: Option<Type>,
-    /// Its initial value.
-    pub init: Option<Formula>,
-    /// Whether an initial value is written, right or wrong.
-    pub has_init: bool,
-    /// The initial value where it is the same in every run.
-    pub value: Option<Constant>,
-    /// Least and greatest value, in SI units.
-    pub range: Option<(f64, f64)>,
-    /// The constants that the range is made of.
-    pub ranged_by: Vec<EntryId>,
-}
 
 /// The entries of a plan as written; those without a name are left out. Also tells where which one
 /// stands.

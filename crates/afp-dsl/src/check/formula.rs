@@ -11,10 +11,10 @@ use std::sync::Arc;
 use afp_types::{Error, MAX_TEXT};
 
 use crate::check::convert::coerce;
-use crate::check::entries::EntryDraft;
+use crate::check::head::EntryDraft;
 use crate::check::names::{Indices, ambiguous, unknown};
 use crate::check::types::Types;
-use crate::graph::{constant, EntryId, EntryKind, Formula, FormulaKind};
+use crate::graph::{EntryId, EntryKind, Formula, FormulaKind, constant};
 use crate::index::{Recorder, Word};
 use crate::table::Table;
 use crate::types::{Constant, Type};

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::check::names::unknown;
+use crate::gather::Toolboxes;
 use crate::graph::ToolboxId;
 use crate::index::Recorder;
-use crate::gather::Toolboxes;
 use crate::toolbox::Toolbox;
 use afp_syntax::ast::{File, Item, Name, Use};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};

@@ -5,14 +5,15 @@ mod faults;
 
 use std::rc::Rc;
 
-use crate::check::edges::{Elements, Leads};
-use crate::check::entries::EntryDraft;
+use crate::check::edges::Elements;
 use crate::check::formula::Scope;
+use crate::check::head::EntryDraft;
 use crate::check::names::{self, DeclaredNames, Indices};
 use crate::check::places::Ranges;
 use crate::check::reactions::Watchers;
 use crate::check::resources::Users;
 use crate::check::signature::Signature;
+use crate::check::synonyms::Leads;
 use crate::check::{Context, PlanHead, Program, edges, resume, size};
 use crate::graph::{self, Element, ElementId, Formula, Supervisor, SupervisorId};
 use crate::index::Recorder;
@@ -25,8 +26,6 @@ use afp_syntax::source::Span;
 
 use component::{Checked, Components};
 use faults::Owner;
-
-pub(crate) use component::{Made, WrittenParts};
 
 /// A plan, as far as it could be checked.
 pub(crate) struct CheckedPlan {

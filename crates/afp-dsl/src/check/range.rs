@@ -1,7 +1,7 @@
 //! Ranges of ports and entries: `from 0 cm/s to 1 m/s`, both ends belong to it.
 
-use crate::types::{Constant, Type};
 use crate::types::text;
+use crate::types::{Constant, Type};
 use afp_syntax::ast::Formula;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;

@@ -4,13 +4,13 @@
 
 use std::rc::Rc;
 
+use crate::check::draft::{Made, WrittenParts, draft};
 use crate::check::edges::{self, Elements, Origin, WrittenEdge};
 use crate::check::names::unknown;
 use crate::check::signature::Signature;
-use crate::check::{Made, WrittenParts};
 use crate::graph::{Reactions, SupervisorId};
 use crate::index::Recorder;
-use crate::outline::{self, Component, ComponentKind};
+use crate::outline::{Component, ComponentKind};
 use afp_syntax::ast::{self, ElementKind, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 
@@ -89,7 +89,7 @@ impl Watchers<'_> {
         }
         let parts = WrittenParts { edges, ..WrittenParts::default() };
         let head = (ComponentKind::Reactions, name);
-        (reactions, outline::draft(head, node.frame(), &Made::default(), parts, self.text))
+        (reactions, draft(head, node.frame(), &Made::default(), parts, self.text))
     }
 
     /// The place of a global supervisor.

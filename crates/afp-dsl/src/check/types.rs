@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use crate::check::meant;
 use crate::check::names::{ambiguous, unknown};
+use crate::check::synonyms;
 use crate::index::{Recorder, Word};
 use crate::types::{Dimension, Enum, GENERIC, Object, PLAIN, Type, is_built_in};
 use afp_syntax::ast::{self, Factor};
@@ -194,7 +194,7 @@ impl Types {
         if let (false, Some(error)) = (qualified, self.hidden(&name.text, error)) {
             return error;
         }
-        if let Some(ty) = meant::ty(&name.text) {
+        if let Some(ty) = synonyms::ty(&name.text) {
             return elsewhere(reference.span(), message, ty);
         }
         if let Some(unit) = Unit::parse(&name.text).filter(|_| !qualified) {

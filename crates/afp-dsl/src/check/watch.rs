@@ -7,11 +7,11 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::check::convert::compared_as;
-use crate::check::entries::EntryDraft;
 use crate::check::formula::Scope;
+use crate::check::head::EntryDraft;
 use crate::check::names::Indices;
 use crate::check::types::Types;
-use crate::graph::{constant, EntryId, Formula, Graph, Plan, PlanId};
+use crate::graph::{EntryId, Formula, Graph, Plan, PlanId, constant};
 use crate::index::Recorder;
 use crate::scenario::Comparison;
 use crate::types::{Constant, Enum, Type};

@@ -3,11 +3,11 @@
 
 use afp_types::Error;
 
-use crate::graph::constant::convert;
-use crate::check::entries::EntryDraft;
 use crate::check::formula::{Scope, fault_diagnostic};
+use crate::check::head::EntryDraft;
 use crate::check::range;
 use crate::check::signature::Signature;
+use crate::graph::constant::convert;
 use crate::graph::{Formula, Output};
 use crate::table::Table;
 use crate::toolbox::Template;

@@ -225,7 +225,7 @@ pub struct Target {
 
 impl Target {
     /// The place of the name alone.
-    pub(super) fn name_span(&self) -> Span {
+    pub(crate) fn name_span(&self) -> Span {
         match self.reason() {
             Some(reason) => Span {
                 end: self.span.start + (self.text.len() - reason.len() - 1) as u32,

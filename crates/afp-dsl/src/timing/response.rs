@@ -4,9 +4,9 @@ use crate::flow::view::View;
 use crate::graph::{Supervisor, SupervisorId};
 
 use super::before::{Before, before};
+use super::contribution::Outside;
 use super::cost::Cost;
 use super::held::{interrupts, poll};
-use super::contribution::Outside;
 use super::level::Levels;
 use super::{Interruption, Response, SupervisorTiming, Trust};
 

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use afp_dsl::Compiled;
+use afp_dsl::Toolboxes;
 use afp_dsl::files::Texts;
 use afp_dsl::timing::{Target, check_target};
-use afp_dsl::Toolboxes;
 use afp_syntax::source::{Source, Sources};
 
 /// The built-in toolboxes and those of `tests/toolboxes/`.

@@ -3,8 +3,8 @@
 
 use std::sync::LazyLock;
 
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_syntax::diagnostics::Severity;
 use proptest::prelude::*;
 

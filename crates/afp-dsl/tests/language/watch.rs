@@ -1,9 +1,9 @@
 //! Formulas about a plan that runs.
 
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::{EntryId, Graph};
-use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::Constant;
 use afp_dsl::watch::Watch;
 use afp_syntax::source::Source;

@@ -4,11 +4,11 @@ use std::rc::Rc;
 
 use super::buffer::{Splice, TextBuffer};
 use super::{Item, Refused, refer, tree};
+use afp_dsl::Toolboxes;
 use afp_dsl::files::{joined, normalised};
 use afp_dsl::graph::EntryKind;
 use afp_dsl::index::{DefinitionKind, Index, Meaning};
 use afp_dsl::index_files;
-use afp_dsl::Toolboxes;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::{Source, Span};

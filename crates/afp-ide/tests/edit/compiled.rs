@@ -1,8 +1,8 @@
 //! Extracting and inlining on plans that compile: the result compiles too.
 
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_ide::edit::{Change, apply};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::outline::{Component, ComponentKind, Outline, Plan};
-use afp_dsl::Toolboxes;
 use afp_ide::edit::{Binding, Change, apply, edit};
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::{env, fs};
 
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_dsl::{Compiled, compile};
 use afp_ide::{View, actions, completion, definition, folding, hints, hover, lenses, references};
 use afp_ide::{selection, signature, symbols, tokens};

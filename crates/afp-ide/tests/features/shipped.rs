@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Disk;
-use afp_dsl::Toolboxes;
 use afp_ide::edit::apply;
 use afp_ide::{View, actions};
 use afp_syntax::source::{Source, Span};

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use afp_dsl::files::Texts;
 use afp_dsl::Toolboxes;
+use afp_dsl::files::Texts;
 use afp_dsl::{Compiled, compile};
 use afp_ide::View;
 use afp_syntax::source::{Source, Span};

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use afp_dsl::files::{Disk, Files};
 use afp_dsl::Toolboxes;
+use afp_dsl::files::{Disk, Files};
 use afp_dsl::{Compiled, compile_plan};
 use afp_run::{RunError, write_whole};
 use afp_syntax::source::Source;

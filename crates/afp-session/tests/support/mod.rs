@@ -11,9 +11,9 @@ use afp_core::devices::{
 use afp_core::{
     Actor, Duration, Environment, Events, Fault, Instant, Platform, Poll, StillClock, Supervisor,
 };
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_session::{
     Active, Figure, FigureValue, Hardware, Pose2, Refused, Robot, SampleRef, Samples, Settings,
     Transform,

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use afp_dsl::Compiled;
+use afp_dsl::Toolboxes;
 use afp_dsl::files::{Files, normalised};
 use afp_dsl::graph::EntryKind;
 use afp_dsl::scenario::{DEFAULT_UNTIL, Scenario};
-use afp_dsl::Toolboxes;
 use afp_run::RunError;
 use afp_session::Loader;
 use afp_syntax::source::Source;

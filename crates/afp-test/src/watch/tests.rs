@@ -3,9 +3,9 @@
 use afp::load::PlanNames;
 use afp_core::trace::{Author, ComponentId, Record, TraceEntryId};
 use afp_core::{Instant, Value, ValueRef};
+use afp_dsl::Toolboxes;
 use afp_dsl::files::Texts;
 use afp_dsl::scenario::Scenario;
-use afp_dsl::Toolboxes;
 use afp_syntax::source::Source;
 
 use super::Watch;

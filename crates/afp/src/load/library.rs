@@ -5,9 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use afp_core::{Environment, Scheduler};
+use afp_dsl::Toolboxes;
 use afp_dsl::compile_plan;
 use afp_dsl::files::{Disk, read_text};
-use afp_dsl::Toolboxes;
 use afp_syntax::diagnostics::Code;
 use afp_syntax::source::Source;
 

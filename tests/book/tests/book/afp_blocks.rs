@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use afp_book::Block;
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_dsl::Toolboxes;
 use afp_format::format;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::parse;

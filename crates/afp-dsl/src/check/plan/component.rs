@@ -6,15 +6,15 @@ use crate::check::Context;
 use crate::check::bindings::{self, Site};
 use crate::check::callee::Wanted;
 use crate::check::choices;
+use crate::check::draft::{Made, WrittenParts, draft};
 use crate::check::edges::{self, Connected, Elements, Origin, WrittenEdge};
 use crate::check::formula::Scope;
 use crate::check::resources::User;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{tables, timing, written};
 use crate::graph::{Element, ElementId, EntryId, Supervisor};
-use crate::outline::{self, Component, ComponentKind, Times};
+use crate::outline::{Component, ComponentKind, Times};
 use crate::toolbox::Template;
-use crate::types::Type;
 use afp_syntax::ast::{self, ElementKind, Frame};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::source::Span;
@@ -45,28 +45,6 @@ impl<T> Parts<T> {
     fn broken(made: Made) -> Parts<T> {
         Parts { built: None, user: None, made }
     }
-}
-
-/// The parts of a component as written.
-#[derive(Default)]
-pub(crate) struct WrittenParts {
-    /// What it is made from.
-    pub template: Option<ast::Ref>,
-    /// Its bindings.
-    pub binds: Vec<ast::Bind>,
-    /// Its edges.
-    pub edges: Vec<WrittenEdge>,
-}
-
-/// What a component is made from, as far as that is known.
-#[derive(Default)]
-pub(crate) struct Made {
-    /// Its template or plan.
-    pub signature: Option<Rc<Signature>>,
-    /// The type that stands for `any` or `number`.
-    pub generic: Option<Type>,
-    /// When it is polled; supervisors only.
-    pub times: Option<Times>,
 }
 
 /// What the components of one plan are checked against.
@@ -102,7 +80,7 @@ impl Components<'_> {
         check: impl FnOnce(&Frame, &WrittenParts) -> Parts<T>,
     ) -> Checked<T> {
         let Parts { built, user, made } = check(&frame, &written);
-        let draft = outline::draft(head, frame, &made, written, self.context.file.text);
+        let draft = draft(head, frame, &made, written, self.context.file.text);
         Checked { built, user, signature: made.signature, draft }
     }
 

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use afp_types::MAX_TRANSITIONS_PER_STEP;
 
-use super::counters::{self, Counter};
+use super::counters;
 use super::decided::{self, Known};
 use super::ways::Ways;
-use crate::flow::view::{Edge, Node, View};
+use crate::flow::view::{Counter, Edge, Node, View};
 use crate::graph::{Element, ElementId};
 use crate::types::Constant;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};

@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::holding::standard_template;
-use crate::graph::constant::{convert, evaluate};
 use crate::flow::view::{Cause, Edge, Node, View};
+use crate::graph::constant::{convert, evaluate};
 use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
 use crate::table::Table;
 use crate::types::Constant;

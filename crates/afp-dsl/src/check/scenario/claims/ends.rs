@@ -1,9 +1,8 @@
 //! Claims about how the plan ends, and what ends are called elsewhere.
 
 use super::Checker;
-use crate::check::edges::Leads;
-use crate::check::meant as words_of_ends;
 use crate::check::scenario::paths::{Found, Part};
+use crate::check::synonyms::{self, Leads};
 use crate::graph::Target;
 use crate::scenario::{Cause, Claim, EndCause, Outcome};
 use afp_syntax::ast::{ENDS, Name, Path};
@@ -12,7 +11,7 @@ use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
 /// The end of a plan that was meant by a word.
 pub(super) fn meant(word: &str) -> Option<&'static str> {
     let same = |end: &&str| end.eq_ignore_ascii_case(word);
-    let ours = || match words_of_ends::target(word, Leads::Edge).unwrap_or(word) {
+    let ours = || match synonyms::target(word, Leads::Edge).unwrap_or(word) {
         "terminate" => Some("OK"),
         "fail" => Some("Error"),
         _ => None,
@@ -24,7 +23,7 @@ impl Checker<'_> {
     /// What a transition leads to: an element, or else a word that is reported.
     pub(super) fn target(&self, path: &Path, diags: &mut Diagnostics) -> Option<Found> {
         let text = path.text();
-        let meant = words_of_ends::target(&text, Leads::Event).filter(|word| *word != "ignore");
+        let meant = synonyms::target(&text, Leads::Event).filter(|word| *word != "ignore");
         let names = path.names();
         let (Some(meant), Err(error)) = (meant, self.paths.find(self.paths.main(), &names)) else {
             return self.element(path, diags);

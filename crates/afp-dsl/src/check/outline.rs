@@ -2,15 +2,15 @@
 
 use std::mem::take;
 
-use super::draft::{self, in_one_line};
-use super::{
-    Column, Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan,
-    PlanId, Scenario, Start, Table, Target, Use, Value,
-};
+use crate::check::draft::{self, in_one_line};
 use crate::check::{Members, PlanHead, Program};
 use crate::gather::PlanFile;
 use crate::graph::EntryKind;
 use crate::index::{Found, Lookup, Meanings, Word};
+use crate::outline::{
+    Column, Component, Destination, ElementId, Entry, EntryId, Enum, File, Findings, Outline, Plan,
+    PlanId, Scenario, Start, Table, Target, Use, Value,
+};
 use afp_syntax::ast::{self, Name};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;

@@ -1,24 +1,46 @@
 //! Components as their check leaves them, without paths and without what names in them mean.
 //!
-//! They are read while their nodes are at hand, so that no node of the tree is kept; [`super::build`] says the rest
+//! They are read while their nodes are at hand, so that no node of the tree is kept; [`super::outline`] says the rest
 //! once all names have their meanings.
 
 use std::hash::Hash;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::{
-    Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Findings, Input,
-    MadeFrom, Output, PlanId, Target, TemplateUse, Value,
-};
+use crate::check::bindings;
 use crate::check::edges::{self, WrittenEdge};
 use crate::check::signature::{Signature, SignatureKind};
-use crate::check::{Made, WrittenParts, bindings};
+use crate::outline::{
+    Binding, Component, ComponentKind, Destination, Edge, Exit, ExitKind, Findings, Input,
+    MadeFrom, Output, PlanId, Target, TemplateUse, Times, Value,
+};
 use crate::types::Type;
 use afp_syntax::ast::{self, Bind, Frame, Name};
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 use rustc_hash::FxHashMap;
+
+/// The parts of a component as written.
+#[derive(Default)]
+pub(crate) struct WrittenParts {
+    /// What it is made from.
+    pub template: Option<ast::Ref>,
+    /// Its bindings.
+    pub binds: Vec<ast::Bind>,
+    /// Its edges.
+    pub edges: Vec<WrittenEdge>,
+}
+
+/// What a component is made from, as far as that is known.
+#[derive(Default)]
+pub(crate) struct Made {
+    /// Its template or plan.
+    pub signature: Option<Rc<Signature>>,
+    /// The type that stands for `any` or `number`.
+    pub generic: Option<Type>,
+    /// When it is polled; supervisors only.
+    pub times: Option<Times>,
+}
 
 /// An element without its supervisors, a supervisor, or reactions; `text` is that of the file.
 pub(crate) fn draft(
