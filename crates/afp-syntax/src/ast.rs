@@ -14,20 +14,20 @@ mod toolbox;
 
 use rowan::{GreenNodeData, GreenTokenData, Language, NodeOrToken};
 
+use crate::diagnostics::Diagnostics;
 use crate::keywords;
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
 use crate::tree::green_span;
-use crate::{Node, node_span};
+use crate::{Node, Parse, node_span, parse};
 
 use comments::{doc, note};
 
+pub use crate::keywords::ENDS;
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
 pub use formula::{Formula, FormulaKind, Operator, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions, Start};
-pub use scenario::{
-    Action, Bound, Claim, ClaimKind, ClaimTarget, ENDS, Line, LineKind, Path, Scenario,
-};
+pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
 pub use table::{Column, Row, Table};
 pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing, Toolbox};
 
@@ -392,6 +392,20 @@ fn range(node: &Node, file: u16) -> Option<(Formula, Formula, Span)> {
     let (from, to) = (ends.next()?, ends.next()?);
     let span = from.span().to(to.span());
     Some((from, to, span))
+}
+
+impl Parse {
+    /// The typed view of the tree.
+    pub fn file(&self) -> File {
+        File::new(self.root(), self.file)
+    }
+}
+
+/// Whether a text has a scenario, of whatever else it has, or may have one that an error hides.
+pub fn may_have_scenario(text: &str) -> bool {
+    let mut diags = Diagnostics::default();
+    let items = parse(text, 0, &mut diags).file().items();
+    diags.has_errors() || items.iter().any(|item| matches!(item, Item::Scenario(_)))
 }
 
 /// The first word of the grammar in a node.

@@ -1,32 +1,101 @@
-//! The words that items begin with, and which of them was meant by another word.
+//! The words of the grammar with their roles, and which of them was meant by another word.
 
 use crate::diagnostics::words;
 use crate::kind::Kind;
 
-/// What items of a file begin with.
-pub(crate) const TOP: &[&str] = &["use", "plan", "scenario", "enum", "table", "toolbox"];
-/// What items of a toolbox begin with, besides.
-pub(crate) const TOOLS: &[&str] =
-    &["object", "device", "sensor", "robot", "actor", "supervisor", "computation"];
-/// What items of a plan begin with.
-pub(crate) const PLAN: &[&str] =
-    &["in", "out", "var", "const", "start", "supervise", "actor", "computation", "subplan"];
-/// What entries of a plan begin with.
-pub(crate) const ENTRIES: &[&str] = &["in", "out", "var", "const"];
-/// What elements of a plan begin with.
-const ELEMENTS: &[&str] = &["actor", "computation", "subplan"];
-/// What stands before a name and ':' in a plan.
-pub(crate) const NAMED: &[&str] =
-    &["in", "out", "var", "const", "supervise", "actor", "computation", "subplan"];
-/// What parts of a template begin with.
-pub(crate) const PARTS: &[&str] = &[
-    "icon", "uses", "in", "out", "every", "deadline", "budget", "stop", "state", "states", "event",
+/// Roles of words of the grammar, one bit each.
+pub(crate) type Roles = u16;
+
+/// Begins an item of a file.
+pub(crate) const TOP: Roles = 1;
+/// Begins an item that only toolboxes have.
+pub(crate) const TOOL: Roles = 1 << 1;
+/// Begins an entry of a plan.
+pub(crate) const ENTRY: Roles = 1 << 2;
+/// Begins an element of a plan.
+const ELEMENT: Roles = 1 << 3;
+const START: Roles = 1 << 4;
+const SUPERVISE: Roles = 1 << 5;
+/// Begins a part of a template.
+pub(crate) const PART: Roles = 1 << 6;
+/// Begins a part of a device.
+pub(crate) const DEVICE: Roles = 1 << 7;
+/// Begins a line of a scenario.
+pub(crate) const LINE: Roles = 1 << 8;
+/// Begins what has a body.
+pub(crate) const HEAD: Roles = 1 << 9;
+/// Begins what bodies hold.
+pub(crate) const BODY: Roles = 1 << 10;
+/// May follow a number on its line and is not a misspelt unit.
+pub(crate) const BEHIND_NUMBER: Roles = 1 << 11;
+/// Precedes a name that is declared, so that another name can be chosen.
+pub(crate) const DECLARES: Roles = 1 << 12;
+/// Begins an item of a plan that has a name and a ':'.
+pub(crate) const NAMED: Roles = ENTRY | ELEMENT | SUPERVISE;
+/// Begins an item of a plan.
+pub(crate) const PLAN: Roles = NAMED | START;
+
+/// The words of the grammar that begin something or separate numbers from what follows, with their roles. Help texts
+/// list words in this order.
+const WORDS: &[(&str, Roles)] = &[
+    ("use", TOP | BEHIND_NUMBER),
+    ("plan", TOP | HEAD | BEHIND_NUMBER | DECLARES),
+    ("scenario", TOP | HEAD | BEHIND_NUMBER),
+    ("enum", TOP | HEAD | BEHIND_NUMBER | DECLARES),
+    ("table", TOP | HEAD | BEHIND_NUMBER | DECLARES),
+    ("toolbox", TOP),
+    ("icon", PART | BODY | BEHIND_NUMBER),
+    ("uses", PART | BODY | BEHIND_NUMBER),
+    ("in", ENTRY | PART | BODY | BEHIND_NUMBER | DECLARES),
+    ("live", DECLARES),
+    ("out", ENTRY | PART | BODY | BEHIND_NUMBER | DECLARES),
+    ("var", ENTRY | BODY | BEHIND_NUMBER | DECLARES),
+    ("const", ENTRY | BODY | BEHIND_NUMBER | DECLARES),
+    ("start", START | BODY | BEHIND_NUMBER),
+    ("supervise", SUPERVISE | HEAD | BODY | BEHIND_NUMBER | DECLARES),
+    ("object", TOOL | BEHIND_NUMBER),
+    ("device", TOOL | HEAD),
+    ("sensor", TOOL | HEAD),
+    ("world", LINE | BODY | BEHIND_NUMBER),
+    ("seed", LINE | BODY | BEHIND_NUMBER),
+    ("over", LINE | BEHIND_NUMBER),
+    ("set", LINE | BODY | BEHIND_NUMBER),
+    ("robot", TOOL | LINE | HEAD | BODY | BEHIND_NUMBER),
+    ("actor", TOOL | ELEMENT | HEAD | BODY | BEHIND_NUMBER | DECLARES),
+    ("supervisor", TOOL | HEAD | BEHIND_NUMBER),
+    ("computation", TOOL | ELEMENT | HEAD | BODY | BEHIND_NUMBER | DECLARES),
+    ("subplan", ELEMENT | HEAD | BODY | BEHIND_NUMBER | DECLARES),
+    ("every", PART | BEHIND_NUMBER),
+    ("deadline", PART | BEHIND_NUMBER),
+    ("budget", PART | BEHIND_NUMBER),
+    ("press", DEVICE | BODY),
+    ("stop", PART | DEVICE | BEHIND_NUMBER),
+    ("state", PART | BODY | BEHIND_NUMBER),
+    ("states", PART),
+    ("event", PART | BODY | BEHIND_NUMBER),
+    ("fault", DEVICE | BODY),
+    ("signal", DEVICE | BODY),
+    ("truth", DEVICE | BODY),
+    ("at", LINE | BODY | BEHIND_NUMBER),
+    ("from", LINE | HEAD | BODY | BEHIND_NUMBER),
+    ("expect", LINE | BODY | BEHIND_NUMBER),
+    ("never", LINE | BODY | BEHIND_NUMBER),
+    ("until", LINE | BODY | BEHIND_NUMBER),
+    ("on", HEAD | BODY | BEHIND_NUMBER),
+    ("after", BEHIND_NUMBER),
+    ("always", BEHIND_NUMBER),
+    ("before", BEHIND_NUMBER),
+    ("by", BEHIND_NUMBER),
+    ("for", BEHIND_NUMBER),
+    ("heading", BEHIND_NUMBER),
+    ("once", BEHIND_NUMBER),
+    ("times", BEHIND_NUMBER),
+    ("to", BEHIND_NUMBER),
+    ("within", BEHIND_NUMBER),
 ];
-/// What parts of a device begin with.
-pub(crate) const DEVICE: &[&str] = &["press", "stop", "fault", "signal", "truth"];
-/// What lines of a scenario begin with.
-pub(crate) const LINES: &[&str] =
-    &["world", "seed", "over", "set", "robot", "at", "from", "expect", "never", "until"];
+
+/// How a plan ends: the words behind `end by`.
+pub const ENDS: [&str; 3] = ["OK", "Interrupted", "Error"];
 
 /// Words that stand for ours elsewhere.
 const USUAL: &[(&str, &[&str])] = &[
@@ -44,6 +113,17 @@ const USUAL: &[(&str, &[&str])] = &[
     ("deadline", &["within", "timeout"]),
     ("expect", &["assert", "require"]),
 ];
+
+/// Whether a word has one of these roles.
+pub(crate) fn has(word: &str, roles: Roles) -> bool {
+    WORDS.iter().any(|(known, own)| *known == word && own & roles != 0)
+}
+
+/// The words with one of these roles.
+pub(crate) fn with(roles: Roles) -> Vec<&'static str> {
+    let words = WORDS.iter().filter(|(_, own)| own & roles != 0);
+    words.map(|(word, _)| *word).collect()
+}
 
 /// The word of a list that was meant: by one that says the same elsewhere, by a slip, or by its first letters.
 pub(crate) fn meant<'a>(word: &str, list: &[&'a str]) -> Option<&'a str> {
@@ -64,9 +144,9 @@ fn begun<'a>(letters: &str, list: &[&'a str]) -> Option<&'a str> {
 
 /// The word that an item begins with: of a kind of which there are several, the one that was meant by what is written.
 pub(crate) fn of_item(kind: Kind, written: &str) -> &str {
-    let list: &[&'static str] = match kind {
-        Kind::Entry => ENTRIES,
-        Kind::Element => ELEMENTS,
+    let list: &[&str] = match kind {
+        Kind::Entry => &with(ENTRY),
+        Kind::Element => &with(ELEMENT),
         Kind::Template => &["actor", "supervisor", "computation"],
         Kind::Device => &["device", "sensor", "robot"],
         Kind::Outcome => &["state", "event"],
@@ -84,7 +164,7 @@ pub(crate) fn of_item(kind: Kind, written: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::{DEVICE, LINES, PARTS, PLAN, TOOLS, TOP, meant, of_item};
+    use super::{DEVICE, LINE, PART, PLAN, TOOL, TOP, meant, of_item, with};
     use crate::kind::Kind;
 
     #[test]
@@ -92,18 +172,18 @@ mod tests {
         for (word, list, ours) in [
             ("strat", PLAN, Some("start")),
             ("input", PLAN, Some("in")),
-            ("input", PARTS, Some("in")),
+            ("input", PART, Some("in")),
             ("guard", PLAN, Some("supervise")),
-            ("guard", TOOLS, Some("supervisor")),
-            ("use", PARTS, Some("uses")),
+            ("guard", TOOL, Some("supervisor")),
+            ("use", PART, Some("uses")),
             ("falt", DEVICE, Some("fault")),
-            ("expct", LINES, Some("expect")),
+            ("expct", LINE, Some("expect")),
             ("toolbx", TOP, Some("toolbox")),
-            ("comput", TOOLS, Some("computation")),
-            ("s", TOOLS, None),
+            ("comput", TOOL, Some("computation")),
+            ("s", TOOL, None),
             ("banana", PLAN, None),
         ] {
-            assert_eq!(meant(word, list), ours, "{word}");
+            assert_eq!(meant(word, &with(list)), ours, "{word}");
         }
         assert_eq!(of_item(Kind::Entry, "input"), "in");
         assert_eq!(of_item(Kind::Element, "computaton"), "computation");

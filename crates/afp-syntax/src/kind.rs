@@ -226,6 +226,11 @@ kinds! {
 }
 
 impl Kind {
+    /// Whether a formula may begin with such a token.
+    pub(crate) fn begins_formula(self) -> bool {
+        matches!(self, Kind::Int | Kind::Float | Kind::Minus | Kind::Name | Kind::OpenParen)
+    }
+
     /// Whether tokens of this kind carry no meaning.
     pub fn is_trivia(self) -> bool {
         matches!(self, Kind::Whitespace | Kind::Comment | Kind::Doc | Kind::BlockComment)

@@ -17,6 +17,7 @@ mod text;
 mod tree;
 pub mod units;
 
+pub use ast::may_have_scenario;
 pub use kind::{Afp, Kind};
 pub use text::unquote;
-pub use tree::{Node, Parse, Token, count_tokens, may_have_scenario, node_span, parse, token_span};
+pub use tree::{Node, Parse, Token, count_tokens, node_span, parse, token_span};

@@ -8,7 +8,7 @@ use rowan::{GreenNode, GreenNodeData, GreenTokenData, Language, NodeOrToken};
 use crate::diagnostics::Diagnostics;
 use crate::kind::Afp;
 use crate::source::Span;
-use crate::{ast, lexer, parser};
+use crate::{lexer, parser};
 
 /// A node of the tree.
 pub type Node = rowan::SyntaxNode<Afp>;
@@ -19,18 +19,13 @@ pub type Token = rowan::SyntaxToken<Afp>;
 #[derive(Clone, Debug)]
 pub struct Parse {
     green: GreenNode,
-    file: u16,
+    pub(crate) file: u16,
 }
 
 impl Parse {
     /// The root of the tree.
     pub fn root(&self) -> Node {
         Node::new_root(self.green.clone())
-    }
-
-    /// The typed view of the tree.
-    pub fn file(&self) -> ast::File {
-        ast::File::new(self.root(), self.file)
     }
 
     /// The text, byte for byte as it was given.
@@ -52,13 +47,6 @@ pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
 /// the measure for what the rest of it may take.
 pub fn count_tokens(text: &str) -> usize {
     lexer::lex(text, 0, &mut Diagnostics::default()).len()
-}
-
-/// Whether a text has a scenario, of whatever else it has, or may have one that an error hides.
-pub fn may_have_scenario(text: &str) -> bool {
-    let mut diags = Diagnostics::default();
-    let items = parse(text, 0, &mut diags).file().items();
-    diags.has_errors() || items.iter().any(|item| matches!(item, ast::Item::Scenario(_)))
 }
 
 /// The place of a token.

@@ -20,9 +20,6 @@ views! {
     Path
 }
 
-/// How a plan ends: the words behind `end by`.
-pub const ENDS: [&str; 3] = ["OK", "Interrupted", "Error"];
-
 /// What a line of a scenario is.
 #[derive(Clone, Debug)]
 pub enum LineKind {

@@ -6,59 +6,10 @@
 //! nothing, the grammar reports what it misses.
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
-use crate::keywords::{TOOLS, TOP};
+use crate::keywords::{self, BODY, HEAD, TOOL, TOP};
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::source::Span;
-
-/// Words before what has a body.
-const HEADS: &[&str] = &[
-    "plan",
-    "actor",
-    "computation",
-    "subplan",
-    "supervise",
-    "supervisor",
-    "on",
-    "scenario",
-    "from",
-    "enum",
-    "table",
-    "device",
-    "sensor",
-    "robot",
-];
-
-/// Words that bodies begin with.
-const ITEMS: &[&str] = &[
-    "in",
-    "out",
-    "var",
-    "const",
-    "start",
-    "supervise",
-    "actor",
-    "computation",
-    "subplan",
-    "state",
-    "event",
-    "uses",
-    "icon",
-    "press",
-    "signal",
-    "truth",
-    "fault",
-    "world",
-    "robot",
-    "seed",
-    "set",
-    "at",
-    "from",
-    "expect",
-    "never",
-    "until",
-    "on",
-];
 
 /// So many braces of a file are mended.
 const MOST: usize = 16;
@@ -245,7 +196,7 @@ fn find(tokens: &[Token<'_>]) -> Option<Wrong> {
             continue;
         }
         if std::mem::take(&mut is_first) {
-            let is_head = HEADS.contains(&token.text);
+            let is_head = keywords::has(token.text, HEAD);
             reader.lines.push(Line { number, indent, is_head, opens: false, first: at, last: at });
             if let Some(wrong) = reader.line(at, last) {
                 return Some(wrong);
@@ -301,13 +252,13 @@ impl Reader<'_, '_> {
         let mut head = self.tokens[head.first..].iter().filter(|token| !token.kind.is_trivia());
         let (first, third) = (head.next().map_or("", |it| it.text), head.nth(1).map(|it| it.kind));
         let word = self.tokens[at].text;
-        let is_tool = TOP.contains(&word) || TOOLS.contains(&word);
+        let is_tool = keywords::has(word, TOP | TOOL);
         match first {
-            "plan" | "scenario" | "enum" | "table" => !TOP.contains(&word),
+            "plan" | "scenario" | "enum" | "table" => !keywords::has(word, TOP),
             "device" | "sensor" | "robot" => !is_tool,
             // A template, or an item of a plan.
             "actor" | "supervisor" | "computation" if third == Some(Kind::OpenBrace) => !is_tool,
-            _ => !is_tool && !ITEMS.contains(&word),
+            _ => !is_tool && !keywords::has(word, BODY),
         }
     }
 
@@ -341,7 +292,7 @@ impl Reader<'_, '_> {
             Kind::OpenParen => {
                 self.lines.last().is_some_and(|line| self.tokens[line.first].text == "table")
             }
-            Kind::Name if ITEMS.contains(&next.text) => {
+            Kind::Name if keywords::has(next.text, BODY) => {
                 self.lines.last().is_none_or(|it| it.first != at)
             }
             Kind::Name => {

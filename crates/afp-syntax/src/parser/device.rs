@@ -1,7 +1,7 @@
 //! Devices of a toolbox: what can be pressed, how they fail, what they signal.
 
 use super::Parser;
-use crate::keywords::DEVICE;
+use crate::keywords::{self, DEVICE};
 use crate::kind::Kind;
 
 const PART_HELP: &str = "write 'press', 'stop', 'fault', 'signal' or 'truth'";
@@ -20,7 +20,9 @@ impl Parser<'_, '_> {
             while !self.at_end() && !self.at(Kind::CloseBrace) && !self.at_tool() {
                 self.repeat(|parser| {
                     let what = "a part of the device";
-                    match parser.at_device_part() || parser.item_meant(what, DEVICE) {
+                    match parser.at_device_part()
+                        || parser.item_meant(what, &keywords::with(DEVICE))
+                    {
                         true => parser.device_part(),
                         false => parser.skip(what, PART_HELP, |p| {
                             p.at_device_part() || p.at(Kind::CloseBrace) || p.at_tool()
@@ -46,13 +48,13 @@ impl Parser<'_, '_> {
     }
 
     fn at_device_part(&self) -> bool {
-        DEVICE.contains(&self.word(0))
+        keywords::has(self.word(0), DEVICE)
     }
 
     /// Whether a line begins with a slip of a part's word and what such a part has behind it.
     fn at_misspelt_part(&self) -> bool {
         let named = self.nth(1) == Kind::Name;
-        named && !self.on_same_line() && self.meant(DEVICE).is_some()
+        named && !self.on_same_line() && self.meant(&keywords::with(DEVICE)).is_some()
     }
 
     /// Whether a part begins where a control's name could stand, too: surely on a line of its own.

@@ -4,7 +4,7 @@ use rowan::Language;
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, words};
-use crate::keywords::{PLAN, TOOLS, TOP};
+use crate::keywords::{self, PLAN, TOOL, TOP};
 use crate::kind::{Afp, Kind};
 
 impl Parser<'_, '_> {
@@ -40,7 +40,7 @@ impl Parser<'_, '_> {
                 self.read_as("supervisor", "an item of a toolbox");
                 self.template();
             }
-            word if PLAN.contains(&word) => self.misplaced(),
+            word if keywords::has(word, PLAN) => self.misplaced(),
             _ => {
                 let what = match self.is_toolbox {
                     true => "an item of a toolbox",
@@ -53,7 +53,7 @@ impl Parser<'_, '_> {
                     }
                     None if self.is_toolbox => format!(
                         "write {}",
-                        words::list(TOOLS.iter().copied().chain(["enum"]), "or")
+                        words::list(keywords::with(TOOL).into_iter().chain(["enum"]), "or")
                     ),
                     None => "remove it, or put it into a plan".to_owned(),
                 };
@@ -78,7 +78,7 @@ impl Parser<'_, '_> {
             (_, Kind::OpenBrace) => with_braces.to_vec(),
             (_, Kind::Colon) => Vec::new(),
             (_, Kind::OpenParen) => vec!["table", "enum"],
-            _ => TOP.iter().chain(&["object", "device", "sensor"]).copied().collect(),
+            _ => keywords::with(TOP).into_iter().chain(["object", "device", "sensor"]).collect(),
         }
     }
 

@@ -6,63 +6,10 @@ use super::habits::is_operator;
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::{Code, Diagnostic, words};
 use crate::dimension::Dimension;
+use crate::keywords::{self, BEHIND_NUMBER};
 use crate::kind::Kind;
 use crate::source::Span;
 use crate::units::Unit;
-
-/// Words that may stand behind a number on its line and are no misspelt unit.
-const WORDS_BEHIND_NUMBERS: &[&str] = &[
-    "actor",
-    "after",
-    "always",
-    "at",
-    "before",
-    "budget",
-    "by",
-    "computation",
-    "const",
-    "deadline",
-    "enum",
-    "event",
-    "every",
-    "expect",
-    "for",
-    "from",
-    "heading",
-    "icon",
-    "in",
-    "never",
-    "object",
-    "on",
-    "once",
-    "out",
-    "over",
-    "plan",
-    "robot",
-    "scenario",
-    "seed",
-    "set",
-    "start",
-    "state",
-    "stop",
-    "subplan",
-    "supervise",
-    "supervisor",
-    "table",
-    "times",
-    "to",
-    "until",
-    "use",
-    "uses",
-    "var",
-    "within",
-    "world",
-];
-
-/// Whether a formula may begin with a token.
-pub(super) fn begins_formula(kind: Kind) -> bool {
-    matches!(kind, Kind::Int | Kind::Float | Kind::Minus | Kind::Name | Kind::OpenParen)
-}
 
 impl Parser<'_, '_> {
     /// `term {("+" | "-") term}`
@@ -238,17 +185,17 @@ impl Parser<'_, '_> {
     /// Whether a word of the grammar stands behind a number, perhaps with a slip and what such a word has behind it.
     fn at_word_behind_number(&self) -> bool {
         let word = self.word(0);
-        let goes_on = begins_formula(self.nth(1)) && !self.begins_line(1);
+        let goes_on = self.nth(1).begins_formula() && !self.begins_line(1);
         let is_slip = goes_on && word.len() > 3 && Unit::meant(word).is_none();
-        WORDS_BEHIND_NUMBERS.contains(&word)
+        keywords::has(word, BEHIND_NUMBER)
             || is_operator(word)
-            || is_slip && words::nearest(word, WORDS_BEHIND_NUMBERS.iter().copied()).is_some()
+            || is_slip && words::nearest(word, keywords::with(BEHIND_NUMBER)).is_some()
     }
 
     /// Whether a word of the grammar stands here, with what it has behind it on its line.
     pub(super) fn at_word_of_grammar(&self) -> bool {
-        let goes_on = begins_formula(self.nth(1)) && !self.begins_line(1);
-        goes_on && WORDS_BEHIND_NUMBERS.contains(&self.word(0))
+        let goes_on = self.nth(1).begins_formula() && !self.begins_line(1);
+        goes_on && keywords::has(self.word(0), BEHIND_NUMBER)
     }
 
     /// `.5`

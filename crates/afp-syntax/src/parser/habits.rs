@@ -10,12 +10,11 @@ mod names;
 mod numbers;
 
 use super::Parser;
-use super::formula::begins_formula;
 use crate::diagnostics::{Code, Diagnostic};
+use crate::dimension::Dimension;
 use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::source::Span;
-use items::is_type;
 use numbers::hundredth;
 
 /// How a choice is written.
@@ -42,6 +41,11 @@ const OPERATORS: &[(&str, &str)] = &[
 /// Whether formulas elsewhere have the word between operands.
 pub(super) fn is_operator(word: &str) -> bool {
     OPERATORS.iter().any(|(operator, _)| *operator == word)
+}
+
+/// Whether a word is a type that every file knows.
+fn is_type(word: &str) -> bool {
+    matches!(word, "int" | "bool" | "float" | "string") || Dimension::named(word).is_some()
 }
 
 impl Parser<'_, '_> {
@@ -254,7 +258,7 @@ impl Parser<'_, '_> {
         self.at += 1;
         let is_item = !self.on_same_line() && (self.begins_item() || self.begins_scenario_line());
         let ends = is_item || self.names_something(0) || self.at_word_of_grammar();
-        let ends = ends || !begins_formula(self.nth(0)) && !self.at(Kind::Text);
+        let ends = ends || !self.nth(0).begins_formula() && !self.at(Kind::Text);
         self.at -= 1;
         if !ends {
             return false;

@@ -3,7 +3,7 @@
 use super::Parser;
 use super::recovery::Body;
 use crate::diagnostics::{Code, Diagnostic};
-use crate::keywords::{ENTRIES, NAMED, PLAN};
+use crate::keywords::{self, ENTRY, NAMED, PLAN};
 use crate::kind::Kind;
 
 /// What to do with a time that stands behind the braces of a supervisor.
@@ -46,7 +46,7 @@ impl Parser<'_, '_> {
 
     pub(super) fn at_plan_item(&self) -> bool {
         let named = self.names_something(0) && self.nth(1) != Kind::Colon;
-        PLAN.contains(&self.word(0)) && (!named || self.word(0) == "start")
+        keywords::has(self.word(0), PLAN) && (!named || self.word(0) == "start")
     }
 
     /// Passes over what is no item of a plan.
@@ -59,7 +59,7 @@ impl Parser<'_, '_> {
                 "put it into the braces of the element that reacts so".to_owned()
             }
             Some(help) => help,
-            None if self.item_meant(ITEMS, self.possible_items_of_plan()) => {
+            None if self.item_meant(ITEMS, &self.possible_items_of_plan()) => {
                 return self.plan_item();
             }
             None => ITEM_HELP.to_owned(),
@@ -80,12 +80,12 @@ impl Parser<'_, '_> {
     }
 
     /// The words of the items of a plan that have behind them what stands there.
-    fn possible_items_of_plan(&self) -> &'static [&'static str] {
-        match self.nth(2) {
+    fn possible_items_of_plan(&self) -> Vec<&'static str> {
+        keywords::with(match self.nth(2) {
             Kind::Colon => NAMED,
-            Kind::Equal => ENTRIES,
+            Kind::Equal => ENTRY,
             _ => PLAN,
-        }
+        })
     }
 
     /// Whether a line begins here like an item that no plan has.

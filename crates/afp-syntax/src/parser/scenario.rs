@@ -1,9 +1,8 @@
 //! Scenarios: world, stimuli and expectations.
 
-use super::formula::begins_formula;
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::{Code, Diagnostic, words};
-use crate::keywords::LINES;
+use crate::keywords::{self, LINE};
 use crate::kind::Kind;
 
 const LINE_HELP: &str =
@@ -42,7 +41,7 @@ impl Parser<'_, '_> {
                         parser.always_first();
                     } else if parser.action_without_its_time() || parser.time_first() {
                         // It is reported.
-                    } else if parser.at_line() || parser.item_meant(what, LINES) {
+                    } else if parser.at_line() || parser.item_meant(what, &keywords::with(LINE)) {
                         parser.line();
                     } else {
                         parser.skip(what, LINE_HELP, |p| {
@@ -163,7 +162,7 @@ impl Parser<'_, '_> {
             });
             self.close_bracket(Kind::CloseParen, opened);
         }
-        if self.eat_meant("heading", begins_formula) {
+        if self.eat_meant("heading", Kind::begins_formula) {
             self.formula();
         }
     }
@@ -334,5 +333,5 @@ impl Parser<'_, '_> {
 
 /// Whether a line of a scenario begins with this word.
 pub(super) fn is_line(word: &str) -> bool {
-    LINES.contains(&word)
+    keywords::has(word, LINE)
 }

@@ -1,7 +1,6 @@
 //! Tables of constants: columns with their types, rows in brackets.
 
 use super::Parser;
-use super::formula::begins_formula;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
 
@@ -57,7 +56,7 @@ impl Parser<'_, '_> {
 
     /// `way: length from 0 m to 1 m`: reports the range, and reads past it.
     fn no_range_of_a_column(&mut self) {
-        if self.word(0) != "from" || !begins_formula(self.nth(1)) {
+        if self.word(0) != "from" || !self.nth(1).begins_formula() {
             return;
         }
         let here = self.next_span();

@@ -1,8 +1,7 @@
 //! Toolboxes: templates and their parts, object types.
 
 use super::Parser;
-use super::formula::begins_formula;
-use crate::keywords::PARTS;
+use crate::keywords::{self, PART};
 use crate::kind::Kind;
 use crate::units::Unit;
 
@@ -43,10 +42,14 @@ impl Parser<'_, '_> {
             };
             while !self.at_end() && !ends(self) {
                 self.repeat(|parser| {
-                    let possible = if parser.word(1) == "of" { &["states"] } else { PARTS };
+                    let next = parser.word(1);
+                    let possible = || match next {
+                        "of" => vec!["states"],
+                        _ => keywords::with(PART),
+                    };
                     let is_read = parser.at_part()
                         || parser.live_before_in()
-                        || parser.item_meant("a part of the template", possible);
+                        || parser.item_meant("a part of the template", &possible());
                     match is_read {
                         true => parser.part(),
                         false => parser
@@ -76,7 +79,7 @@ impl Parser<'_, '_> {
     }
 
     fn at_part(&self) -> bool {
-        PARTS.contains(&self.word(0))
+        keywords::has(self.word(0), PART)
     }
 
     /// `use eye` in a template, which no 'use' of a file can be.
@@ -127,7 +130,10 @@ impl Parser<'_, '_> {
         self.keyword();
         self.name("name what it commands, such as 'uses navigator'");
         // Behind a comma may stand the next part.
-        while self.at(Kind::Comma) && self.nth(1) == Kind::Name && !PARTS.contains(&self.word(1)) {
+        while self.at(Kind::Comma)
+            && self.nth(1) == Kind::Name
+            && !keywords::has(self.word(1), PART)
+        {
             let message = "'uses' names one device".to_owned();
             let ours = format!(" uses {}", self.word(1));
             self.instead(2, message, format!("write '{}'", ours.trim_start()), &ours);
@@ -155,7 +161,7 @@ impl Parser<'_, '_> {
             self.no_operators();
         }
         let range = self.at;
-        if self.at_word("from") || self.at_slip("from") && begins_formula(self.nth(1)) {
+        if self.at_word("from") || self.at_slip("from") && self.nth(1).begins_formula() {
             let around = std::mem::replace(&mut self.in_range, true);
             let is_whole = self.range();
             self.in_range = around;
@@ -172,9 +178,9 @@ impl Parser<'_, '_> {
     /// `"from" formula "to" formula`. Returns whether both ends are there.
     pub(super) fn range(&mut self) -> bool {
         self.open(Kind::Range);
-        self.eat_meant("from", begins_formula);
+        self.eat_meant("from", Kind::begins_formula);
         self.formula();
-        if self.word(0) == "to" && self.nth(1) == Kind::Colon && begins_formula(self.nth(2)) {
+        if self.word(0) == "to" && self.nth(1) == Kind::Colon && self.nth(2).begins_formula() {
             self.keyword();
             let message = "no ':' behind 'to'".to_owned();
             self.instead(1, message, "remove it".to_owned(), "");
@@ -232,7 +238,8 @@ impl Parser<'_, '_> {
     fn other_sign_between_outcomes(&mut self) -> bool {
         let is_sign = self.at(Kind::Comma) || matches!(self.word(0), "or" | "and");
         let is_name = self.nth(1) == Kind::Name && !self.begins_line(1);
-        let stands = is_sign && self.on_same_line() && is_name && !PARTS.contains(&self.word(1));
+        let stands =
+            is_sign && self.on_same_line() && is_name && !keywords::has(self.word(1), PART);
         if stands {
             let message = format!("expected '|', found {}", self.found());
             let sign = if self.at(Kind::Comma) { " |" } else { "|" };

@@ -1,10 +1,9 @@
 //! What stands behind a claim, an action or another line of a scenario and does not belong there.
 
-use crate::ast::ENDS;
 use crate::diagnostics::{Code, Diagnostic};
+use crate::keywords::ENDS;
 use crate::kind::Kind;
 use crate::parser::Parser;
-use crate::parser::formula::begins_formula;
 use crate::source::Span;
 
 /// What claims may have behind them.
@@ -81,7 +80,7 @@ impl Parser<'_, '_> {
                 let place = here.to(self.ahead(2));
                 Said("write 'active'".to_owned(), Some((place, "active".to_owned())))
             }
-            ("is" | "equals" | "eq", _) => write("==", begins_formula(self.nth(1))),
+            ("is" | "equals" | "eq", _) => write("==", self.nth(1).begins_formula()),
             _ if self.at(Kind::FatArrow) && matches!(self.nth(1), Kind::Int | Kind::Float) => {
                 write(">=", true)
             }
@@ -217,7 +216,7 @@ impl Parser<'_, '_> {
 
     /// `robot at (1 m, 2 m, 90 deg)`: reports the heading within the brackets that began with `opened`, and reads it.
     pub(in crate::parser) fn heading_in_brackets(&mut self) {
-        if !self.at(Kind::Comma) || !begins_formula(self.nth(1)) {
+        if !self.at(Kind::Comma) || !self.nth(1).begins_formula() {
             return;
         }
         let (comma, first) = (self.next_span(), self.at + 1);

@@ -1,8 +1,7 @@
 //! Items that no plan and no file has, and items that stand in braces where they have no place.
 
-use super::{CHOICE, LOOP};
+use super::{CHOICE, LOOP, is_type};
 use crate::diagnostics::{Code, Diagnostic};
-use crate::dimension::Dimension;
 use crate::kind::Kind;
 use crate::parser::recovery::Body;
 use crate::parser::{MAX_DEPTH, Parser};
@@ -12,11 +11,6 @@ use crate::source::Span;
 const MOST_TOKENS: usize = 64;
 /// What functions and tasks are here.
 const SUB_PLAN: &str = "write a plan of its own, and use it as a 'subplan'";
-
-/// Whether a word is a type that every file knows.
-pub(super) fn is_type(word: &str) -> bool {
-    matches!(word, "int" | "bool" | "float" | "string") || Dimension::named(word).is_some()
-}
 
 impl Parser<'_, '_> {
     /// What to write for an item that no plan has, and that is no slip.

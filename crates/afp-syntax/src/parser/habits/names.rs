@@ -1,24 +1,9 @@
 //! Names with a '-' in them, as other languages have them.
 
 use crate::diagnostics::{Code, Diagnostic};
+use crate::keywords::{self, DECLARES};
 use crate::kind::Kind;
 use crate::parser::Parser;
-
-/// Words before a name that is declared there, so that it can be written otherwise; elsewhere it is one that is there.
-const DECLARES: &[&str] = &[
-    "in",
-    "live",
-    "out",
-    "var",
-    "const",
-    "actor",
-    "computation",
-    "subplan",
-    "supervise",
-    "plan",
-    "enum",
-    "table",
-];
 
 impl Parser<'_, '_> {
     /// `wall-dist`: how many tokens the name so many ahead is, whose parts have nothing but a '-' between them.
@@ -46,7 +31,7 @@ impl Parser<'_, '_> {
         let help = format!("write '{better}' or '{}'", in_one_word(&parts));
         let error = Diagnostic::new(Code::E0102, self.ahead(tokens), "a name has no '-'");
         self.hyphens.insert(parts.join("-"));
-        let declares = DECLARES.contains(&self.word_before());
+        let declares = keywords::has(self.word_before(), DECLARES);
         let error = error.help(help);
         self.error(if declares { error.replace(better) } else { error });
         self.bump_together(tokens, Kind::Name);
