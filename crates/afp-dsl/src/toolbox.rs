@@ -5,6 +5,7 @@ pub mod device;
 use crate::table::Table;
 use crate::types::{Enum, Object, Type};
 use afp_syntax::source::Span;
+use afp_types::Meaning;
 use std::sync::Arc;
 
 pub use crate::types::Constant;
@@ -70,6 +71,8 @@ pub struct Template {
     /// The port whose values are the states; [`Template::outcomes`] is empty until an enum is bound
     /// there.
     pub states_of: Option<StatesOf>,
+    /// What is known of it beyond its declaration.
+    pub meaning: Option<Meaning>,
     /// The port that takes a table, whose columns are the outputs; there are none until a table is
     /// bound there. No Rust type implements such a template: each back end reads its tables itself.
     pub reads_table: Option<ReadsTable>,

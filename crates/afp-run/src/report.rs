@@ -36,7 +36,7 @@ pub fn line(at: Instant, record: &Record<'_>, names: &dyn Names) -> Option<Strin
     let template = match *record {
         Record::Polled { .. } => return None,
         Record::Input { component, .. } => match names.component(component).template {
-            timeline::LOG => timeline::LOG,
+            template if timeline::logs(template) => template,
             _ => return None,
         },
         Record::Started { component } => match names.component(component) {

@@ -18,6 +18,7 @@ mod function;
 mod hash;
 mod id;
 mod kind;
+mod meaning;
 mod measured;
 mod read;
 mod row;
@@ -39,6 +40,7 @@ pub use function::{
 pub use hash::TextHash;
 pub use id::{ElementId, EntryId, PlanId, ReasonId, SupervisorId, ToolboxId};
 pub use kind::{ComponentKind, EntryKind};
+pub use meaning::Meaning;
 pub use measured::{EXACT, Measured};
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 pub use row::{Child, ElementKind, Range};

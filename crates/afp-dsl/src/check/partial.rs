@@ -83,6 +83,7 @@ fn nothing_known() -> Toolbox {
         outputs: Vec::new(),
         outcomes: Vec::new(),
         states_of: None,
+        meaning: None,
         reads_table: None,
         every: DEFAULT_EVERY,
         deadline: None,

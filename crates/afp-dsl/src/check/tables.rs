@@ -21,12 +21,11 @@ use crate::toolbox::{OutPort, ReadsTable, Template, Toolbox};
 use crate::types::{Type, is_built_in};
 use afp_syntax::ast::{self, Item, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_types::Meaning;
 
 pub(super) use bound::{fits, read_by};
 
-/// The toolbox and the template that reads tables: no other template can, since its ports are those of the plan's.
-const ROW: (&str, &str) = ("std", "Row");
-/// The ports of that template, which no column can be called.
+/// The ports of the template that reads tables, which no column can be called.
 const PORTS: [&str; 2] = ["table", "index"];
 
 /// The tables that a file declares.
@@ -189,12 +188,10 @@ fn misfit(
 }
 
 /// Marks the template that reads tables when its toolbox is read.
-pub(super) fn mark(toolbox: &mut Toolbox) {
-    if toolbox.name != ROW.0 {
+pub(super) fn mark(template: &mut Template) {
+    if template.meaning != Some(Meaning::ReadsRow) {
         return;
     }
-    let is_it = |template: &&mut Template| template.name == ROW.1;
-    let Some(template) = toolbox.templates.iter_mut().find(is_it) else { return };
     let port = template.inputs.iter().find(|port| port.name == PORTS[0]).cloned();
     template.reads_table = port.map(|port| ReadsTable { port, table: None });
 }

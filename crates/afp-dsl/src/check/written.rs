@@ -1,7 +1,7 @@
 //! Values that are known to be written: the cells of a table, and what `Assign` is given. The entry that takes one must
 //! let it pass.
 
-use afp_types::Error;
+use afp_types::{Error, Meaning};
 
 use crate::check::formula::{Scope, fault_diagnostic};
 use crate::check::head::EntryDraft;
@@ -26,7 +26,7 @@ pub(super) fn fits(
         let Some(entry) = scope.entries.get(output.entry.index()) else { continue };
         let error = match (signature.template().and_then(Template::table), inputs) {
             (Some((_, table)), _) => cell(entry, output, table),
-            (None, [value]) if is_assign(signature) => assigned(scope, entry, output, value),
+            (None, [value]) if assigns(signature) => assigned(scope, entry, output, value),
             _ => None,
         };
         if let Some(error) = error {
@@ -35,9 +35,8 @@ pub(super) fn fits(
     }
 }
 
-fn is_assign(signature: &Signature) -> bool {
-    let toolbox = signature.template.as_ref().map(|(_, toolbox)| toolbox.name.as_str());
-    toolbox == Some("std") && signature.name == "Assign"
+fn assigns(signature: &Signature) -> bool {
+    signature.template().is_some_and(|template| template.meaning == Some(Meaning::Assigns))
 }
 
 /// The first cell of a column that does not fit.

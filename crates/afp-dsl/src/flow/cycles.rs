@@ -23,7 +23,6 @@ use afp_syntax::source::Span;
 
 pub(crate) use counters::{components, open_to_writes, unwind};
 use decided::Known;
-pub(super) use holding::standard;
 
 /// Greatest number of elements of a cycle that a message names.
 const MAX_NAMES: usize = 8;

@@ -16,7 +16,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     let of_supervisors = view.supervisors().flat_map(|supervisor| &supervisor.outputs);
     of_elements.chain(of_supervisors).for_each(|output| written[output.entry.index()] = true);
     for supervisor in globals {
-        let template = view.model.template(supervisor.template);
+        let template = view.template(supervisor);
         for (port, formula) in template.inputs.iter().zip(&supervisor.inputs) {
             if port.live {
                 continue;

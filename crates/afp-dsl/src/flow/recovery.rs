@@ -12,12 +12,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::flow::cycles::standard;
 use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, SupervisorId};
 use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_types::Meaning;
 
 /// An event of a global supervisor, and where it leads.
 type Recovery = (SupervisorId, u16, Node);
@@ -84,7 +84,7 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
 
 /// Whether a supervisor takes a time, after which it may report: it begins anew with its element.
 fn comes_after_a_time(view: &View<'_>, id: SupervisorId) -> bool {
-    let template = view.model.template(view.supervisor(id).template);
+    let template = view.template(view.supervisor(id));
     template.inputs.iter().any(|input| input.ty == Type::Quantity(Dimension::DURATION))
 }
 
@@ -110,7 +110,9 @@ fn commands(view: &View<'_>, element: &Element) -> bool {
 
 /// Warns of events that hold for ever once they do, and replace what another such event has started, as that one does.
 fn alternate(view: &View<'_>, all: &[(Recovery, Vec<usize>)], diags: &mut Diagnostics) {
-    let lasts = |(id, ..): &Recovery| standard(view, view.supervisor(*id)) == Some("CheckTimeout");
+    let lasts = |(id, ..): &Recovery| {
+        view.template(view.supervisor(*id)).meaning == Some(Meaning::TimesOut)
+    };
     let acts = |(.., to): &Recovery| view.element(*to).is_some_and(Element::takes_time);
     let lasting: Vec<_> = all.iter().filter(|(it, _)| lasts(it) && acts(it)).collect();
     let holds = |during: &Recovery, other: &Recovery| {

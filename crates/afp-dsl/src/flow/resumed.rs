@@ -121,7 +121,7 @@ fn once<'a>(view: &View<'a>, element: &'a Element) -> Vec<(&'a Formula, Span)> {
 }
 
 fn of_template<'a>(view: &View<'a>, supervisor: &'a Supervisor) -> Vec<(&'a Formula, Span)> {
-    let ports = &view.model.template(supervisor.template).inputs;
+    let ports = &view.template(supervisor).inputs;
     let ports = ports.iter().zip(&supervisor.inputs).filter(|(port, _)| !port.live);
     ports.map(|(port, formula)| (formula, port.span)).collect()
 }

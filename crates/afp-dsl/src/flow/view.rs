@@ -13,8 +13,10 @@ use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{
     Component, Element, ElementId, Formula, Output, Plan, Supervisor, SupervisorId, Target,
 };
+use crate::toolbox::Template;
 use crate::types::Constant;
 use afp_syntax::source::Span;
+use afp_types::Meaning;
 
 pub(crate) use counter::{Counter, Counters};
 
@@ -255,6 +257,19 @@ impl<'a> View<'a> {
         &self.plan.supervisors[id.index()]
     }
 
+    /// The template of a supervisor.
+    pub fn template(&self, supervisor: &Supervisor) -> &'a Template {
+        self.model.template(supervisor.template)
+    }
+
+    /// What is known of a computation beyond the declaration of its template.
+    pub fn meaning(&self, element: &Element) -> Option<Meaning> {
+        match element.component {
+            Component::Computation(id) => self.model.template(id).meaning,
+            _ => None,
+        }
+    }
+
     /// The supervisors that are ever started: global ones, and those of reached elements.
     pub fn supervisors(&self) -> impl Iterator<Item = &'a Supervisor> {
         self.numbered_supervisors().map(|(_, supervisor)| supervisor)
@@ -290,7 +305,7 @@ impl<'a> View<'a> {
 
     /// Whether an event happens once, so that it does not still hold a moment later.
     pub fn is_once(&self, id: SupervisorId, event: u16) -> bool {
-        let template = self.model.template(self.supervisor(id).template);
+        let template = self.template(self.supervisor(id));
         template.outcomes.get(usize::from(event)).is_some_and(|event| event.once)
     }
 
@@ -308,7 +323,7 @@ impl<'a> View<'a> {
         let carried = match cause {
             Cause::State(id, state) => self.carried(&self.plan.elements[id.index()], state),
             Cause::Event(id, event) | Cause::On(_, id, Some(event)) => {
-                let template = self.model.template(self.supervisor(id).template);
+                let template = self.template(self.supervisor(id));
                 template.outputs.iter().map(|port| port.on.contains(&event)).collect()
             }
             Cause::Error(_) | Cause::Miss(_) | Cause::On(..) | Cause::Active(_) => Vec::new(),
@@ -367,7 +382,7 @@ impl<'a> View<'a> {
             }
             Cause::Error(id) => format!("{}.Error", self.plan.elements[id.index()].name),
             Cause::Event(id, event) | Cause::On(_, id, Some(event)) => {
-                let template = self.model.template(self.supervisor(id).template);
+                let template = self.template(self.supervisor(id));
                 let name = template.outcomes.get(usize::from(event)).map_or("", |e| &e.name);
                 format!("{}.{name}", self.supervisor_path(id))
             }

@@ -13,7 +13,7 @@ use super::cost::Cost;
 pub(super) fn poll(view: &View<'_>, id: SupervisorId) -> Cost {
     let targets = view.plan.targets(id);
     let chains = targets.fold(Cost::ZERO, |most, target| most.or(&held(view, target)));
-    Cost::budget(view.model.template(view.supervisor(id).template)).and(&chains)
+    Cost::budget(view.template(view.supervisor(id))).and(&chains)
 }
 
 /// One poll of each supervisor of an element.

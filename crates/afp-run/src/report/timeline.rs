@@ -5,6 +5,7 @@ use std::fmt::Write;
 use afp_core::Duration;
 use afp_core::trace::Cause;
 use afp_session::{Datum, Done, EndingKind, EventKind, Requested, RunEvent, Stimulus};
+use afp_types::Meaning;
 use anstyle::{AnsiColor, Style};
 
 const QUIET: Style = Style::new().dimmed();
@@ -14,8 +15,10 @@ const DATA: Style = AnsiColor::Cyan.on_default();
 const BAD: Style = AnsiColor::BrightRed.on_default().bold();
 const STRONG: Style = Style::new().bold();
 
-/// The template that is there so that people see its input.
-pub(super) const LOG: &str = "Log";
+/// Whether a template is there so that people see its input.
+pub(super) fn logs(template: &str) -> bool {
+    Meaning::of("std", template) == Some(Meaning::Logs)
+}
 
 /// The lines that say what runs.
 pub(super) fn head(what: &[(&str, String)]) -> String {
@@ -32,7 +35,7 @@ pub(super) fn line(event: &RunEvent, template: &str) -> Option<String> {
     use EventKind as Kind;
     let component = &event.component;
     let text = match event.kind {
-        Kind::Input if template == LOG => logged(event),
+        Kind::Input if logs(template) => logged(event),
         Kind::Unknown | Kind::Polled | Kind::Input | Kind::Interrupted => return None,
         Kind::ClockWentBack => {
             let asked = event.asked.unwrap_or_default().as_secs_f64();

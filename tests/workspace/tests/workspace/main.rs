@@ -7,4 +7,5 @@ mod rebuilds;
 mod shared;
 mod sizes;
 mod sources;
+mod templates;
 mod weight;

@@ -74,6 +74,7 @@ fn without_parts(node: &ast::Template, name: Name) -> Template {
         outputs: Vec::new(),
         outcomes: Vec::new(),
         states_of: None,
+        meaning: None,
         reads_table: None,
         every: timing::DEFAULT_EVERY,
         deadline: None,

@@ -6,14 +6,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use afp_types::MAX_TRANSITIONS_PER_STEP;
+use afp_types::{MAX_TRANSITIONS_PER_STEP, Meaning};
 
 use super::decided;
-use super::holding::standard_template;
 use super::is_quick;
 use crate::flow::strong;
 use crate::flow::view::{Cause, Counter, Counters, Edge, Node, View};
-use crate::graph::{Component, Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
+use crate::graph::{Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
 use crate::types::Constant;
 
 /// The state in which `Count` goes on, and that in which it begins again with zero.
@@ -106,8 +105,9 @@ impl Counters {
 
 /// The entry that a `Count` reads.
 fn count_of(view: &View<'_>, element: &Element) -> Option<EntryId> {
-    let Component::Computation(id) = element.component else { return None };
-    standard_template(view, id).filter(|name| *name == "Count")?;
+    if view.meaning(element) != Some(Meaning::Counts) {
+        return None;
+    }
     match element.inputs.first()?.kind {
         FormulaKind::Entry(entry) => Some(entry),
         _ => None,
@@ -221,8 +221,9 @@ fn comes_unwritten(view: &View<'_>, from: Vec<Node>, to: Node, entry: EntryId) -
 
 /// What an `Assign` of the standard toolbox writes, where that is a whole number.
 fn assigned(view: &View<'_>, element: &Element) -> Option<i64> {
-    let Component::Computation(id) = element.component else { return None };
-    standard_template(view, id).filter(|name| *name == "Assign")?;
+    if view.meaning(element) != Some(Meaning::Assigns) {
+        return None;
+    }
     whole(view.constant(element.inputs.first()?)?)
 }
 

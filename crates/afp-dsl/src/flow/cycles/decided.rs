@@ -1,11 +1,12 @@
-//! What computations of the standard toolbox decide where the values that go into them are known.
+//! What computations with a known meaning decide where the values that go into them are known.
 //!
 //! Known are constants, the values that entries have at the start of a plan, what every user of a sub-plan binds to an
 //! input of it, and what these computations write from those.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::holding::standard_template;
+use afp_types::Meaning;
+
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::constant::{convert, evaluate};
 use crate::graph::{Component, Element, EntryId, EntryKind, Formula, Output, PlanId};
@@ -18,10 +19,10 @@ pub(super) type Known = BTreeMap<EntryId, Constant>;
 /// Greatest number of entries of a plan that are followed; with more none is.
 const MOST: usize = 64;
 
-/// The entries that a computation of the standard toolbox reads, with their values at the start of the plan.
+/// The entries that a computation with a known meaning reads, with their values at the start of the plan.
 pub(super) fn at_start(view: &View<'_>) -> Known {
     let mut read = BTreeSet::new();
-    for (_, element) in view.elements().filter(|(_, element)| name(view, element).is_some()) {
+    for (_, element) in view.elements().filter(|(_, element)| view.meaning(element).is_some()) {
         let inputs = element.inputs.iter();
         inputs.for_each(|input| input.each_entry(&mut |entry, _| _ = read.insert(entry)));
     }
@@ -122,28 +123,27 @@ pub(super) fn is_choice(element: &Element, state: u16) -> bool {
 
 /// Whether a computation is known to choose by what goes into it alone.
 pub(super) fn chooses_by_inputs(view: &View<'_>, element: &Element) -> bool {
-    matches!(name(view, element), Some("Compare" | "Count" | "Is" | "Row" | "Switch"))
+    view.meaning(element).is_some_and(Meaning::is_choice)
 }
 
 /// The state in which a computation ends with these values.
 pub(super) fn outcome(view: &View<'_>, element: &Element, known: &Known) -> Option<u16> {
     use std::cmp::Ordering::{Equal, Greater, Less};
-    let name = name(view, element)?;
     let value = |input: usize| value_of(element.inputs.get(input)?, known);
     let yes = |holds: bool| Some(u16::from(!holds));
-    match name {
-        "Compare" => Some(match order(&value(0)?, &value(1)?)? {
+    match view.meaning(element)? {
+        Meaning::Compares => Some(match order(&value(0)?, &value(1)?)? {
             Less => 0,
             Equal => 1,
             Greater => 2,
         }),
-        "Count" => yes(order(&value(0)?, &value(1)?)? == Less),
-        "Is" => yes(value(0)? == value(1)?),
-        "Row" => match value(0)? {
+        Meaning::Counts => yes(order(&value(0)?, &value(1)?)? == Less),
+        Meaning::Equals => yes(value(0)? == value(1)?),
+        Meaning::ReadsRow => match value(0)? {
             Constant::Int(index) if index >= 0 => yes(index < rows(view, element)?),
             _ => None,
         },
-        "Switch" => match value(0)? {
+        Meaning::Selects => match value(0)? {
             Constant::Choice(place) => Some(place),
             _ => None,
         },
@@ -174,14 +174,14 @@ fn written(
     let Cause::State(id, state) = cause else { return None };
     let element = &view.plan.elements[id.index()];
     let value = |input: usize| value_of(element.inputs.get(input)?, known);
-    let value = match (name(view, element)?, state) {
-        ("Assign", _) => value(0)?,
-        ("Count", 0) => match value(0)? {
+    let value = match (view.meaning(element)?, state) {
+        (Meaning::Assigns, _) => value(0)?,
+        (Meaning::Counts, 0) => match value(0)? {
             Constant::Int(count) => Constant::Int(count.checked_add(1)?),
             _ => return None,
         },
-        ("Count", _) => Constant::Int(0),
-        ("Row", 0) => cell(view, element, value(0)?, output.port)?,
+        (Meaning::Counts, _) => Constant::Int(0),
+        (Meaning::ReadsRow, 0) => cell(view, element, value(0)?, output.port)?,
         _ => return None,
     };
     let value = match &output.conversion {
@@ -189,14 +189,6 @@ fn written(
         None => value,
     };
     Some((output.entry, value))
-}
-
-/// The name of a computation's template, if that is one of the standard toolbox.
-fn name<'a>(view: &View<'a>, element: &Element) -> Option<&'a str> {
-    match element.component {
-        Component::Computation(id) => standard_template(view, id),
-        _ => None,
-    }
 }
 
 fn value_of(formula: &Formula, known: &Known) -> Option<Constant> {

@@ -1,23 +1,18 @@
 //! Which conditions can hold while an element is entered, and which never hold together.
 //!
-//! What templates do nobody declares, except those of the standard toolbox, which are known here.
+//! Nobody declares what templates do; of some the meaning is known.
 
 use std::collections::BTreeSet;
 
-use afp_types::MAX_TEXT;
+use afp_types::{MAX_TEXT, Meaning};
 
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, View};
-use crate::graph::{
-    Component, Element, EntryId, Formula, FormulaKind, Output, Supervisor, TemplateId,
-};
+use crate::graph::{Component, Element, EntryId, Formula, FormulaKind, Output, Supervisor};
 use crate::types::{Constant, Conversion, Type};
 
-/// The event of `CheckValue` that reports a value below its limit; the other one reports one above.
+/// The event of a limit that reports a value below its limit; the other one reports one above.
 const BELOW: u16 = 0;
-
-/// Computations of the standard toolbox that never fail: only what goes into them and comes out of them can.
-const SURE: &[&str] = &["Assign", "Compare", "Count", "Is", "Log", "Switch"];
 
 /// Whether an edge can be taken in the look, or by the start of an element.
 pub(super) fn can_hold(view: &View<'_>, cause: Cause) -> bool {
@@ -30,7 +25,7 @@ pub(super) fn can_hold(view: &View<'_>, cause: Cause) -> bool {
 
 /// Whether a supervisor reports something only after some time.
 fn waits(view: &View<'_>, supervisor: &Supervisor) -> bool {
-    if standard(view, supervisor) != Some("CheckTimeout") {
+    if view.template(supervisor).meaning != Some(Meaning::TimesOut) {
         return false;
     }
     let time = supervisor.inputs.first().and_then(|time| view.constant(time));
@@ -61,8 +56,7 @@ pub(super) fn never_fails(view: &View<'_>, element: &Element) -> bool {
 
 /// Whether a computation is known to have no fault of its own.
 fn is_known(view: &View<'_>, element: &Element) -> bool {
-    let Component::Computation(id) = element.component else { return false };
-    standard_template(view, id).is_some_and(|name| SURE.contains(&name))
+    view.meaning(element).is_some_and(Meaning::never_fails)
 }
 
 /// Whether an output takes every value.
@@ -95,7 +89,7 @@ fn always_converts(conversion: &Conversion) -> bool {
     }
 }
 
-/// What a `CheckValue` compares.
+/// What a limit compares.
 #[derive(Clone, Copy)]
 enum Term {
     Entry(EntryId),
@@ -138,11 +132,13 @@ fn goes_round(less: &[(Term, Term)]) -> bool {
     edges.iter().any(|(from, to)| component[*from] == component[*to])
 }
 
-/// Which of the two that a `CheckValue` compares is less than which, when its event comes.
+/// Which of the two that a limit compares is less than which, when its event comes.
 fn less(view: &View<'_>, cause: Cause) -> Option<(Term, Term)> {
     let Cause::Event(id, event) = cause else { return None };
     let supervisor = view.supervisor(id);
-    standard(view, supervisor).filter(|name| *name == "CheckValue")?;
+    if view.template(supervisor).meaning != Some(Meaning::Limits) {
+        return None;
+    }
     let [value, limit] = supervisor.inputs.as_slice() else { return None };
     let (value, limit) = (term(view, value)?, term(view, limit)?);
     Some(if event == BELOW { (value, limit) } else { (limit, value) })
@@ -164,15 +160,4 @@ fn entry(formula: &Formula) -> Option<EntryId> {
         FormulaKind::Convert(_, inner) => entry(inner),
         _ => None,
     }
-}
-
-/// The name of a supervisor's template, if that is one of the standard toolbox.
-pub(crate) fn standard<'a>(view: &View<'a>, supervisor: &Supervisor) -> Option<&'a str> {
-    standard_template(view, supervisor.template)
-}
-
-/// The name of a template, if it is one of the standard toolbox.
-pub(super) fn standard_template<'a>(view: &View<'a>, id: TemplateId) -> Option<&'a str> {
-    let toolbox = &view.model.toolboxes[id.toolbox.index()];
-    (toolbox.name == "std").then(|| view.model.template(id).name.as_str())
 }
