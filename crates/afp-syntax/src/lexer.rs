@@ -12,6 +12,8 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::kind::Kind;
 use crate::source::Span;
 
+pub(super) use foreign::CHOICE;
+
 /// A piece of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Token<'t> {
@@ -29,6 +31,17 @@ impl Token<'_> {
     /// Whether what is behind it stands on another line than what is before it.
     pub(super) fn ends_line(&self) -> bool {
         self.breaks > 0
+    }
+
+    /// Its place.
+    pub(super) fn span(&self, file: u16) -> Span {
+        let end = self.start + u32::try_from(self.text.len()).unwrap_or(0);
+        Span { file, start: self.start, end }
+    }
+
+    /// Its text in quotes, cut where it is long.
+    pub(super) fn shown(&self) -> String {
+        format!("'{}'", self.text.chars().take(30).collect::<String>())
     }
 }
 

@@ -158,11 +158,15 @@ impl<'t, 'd> Parser<'t, 'd> {
         }
     }
 
+    /// The token before the next one.
+    fn before(&self) -> Option<Token<'t>> {
+        let before = self.solid.get(self.at.checked_sub(1)?)?;
+        self.tokens.get(*before as usize).copied()
+    }
+
     /// The word before the next token.
     fn word_before(&self) -> &'t str {
-        let before = self.at.checked_sub(1).and_then(|before| self.solid.get(before));
-        let token = before.and_then(|before| self.tokens.get(*before as usize));
-        token.map_or("", |token| token.text)
+        self.before().map_or("", |token| token.text)
     }
 
     /// Whether the next token is this word and a word of the grammar: before `:`, `=`, `=>` and
@@ -210,8 +214,7 @@ impl<'t, 'd> Parser<'t, 'd> {
     // Places.
 
     fn span_of(&self, token: Token<'_>) -> Span {
-        let end = token.start + u32::try_from(token.text.len()).unwrap_or(0);
-        Span { file: self.file, start: token.start, end }
+        token.span(self.file)
     }
 
     /// The next token; at the end of a line or of the file the place behind the last one.
@@ -229,8 +232,7 @@ impl<'t, 'd> Parser<'t, 'd> {
 
     /// The empty place behind the last token.
     fn behind(&self) -> Span {
-        let before = self.at.checked_sub(1).map(|before| self.tokens[self.solid[before] as usize]);
-        before
+        self.before()
             .map_or(Span { file: self.file, start: 0, end: 0 }, |token| self.span_of(token).after())
     }
 
@@ -262,7 +264,7 @@ impl<'t, 'd> Parser<'t, 'd> {
     fn found_at(&self, ahead: usize) -> String {
         match self.token(ahead) {
             None => "the end of the file".to_owned(),
-            Some(token) => format!("'{}'", token.text.chars().take(30).collect::<String>()),
+            Some(token) => token.shown(),
         }
     }
 

@@ -37,7 +37,8 @@ const COMMENTS: [&str; 3] = ["--", ";", "%"];
 const VERSION_MARKS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
 /// What to write where other languages compare or choose.
-const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
+pub(crate) const CHOICE: &str =
+    "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
 
 impl Lexer<'_, '_> {
     /// Takes characters that have no meaning, as what they may have been meant for.

@@ -126,7 +126,7 @@ impl Parser<'_, '_> {
 
     /// Whether neither a bracket nor a comma nor a line's end stands before the next token.
     fn follows_value(&self) -> bool {
-        let before = self.at.checked_sub(1).map(|before| self.tokens[self.solid[before] as usize]);
+        let before = self.before();
         before.is_some_and(|token| {
             !matches!(token.kind, Kind::OpenParen | Kind::Comma) && self.on_same_line()
         })

@@ -70,7 +70,7 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
     let mut reported: Vec<_> = starts.map(|start| (start, start)).collect();
     let (mut strays, before) = (Vec::new(), reported.len());
     for at in doubled(tokens) {
-        strays.push((span(tokens[at], file), tokens[at].text));
+        strays.push((tokens[at].span(file), tokens[at].text));
         reported.push((tokens[at].start, tokens[at].start));
         tokens[at].kind = Kind::Unknown;
     }
@@ -78,14 +78,14 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
         let Some(wrong) = find(tokens) else { break };
         let (behind, error, brace) = match wrong {
             Wrong::Stray(at) => {
-                strays.push((span(tokens[at], file), tokens[at].text));
+                strays.push((tokens[at].span(file), tokens[at].text));
                 reported.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::Unknown;
                 continue;
             }
             Wrong::Swapped(at) => {
                 let error =
-                    Diagnostic::new(Code::E0102, span(tokens[at], file), "expected '{', found '}'");
+                    Diagnostic::new(Code::E0102, tokens[at].span(file), "expected '{', found '}'");
                 diags.push(error.help("write '{'").replace("{"));
                 reported.push((tokens[at].start, tokens[at].start));
                 tokens[at].kind = Kind::OpenBrace;
@@ -97,14 +97,14 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
                     brace if brace == "'}'" => "missing '}'".to_owned(),
                     other => format!("missing '}}', found {other}"),
                 };
-                let here = span(tokens[behind], file).after();
+                let here = tokens[behind].span(file).after();
                 let error =
                     Diagnostic::new(Code::E0103, here, message).help("add '}'").fix(here, "}");
-                (behind, error.note(span(tokens[opener], file), "opened here"), Kind::CloseBrace)
+                (behind, error.note(tokens[opener].span(file), "opened here"), Kind::CloseBrace)
             }
             Wrong::Unopened(behind) => {
                 let message = format!("expected '{{', found {}", found(tokens, behind));
-                let here = span(tokens[behind], file).after();
+                let here = tokens[behind].span(file).after();
                 let error = Diagnostic::new(Code::E0102, here, message);
                 (behind, error.help("add '{'").fix(here, " {"), Kind::OpenBrace)
             }
@@ -159,15 +159,7 @@ fn doubled(tokens: &[Token<'_>]) -> Vec<usize> {
 /// What stands behind a token.
 fn found(tokens: &[Token<'_>], behind: usize) -> String {
     let next = tokens[behind + 1..].iter().find(|token| !token.kind.is_trivia());
-    next.map_or_else(
-        || "the end of the file".to_owned(),
-        |token| format!("'{}'", token.text.chars().take(30).collect::<String>()),
-    )
-}
-
-fn span(token: Token<'_>, file: u16) -> Span {
-    let end = token.start + u32::try_from(token.text.len()).unwrap_or(0);
-    Span { file, start: token.start, end }
+    next.map_or_else(|| "the end of the file".to_owned(), Token::shown)
 }
 
 /// How many braces open something, and how many close something.

@@ -13,12 +13,9 @@ use super::Parser;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::dimension::Dimension;
 use crate::kind::Kind;
-use crate::lexer::Token;
+use crate::lexer::{CHOICE, Token};
 use crate::source::Span;
 use numbers::hundredth;
-
-/// How a choice is written.
-const CHOICE: &str = "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
 
 /// How something is done several times.
 pub(super) const LOOP: &str =
@@ -195,7 +192,7 @@ impl Parser<'_, '_> {
     /// `not x`, `x ** 2`, `i++`: reports and passes over what stands before an operand, or in its place. Returns whether
     /// the operand is still to come.
     pub(super) fn no_prefix(&mut self) -> Option<bool> {
-        let before = self.at.checked_sub(1).map(|before| self.tokens[self.solid[before] as usize]);
+        let before = self.before();
         let doubled = self.is_adjacent() && before.is_some_and(|token| token.kind == self.nth(0));
         match self.nth(0) {
             Kind::Name if self.word(0) == "not" && !self.names_something(0) => {
@@ -249,7 +246,7 @@ impl Parser<'_, '_> {
 
     /// `50 %`: reports the sign behind a number that nothing is divided by, and reads past it.
     pub(super) fn percent(&mut self) -> bool {
-        let before = self.at.checked_sub(1).map(|at| self.tokens[self.solid[at] as usize]);
+        let before = self.before();
         let number = before.filter(|token| matches!(token.kind, Kind::Int | Kind::Float));
         let (Some(number), true) = (number, self.at(Kind::Percent) && self.on_same_line()) else {
             return false;
@@ -320,8 +317,7 @@ impl Parser<'_, '_> {
 
     /// `1_000`, `0x10`: a number with letters in it, which has been taken up to the first of them.
     pub(super) fn number_with_letters(&mut self) -> bool {
-        let Some(before) = self.at.checked_sub(1).map(|at| self.tokens[self.solid[at] as usize])
-        else {
+        let Some(before) = self.before() else {
             return false;
         };
         let word = self.word(0);

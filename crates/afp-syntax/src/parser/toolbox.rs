@@ -64,16 +64,16 @@ impl Parser<'_, '_> {
 
     /// Whether a template begins: one with its brace, or in a toolbox one that something stands behind.
     pub(super) fn at_template(&self) -> bool {
-        let named = matches!(self.word(0), "actor" | "supervisor" | "computation")
-            && self.nth(1) == Kind::Name;
-        named && (self.nth(2) == Kind::OpenBrace || self.is_toolbox)
+        self.at_named_template() && (self.nth(2) == Kind::OpenBrace || self.is_toolbox)
+    }
+
+    fn at_named_template(&self) -> bool {
+        matches!(self.word(0), "actor" | "supervisor" | "computation") && self.nth(1) == Kind::Name
     }
 
     /// Whether an item of a toolbox begins.
     pub(super) fn at_tool(&self) -> bool {
-        let template = matches!(self.word(0), "actor" | "supervisor" | "computation")
-            && self.nth(1) == Kind::Name
-            && self.nth(2) == Kind::OpenBrace;
+        let template = self.at_named_template() && self.nth(2) == Kind::OpenBrace;
         let object = self.word(0) == "object" && self.nth(1) == Kind::Name;
         template || object || self.at_device() || self.at_top_item()
     }

@@ -9,8 +9,7 @@ use afp_workspace::root;
 use crate::sources::rust_files;
 
 /// Implementations, toolbox files and the table of meanings.
-const HOMES: [&str; 4] =
-    ["afp-std/", "afp-carbot/", "afp-toolboxes/", "afp-types/src/meaning.rs"];
+const HOMES: [&str; 4] = ["afp-std/", "afp-carbot/", "afp-toolboxes/", "afp-types/src/meaning.rs"];
 
 /// Other files that name templates, each with its reason.
 const ALLOWED: [(&str, &str); 11] = [

@@ -1,8 +1,9 @@
 //! Items that no plan and no file has, and items that stand in braces where they have no place.
 
-use super::{CHOICE, LOOP, is_type};
+use super::{LOOP, is_type};
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
+use crate::lexer::CHOICE;
 use crate::parser::recovery::Body;
 use crate::parser::{MAX_DEPTH, Parser};
 use crate::source::Span;

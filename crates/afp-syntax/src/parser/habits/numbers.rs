@@ -8,7 +8,7 @@ impl Parser<'_, '_> {
     /// `5 mHz`, `5 Mm`: what the word behind a number means in full, and the number with a unit that there is.
     pub(in crate::parser) fn strange_prefix(&self) -> Option<(String, String)> {
         let (prefixed, unit, places) = Unit::strange_prefix(self.word(0))?;
-        let before = self.at.checked_sub(1).map(|at| self.tokens[self.solid[at] as usize])?;
+        let before = self.before()?;
         let is_number = matches!(before.kind, Kind::Int | Kind::Float);
         is_number.then(|| (prefixed, format!("{} {unit}", moved(before.text, places))))
     }
