@@ -7,10 +7,10 @@ use afp_core::{
     Actor, Duration, Environment, Events, Fault, Instant, Platform, Poll, Reading, Reason,
     Supervisor,
 };
+use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
-use afp_dsl::Toolboxes;
 use afp_platform::{Line, Noise, VirtualClock};
 use afp_session::frames::{BODY, WORLD};
 use afp_session::{

@@ -20,7 +20,10 @@ const ALLOWED: [(&str, &str); 11] = [
     ("afp-dsl/src/flow/cycles/count.rs", HELP),
     ("afp-ide/src/hover/words.rs", HELP),
     ("afp-run/src/stop.rs", "a Rust type has the same name"),
-    ("afp-sim/src/wall.rs", "a figure of the simulated Carbot judges one of its own templates"),
+    (
+        "afp-sim/src/simulation/wall.rs",
+        "a figure of the simulated Carbot judges one of its own templates",
+    ),
     ("afp-syntax/src/lexer/foreign.rs", HELP),
     ("afp-syntax/src/parser/habits.rs", HELP),
     ("afp-syntax/src/parser/habits/items.rs", HELP),
