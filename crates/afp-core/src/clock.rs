@@ -6,6 +6,25 @@
 use afp_types::Instant;
 
 /// Tells the time within a step.
+///
+/// ```
+/// use afp_core::{Clock, Instant};
+/// use std::sync::atomic::{AtomicU64, Ordering};
+///
+/// /// The microseconds of a timer; its interrupt counts them.
+/// static MICROS: AtomicU64 = AtomicU64::new(0);
+///
+/// struct Timer;
+///
+/// impl Clock for Timer {
+///     fn now(&self, step: Instant) -> Instant {
+///         Instant::from_nanos(MICROS.load(Ordering::Relaxed) * 1_000).max(step)
+///     }
+/// }
+/// # MICROS.store(7, Ordering::Relaxed);
+/// # assert_eq!(Timer.now(Instant::ZERO), Instant::from_nanos(7_000));
+/// # assert_eq!(Timer.now(Instant::MAX), Instant::MAX);
+/// ```
 pub trait Clock {
     /// The time now, in a step that was called at `step`; never before it.
     fn now(&self, step: Instant) -> Instant;

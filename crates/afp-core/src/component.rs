@@ -11,6 +11,31 @@ use afp_types::Instant;
 use crate::fault::Fault;
 
 /// What every platform offers, whatever devices it has.
+///
+/// ```
+/// use afp_core::{Environment, Instant};
+///
+/// struct Wheels {
+///     speed: f64,
+///     powered: bool,
+/// }
+///
+/// impl Environment for Wheels {
+///     fn stop(&mut self, _: Instant) {
+///         self.speed = 0.0;
+///     }
+///
+///     fn emergency_stop(&mut self) {
+///         self.speed = 0.0;
+///         self.powered = false;
+///     }
+/// }
+/// # let mut wheels = Wheels { speed: 0.2, powered: true };
+/// # wheels.stop(Instant::ZERO);
+/// # assert!(wheels.speed == 0.0 && wheels.powered);
+/// # wheels.emergency_stop();
+/// # assert!(!wheels.powered);
+/// ```
 pub trait Environment {
     /// Gives the stop command to every motor and returns at once: called where an actor cannot start, and at the end of a plan
     /// that [`Scheduler::run`](crate::Scheduler::run) drives. What is asked for afterwards is obeyed.
@@ -85,6 +110,62 @@ pub trait ComputationTemplate {
 ///     |              |  \---poll: Err----> interrupt, then gone
 ///    Err: gone       \------interrupted--> interrupt, then gone
 /// ```
+///
+/// The actor `Light` of a toolbox lights a lamp for a while. `toolbox!` makes `templates` from the toolbox file:
+///
+/// ```
+/// use afp_core::{Actor, Fault, Instant, Poll};
+/// # mod templates {
+/// #     use afp_core::{ActorTemplate, quantity::Time};
+/// #     pub struct Light;
+/// #     impl ActorTemplate for Light {
+/// #         type Inputs<'a> = light::Inputs;
+/// #         type Live<'a> = light::Live;
+/// #         type State = light::State;
+/// #     }
+/// #     pub mod light {
+/// #         pub struct Inputs { pub lasting: super::Time }
+/// #         pub struct Live {}
+/// #         pub enum State { Lit }
+/// #     }
+/// # }
+/// # struct Lamp { on: bool }
+/// use templates::light;
+///
+/// struct Light {
+///     until: Instant,
+/// }
+///
+/// impl Actor<templates::Light, Lamp> for Light {
+///     fn start(inputs: light::Inputs, lamp: &mut Lamp, now: Instant) -> Result<Self, Fault> {
+///         lamp.on = true;
+///         Ok(Light { until: now + inputs.lasting.duration() })
+///     }
+///
+///     fn poll(
+///         &mut self,
+///         _: light::Live,
+///         lamp: &mut Lamp,
+///         now: Instant,
+///     ) -> Result<Poll<light::State>, Fault> {
+///         lamp.on = now < self.until;
+///         Ok(if lamp.on { Poll::Pending } else { Poll::Ready(light::State::Lit) })
+///     }
+///
+///     fn interrupt(&mut self, lamp: &mut Lamp, _: Instant) -> Result<(), Fault> {
+///         lamp.on = false;
+///         Ok(())
+///     }
+/// }
+/// # let mut lamp = Lamp { on: false };
+/// # let at = |seconds| Instant::ZERO + afp_core::Duration::from_secs(seconds);
+/// # let lasting = afp_core::quantity::Time::from_si(2.0);
+/// # let mut light = Light::start(light::Inputs { lasting }, &mut lamp, at(0))?;
+/// # assert!(light.poll(light::Live {}, &mut lamp, at(1))?.is_pending() && lamp.on);
+/// # assert!(light.poll(light::Live {}, &mut lamp, at(2))?.is_ready() && !lamp.on);
+/// # light.interrupt(&mut lamp, at(2))?;
+/// # Ok::<(), Fault>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not implement the actor `{T}` on the platform `{E}`",
     note = "either the platform lacks what the implementation asks for, or there is no `impl Actor<{T}, _> for {Self}`"
@@ -118,6 +199,58 @@ pub trait Actor<T: ActorTemplate, E: ?Sized>: Sized {
 }
 
 /// A watching supervisor of template `T` on platform `E`.
+///
+/// The supervisor `CheckDark` of a toolbox reads a light sensor; a sensor that does not answer is a fault:
+///
+/// ```
+/// use afp_core::{Events, Fault, Instant, Reason, Supervisor};
+/// # mod templates {
+/// #     pub struct CheckDark;
+/// #     impl afp_core::SupervisorTemplate for CheckDark {
+/// #         type Inputs<'a> = check_dark::Inputs;
+/// #         type Live<'a> = check_dark::Live;
+/// #         type Event = check_dark::Event;
+/// #     }
+/// #     pub mod check_dark {
+/// #         pub struct Inputs {}
+/// #         pub struct Live { pub limit: f64 }
+/// #         #[derive(Debug, PartialEq)]
+/// #         pub enum Event { Dark }
+/// #     }
+/// # }
+/// # struct Sensor { brightness: Option<f64> }
+/// use templates::check_dark;
+///
+/// const NO_SENSOR: Fault =
+///     Fault::new(&Reason { code: "no-light-sensor", text: "the light sensor does not answer" });
+///
+/// struct CheckDark;
+///
+/// impl Supervisor<templates::CheckDark, Sensor> for CheckDark {
+///     fn start(_: check_dark::Inputs, _: &mut Sensor, _: Instant) -> Result<Self, Fault> {
+///         Ok(CheckDark)
+///     }
+///
+///     fn poll(
+///         &mut self,
+///         live: check_dark::Live,
+///         wanted: Events,
+///         sensor: &mut Sensor,
+///         _: Instant,
+///     ) -> Result<Option<check_dark::Event>, Fault> {
+///         let brightness = sensor.brightness.ok_or(NO_SENSOR)?;
+///         let dark = wanted.contains(0) && brightness < live.limit;
+///         Ok(dark.then_some(check_dark::Event::Dark))
+///     }
+/// }
+/// # let mut sensor = Sensor { brightness: Some(0.1) };
+/// # let mut check = CheckDark::start(check_dark::Inputs {}, &mut sensor, Instant::ZERO)?;
+/// # let live = || check_dark::Live { limit: 0.2 };
+/// # let seen = check.poll(live(), Events::from_bits(1), &mut sensor, Instant::ZERO)?;
+/// # assert_eq!(seen, Some(check_dark::Event::Dark));
+/// # assert_eq!(check.poll(live(), Events::from_bits(0), &mut sensor, Instant::ZERO)?, None);
+/// # Ok::<(), Fault>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not implement the supervisor `{T}` on the platform `{E}`",
     note = "either the platform lacks what the implementation asks for, or there is no `impl Supervisor<{T}, _> for {Self}`"
@@ -145,6 +278,33 @@ pub trait Supervisor<T: SupervisorTemplate, E: ?Sized>: Sized {
 }
 
 /// A computation of template `T`: no environment, so no side effect.
+///
+/// ```
+/// use afp_core::{Computation, Fault};
+/// # mod templates {
+/// #     pub struct Longer;
+/// #     impl afp_core::ComputationTemplate for Longer {
+/// #         type Inputs<'a> = longer::Inputs;
+/// #         type State = longer::State;
+/// #     }
+/// #     pub mod longer {
+/// #         pub struct Inputs { pub left: f64, pub right: f64 }
+/// #         pub enum State { Done { result: f64 } }
+/// #     }
+/// # }
+/// use templates::longer;
+///
+/// struct Longer;
+///
+/// impl Computation<templates::Longer> for Longer {
+///     fn compute(inputs: longer::Inputs) -> Result<longer::State, Fault> {
+///         Ok(longer::State::Done { result: inputs.left.max(inputs.right) })
+///     }
+/// }
+/// # let longer::State::Done { result } = Longer::compute(longer::Inputs { left: 1.0, right: 2.0 })?;
+/// # assert_eq!(result, 2.0);
+/// # Ok::<(), Fault>(())
+/// ```
 #[diagnostic::on_unimplemented(message = "`{Self}` does not implement the computation `{T}`")]
 pub trait Computation<T: ComputationTemplate> {
     /// Computes at once.

@@ -24,6 +24,45 @@ pub enum Defect {
 }
 
 /// The devices of a kind of robot.
+///
+/// `toolbox!` implements it for the devices that a toolbox declares. By hand, for a robot with one button:
+///
+/// ```
+/// use afp_core::devices::{ControlId, ControlRow, DeviceRow, Devices, FaultId, find_control};
+/// use std::convert::Infallible;
+///
+/// const GO: ControlRow = ControlRow { name: "go", help: "starts the robot", stops: false };
+///
+/// #[derive(Clone, Copy, Debug, PartialEq)]
+/// enum Button {
+///     Go,
+/// }
+///
+/// struct Panel;
+///
+/// impl Devices for Panel {
+///     const TABLE: &'static [DeviceRow] = &[DeviceRow {
+///         name: "panel",
+///         help: "the robot's buttons",
+///         controls: &[GO],
+///         faults: &[],
+///         signals: &[],
+///     }];
+///     type Control = Button;
+///     type Fault = Infallible;
+///
+///     fn control(id: ControlId) -> Option<Button> {
+///         (id == ControlId(0)).then_some(Button::Go)
+///     }
+///
+///     fn fault(_: FaultId, _: Option<f64>) -> Option<Infallible> {
+///         None
+///     }
+/// }
+///
+/// let id = find_control(Panel::TABLE, "panel.go").expect("the table has it");
+/// assert_eq!(Panel::control(id), Some(Button::Go));
+/// ```
 pub trait Devices: 'static {
     /// The table.
     const TABLE: &'static [DeviceRow];

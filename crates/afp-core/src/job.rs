@@ -21,6 +21,28 @@ use afp_types::{Duration, Instant};
 use crate::fault::{Fault, Reason};
 
 /// A long computation together with its buffers: what it works on and what it gives.
+///
+/// ```
+/// use afp_core::{Duration, Fault, Job};
+///
+/// struct Sum {
+///     numbers: Vec<u32>,
+///     sum: u32,
+/// }
+///
+/// impl Job for Sum {
+///     const TAKES: Duration = Duration::from_millis(20);
+///
+///     fn run(&mut self) -> Result<(), Fault> {
+///         self.sum = self.numbers.iter().sum();
+///         Ok(())
+///     }
+/// }
+/// # let mut job = Sum { numbers: vec![1, 2, 3], sum: 0 };
+/// # job.run()?;
+/// # assert_eq!(job.sum, 6);
+/// # Ok::<(), Fault>(())
+/// ```
 pub trait Job: Send + 'static {
     /// How long it takes at most on the slowest platform; in virtual time it takes just that.
     const TAKES: Duration;
@@ -61,6 +83,50 @@ impl Ticket {
 ///
 /// A component that ends without asking after its job need not tell anybody: a finished job that
 /// nobody has fetched for a second gives its slot up when another needs it.
+///
+/// A worker for tests, which computes at once:
+///
+/// ```
+/// use afp_core::{Fault, Instant, Job, Poll, Ticket, Worker};
+///
+/// struct AtOnce<J> {
+///     job: J,
+///     round: u64,
+///     done: Option<Result<(), Fault>>,
+/// }
+///
+/// impl<J: Job> Worker<J> for AtOnce<J> {
+///     fn begin(
+///         &mut self,
+///         _: Instant,
+///         prepare: &mut dyn FnMut(&mut J),
+///     ) -> Result<Option<Ticket>, Fault> {
+///         prepare(&mut self.job);
+///         self.round += 1;
+///         self.done = Some(self.job.run());
+///         Ok(Some(Ticket::new(0, self.round)))
+///     }
+///
+///     fn poll(&mut self, ticket: Ticket, _: Instant) -> Result<Poll<&J>, Fault> {
+///         let done = self.done.take_if(|_| ticket.round() == self.round);
+///         done.unwrap_or(Err(Fault::JOB_LOST)).map(|()| Poll::Ready(&self.job))
+///     }
+///
+///     fn cancel(&mut self, _: Ticket, _: Instant) {
+///         self.done = None;
+///     }
+/// }
+/// # struct Double(u32);
+/// # impl Job for Double {
+/// #     const TAKES: afp_core::Duration = afp_core::Duration::ZERO;
+/// #     fn run(&mut self) -> Result<(), Fault> { self.0 *= 2; Ok(()) }
+/// # }
+/// # let mut worker = AtOnce { job: Double(0), round: 0, done: None };
+/// # let ticket = worker.begin(Instant::ZERO, &mut |job| job.0 = 4)?.expect("it is free");
+/// # assert!(matches!(worker.poll(ticket, Instant::ZERO)?, Poll::Ready(Double(8))));
+/// # assert_eq!(worker.poll(ticket, Instant::ZERO).err(), Some(Fault::JOB_LOST));
+/// # Ok::<(), Fault>(())
+/// ```
 pub trait Worker<J: Job> {
     /// Lets `prepare` write what a job works on into its buffers, and begins it. None if every slot
     /// is taken; the same can be asked for again at the next poll.

@@ -199,6 +199,23 @@ pub enum Record<'a> {
 
 /// Receives records. Called within a step: it must neither block nor allocate where the step
 /// must not.
+///
+/// ```
+/// use afp_core::Instant;
+/// use afp_core::trace::{Record, Sink};
+///
+/// /// Counts the faults of components.
+/// struct Faults(u32);
+///
+/// impl Sink for Faults {
+///     fn record(&mut self, _: Instant, record: &Record<'_>) {
+///         self.0 += u32::from(matches!(record, Record::Faulted { .. }));
+///     }
+/// }
+/// # let mut faults = Faults(0);
+/// # faults.record(Instant::ZERO, &Record::StopRequested);
+/// # assert_eq!(faults.0, 0);
+/// ```
 pub trait Sink {
     /// Whether records are wanted at all; `false` removes the code that makes them.
     const ENABLED: bool = true;

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, ComponentKind, TraceEntryId, TraceHash};
-use afp_core::{Duration, Instant, StartError};
+use afp_core::{Duration, Instant, SetError, StartError, WriteError};
 use afp_session::{
     AnySession, Applied, Datum, Figures, Holder, NamedRecord, Observer, Open, Pose2, Request,
-    RunEvent, SampleRef, SetError, Stimulus, View,
+    RunEvent, SampleRef, Stimulus, View,
 };
 
 use crate::program::Program;
@@ -305,12 +305,11 @@ impl Target for SessionTarget<'_> {
     fn set(&mut self, entry: &str, text: &str) -> Result<String, String> {
         self.forget_later()?;
         let id = self.program.entries.iter().position(|it| it.path == entry);
-        let value = self.run.session.set(entry, text).map_err(|why| {
-            let told = why.explained(&*self.run.session, entry, text);
-            match why {
-                SetError::TooEarly => format!("{} (help: step once, then write it)", told.why),
-                _ => told.to_string(),
+        let value = self.run.session.set(entry, text).map_err(|told| match told.cause {
+            SetError::Refused(WriteError::NotStarted) => {
+                format!("{} (help: step once, then write it)", told.why)
             }
+            _ => told.to_string(),
         })?;
         self.note_asked();
         let id = id.map(|id| TraceEntryId(id as u32));

@@ -109,7 +109,15 @@ impl fmt::Display for LogError {
     }
 }
 
-impl std::error::Error for LogError {}
+impl std::error::Error for LogError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            LogError::Create { error, .. } | LogError::Open { error, .. } => Some(error),
+            LogError::Mcap(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl From<mcap::McapError> for LogError {
     fn from(error: mcap::McapError) -> Self {

@@ -134,9 +134,9 @@ impl Grid {
     ///
     /// # Errors
     /// It would stand in a wall.
-    pub fn started_at(&self, start: Pose2, radius: f64) -> Result<Grid, String> {
+    pub fn started_at(&self, start: Pose2, radius: f64) -> Result<Grid, WorldError> {
         match self.contacts(start.x, start.y, radius).next() {
-            Some(_) => Err("the robot starts inside of a wall".to_owned()),
+            Some(_) => Err(WorldError::new(None, "the robot starts inside of a wall")),
             None => Ok(Grid { start, ..self.clone() }),
         }
     }

@@ -204,7 +204,14 @@ impl fmt::Display for ProjectError {
     }
 }
 
-impl std::error::Error for ProjectError {}
+impl std::error::Error for ProjectError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            ProjectError::Unreadable { error, .. } => Some(error),
+            ProjectError::Wrong { .. } => None,
+        }
+    }
+}
 
 /// A path as people name it who work in the current folder.
 pub fn shown(path: &Path) -> PathBuf {

@@ -10,7 +10,9 @@ use std::sync::OnceLock;
 use afp::load::Registry;
 use afp_core::devices::{DeviceRow, find_signal, signals};
 use afp_project::{ProjectFile, RobotLink, shown};
-use afp_session::{AnyRobot, Kind, Loader, Simulated, World, kind, read_signal, simulated};
+use afp_session::{
+    AnyRobot, Kind, Loader, SessionError, Simulated, World, kind, read_signal, simulated,
+};
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 
@@ -164,7 +166,8 @@ impl<R: Simulated> AnyLink for Link<R> {
 
     fn robot(&self, py: Python<'_>) -> PyResult<Py<Robot>> {
         let world = R::World::read(self.nowhere).map_err(|why| error(why.message))?;
-        (self.robot)(py, Robot::new(Box::new(R::new(&world, 0).map_err(error)?)))
+        let robot = R::new(&world, 0).map_err(|why| error(SessionError::World(why.into())))?;
+        (self.robot)(py, Robot::new(Box::new(robot)))
     }
 
     fn sense(&self, robot: &dyn Any, name: &str, truth: bool) -> PyResult<Sensed> {

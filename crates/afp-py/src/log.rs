@@ -62,7 +62,7 @@ pub fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<Made> {
     let texts = recipe.texts.into_iter().map(|file| (file.name, file.text)).collect();
     let mut world = World::parse(recipe.world.text)?;
     if let Some(start) = recipe.start {
-        world.loaded = world.loaded.started_at(start).map_err(error)?;
+        world.loaded = world.loaded.started_at(start).map_err(|why| error(why.message))?;
     }
     Ok((texts, recipe.plan, world, recipe.seed))
 }

@@ -59,7 +59,7 @@ impl Again {
             path: self.path.clone(),
             span: None,
             text: String::new(),
-            message: why,
+            message: why.message,
             help: String::new(),
         })
     }

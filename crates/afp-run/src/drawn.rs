@@ -84,6 +84,6 @@ fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, Ru
     let world = named(world, &recipe.world.name);
     match recipe.start {
         None => Ok(world),
-        Some(start) => world.started_at(start).map_err(|why| content(why, None, text)),
+        Some(start) => world.started_at(start).map_err(|why| content(why.message, None, text)),
     }
 }

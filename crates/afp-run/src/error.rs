@@ -166,7 +166,16 @@ impl fmt::Display for RunError {
     }
 }
 
-impl std::error::Error for RunError {}
+impl std::error::Error for RunError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            RunError::File { error, .. } => Some(error),
+            RunError::Project(error) => Some(error),
+            RunError::Log(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl From<ProjectError> for RunError {
     fn from(error: ProjectError) -> Self {

@@ -41,10 +41,7 @@ pub fn set_all(session: &mut dyn AnySession, set: &[(String, String)]) -> Result
 /// # Errors
 /// An entry that is not there or cannot be set, a value that does not fit.
 pub fn set(session: &mut dyn AnySession, name: &str, text: &str) -> Result<Value, RunError> {
-    session.set(name, text).map_err(|why| {
-        let NotSet { why, help } = why.explained(session, name, text);
-        RunError::usage(why, help)
-    })
+    session.set(name, text).map_err(|NotSet { why, help, .. }| RunError::usage(why, help))
 }
 
 /// Why a plan does not start, as an error of the command line.

@@ -46,14 +46,14 @@ impl LoadedWorld {
     ///
     /// # Errors
     /// Why it cannot start there.
-    pub fn started_at(self, start: Pose2) -> Result<LoadedWorld, String> {
+    pub fn started_at(self, start: Pose2) -> Result<LoadedWorld, WorldError> {
         let world = self.world.started_at(start)?;
         Ok(LoadedWorld { world, start: Some(start), ..self })
     }
 
     /// Why there is no session in this world, with its file.
     pub fn no_session(&self, why: SessionError) -> RunError {
-        let SessionError::World(message) = why else { return why.into() };
+        let SessionError::World(why) = why else { return why.into() };
         let help = match self.path {
             Some(_) => "",
             None => "it comes from the robot's 'Simulated::new': look there, or name another world",
@@ -62,7 +62,7 @@ impl LoadedWorld {
             path: self.path.clone().unwrap_or_else(|| BUILT_IN.into()),
             span: None,
             text: self.text.clone(),
-            message,
+            message: why.to_string(),
             help: help.to_owned(),
         }
     }

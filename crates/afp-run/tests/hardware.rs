@@ -23,7 +23,6 @@ use afp_syntax::source::Source;
 use clap::{Args, Command, FromArgMatches};
 
 mod templates {
-    #![allow(missing_docs)]
     afp_macros::toolbox!("tests/board.afp", robot = super::Board);
 }
 
@@ -95,9 +94,11 @@ impl Robot for Board {
 }
 
 impl Hardware for Board {
-    fn open(settings: &Settings) -> Result<Self, String> {
+    type Error = &'static str;
+
+    fn open(settings: &Settings) -> Result<Self, &'static str> {
         match settings.get_or("port", "none") {
-            "none" => Err("there is no board at 'none'".to_owned()),
+            "none" => Err("there is no board at 'none'"),
             _ => Ok(Board { time: Time(Wall::now()), seen: Arc::default() }),
         }
     }
@@ -172,7 +173,7 @@ fn on_board(text: &str, arguments: &[&str]) -> (Result<u8, RunError>, Span, Arc<
         registry.actor::<templates::Work, Work>("board", "Work");
     });
     let open = |settings: &Settings| {
-        let robot = Board::open(settings).map_err(SessionError::Hardware)?;
+        let robot = Board::open(settings).map_err(|why| SessionError::Hardware(why.into()))?;
         // The board of the opener is gone with its run; this one is looked at afterwards.
         drop(board.open(&graph, settings)?);
         let mut registry = afp::load::Registry::new();

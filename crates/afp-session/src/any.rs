@@ -1,13 +1,13 @@
 //! Sessions of any plan over any robot: where types end.
 
 use std::any::Any;
-use std::fmt;
 
 use afp_core::devices::{DeviceRow, SignalId};
-use afp_core::trace::{ComponentId, Ending, EntryName, Names, TraceHash};
+use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
 use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
 use crate::figures::Figures;
+use crate::not_set::NotSet;
 use crate::observer::{Gate, Go, Observer};
 use crate::request::{Request, RequestError, RequestId};
 use crate::sample::SampleRef;
@@ -53,7 +53,7 @@ pub trait AnySession: Send {
     ///
     /// # Errors
     /// An entry that is not there or cannot be written, a value that does not fit.
-    fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError>;
+    fn set(&mut self, entry: &str, text: &str) -> Result<Value, NotSet>;
 
     /// Writes an entry: before the start an `in` entry at once, later with the next step.
     ///
@@ -139,50 +139,3 @@ pub trait AnySession: Send {
     /// What was asked for and has not come yet, by time.
     fn pending(&self) -> Vec<(Instant, RequestId, Stimulus)>;
 }
-
-/// Why an entry does not take a value, with its range where that is why.
-pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
-    match entry.range_text().filter(|_| why == WriteError::Range) {
-        Some(range) => format!("{why}, {range}"),
-        None => why.to_string(),
-    }
-}
-
-/// Why an entry cannot be set.
-///
-/// [`SetError::explained`] says it with the entry, and what to do.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum SetError {
-    /// There is no such entry.
-    Unknown,
-    /// It is a `var` entry before the start, when its initial value would replace it.
-    TooEarly,
-    /// It is no `in` or `var` entry.
-    ReadOnly,
-    /// The text is no value of its type; a quantity may be written in these units.
-    Unreadable {
-        /// Why.
-        why: Fault,
-        /// Names of units; none for what is no quantity.
-        units: Vec<String>,
-    },
-    /// The entry does not take the value.
-    Refused(WriteError),
-}
-
-impl fmt::Display for SetError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SetError::Unknown => f.write_str("there is no such entry"),
-            SetError::TooEarly => {
-                f.write_str("it cannot be set before the start: its initial value would replace it")
-            }
-            SetError::ReadOnly => f.write_str("it cannot be set from outside"),
-            SetError::Unreadable { why, .. } => why.fmt(f),
-            SetError::Refused(why) => why.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for SetError {}

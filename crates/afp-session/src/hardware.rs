@@ -1,5 +1,7 @@
 //! Robots that are there: their time passes by itself, and what they do cannot be taken back.
 
+use std::error::Error;
+
 use afp_core::Platform;
 use afp_core::devices::Devices;
 use afp_core::rt::{NamedPlan, Plan};
@@ -24,11 +26,14 @@ use crate::{Pose2, Shape};
 pub trait Hardware:
     Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
 {
+    /// Why the robot cannot be reached: any error or `String`. `Box<dyn Error + Send + Sync>` takes all of them with `?`.
+    type Error: Into<Box<dyn Error + Send + Sync>>;
+
     /// The robot, standing; its time begins at zero.
     ///
     /// # Errors
     /// Why it cannot be reached: what was tried and what came of it.
-    fn open(settings: &Settings) -> Result<Self, String>;
+    fn open(settings: &Settings) -> Result<Self, Self::Error>;
 
     /// What stops the robot from another thread while a component hangs; none where nothing can. It is called before the
     /// process ends by force.
@@ -82,7 +87,7 @@ impl Opened {
         H: Hardware,
         Session<P, H, Kept>: AnySession,
     {
-        let robot = H::open(settings).map_err(SessionError::Hardware)?;
+        let robot = H::open(settings).map_err(|why| SessionError::Hardware(why.into()))?;
         let last_resort = robot.last_resort();
         Ok(Opened { session: Box::new(Session::on_hardware(plan, robot)), last_resort })
     }
@@ -145,8 +150,8 @@ impl World for NoWorld {
         "none"
     }
 
-    fn started_at(&self, _: Pose2) -> Result<Self, String> {
-        Err("this robot has no worlds to start in".to_owned())
+    fn started_at(&self, _: Pose2) -> Result<Self, WorldError> {
+        Err(WorldError::new(None, "this robot has no worlds to start in"))
     }
 
     fn scene(&self) -> Vec<Shape> {

@@ -44,7 +44,7 @@ mod track;
 mod units;
 mod world;
 
-pub use any::{AnySession, SetError, refusal};
+pub use any::AnySession;
 pub use counts::{Counts, Usage};
 pub use event::{
     Datum, Done, EndingKind, EventKind, Holder, Miss, OUTSIDE, Requested, RunEvent, author,
@@ -54,7 +54,7 @@ pub use figures::{Figure, FigureValue, Figures, Span};
 pub use hardware::{Hardware, LastResort, NoWorld, Opened, Settings};
 #[cfg(feature = "load")]
 pub use hardware::{Opener, hardware};
-pub use not_set::{NotSet, what_it_takes};
+pub use not_set::{NotSet, refusal, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};

@@ -1,18 +1,20 @@
 //! Why an entry cannot be set, for people: one wording for all who set entries.
 
+use std::error::Error;
 use std::fmt;
 
-use afp_core::Fault;
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
+use afp_core::{Fault, SetError, WriteError};
 use afp_excerpt::words::a;
 use afp_types::{EXACT, number_length};
 
-use crate::any::{AnySession, SetError, refusal};
 use crate::units::some_units;
 
 /// Why an entry cannot be set, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotSet {
+    /// The error of the scheduler, which knows positions only.
+    pub cause: SetError,
     /// Why.
     pub why: String,
     /// What to do.
@@ -25,50 +27,59 @@ impl fmt::Display for NotSet {
     }
 }
 
-impl std::error::Error for NotSet {}
+impl Error for NotSet {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        Some(&self.cause)
+    }
+}
 
-impl SetError {
-    /// Why a session refused that text for an entry of that name.
-    pub fn explained(&self, session: &dyn AnySession, name: &str, text: &str) -> NotSet {
-        let names = session.names();
+/// Why an entry does not take a value, with its range where that is why.
+pub fn refusal(why: WriteError, entry: EntryName<'_>) -> String {
+    match entry.range_text().filter(|_| why == WriteError::Range) {
+        Some(range) => format!("{why}, {range}"),
+        None => why.to_string(),
+    }
+}
+
+impl NotSet {
+    /// Why a plan refused a text for an entry, by name, which can be written in these units.
+    pub(crate) fn new(
+        cause: SetError,
+        names: &dyn Names,
+        started: bool,
+        (name, text): (&str, &str),
+        units: &[&str],
+    ) -> Self {
         let id = id(names, name);
         let entry = names.entry(id);
-        let help = || settable(session);
-        match self {
-            SetError::Unknown if entry.path.is_empty() => {
-                NotSet { why: no_entry(name), help: help() }
+        let is_object = names.holds_object(id);
+        let why = match cause {
+            SetError::Unknown if entry.path.is_empty() => no_entry(name),
+            SetError::Unknown => {
+                format!("the entry '{name}' of a sub-plan cannot be set from outside")
             }
-            SetError::Unknown => NotSet {
-                why: format!("the entry '{name}' of a sub-plan cannot be set from outside"),
-                help: help(),
-            },
-            _ if names.holds_object(id) => NotSet {
-                why: format!(
+            _ if is_object => {
+                format!(
                     "the entry '{name}' holds an object: templates make it, and no text says one"
-                ),
-                help: help(),
-            },
-            SetError::TooEarly => NotSet {
-                why: format!(
-                    "the entry '{name}' cannot be set before the start: its initial value would replace it"
-                ),
-                help: help(),
-            },
-            SetError::ReadOnly => NotSet {
-                why: format!(
-                    "the entry '{name}' cannot be set from outside: it is declared '{}'",
-                    entry.kind.word()
-                ),
-                help: help(),
-            },
-            SetError::Unreadable { why, units } => NotSet {
-                why: format!("'{name}={text}': not {}", a(entry.ty)),
-                help: readable(names, id, (name, text), *why, units),
-            },
-            SetError::Refused(why) => {
-                NotSet { why: format!("'{name}={text}': {}", refusal(*why, entry)), help: help() }
+                )
             }
-        }
+            SetError::Refused(WriteError::NotStarted) => format!(
+                "the entry '{name}' cannot be set before the start: its initial value would replace it"
+            ),
+            SetError::Refused(WriteError::ReadOnly) => format!(
+                "the entry '{name}' cannot be set from outside: it is declared '{}'",
+                entry.kind.word()
+            ),
+            SetError::Refused(why) => format!("'{name}={text}': {}", refusal(why, entry)),
+            _ => format!("'{name}={text}': not {}", a(entry.ty)),
+        };
+        let help = match cause {
+            SetError::Unreadable { why, .. } if !is_object => {
+                readable(names, id, (name, text), why, units)
+            }
+            _ => settable(names, started),
+        };
+        NotSet { cause, why, help }
     }
 }
 
@@ -79,9 +90,7 @@ fn id(names: &dyn Names, name: &str) -> TraceEntryId {
 }
 
 /// The entries that can be set now.
-fn settable(session: &dyn AnySession) -> String {
-    let names = session.names();
-    let started = session.active().is_some() || session.ending().is_some();
+fn settable(names: &dyn Names, started: bool) -> String {
     let is_open = |kind| kind == EntryKind::In || started && kind == EntryKind::Var;
     let ids = (0..names.entries()).map(TraceEntryId).filter(|id| !names.holds_object(*id));
     let entries = ids.map(|id| names.entry(id));
@@ -108,7 +117,7 @@ impl NotSet {
     /// A plan that has not been loaded has no entry of that name; its `in` entries, each with its type.
     pub fn unknown<'a>(name: &str, inputs: impl Iterator<Item = (&'a str, String)>) -> Self {
         let help = that_can_be_set(inputs).unwrap_or_else(|| NO_INPUTS.to_owned());
-        NotSet { why: no_entry(name), help }
+        NotSet { cause: SetError::Unknown, why: no_entry(name), help }
     }
 }
 
@@ -124,7 +133,7 @@ fn readable(
     id: TraceEntryId,
     (name, text): (&str, &str),
     why: Fault,
-    units: &[String],
+    units: &[&str],
 ) -> String {
     let EntryName { ty, unit, .. } = names.entry(id);
     let choices = (0..u16::MAX).map(|value| names.choice(id, value));
@@ -133,12 +142,12 @@ fn readable(
     match (ty, number) {
         _ if let Some(text) = with_a_point(text, units) => format!("write '{name}={text}'"),
         (_, Some(_)) if !unit.is_empty() => {
-            let handy = units.iter().find(|unit| *unit == "cm" || *unit == "deg");
-            let unit = handy.map_or(unit, String::as_str);
+            let handy = units.iter().find(|unit| matches!(**unit, "cm" | "deg"));
+            let unit = handy.copied().unwrap_or(unit);
             format!("write the unit: '{name}={text}{unit}'")
         }
         _ if !unit.is_empty() => {
-            format!("a number and a unit: {}", some_units(units.iter().map(String::as_str)))
+            format!("a number and a unit: {}", some_units(units.iter().copied()))
         }
         _ if !choices.is_empty() => format!("one of: {}", choices.join(", ")),
         _ if why == Fault::TOO_LONG => why.to_string(),
@@ -153,13 +162,13 @@ fn readable(
 }
 
 /// A number with a decimal comma, and one of the units where there are any, with a point.
-fn with_a_point(text: &str, units: &[String]) -> Option<String> {
+fn with_a_point(text: &str, units: &[&str]) -> Option<String> {
     let (whole, part) = text.split_once(',')?;
     let text = format!("{whole}.{part}");
     let unit = text.get(number_length(&text)..)?.trim();
     let fits = match units {
         [] => unit.is_empty(),
-        units => units.iter().any(|known| known == unit),
+        units => units.contains(&unit),
     };
     fits.then_some(text)
 }

@@ -1,5 +1,6 @@
 //! What a session asks of a robot, beyond that time passes for it.
 
+use std::error::Error;
 use std::fmt;
 
 use afp_core::devices::Devices;
@@ -98,12 +99,14 @@ pub trait Simulated:
 {
     /// The world.
     type World: World;
+    /// Why the robot cannot be built in a world: a [`WorldError`](crate::WorldError), or any error or `String`.
+    type Error: Into<Box<dyn Error + Send + Sync>>;
 
     /// The robot at its start, at time zero; `seed` decides on every noise.
     ///
     /// # Errors
     /// Why the world cannot be built.
-    fn new(world: &Self::World, seed: u64) -> Result<Self, String>;
+    fn new(world: &Self::World, seed: u64) -> Result<Self, Self::Error>;
 
     /// The shapes that can be put into its world while a plan runs.
     const DROPS: &'static [Droppable] = &[];
@@ -148,4 +151,4 @@ impl fmt::Display for Refused {
     }
 }
 
-impl std::error::Error for Refused {}
+impl Error for Refused {}

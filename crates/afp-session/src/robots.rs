@@ -1,5 +1,6 @@
 //! Kinds of simulated robots, whatever they are: what a program links in.
 
+use std::error::Error;
 use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -56,18 +57,18 @@ pub trait AnyRobot: Sync {
 }
 
 /// Why there is no session.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 #[non_exhaustive]
 pub enum SessionError {
     /// The plan cannot be loaded.
     #[cfg(feature = "load")]
     Load(LoadError),
     /// The world cannot be built.
-    World(String),
+    World(Box<dyn Error + Send + Sync>),
     /// The world is that of another robot.
     OtherWorld,
     /// The robot that is there cannot be reached.
-    Hardware(String),
+    Hardware(Box<dyn Error + Send + Sync>),
     /// The robot has no such measure; it has these.
     Measure(String, &'static [&'static str]),
 }
@@ -148,7 +149,7 @@ where
 /// A robot at its start in a world.
 fn robot_in<R: Simulated>(world: &dyn AnyWorld, seed: u64) -> Result<R, SessionError> {
     let world = world.as_any().downcast_ref::<R::World>().ok_or(SessionError::OtherWorld)?;
-    R::new(world, seed).map_err(SessionError::World)
+    R::new(world, seed).map_err(|why| SessionError::World(why.into()))
 }
 
 /// A kind of simulated robot on which plans can be loaded.
@@ -235,7 +236,7 @@ impl fmt::Display for SessionError {
         match self {
             #[cfg(feature = "load")]
             SessionError::Load(error) => error.fmt(f),
-            SessionError::World(why) => f.write_str(why),
+            SessionError::World(why) => why.fmt(f),
             SessionError::OtherWorld => f.write_str("the world is that of another robot"),
             SessionError::Hardware(why) => write!(f, "the robot cannot be reached: {why}"),
             SessionError::Measure(name, _) => write!(f, "the robot has no measure '{name}'"),
@@ -243,4 +244,13 @@ impl fmt::Display for SessionError {
     }
 }
 
-impl std::error::Error for SessionError {}
+impl Error for SessionError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            #[cfg(feature = "load")]
+            SessionError::Load(why) => Some(why),
+            SessionError::World(why) | SessionError::Hardware(why) => Some(&**why),
+            SessionError::OtherWorld | SessionError::Measure(..) => None,
+        }
+    }
+}

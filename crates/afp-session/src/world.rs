@@ -50,7 +50,7 @@ pub trait World: Clone + fmt::Debug + Send + Sync + 'static {
     ///
     /// # Errors
     /// Why it cannot start there.
-    fn started_at(&self, start: Pose2) -> Result<Self, String>;
+    fn started_at(&self, start: Pose2) -> Result<Self, WorldError>;
 
     /// Everything that stands in it, and the robot's body, as a scene shows them at the start.
     fn scene(&self) -> Vec<Shape>;
@@ -68,7 +68,7 @@ pub trait AnyWorld: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// Why it cannot start there.
-    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, String>;
+    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, WorldError>;
 
     /// Everything that stands in it, and the robot's body, as a scene shows them at the start.
     fn scene(&self) -> Vec<Shape>;
@@ -179,7 +179,7 @@ impl<W: World> AnyWorld for W {
         self.name()
     }
 
-    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, String> {
+    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, WorldError> {
         Ok(Arc::new(self.started_at(start)?))
     }
 

@@ -11,10 +11,10 @@ use std::sync::atomic::Ordering;
 
 use afp_core::devices::{ControlId, FaultId, SignalId};
 use afp_core::trace::{Ending, Record, Verdict};
-use afp_core::{Duration, Fault, Instant, Platform, Text, Value, WriteError};
+use afp_core::{Duration, Fault, Instant, Platform, SetError, Text, Value, WriteError};
 use afp_session::{
     AnySession, Applied, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError,
-    RequestId, SampleRef, Sampling, Session, SetError, Stimulus, View,
+    RequestId, SampleRef, Sampling, Session, Stimulus, View,
 };
 use support::{POSITION, Toy, plan};
 
@@ -215,11 +215,11 @@ fn component(session: &Loaded, path: &str) -> afp_core::trace::ComponentId {
 fn an_entry_is_set_before_the_start_and_written_later() {
     let mut session = session();
     assert_eq!(session.set("speed", "20 cm/s"), Ok(Value::Float(0.2)));
-    assert_eq!(session.set("pace", "20 cm/s"), Err(SetError::Unknown));
-    let Err(SetError::Unreadable { units, .. }) = session.set("speed", "fast") else {
-        panic!("a speed is no word");
-    };
-    assert!(units.iter().any(|unit| unit == "cm/s"), "{units:?}");
+    let refused = session.set("pace", "20 cm/s").unwrap_err();
+    assert_eq!(refused.cause, SetError::Unknown);
+    let refused = session.set("speed", "fast").unwrap_err();
+    assert!(matches!(refused.cause, SetError::Unreadable { .. }), "{refused:?}");
+    assert!(refused.help.contains("cm/s"), "{}", refused.help);
     session
         .at(Instant::ZERO, Request::Write(0, Value::Text(Text::try_from("a").unwrap())))
         .unwrap();

@@ -21,7 +21,7 @@ mod tables;
 pub use afp_core::rt::{Args, BadValue, Outputs};
 pub use afp_dsl::graph::Graph;
 pub use constant::value_of;
-pub use error::{InputError, LoadError};
+pub use error::LoadError;
 pub use inject::{Injection, NotInjected};
 pub use library::load;
 pub use library::{Library, OpenError, Templates};

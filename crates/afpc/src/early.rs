@@ -41,6 +41,6 @@ fn check_entry(graph: &Graph, name: &str) -> Result<(), RunError> {
     }
     let inputs = entries.iter().filter(|entry| entry.kind == EntryKind::In);
     let inputs = inputs.map(|entry| (entry.name.as_str(), entry.ty.to_string()));
-    let NotSet { why, help } = NotSet::unknown(name, inputs);
+    let NotSet { why, help, .. } = NotSet::unknown(name, inputs);
     Err(RunError::usage(why, help))
 }

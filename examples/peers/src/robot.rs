@@ -1,5 +1,7 @@
 //! The robot, which has no devices and no world.
 
+use std::convert::Infallible;
+
 use afp::core::Platform;
 use afp::core::devices::{ControlId, DeviceRow, Devices, FaultId};
 use afp::load::{ActorSlot, Args, BadValue, Outputs, See, SupervisorSlot};
@@ -59,8 +61,9 @@ impl Robot for StandIn {
 
 impl Simulated for StandIn {
     type World = NoWorld;
+    type Error = Infallible;
 
-    fn new(_: &NoWorld, _: u64) -> Result<StandIn, String> {
+    fn new(_: &NoWorld, _: u64) -> Result<StandIn, Infallible> {
         Ok(StandIn::default())
     }
 }

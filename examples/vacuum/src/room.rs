@@ -31,7 +31,7 @@ impl World for Room {
         &self.0.name
     }
 
-    fn started_at(&self, start: Pose2) -> Result<Self, String> {
+    fn started_at(&self, start: Pose2) -> Result<Self, WorldError> {
         self.0.started_at(start, RADIUS).map(Room)
     }
 

@@ -9,6 +9,7 @@ use afp_session::frames::{BODY, WORLD};
 use afp_platform::{Grid, Line, Noise, VirtualClock};
 use afp_session::{
     Active, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated, Transform,
+    WorldError,
 };
 
 use crate::room::{DIRT, DROP, RADIUS, Room};
@@ -265,8 +266,9 @@ impl Robot for Vacuum {
 
 impl Simulated for Vacuum {
     type World = Room;
+    type Error = WorldError;
 
-    fn new(room: &Room, seed: u64) -> Result<Self, String> {
+    fn new(room: &Room, seed: u64) -> Result<Self, WorldError> {
         let Room(grid) = room;
         let dirt = |letter: &char| f64::from(u8::from(*letter == DIRT));
         Ok(Vacuum {

@@ -1,5 +1,6 @@
 //! What comes from outside: values of entries, and the request to stop.
 
+use core::error::Error;
 use core::fmt;
 use core::marker::PhantomData;
 
@@ -71,7 +72,21 @@ impl fmt::Display for SetError {
     }
 }
 
-impl core::error::Error for SetError {}
+impl Error for SetError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            SetError::Unknown => None,
+            SetError::Unreadable { why, .. } => Some(why),
+            SetError::Refused(why) => Some(why),
+        }
+    }
+}
+
+impl From<WriteError> for SetError {
+    fn from(why: WriteError) -> Self {
+        SetError::Refused(why)
+    }
+}
 
 /// How a value of an entry is written.
 fn help(names: &impl Names, id: TraceEntryId) -> &'static str {
@@ -119,17 +134,31 @@ impl<P: PlanState> Scheduler<P> {
     where
         P: NamedPlan,
     {
+        let (position, value) = self.read_named(entry, text)?;
+        Ok(self.write(position, value)?)
+    }
+
+    /// The position and the value that [`Scheduler::set_named`] writes.
+    ///
+    /// # Errors
+    /// [`SetError`]: the plan has no such entry, or the entry cannot be set now, or the text is no value of its type.
+    pub fn read_named(&self, entry: &str, text: &str) -> Result<(u16, Value), SetError>
+    where
+        P: NamedPlan,
+    {
         let plan = self.plan();
         let position = plan.entry_named(entry).ok_or(SetError::Unknown)?;
         let names = plan.names();
         let id = TraceEntryId(position.into());
-        let about = names.entry(id);
-        if !matches!(about.kind, EntryKind::In | EntryKind::Var) {
-            return Err(SetError::Refused(WriteError::ReadOnly));
+        match names.entry(id).kind {
+            EntryKind::Out | EntryKind::Const => return Err(WriteError::ReadOnly.into()),
+            EntryKind::Var if self.state == State::Ready => {
+                return Err(WriteError::NotStarted.into());
+            }
+            EntryKind::In | EntryKind::Var => {}
         }
         let unreadable = |why| SetError::Unreadable { why, help: help(&names, id) };
-        let value = plan.read(position, text).map_err(unreadable)?;
-        self.write(position, value).map_err(SetError::Refused)
+        Ok((position, plan.read(position, text).map_err(unreadable)?))
     }
 
     /// As [`Scheduler::set`], by position, with any value; quantities are in SI units.

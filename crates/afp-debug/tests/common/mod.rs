@@ -36,8 +36,7 @@ pub fn session(graph: &Graph, launch: &Launch) -> Result<Box<dyn AnySession>, St
     let session = robot.session(graph, &*world, launch.seed.unwrap_or(0), &[]);
     let mut session = session.map_err(|why| why.to_string())?;
     for (name, text) in &launch.set {
-        let set = session.set(name, text);
-        set.map_err(|why| why.explained(&*session, name, text).to_string())?;
+        session.set(name, text).map_err(|why| why.to_string())?;
     }
     Ok(session)
 }

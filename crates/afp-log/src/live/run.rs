@@ -118,7 +118,7 @@ fn write(session: &mut dyn AnySession, entry: &str, text: &str) -> Written {
             let id = ids.find(|id| names.entry(*id).path == entry);
             Ok(Datum::new(names, id.map_or(Holder::Unknown, Holder::Entry), value.borrow()))
         }
-        Err(why) => Err(why.explained(session, entry, text).to_string()),
+        Err(why) => Err(why.to_string()),
     }
 }
 

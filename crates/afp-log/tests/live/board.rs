@@ -1,5 +1,7 @@
 //! A robot that is there, as far as anybody can tell from here.
 
+use std::convert::Infallible;
+
 use afp_carbot::table::Carbot;
 use afp_core::{Environment, Instant, Platform, StillClock};
 use afp_session::{Hardware, Robot, Samples, Settings};
@@ -34,7 +36,9 @@ impl Robot for Board {
 }
 
 impl Hardware for Board {
-    fn open(_: &Settings) -> Result<Board, String> {
+    type Error = Infallible;
+
+    fn open(_: &Settings) -> Result<Board, Infallible> {
         Ok(Board)
     }
 }

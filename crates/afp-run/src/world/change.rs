@@ -38,7 +38,7 @@ impl LoadedWorld {
         let world = world.map_err(|error| with_changes(error, changes))?;
         let world = LoadedWorld { path: self.path.clone(), ..world };
         let Some(start) = self.start else { return Ok(world) };
-        world.started_at(start).map_err(|why| RunError::usage(why, "choose another start"))
+        world.started_at(start).map_err(|why| RunError::usage(why.message, "choose another start"))
     }
 
     /// What a value for a key is in SI units; `None` for what is no number.

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use afp_session::{AnyWorld, Drawing, Pose2, Shape};
+use afp_session::{AnyWorld, Drawing, Pose2, Shape, WorldError};
 
 /// A world that is called by its file, or as the log of its run says.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ impl AnyWorld for Named {
         &self.name
     }
 
-    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, String> {
+    fn started_at(&self, start: Pose2) -> Result<Arc<dyn AnyWorld>, WorldError> {
         Ok(named(self.world.started_at(start)?, &self.name))
     }
 

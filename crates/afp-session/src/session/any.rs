@@ -8,8 +8,9 @@ use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
 use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
 use super::{Session, report};
-use crate::any::{AnySession, SetError};
+use crate::any::AnySession;
 use crate::figures::Figures;
+use crate::not_set::NotSet;
 use crate::observer::{Gate, Go, Observer};
 use crate::record::Keep;
 use crate::request::{Request, RequestError, RequestId};
@@ -66,7 +67,7 @@ where
         self.scheduler.plan().read(entry, text)
     }
 
-    fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError> {
+    fn set(&mut self, entry: &str, text: &str) -> Result<Value, NotSet> {
         self.set(entry, text)
     }
 

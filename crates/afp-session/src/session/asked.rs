@@ -4,13 +4,13 @@
 use afp::load::{Injection, LoadedPlan, NotInjected};
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{ComponentId, EntryKind, Names, TraceEntryId};
+use afp_core::trace::{ComponentId, Names};
 use afp_core::{Duration, Instant, Value, WriteError};
 
 use super::Session;
-use crate::any::SetError;
 use crate::hardware::Hardware;
 use crate::holds::Hold;
+use crate::not_set::NotSet;
 use crate::observer::{Applied, Observer};
 use crate::record::{Keep, Kept};
 use crate::request::{Put, Request, RequestError, RequestId, Waiting};
@@ -296,25 +296,17 @@ where
     ///
     /// # Errors
     /// An entry that is not there or cannot be written, a value that does not fit.
-    pub fn set(&mut self, entry: &str, text: &str) -> Result<Value, SetError> {
-        let plan = self.scheduler.plan();
-        let id = plan.entry_named(entry).ok_or(SetError::Unknown)?;
-        let kind = self.names.entry(TraceEntryId(id.into())).kind;
-        match kind {
-            EntryKind::Out | EntryKind::Const => return Err(SetError::ReadOnly),
-            EntryKind::Var if !self.started => return Err(SetError::TooEarly),
-            EntryKind::In | EntryKind::Var => {}
-        }
-        let value = plan.read(id, text).map_err(|why| SetError::Unreadable {
-            why,
-            units: plan.units(id).map(|unit| unit.name.to_owned()).collect(),
-        })?;
-        match self.write(id, value.clone()) {
-            Ok(()) => Ok(value),
-            Err(WriteError::ReadOnly) => Err(SetError::ReadOnly),
-            Err(WriteError::NotStarted) => Err(SetError::TooEarly),
-            Err(why) => Err(SetError::Refused(why)),
-        }
+    pub fn set(&mut self, entry: &str, text: &str) -> Result<Value, NotSet> {
+        let set = self.scheduler.read_named(entry, text).and_then(|(id, value)| {
+            self.write(id, value.clone())?;
+            Ok(value)
+        });
+        set.map_err(|why| {
+            let plan = self.scheduler.plan();
+            let units = plan.entry_named(entry).into_iter().flat_map(|id| plan.units(id));
+            let units: Vec<_> = units.map(|unit| unit.name).collect();
+            NotSet::new(why, &self.names, self.started, (entry, text), &units)
+        })
     }
 }
 

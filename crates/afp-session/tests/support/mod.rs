@@ -1,5 +1,6 @@
 //! A robot that rolls along a line, with a bumper and two things that break.
 
+use std::convert::Infallible;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -21,7 +22,6 @@ use afp_session::{
 use afp_syntax::source::Source;
 
 mod templates {
-    #![allow(missing_docs)]
     afp_macros::toolbox!("tests/toy.afp", robot: super::Rolls);
 }
 
@@ -185,7 +185,9 @@ impl Robot for Toy {
 }
 
 impl Hardware for Toy {
-    fn open(_: &Settings) -> Result<Self, String> {
+    type Error = Infallible;
+
+    fn open(_: &Settings) -> Result<Self, Infallible> {
         Ok(Toy::new())
     }
 }

@@ -11,7 +11,7 @@ use afp_session::{
 
 use super::wall::WallDistance;
 use super::{Simulation, hand};
-use crate::world::{World, shape};
+use crate::world::{World, WorldError, shape};
 
 impl Platform for Simulation {
     type Clock = VirtualClock;
@@ -125,12 +125,13 @@ impl Simulation {
 
 impl Simulated for Simulation {
     type World = World;
+    type Error = WorldError;
     const DROPS: &'static [Droppable] = &hand::SHAPES;
     const FACTS: &'static [(&'static str, &'static str)] = &[("physics_step_ns", "5000000")];
     const MEASURES: &'static [&'static str] = &[WallDistance::NAME];
 
-    fn new(world: &World, seed: u64) -> Result<Self, String> {
-        Simulation::new(world, seed).map_err(|error| error.message)
+    fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
+        Simulation::new(world, seed)
     }
 
     fn measure(name: &str) -> Option<Box<dyn Measure<Self>>> {

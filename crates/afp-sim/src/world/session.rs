@@ -32,7 +32,7 @@ impl afp_session::World for World {
         &self.name
     }
 
-    fn started_at(&self, start: Pose) -> Result<Self, String> {
+    fn started_at(&self, start: Pose) -> Result<Self, WorldError> {
         self.started_with(&Chassis::CARBOT, start)
     }
 
@@ -47,13 +47,14 @@ impl afp_session::World for World {
 
 impl World {
     /// The same world with a robot of some body at another start.
-    pub(super) fn started_with(&self, robot: &Chassis, start: Pose) -> Result<World, String> {
+    pub(super) fn started_with(&self, robot: &Chassis, start: Pose) -> Result<World, WorldError> {
         let near = |value: f64| value.abs() <= FARTHEST;
         if ![start.x, start.y, start.heading.to_degrees()].into_iter().all(near) {
-            return Err(format!("the start is not within {FARTHEST} m and {FARTHEST} deg of zero"));
+            let why = format!("the start is not within {FARTHEST} m and {FARTHEST} deg of zero");
+            return Err(WorldError::new(None, why));
         }
         match self.no_start(robot, start) {
-            Some(why) => Err(why),
+            Some(why) => Err(WorldError::new(None, why)),
             None => Ok(World { start, ..self.clone() }),
         }
     }

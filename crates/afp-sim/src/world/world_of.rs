@@ -90,7 +90,7 @@ impl<B: Body> afp_session::World for WorldOf<B> {
         &self.world.name
     }
 
-    fn started_at(&self, start: Pose2) -> Result<Self, String> {
+    fn started_at(&self, start: Pose2) -> Result<Self, WorldError> {
         let world = self.world.started_with(&B::CHASSIS, start)?;
         Ok(WorldOf { world, own: self.own.clone() })
     }

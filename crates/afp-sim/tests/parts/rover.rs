@@ -15,7 +15,7 @@ use afp_platform::{Line, Noise, VirtualClock};
 use afp_session::frames::{BODY, WORLD};
 use afp_session::{
     Active, Drawing, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated,
-    Span, Transform,
+    Span, Transform, WorldError,
 };
 use afp_sim::parts::{
     Body, Chassis, Footprint, OwnTables, RangeModel, RangeSensor, STEP, Stage, Switch, TwoWheels,
@@ -25,7 +25,6 @@ use afp_syntax::source::Source;
 use serde::Deserialize;
 
 pub mod templates {
-    #![allow(missing_docs)]
     afp_macros::toolbox!("tests/parts/rover.afp", robot: super::Wheels + super::Senses);
 }
 
@@ -285,9 +284,10 @@ impl Robot for Rover {
 
 impl Simulated for Rover {
     type World = WorldOf<Round>;
+    type Error = WorldError;
 
-    fn new(world: &WorldOf<Round>, seed: u64) -> Result<Self, String> {
-        let stage = Stage::new(&world.world, Round::CHASSIS).map_err(|error| error.message)?;
+    fn new(world: &WorldOf<Round>, seed: u64) -> Result<Self, WorldError> {
+        let stage = Stage::new(&world.world, Round::CHASSIS)?;
         let (noise, mut build) = (Noise::new(seed, "ranger"), Noise::new(seed, "build"));
         Ok(Rover {
             stage,

@@ -184,5 +184,5 @@ fn who_leaves_the_map_is_told_when() {
     assert_eq!(figures.len(), 1);
     assert!(figures[0].text.starts_with("at 1"), "{figures:?}");
     let error = afp_session::World::started_at(&world, Pose { x: 3.5, y: 0.0, heading: 0.0 });
-    assert_eq!(error.unwrap_err(), "the robot starts beyond the edge of the map");
+    assert_eq!(error.unwrap_err().message, "the robot starts beyond the edge of the map");
 }

@@ -1,8 +1,6 @@
-//! Why a plan cannot be loaded, or an input not be set.
+//! Why a plan cannot be loaded.
 
 use std::fmt;
-
-use afp_core::WriteError;
 
 /// Why a graph cannot be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,16 +33,6 @@ pub enum LoadError {
     },
 }
 
-/// Why an input of a plan cannot be set.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum InputError {
-    /// The plan has no such entry.
-    Unknown(String),
-    /// The entry is there, but not with this value.
-    Refused(String, WriteError),
-}
-
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -68,14 +56,3 @@ impl fmt::Display for LoadError {
 }
 
 impl std::error::Error for LoadError {}
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            InputError::Unknown(name) => write!(f, "the plan has no entry '{name}'"),
-            InputError::Refused(name, why) => write!(f, "'{name}': {why}"),
-        }
-    }
-}
-
-impl std::error::Error for InputError {}

@@ -183,7 +183,8 @@ impl std::error::Error for OpenError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             OpenError::Read { why, .. } => Some(why),
-            OpenError::Plan(_) | OpenError::Load(_) => None,
+            OpenError::Load(why) => Some(why),
+            OpenError::Plan(_) => None,
         }
     }
 }

@@ -17,7 +17,7 @@ use afp_dsl::types::Type;
 
 use super::config::{Config, ObjectCell};
 use super::element::ElementSlot;
-use super::error::{InputError, LoadError};
+use super::error::LoadError;
 use super::formula::{Formula, spellings};
 use super::inject::Injected;
 use super::names::PlanNames;
@@ -111,16 +111,6 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// The value of an entry; `Unset` while nobody has written it, `None` where there is none.
     pub fn get(&self, name: &str) -> Option<ValueRef<'_>> {
         self.entry_number(name).map(|entry| self.config.values.show(entry))
-    }
-
-    /// Sets an `in` entry before the start.
-    ///
-    /// # Errors
-    /// No such entry, or not such a value.
-    pub fn set_input(&mut self, name: &str, value: &Value) -> Result<(), InputError> {
-        let entry = self.entry_number(name).ok_or_else(|| InputError::Unknown(name.to_owned()))?;
-        let refused = |why| InputError::Refused(name.to_owned(), why);
-        PlanState::set_input(self, entry, value).map_err(refused)
     }
 
     /// Gives the `port`-th `in` entry its value for the next activation.

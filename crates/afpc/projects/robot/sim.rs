@@ -161,8 +161,9 @@ impl Robot for {{Name}} {
 
 impl Simulated for {{Name}} {
     type World = Floor;
+    type Error = WorldError;
 
-    fn new(floor: &Floor, seed: u64) -> Result<Self, String> {
+    fn new(floor: &Floor, seed: u64) -> Result<Self, WorldError> {
         Ok({{Name}} {
             pose: floor.0.start,
             floor: floor.0.clone(),
@@ -197,7 +198,7 @@ impl World for Floor {
         &self.0.name
     }
 
-    fn started_at(&self, start: Pose2) -> Result<Self, String> {
+    fn started_at(&self, start: Pose2) -> Result<Self, WorldError> {
         self.0.started_at(start, BODY[0]).map(Floor)
     }
 

@@ -6,6 +6,7 @@
 
 mod line;
 
+use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::{io, thread};
 
@@ -113,15 +114,16 @@ fn listen(mut ear: Ear, time: RealTime, heard: Weak<Mutex<Option<(Report, Instan
 }
 
 impl Hardware for Board {
-    fn open(settings: &Settings) -> Result<Self, String> {
+    type Error = Box<dyn Error + Send + Sync>;
+
+    fn open(settings: &Settings) -> Result<Self, Self::Error> {
         let port = settings.get("port").ok_or("'settings' in afp.toml does not say the 'port'")?;
         let baud = settings.get_or("baud", BAUD);
         let baud =
             baud.parse().map_err(|_| format!("'baud' is a number such as {BAUD}, not '{baud}'"))?;
         if baud < SLOWEST {
-            return Err(format!(
-                "'baud' is {SLOWEST} or more, not '{baud}': commands would be late"
-            ));
+            let why = format!("'baud' is {SLOWEST} or more, not '{baud}': commands would be late");
+            return Err(why.into());
         }
         let (line, ear) = line::open(port, baud).map_err(|error| format!("'{port}': {error}"))?;
         let (time, heard) = (RealTime::start(), Arc::new(Mutex::new(None)));

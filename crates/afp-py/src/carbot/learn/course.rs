@@ -97,7 +97,10 @@ impl Course {
     pub fn new(brief: &Arc<Brief>, start: Start) -> Result<Course, String> {
         let world = start.world.unwrap_or_else(|| Arc::new(World::random(start.room)));
         let world = match start.pose {
-            Some(pose) => Arc::new(afp_session::World::started_at(&*world, pose)?),
+            Some(pose) => {
+                let world = afp_session::World::started_at(&*world, pose);
+                Arc::new(world.map_err(|why| why.message)?)
+            }
             None => world,
         };
         let of = |kind| Target::of(&world, kind, start.goal, start.noise);

@@ -64,7 +64,7 @@ impl<'a> Simulator<'a> {
         let Recipe { world, start, seed, .. } = log.recipe();
         let found = self.linked.robot.kind().world(&world.text).map_err(|why| why.to_string())?;
         let found = match start {
-            Some(start) => found.started_at(start)?,
+            Some(start) => found.started_at(start).map_err(|why| why.message)?,
             None => found,
         };
         let worlds = vec![(world.name, "the log")];
@@ -144,7 +144,8 @@ impl<'a> Host<'a> for Simulator<'a> {
         let mut found = found.map_err(|why| why.to_string())?;
         let usual = found.world.drawing().start;
         if let Some([x, y, heading]) = launch.start {
-            found = found.started_at(Pose2 { x, y, heading })?;
+            let start = Pose2 { x, y, heading };
+            found = found.started_at(start).map_err(|why| why.message)?;
         }
         let warning = found.warning(usual);
         let program = program(&graph, &file, &absolute);
@@ -153,8 +154,7 @@ impl<'a> Host<'a> for Simulator<'a> {
             let session = robot.session(&graph, &*found.world, launch.seed.unwrap_or(0), &[]);
             let mut session = session.map_err(|why| format!("{why}: {}", why.help()))?;
             for (name, text) in &launch.set {
-                let set = session.set(name, text);
-                set.map_err(|why| why.explained(&*session, name, text).to_string())?;
+                session.set(name, text).map_err(|why| why.to_string())?;
             }
             Ok(session)
         };
