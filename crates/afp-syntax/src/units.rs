@@ -37,43 +37,8 @@ pub(crate) const FOREIGN: &[(&str, &str)] = &[
     ("\u{3bc}m", "um"),
 ];
 
-/// Units in words, of which there may be an 's' more: each with its symbol.
-const WORDS: &[(&str, &str)] = &[
-    ("meter", "m"),
-    ("metre", "m"),
-    ("kilometer", "km"),
-    ("kilometre", "km"),
-    ("centimeter", "cm"),
-    ("centimetre", "cm"),
-    ("millimeter", "mm"),
-    ("millimetre", "mm"),
-    ("radian", "rad"),
-    ("degree", "deg"),
-    ("second", "s"),
-    ("sec", "s"),
-    ("millisecond", "ms"),
-    ("msec", "ms"),
-    ("microsecond", "us"),
-    ("usec", "us"),
-    ("nanosecond", "ns"),
-    ("minute", "min"),
-    ("hour", "h"),
-    ("hr", "h"),
-    ("kilogram", "kg"),
-    ("gram", "g"),
-    ("newton", "N"),
-    ("volt", "V"),
-    ("millivolt", "mV"),
-    ("kelvin", "K"),
-    ("celsius", "degC"),
-    ("hertz", "Hz"),
-    ("mps", "m/s"),
-    ("kmh", "km/h"),
-    ("kph", "km/h"),
-];
-
-/// Units before which people write prefixes.
-const BASES: &[&str] = &["m", "rad", "deg", "s", "g", "N", "V", "K", "Hz"];
+/// Composed units in words, of which there may be an 's' more: each with its symbol.
+const WORDS: &[(&str, &str)] = &[("mps", "m/s"), ("kmh", "km/h"), ("kph", "km/h")];
 
 impl Unit {
     /// The unit that was meant by a word that is none: `degrees`, `CM`.
@@ -83,14 +48,16 @@ impl Unit {
         let changes_prefix = |symbol: &str| {
             let first = |text: &str| text.bytes().next().filter(|each| matches!(each, b'm' | b'M'));
             let rest = word.get(1..).unwrap_or_default();
-            let alike = |base: &&str| base.eq_ignore_ascii_case(rest);
+            let alike = |base: &str| base.eq_ignore_ascii_case(rest);
             // `MM` is shouted.
-            let is_prefix = BASES.contains(&rest) || rest.len() > 1 && BASES.iter().any(alike);
+            let is_prefix = bases().any(|base| base.symbol == rest)
+                || rest.len() > 1 && bases().any(|base| alike(base.symbol));
             is_prefix && first(symbol) != first(word)
         };
-        let spelled = WORDS.iter().find(|(word, _)| *word == one || *word == small);
-        let symbol = spelled.map(|(_, symbol)| *symbol);
-        symbol.or_else(|| {
+        let spells = |word: &&str| *word == one || *word == small;
+        let single = SingleUnit::ALL.iter().find(|single| single.words.iter().any(spells));
+        let composed = || WORDS.iter().find(|(word, _)| spells(word)).map(|(_, symbol)| *symbol);
+        single.map(|single| single.symbol).or_else(composed).or_else(|| {
             let mut alike = Unit::symbols().filter(|symbol| symbol.eq_ignore_ascii_case(word));
             alike.find(|symbol| !changes_prefix(symbol))
         })
@@ -105,13 +72,13 @@ impl Unit {
             _ => return None,
         };
         let is_small = exponent < 0;
-        let fits = |base: &&&str| match is_small {
-            true => base.eq_ignore_ascii_case(&word[1..]),
-            false => **base == &word[1..],
+        let fits = |base: &&SingleUnit| match is_small {
+            true => base.symbol.eq_ignore_ascii_case(&word[1..]),
+            false => base.symbol == &word[1..],
         };
-        let base = BASES.iter().find(fits)?;
-        let (name, _) = WORDS.iter().find(|(_, symbol)| symbol == base)?;
-        Unit::parse(word).is_none().then(|| (format!("{prefix}{name}"), *base, exponent))
+        let base = bases().find(fits)?;
+        let name = base.words.first()?;
+        Unit::parse(word).is_none().then(|| (format!("{prefix}{name}"), base.symbol, exponent))
     }
 
     /// The power of a unit that was meant by a word that is none: `s2`, `m3`.
@@ -196,6 +163,11 @@ impl Unit {
             celsius: self.celsius,
         })
     }
+}
+
+/// Units before which people write prefixes.
+fn bases() -> impl Iterator<Item = &'static SingleUnit> {
+    SingleUnit::ALL.iter().filter(|single| single.takes_prefix())
 }
 
 /// A single unit with its exponent, and its length in bytes.

@@ -1,4 +1,5 @@
-//! The grammars of editors colour the words that the parser takes for words of the grammar, and no others.
+//! The grammars of editors colour the words that the parser takes for words of the grammar, and no others. They know each unit:
+//! `AFP_BLESS=1` writes the lists of units.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -122,11 +123,31 @@ fn tree_sitter_knows_every_word() {
 
 #[test]
 fn tree_sitter_knows_every_unit() {
-    let text = fs::read_to_string(path("editors/tree-sitter-afp/src/scanner.c")).unwrap();
-    let (_, list) = text.split_once("SINGLES[] = {").unwrap();
-    let known = quoted(list.split('}').next().unwrap_or_default(), "//");
-    let units: BTreeSet<_> = Unit::symbols().map(str::to_owned).collect();
-    assert_eq!(known, units);
+    let quoted: Vec<_> = Unit::symbols().map(|symbol| format!("\"{symbol}\"")).collect();
+    let lines: Vec<_> =
+        quoted.chunks(13).map(|line| format!("    {},\n", line.join(", "))).collect();
+    let longest = Unit::symbols().map(str::len).max().unwrap();
+    let wanted = format!("{}}};\n\n#define LONGEST {longest}\n", lines.concat());
+    compare_part("editors/tree-sitter-afp/src/scanner.c", ("SINGLES[] = {\n", "\nstatic"), &wanted);
+}
+
+#[test]
+fn visual_studio_code_knows_every_unit() {
+    let wanted = Unit::symbols().collect::<Vec<_>>().join("|");
+    let around = (r"\\s*(", r")(?![A-Za-z_])");
+    compare_part("editors/vscode/syntaxes/afp.tmLanguage.json", around, &wanted);
+}
+
+/// Compares the part of a file between two texts with what it should be; with `AFP_BLESS=1` rewrites it instead.
+fn compare_part(file: &str, (before, behind): (&str, &str), wanted: &str) {
+    let text = fs::read_to_string(path(file)).unwrap();
+    let (head, rest) = text.split_once(before).unwrap();
+    let (actual, tail) = rest.split_once(behind).unwrap();
+    if actual != wanted && std::env::var_os("AFP_BLESS").is_some() {
+        fs::write(path(file), format!("{head}{before}{wanted}{behind}{tail}")).unwrap();
+        return;
+    }
+    assert_eq!(actual, wanted, "{file} is behind: 'AFP_BLESS=1' writes it");
 }
 
 /// Compares the words that an editor colours with those of the language, names that need no declaration among them.

@@ -22,9 +22,9 @@ mod meaning;
 mod measured;
 mod read;
 mod row;
-mod single;
 mod text;
 mod time;
+mod units;
 mod value;
 
 pub use arithmetic::{
@@ -44,9 +44,9 @@ pub use meaning::Meaning;
 pub use measured::{EXACT, Measured};
 pub use read::{Quantity, Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 pub use row::{Child, ElementKind, Range};
-pub use single::SingleUnit;
 pub use text::{Nanoseconds, Rounded};
 pub use time::{Duration, Instant};
+pub use units::SingleUnit;
 pub use value::{Text, Value, ValueRef};
 
 use core::fmt;

@@ -6,10 +6,10 @@
 
 enum Token { UNIT, ERROR_SENTINEL };
 
-// Of crates/afp-syntax/src/units.rs.
+// From crates/afp-types/src/units.rs, as AFP_BLESS=1 cargo test -p afp-syntax --test editors writes it.
 static const char *const SINGLES[] = {
-    "m",  "km", "cm", "mm", "um", "rad", "mrad", "deg", "s",  "ms",   "us", "ns",  "min",
-    "h",  "kg", "g",  "N",  "mN", "kN",  "V",    "mV",  "K",  "degC", "Hz", "kHz", "MHz",
+    "m", "km", "cm", "mm", "um", "rad", "mrad", "deg", "s", "ms", "us", "ns", "min",
+    "h", "kg", "g", "N", "mN", "kN", "V", "mV", "K", "degC", "Hz", "kHz", "MHz",
 };
 
 #define LONGEST 4

@@ -1,6 +1,7 @@
-//! Lists in the book that are made from the sources: codes, templates, the table of contents.
+//! Lists in the book that are made from the sources: codes, templates, units, the table of contents.
 
 mod templates;
+mod units;
 
 use std::fmt::Write;
 use std::fs;

@@ -1,4 +1,7 @@
-//! Units of one word: the only list of them. Compiler and run time make composed ones of these.
+//! Units of one word: the only list of them. Compiler and run time make composed units from these.
+//!
+//! A new unit is a line of [`SingleUnit::ALL`]. Tests compare the grammars of editors and the lists in `docs/` with it;
+//! `AFP_BLESS=1` writes them: `cargo test -p afp-syntax --test editors`, `cargo test -p afp-book units`.
 
 use crate::{Scale, Unit};
 
@@ -13,46 +16,48 @@ pub struct SingleUnit {
     pub numerator: u64,
     /// The power of ten of the factor to SI.
     pub exponent: i32,
+    /// How people write it out, without the 's' of a plural: the language does not read it but suggests the symbol.
+    pub words: &'static [&'static str],
 }
 
 const fn single(
     symbol: &'static str,
     quantity: &'static str,
-    numerator: u64,
-    exponent: i32,
+    (numerator, exponent): (u64, i32),
+    words: &'static [&'static str],
 ) -> SingleUnit {
-    SingleUnit { symbol, quantity, numerator, exponent }
+    SingleUnit { symbol, quantity, numerator, exponent, words }
 }
 
 impl SingleUnit {
     /// All of them.
     pub const ALL: &'static [SingleUnit] = &[
-        single("m", "length", 1, 0),
-        single("km", "length", 1, 3),
-        single("cm", "length", 1, -2),
-        single("mm", "length", 1, -3),
-        single("um", "length", 1, -6),
-        single("rad", "angle", 1, 0),
-        single("mrad", "angle", 1, -3),
-        single("deg", "angle", 1, 0),
-        single("s", "duration", 1, 0),
-        single("ms", "duration", 1, -3),
-        single("us", "duration", 1, -6),
-        single("ns", "duration", 1, -9),
-        single("min", "duration", 60, 0),
-        single("h", "duration", 3600, 0),
-        single("kg", "mass", 1, 0),
-        single("g", "mass", 1, -3),
-        single("N", "force", 1, 0),
-        single("mN", "force", 1, -3),
-        single("kN", "force", 1, 3),
-        single("V", "voltage", 1, 0),
-        single("mV", "voltage", 1, -3),
-        single("K", "temperature", 1, 0),
-        single("degC", "temperature", 1, 0),
-        single("Hz", "frequency", 1, 0),
-        single("kHz", "frequency", 1, 3),
-        single("MHz", "frequency", 1, 6),
+        single("m", "length", (1, 0), &["meter", "metre"]),
+        single("km", "length", (1, 3), &["kilometer", "kilometre"]),
+        single("cm", "length", (1, -2), &["centimeter", "centimetre"]),
+        single("mm", "length", (1, -3), &["millimeter", "millimetre"]),
+        single("um", "length", (1, -6), &[]),
+        single("rad", "angle", (1, 0), &["radian"]),
+        single("mrad", "angle", (1, -3), &[]),
+        single("deg", "angle", (1, 0), &["degree"]),
+        single("s", "duration", (1, 0), &["second", "sec"]),
+        single("ms", "duration", (1, -3), &["millisecond", "msec"]),
+        single("us", "duration", (1, -6), &["microsecond", "usec"]),
+        single("ns", "duration", (1, -9), &["nanosecond"]),
+        single("min", "duration", (60, 0), &["minute"]),
+        single("h", "duration", (3600, 0), &["hour", "hr"]),
+        single("kg", "mass", (1, 0), &["kilogram"]),
+        single("g", "mass", (1, -3), &["gram"]),
+        single("N", "force", (1, 0), &["newton"]),
+        single("mN", "force", (1, -3), &[]),
+        single("kN", "force", (1, 3), &[]),
+        single("V", "voltage", (1, 0), &["volt"]),
+        single("mV", "voltage", (1, -3), &["millivolt"]),
+        single("K", "temperature", (1, 0), &["kelvin"]),
+        single("degC", "temperature", (1, 0), &["celsius"]),
+        single("Hz", "frequency", (1, 0), &["hertz"]),
+        single("kHz", "frequency", (1, 3), &[]),
+        single("MHz", "frequency", (1, 6), &[]),
     ];
 
     /// Those of a quantity.
@@ -63,6 +68,13 @@ impl SingleUnit {
     /// The exponent of the degree in it, each worth [`crate::RADIANS_PER_DEGREE`].
     pub fn degrees(&self) -> i32 {
         i32::from(self.symbol == "deg")
+    }
+
+    /// Whether people write prefixes before it: its own symbol has none.
+    pub fn takes_prefix(&self) -> bool {
+        let rest = self.symbol.get(1..);
+        let is_prefixed = SingleUnit::ALL.iter().any(|other| Some(other.symbol) == rest);
+        self.numerator == 1 && !self.is_celsius() && !is_prefixed
     }
 
     /// Whether it is `degC`, which has an offset.
