@@ -1,12 +1,13 @@
-//! The command line's grammar.
+//! The command line: its grammar, and the command that it names.
 
 use std::ffi::OsString;
+use std::process::ExitCode;
 
 use afp_run::options::{for_devices, for_robot};
-use afp_run::{EXIT_OK, RunError, say};
+use afp_run::{EXIT_FAILED, EXIT_OK, RunError, say};
 use afp_syntax::diagnostics::words::list;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 #[cfg(feature = "dap")]
 use crate::commands::dap;
@@ -18,20 +19,20 @@ use crate::commands::{
     build, check, completions, explain, fmt, graph, later, log, new, print, run, sweep, templates,
     test,
 };
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 use crate::{Linked, declared};
 
 /// Compiles, checks, draws and runs Action Flow Plans.
 #[derive(Parser, Debug)]
 #[command(name = "afpc", version, after_help = EXAMPLES)]
-pub struct Cli {
+struct Cli {
     #[command(subcommand)]
-    pub command: Command,
+    command: Command,
 }
 
 /// What to do.
 #[derive(Subcommand, Debug)]
-pub enum Command {
+enum Command {
     /// Makes a project that works at once: a plan, a toolbox or a robot
     #[command(after_help = new::EXAMPLES)]
     New(new::Arguments),
@@ -81,14 +82,6 @@ pub enum Command {
     Completions(completions::Arguments),
 }
 
-/// A plan to work on.
-#[derive(Args, Clone, Debug)]
-pub struct PlanArgument {
-    /// File with the plan; FILE:Plan for another than its first
-    #[arg(value_name = "FILE[:PLAN]")]
-    pub plan: String,
-}
-
 const EXAMPLES: &str = "\
 Examples:
   afpc new patrol
@@ -99,9 +92,38 @@ Examples:
 
 Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wrong usage, 3 the plan ended in Error";
 
+/// Runs the command of the command line.
+pub fn run(linked: &Linked<'_>) -> ExitCode {
+    let result = match &parse(linked) {
+        Command::Check(arguments) => check::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
+        Command::Fmt(arguments) => fmt::run(arguments),
+        Command::Graph(arguments) => graph::run(arguments),
+        Command::Run(arguments) => run::run(arguments, linked),
+        Command::Test(arguments) => test::run(arguments, linked),
+        Command::Sweep(arguments) => sweep::run(arguments, linked),
+        Command::Build(arguments) => build::run(arguments),
+        Command::Log(arguments) => log::run(arguments, linked),
+        #[cfg(feature = "lsp")]
+        Command::Lsp => lsp::run(),
+        #[cfg(feature = "studio")]
+        Command::Studio(arguments) => studio::run(arguments, linked),
+        Command::New(arguments) => new::run(arguments),
+        Command::Templates(arguments) => templates::run(arguments),
+        #[cfg(feature = "dap")]
+        Command::Dap(arguments) => dap::run(arguments, linked),
+        Command::Completions(arguments) => completions::run(arguments, &Cli::command()),
+    };
+    match result {
+        Ok(code) => ExitCode::from(code),
+        Err(NoPlan::File(error)) => error.report(),
+        Err(NoPlan::Wrong | NoPlan::NotBuilt(_)) => ExitCode::from(EXIT_FAILED),
+    }
+}
+
 /// Reads the command line; does not come back when it asks for help or makes no sense. The help of `run` has
 /// the words of the robot: that of the project, whose program need not be there for it.
-pub fn parse(linked: &Linked<'_>) -> Command {
+fn parse(linked: &Linked<'_>) -> Command {
     let arguments: Vec<_> = std::env::args_os().skip(1).collect();
     let asks = |word: &str| arguments.iter().any(|argument| argument == word);
     let helps = ["--help", "-h", "help"].into_iter().any(asks) && asks("run");
@@ -204,7 +226,7 @@ fn swapped(error: &clap::Error, words: &[&str]) -> Option<RunError> {
 
 /// The grammar, with the commands that later releases or other builds bring: hidden, but told apart from typing
 /// errors.
-pub fn command() -> clap::Command {
+fn command() -> clap::Command {
     let later = later::names().map(|name| {
         let rest = clap::Arg::new("rest").num_args(0..).allow_hyphen_values(true);
         clap::Command::new(name).hide(true).disable_help_flag(true).arg(rest)

@@ -23,45 +23,13 @@ pub mod templates;
 pub mod test;
 
 use std::io::{ErrorKind, Write};
-use std::process::ExitCode;
 
-use afp_run::{EXIT_FAILED, EXIT_OK, RunError};
+use afp_run::{EXIT_OK, RunError};
 
-use crate::Linked;
-use crate::cli::Command;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 /// The exit code of what does many runs and was stopped before all of them were done.
 const EXIT_STOPPED: u8 = 130;
-
-/// Runs a command.
-pub fn dispatch(command: &Command, linked: &Linked<'_>) -> ExitCode {
-    let result = match command {
-        Command::Check(arguments) => check::run(arguments),
-        Command::Explain(arguments) => explain::run(arguments),
-        Command::Fmt(arguments) => fmt::run(arguments),
-        Command::Graph(arguments) => graph::run(arguments),
-        Command::Run(arguments) => run::run(arguments, linked),
-        Command::Test(arguments) => test::run(arguments, linked),
-        Command::Sweep(arguments) => sweep::run(arguments, linked),
-        Command::Build(arguments) => build::run(arguments),
-        Command::Log(arguments) => log::run(arguments, linked),
-        #[cfg(feature = "lsp")]
-        Command::Lsp => lsp::run(),
-        #[cfg(feature = "studio")]
-        Command::Studio(arguments) => studio::run(arguments, linked),
-        Command::New(arguments) => new::run(arguments),
-        Command::Templates(arguments) => templates::run(arguments),
-        #[cfg(feature = "dap")]
-        Command::Dap(arguments) => dap::run(arguments, linked),
-        Command::Completions(arguments) => completions::run(arguments),
-    };
-    match result {
-        Ok(code) => ExitCode::from(code),
-        Err(NoPlan::File(error)) => error.report(),
-        Err(NoPlan::Wrong | NoPlan::NotBuilt(_)) => ExitCode::from(EXIT_FAILED),
-    }
-}
 
 /// Prints a result on standard output; a reader that has seen enough is no error.
 pub(crate) fn print(text: &str) -> Result<u8, NoPlan> {

@@ -8,7 +8,8 @@ use afp_run::world::{self, change};
 use afp_run::{RunError, requests};
 use afp_session::NotSet;
 
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::no_plan::NoPlan;
+use crate::plan_file::PlanFile;
 use crate::{Linked, declared, runner};
 
 /// Looks whether the entries, controls, faults and the world that the options of a run name are there.

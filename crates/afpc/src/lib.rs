@@ -8,6 +8,7 @@ mod commands;
 mod declared;
 mod early;
 mod nearby;
+mod no_plan;
 mod picture;
 mod plan_file;
 mod reader;
@@ -78,5 +79,5 @@ impl Linked<'_> {
 
 /// The whole program.
 pub fn main(linked: &Linked<'_>) -> ExitCode {
-    commands::dispatch(&cli::parse(linked), linked)
+    cli::run(linked)
 }

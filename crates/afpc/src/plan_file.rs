@@ -1,21 +1,28 @@
 //! From a file's name to a checked plan.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
-use afp_build::NotBuilt;
 use afp_dsl::files::{Disk, Files, read_text};
 use afp_dsl::graph::Graph;
 use afp_dsl::{Compiled, compile_plan};
 use afp_log::LogData;
-use afp_project::ProjectError;
 use afp_run::RunError;
 use afp_session::{Recipe, TextFile};
 use afp_syntax::source::Source;
 use afp_toolboxes::project::OwnToolboxes;
+use clap::Args;
 
 use crate::nearby::unreadable;
+use crate::no_plan::NoPlan;
 use crate::reader::Reader;
+
+/// A plan to work on.
+#[derive(Args, Clone, Debug)]
+pub struct PlanArgument {
+    /// File with the plan; FILE:Plan for another than its first
+    #[arg(value_name = "FILE[:PLAN]")]
+    pub plan: String,
+}
 
 /// A plan that was read and compiled.
 pub struct PlanFile {
@@ -65,48 +72,6 @@ impl PlanText<'_> {
     pub fn compile(self) -> Result<PlanFile, RunError> {
         let source = Source::new(self.path.display().to_string(), self.text);
         PlanFile::compile_with((self.path, &source), &Disk::default(), self.plan, &[])
-    }
-}
-
-/// Why there is no graph.
-pub enum NoPlan {
-    /// A file cannot be read.
-    File(RunError),
-    /// The plan is wrong; it has been said.
-    Wrong,
-    /// The Rust that belongs to it does not compile; it has been said, beginning with this line.
-    NotBuilt(Option<String>),
-}
-
-impl fmt::Display for NoPlan {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoPlan::File(error) => error.fmt(f),
-            NoPlan::Wrong => f.write_str("the plan has errors"),
-            NoPlan::NotBuilt(Some(first)) => f.write_str(first),
-            NoPlan::NotBuilt(None) => f.write_str("cargo could not build it"),
-        }
-    }
-}
-
-impl From<RunError> for NoPlan {
-    fn from(error: RunError) -> Self {
-        NoPlan::File(error)
-    }
-}
-
-impl From<NotBuilt> for NoPlan {
-    fn from(why: NotBuilt) -> Self {
-        match why {
-            NotBuilt::Why(error) => NoPlan::File(error),
-            NotBuilt::Told { first } => NoPlan::NotBuilt(first),
-        }
-    }
-}
-
-impl From<ProjectError> for NoPlan {
-    fn from(error: ProjectError) -> Self {
-        NoPlan::File(error.into())
     }
 }
 

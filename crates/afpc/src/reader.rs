@@ -5,7 +5,7 @@ use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Sources;
 
 use crate::commands::print;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 /// Who reads what is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

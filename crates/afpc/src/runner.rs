@@ -15,7 +15,7 @@ use afp_project::ProjectFile;
 use afp_run::RunError;
 use afp_toolboxes::project::OwnToolboxes;
 
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 use crate::{FEATURES, Linked};
 
 /// Comes back when this program has the robot and the toolboxes of all of these plans; otherwise builds, if need be,

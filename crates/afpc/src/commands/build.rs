@@ -13,8 +13,8 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::print;
-use crate::cli::PlanArgument;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::no_plan::NoPlan;
+use crate::plan_file::{PlanArgument, PlanFile};
 use crate::reader::Reader;
 use crate::targets;
 use crate::toolchain::{self, Machine};

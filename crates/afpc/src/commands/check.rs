@@ -15,7 +15,8 @@ use clap::Args;
 use serde_json::json;
 
 use super::print;
-use crate::plan_file::{NoPlan, PlanFile, PlanText};
+use crate::no_plan::NoPlan;
+use crate::plan_file::{PlanFile, PlanText};
 use crate::reader::Reader;
 use crate::targets;
 use toolbox::ToolboxFile;

@@ -1,11 +1,10 @@
 //! `afpc completions`: what a shell needs to complete command lines.
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 use super::print;
-use crate::cli::Cli;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 /// Arguments of `afpc completions`.
 #[derive(Args, Debug)]
@@ -20,13 +19,13 @@ Examples:
   afpc completions zsh > ~/.zfunc/_afpc
   afpc completions fish > ~/.config/fish/completions/afpc.fish";
 
-/// Prints the completions.
+/// Prints the completions of a command line.
 ///
 /// # Errors
 /// Standard output cannot be written.
-pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
+pub fn run(arguments: &Arguments, all: &Command) -> Result<u8, NoPlan> {
     let mut script = Vec::new();
-    let mut command = seen(&Cli::command()).version(env!("CARGO_PKG_VERSION"));
+    let mut command = seen(all).version(env!("CARGO_PKG_VERSION"));
     clap_complete::generate(arguments.shell, &mut command, "afpc", &mut script);
     print(&String::from_utf8_lossy(&script))
 }

@@ -12,7 +12,8 @@ use afp_run::{EXIT_OK, RunError};
 use clap::Args;
 
 use super::later::Listen;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::no_plan::NoPlan;
+use crate::plan_file::PlanFile;
 use crate::{Linked, runner};
 
 pub use simulator::Simulator;

@@ -5,7 +5,7 @@ use afp_syntax::diagnostics::Code;
 use clap::Args;
 
 use super::print;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 /// Arguments of `afpc explain`.
 #[derive(Args, Debug)]

@@ -11,7 +11,7 @@ use similar::TextDiff;
 
 use super::print;
 use crate::nearby::unreadable;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 /// Arguments of `afpc fmt`.
 #[derive(Args, Debug)]

@@ -14,9 +14,9 @@ use afp_syntax::source::Source;
 use clap::{Args, ValueEnum};
 
 use super::print;
-use crate::cli::PlanArgument;
+use crate::no_plan::NoPlan;
 use crate::picture;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::plan_file::{PlanArgument, PlanFile};
 use crate::reader::Reader;
 
 /// Arguments of `afpc graph`.

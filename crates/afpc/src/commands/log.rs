@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 
 use super::print;
 use crate::Linked;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 /// Arguments of `afpc log`.
 #[derive(Args, Debug)]

@@ -5,7 +5,7 @@ use afp_run::{EXIT_OK, RunError};
 use lsp_server::Connection;
 
 use super::disk::Disk;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 pub const EXAMPLES: &str = "\
 Editors start it; docs/editors.md says how. It is made to be spoken to by a program: messages come in

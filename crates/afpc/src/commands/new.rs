@@ -13,7 +13,7 @@ use afp_run::{EXIT_OK, RunError, write_whole};
 use clap::Args;
 
 use super::print;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 use files::{Kind, NameError};
 
 /// Arguments of `afpc new`.

@@ -8,8 +8,9 @@ use afp_run::{Program, RunError, check_apart, toolbox_attachment};
 use afp_session::{AnyWorld, Settings};
 use clap::Args;
 
+use crate::no_plan::NoPlan;
 use crate::picture;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::plan_file::PlanFile;
 use crate::{Linked, early, runner};
 
 /// Arguments of `afpc run`.

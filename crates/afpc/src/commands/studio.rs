@@ -15,7 +15,7 @@ use super::disk::Disk;
 use super::later::Listen;
 use super::print;
 use crate::Linked;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 use debug::DebugService;
 
 /// Arguments of `afpc studio`.

@@ -16,9 +16,9 @@ use afp_sweep::{
 };
 use clap::Args;
 
-use crate::cli::PlanArgument;
 use crate::commands::EXIT_STOPPED;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::no_plan::NoPlan;
+use crate::plan_file::{PlanArgument, PlanFile};
 use crate::{Linked, runner};
 
 use reporter::Reporter;

@@ -13,7 +13,7 @@ use afp_toolboxes::project::OwnToolboxes;
 use clap::Args;
 
 use super::print;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 /// Arguments of `afpc templates`.
 #[derive(Args, Debug)]

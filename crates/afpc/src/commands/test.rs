@@ -19,7 +19,8 @@ use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::commands::EXIT_STOPPED;
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::no_plan::NoPlan;
+use crate::plan_file::PlanFile;
 use crate::{Linked, runner};
 
 use reporter::Reporter;

@@ -9,7 +9,8 @@ use afp_test::Coverage;
 
 use super::Arguments;
 use crate::commands::graph;
-use crate::plan_file::{NoPlan, PlanFile, path_of_log};
+use crate::no_plan::NoPlan;
+use crate::plan_file::{PlanFile, path_of_log};
 use crate::{Linked, picture, runner};
 
 /// Draws the pictures that are asked for, each into its file.

@@ -14,7 +14,7 @@ use afp_toolboxes::project::OwnToolboxes;
 use serde_json::{Value, json};
 
 use super::super::dap::{Arrived, Simulator, converse};
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 use crate::{Linked, runner};
 use relay::{Conversation, relay};
 

@@ -8,8 +8,8 @@ use afp_run::{PictureFormat, RunError, say};
 
 use super::Used;
 use crate::commands::graph;
+use crate::no_plan::NoPlan;
 use crate::picture;
-use crate::plan_file::NoPlan;
 
 /// Draws one plan into a file, or each into a folder.
 ///

@@ -13,7 +13,8 @@ use afp_test::{Generated, Setting, is_generated};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::commands::print;
-use crate::plan_file::{NoPlan, PlanFile, PlanText};
+use crate::no_plan::NoPlan;
+use crate::plan_file::{PlanFile, PlanText};
 use crate::{Linked, runner};
 
 /// How long the run lasts that says when actors are active, nanoseconds.

@@ -13,7 +13,8 @@ use serde_json::json;
 
 use crate::Linked;
 use crate::commands::{EXIT_STOPPED, print};
-use crate::plan_file::{NoPlan, PlanFile};
+use crate::no_plan::NoPlan;
+use crate::plan_file::PlanFile;
 
 /// So many scenarios are named in a line of the table.
 const NAMED: usize = 3;

@@ -14,7 +14,7 @@ use serde_json::json;
 
 use super::{Case, Done, Failure, Used};
 use crate::commands::print;
-use crate::plan_file::NoPlan;
+use crate::no_plan::NoPlan;
 
 const GOOD: Style = AnsiColor::Green.on_default().bold();
 const BAD: Style = AnsiColor::BrightRed.on_default().bold();
