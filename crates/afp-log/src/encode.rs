@@ -1,6 +1,7 @@
 //! A run as messages: one method per kind of message, whoever takes them.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::PathBuf;
 
 use afp_core::trace::{Author, Names, Record, TraceEntryId};
@@ -8,12 +9,12 @@ use afp_core::{Instant, Value};
 use afp_session::{EventKind, RunEvent, author as author_of};
 use prost::Message;
 
+use crate::channels::{ALWAYS, CONFIGURATION, Channel, EVENTS, Key, TABLE, topic};
 use crate::error::LogError;
+use crate::event;
 use crate::names::OwnedNames;
-use crate::proto::afp::{Configuration, Entry, Sample};
-use crate::proto::{AFP_SET, FOXGLOVE_SET};
-use crate::recorder::{Item, Signal};
-use crate::{event, foxglove};
+use crate::proto::afp::{self, Configuration};
+use crate::recorder::Item;
 
 /// Who takes the messages of a run: a file, clients that watch.
 pub trait Messages: Send {
@@ -62,37 +63,9 @@ pub trait Messages: Send {
     }
 }
 
-/// A channel that every log has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Topic {
-    Events,
-    Configuration,
-    Table,
-    Transforms,
-    Pose,
-    Scene,
-    Log,
-}
-
-/// Topic, schema and the descriptors that explain it, in the order of [`Topic`].
-const CHANNELS: [(&str, &str, &[u8]); 7] = [
-    ("/plan/events", "afp.PlanEvent", AFP_SET),
-    ("/plan/configuration", "afp.Configuration", AFP_SET),
-    ("/plan/table", "afp.PlanTable", AFP_SET),
-    ("/tf", "foxglove.FrameTransforms", FOXGLOVE_SET),
-    ("/robot/pose", "foxglove.PoseInFrame", FOXGLOVE_SET),
-    ("/scene", "foxglove.SceneUpdate", FOXGLOVE_SET),
-    ("/log", "foxglove.Log", FOXGLOVE_SET),
-];
-
-/// Schema and descriptors of what range sensors, cameras and other devices say.
-const RANGING: (&str, &[u8]) = ("foxglove.LaserScan", FOXGLOVE_SET);
-const IMAGE: (&str, &[u8]) = ("foxglove.CompressedImage", FOXGLOVE_SET);
-const SAMPLE: (&str, &[u8]) = ("afp.Sample", AFP_SET);
-
-/// A channel, and how many messages it has.
-#[derive(Clone, Copy, Debug, Default)]
-struct Channel {
+/// A channel that is open, and how many messages it has.
+#[derive(Clone, Copy, Debug)]
+struct Open {
     id: u16,
     count: u32,
 }
@@ -100,12 +73,10 @@ struct Channel {
 /// Makes messages of what happens in a run.
 pub(crate) struct Encoder {
     to: Box<dyn Messages>,
-    /// Those that every log has, then those of devices that have said something.
-    channels: Vec<Channel>,
-    /// Where the channel of a signal is among them; of a whole device where it has no name.
-    signals: BTreeMap<(&'static str, &'static str), usize>,
+    /// Those that every log has, and those of devices that have said something.
+    channels: BTreeMap<Key, Open>,
     names: OwnedNames,
-    entries: Vec<Entry>,
+    entries: Vec<afp::Entry>,
     /// The commit whose entries are being collected.
     commit: Option<(Instant, Author)>,
     buffer: Vec<u8>,
@@ -119,43 +90,25 @@ impl Encoder {
     pub(crate) fn new(to: Box<dyn Messages>, names: OwnedNames) -> Result<Self, LogError> {
         let unset = |id| event::entry(&names, TraceEntryId(id), afp_core::ValueRef::Unset);
         let entries = (0..names.entries()).map(unset).collect();
-        let (channels, signals) = (Vec::new(), BTreeMap::new());
-        let (commit, buffer) = (None, Vec::new());
-        let mut log = Encoder { to, channels, signals, names, entries, commit, buffer };
-        for (topic, schema, set) in CHANNELS {
-            log.open(topic, schema, set)?;
+        let (channels, commit, buffer) = (BTreeMap::new(), None, Vec::new());
+        let mut log = Encoder { to, channels, names, entries, commit, buffer };
+        for channel in ALWAYS {
+            log.open(channel)?;
         }
-        log.send(Topic::Table, Instant::ZERO, &event::table(&log.names))?;
+        log.send(TABLE, Instant::ZERO, &event::table(&log.names))?;
         log.flush()?;
         Ok(log)
     }
 
-    /// Opens a channel; gives its position.
-    fn open(&mut self, topic: &str, schema: &str, set: &[u8]) -> Result<usize, LogError> {
-        let id = self.to.open(topic, schema, set)?;
-        self.channels.push(Channel { id, count: 0 });
-        Ok(self.channels.len() - 1)
-    }
-
-    /// The position of the channel of a signal, opened where it is new.
-    fn of_signal(
-        &mut self,
-        device: &'static str,
-        name: &'static str,
-        (schema, set): (&str, &[u8]),
-    ) -> Result<usize, LogError> {
-        if let Some(known) = self.signals.get(&(device, name)) {
-            return Ok(*known);
-        }
-        let topic = match (device, name) {
-            (device, "") => format!("/robot/{device}"),
-            // What is about the whole robot.
-            ("robot", name) => format!("/robot/{name}"),
-            (device, name) => format!("/robot/{device}/{name}"),
-        };
-        let new = self.open(&topic, schema, set)?;
-        self.signals.insert((device, name), new);
-        Ok(new)
+    /// A channel, opened if it is new.
+    fn open(&mut self, (key, schema, set): Channel) -> Result<&mut Open, LogError> {
+        Ok(match self.channels.entry(key) {
+            Entry::Occupied(open) => open.into_mut(),
+            Entry::Vacant(new) => {
+                let id = self.to.open(&topic(key), schema, set)?;
+                new.insert(Open { id, count: 0 })
+            }
+        })
     }
 
     pub(crate) fn write(&mut self, item: Item) -> Result<(), LogError> {
@@ -163,38 +116,18 @@ impl Encoder {
             Item::Record(owned) => self.record(owned.at, &owned.get()),
             Item::Event(event) => {
                 self.close_commit()?;
-                self.send(Topic::Events, event.at, &event::encode(*event))
+                self.send(EVENTS, event.at, &event::encode(*event))
             }
             Item::Started(at) => self.configuration(at, String::new()),
             Item::Lost { at, count, entries } => {
                 self.lost(at, count)?;
                 self.set_all(at, &entries)
             }
-            Item::Transforms { at, transforms } => {
-                self.send(Topic::Transforms, at, &foxglove::transforms(at, &transforms))
-            }
-            Item::Pose { at, frame, pose } => {
-                self.send(Topic::Pose, at, &foxglove::pose(at, frame, pose))
-            }
-            Item::Ranging { at, device, ranging, height } => {
-                let channel = self.of_signal(device, "", RANGING)?;
-                self.send_to(channel, at, &foxglove::ranging(&ranging, height))
-            }
-            Item::Image { at, device, image } => {
-                let channel = self.of_signal(device, "", IMAGE)?;
-                self.send_to(channel, at, &foxglove::image(&image))
-            }
-            Item::Sample { at, signal: Signal { device, name, unit }, value } => {
-                let channel = self.of_signal(device, name, SAMPLE)?;
-                let (time, unit) = (Some(event::timestamp(at)), unit.to_owned());
-                let value = Some(event::encode_value(value));
-                self.send_to(channel, at, &Sample { time, value, unit })
-            }
-            Item::Scene { at, shapes } => {
-                self.send(Topic::Scene, at, &foxglove::scene(at, &shapes))
-            }
-            Item::Text { at, level, name, text } => {
-                self.send(Topic::Log, at, &foxglove::text(at, level, name, &text))
+            Item::Said { at, said } => {
+                self.buffer.clear();
+                let channel = said.channel();
+                said.encode(at, &mut self.buffer);
+                self.send_buffer(channel, at)
             }
             Item::End { facts, .. } => self.to.came(facts),
         }
@@ -212,7 +145,7 @@ impl Encoder {
             _ => self.close_commit()?,
         }
         let event = RunEvent::new(at, record, &self.names);
-        self.send(Topic::Events, at, &event::encode(event))
+        self.send(EVENTS, at, &event::encode(event))
     }
 
     fn set(&mut self, entry: TraceEntryId, value: afp_core::ValueRef<'_>) {
@@ -241,32 +174,28 @@ impl Encoder {
     fn configuration(&mut self, at: Instant, author: String) -> Result<(), LogError> {
         let entries = self.entries.clone();
         let time = Some(event::timestamp(at));
-        self.send(Topic::Configuration, at, &Configuration { time, author, entries })
+        self.send(CONFIGURATION, at, &Configuration { time, author, entries })
     }
 
     fn lost(&mut self, at: Instant, count: u64) -> Result<(), LogError> {
         let kind = EventKind::Lost;
         let lost = RunEvent { at, kind, lost: count, ..RunEvent::default() };
-        self.send(Topic::Events, at, &event::encode(lost))
+        self.send(EVENTS, at, &event::encode(lost))
     }
 
-    fn send(&mut self, topic: Topic, at: Instant, message: &impl Message) -> Result<(), LogError> {
-        self.send_to(topic as usize, at, message)
-    }
-
-    fn send_to(
-        &mut self,
-        channel: usize,
-        at: Instant,
-        message: &impl Message,
-    ) -> Result<(), LogError> {
-        let Some(channel) = self.channels.get_mut(channel) else { return Ok(()) };
+    fn send(&mut self, to: Channel, at: Instant, message: &impl Message) -> Result<(), LogError> {
         self.buffer.clear();
         // A Vec grows as needed; only a fixed buffer could be too short.
         let _ = message.encode(&mut self.buffer);
-        let sequence = channel.count;
-        channel.count = channel.count.wrapping_add(1);
-        self.to.send(channel.id, sequence, at, &self.buffer)
+        self.send_buffer(to, at)
+    }
+
+    /// Sends the message in the buffer.
+    fn send_buffer(&mut self, to: Channel, at: Instant) -> Result<(), LogError> {
+        let channel = self.open(to)?;
+        let (id, sequence) = (channel.id, channel.count);
+        channel.count = sequence.wrapping_add(1);
+        self.to.send(id, sequence, at, &self.buffer)
     }
 
     pub(crate) fn flush(&mut self) -> Result<(), LogError> {

@@ -5,6 +5,7 @@
 //! protobuf schemas and AFP's own (`proto/afp.proto`), readable without any code of ours.
 #![warn(missing_docs)]
 
+mod channels;
 mod doctor;
 mod encode;
 mod error;
@@ -27,6 +28,7 @@ pub mod svg;
 mod write;
 
 pub use afp_session::{Kept, OwnedRecord};
+pub use channels::{FRAMES, Signal};
 pub use doctor::doctor;
 pub use encode::Messages;
 pub use error::LogError;
@@ -35,6 +37,6 @@ pub use names::OwnedNames;
 pub use picture::pixels;
 pub use read::{Configured, Heard, LogData, TopicInfo, configuration, read, read_any};
 pub use recipe::{WORLD, attached_toolbox, toolbox_attachment};
-pub use recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
+pub use recorder::{About, Recorder, WhenFull, Written};
 pub use recover::{Missing, Recovered, recover, recovered_name};
 pub use session::SessionLog;

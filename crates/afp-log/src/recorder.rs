@@ -14,15 +14,13 @@ use afp_core::trace::{Names, Record, Sink, TraceEntryId};
 use afp_core::{Instant, Value, ValueRef};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
+use crate::channels::{FRAMES, Said, Signal};
 use crate::encode::{Encoder, Messages};
 use crate::error::LogError;
 use crate::names::OwnedNames;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 use crate::write::LogFile;
 use afp_session::{Datum, OwnedRecord, RunEvent};
-
-/// Frames in one message of [`Recorder::transforms`].
-pub const FRAMES: usize = 4;
 
 /// Items that the queue holds: a second of a busy plan.
 const CAPACITY: usize = 8192;
@@ -62,9 +60,6 @@ pub struct Written {
     pub lost: u64,
 }
 
-/// Frames of one message.
-pub(crate) type Transforms = [Option<Transform>; FRAMES];
-
 /// What goes through the queue.
 pub(crate) enum Item {
     Record(OwnedRecord),
@@ -75,57 +70,15 @@ pub(crate) enum Item {
         count: u64,
         entries: Box<[Value]>,
     },
-    Transforms {
+    Said {
         at: Instant,
-        transforms: Transforms,
-    },
-    Pose {
-        at: Instant,
-        frame: &'static str,
-        pose: Pose2,
-    },
-    Ranging {
-        at: Instant,
-        device: &'static str,
-        ranging: Ranging,
-        height: f64,
-    },
-    Image {
-        at: Instant,
-        device: &'static str,
-        image: Image,
-    },
-    Sample {
-        at: Instant,
-        signal: Signal,
-        value: Datum,
+        said: Said,
     },
     Event(Box<RunEvent>),
     End {
         at: Instant,
         facts: Vec<(String, String)>,
     },
-    Scene {
-        at: Instant,
-        shapes: Box<[Shape]>,
-    },
-    Text {
-        at: Instant,
-        level: Level,
-        name: &'static str,
-        text: Box<str>,
-    },
-}
-
-/// A signal of a device that has a channel of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Signal {
-    /// The device.
-    pub device: &'static str,
-    /// The signal.
-    pub name: &'static str,
-    /// Its SI unit; empty for none.
-    pub unit: &'static str,
 }
 
 impl Item {
@@ -135,14 +88,8 @@ impl Item {
             Item::Event(event) => Some(event.at),
             Item::Started(at)
             | Item::Lost { at, .. }
-            | Item::Transforms { at, .. }
-            | Item::Pose { at, .. }
-            | Item::Ranging { at, .. }
-            | Item::Image { at, .. }
-            | Item::Sample { at, .. }
-            | Item::End { at, .. }
-            | Item::Scene { at, .. }
-            | Item::Text { at, .. } => Some(*at),
+            | Item::Said { at, .. }
+            | Item::End { at, .. } => Some(*at),
         }
     }
 }
@@ -254,27 +201,27 @@ impl Recorder {
     pub fn transforms(&mut self, at: Instant, transforms: &[Transform]) {
         let mut all = [None; FRAMES];
         all.iter_mut().zip(transforms).for_each(|(slot, transform)| *slot = Some(*transform));
-        self.push(Item::Transforms { at, transforms: all }, at);
+        self.say(at, Said::Transforms(all));
     }
 
     /// Where the robot is.
     pub fn pose(&mut self, at: Instant, frame: &'static str, pose: Pose2) {
-        self.push(Item::Pose { at, frame, pose }, at);
+        self.say(at, Said::Pose { frame, pose });
     }
 
     /// What a range sensor says that stands so high, metres.
     pub fn ranging(&mut self, at: Instant, device: &'static str, ranging: Ranging, height: f64) {
-        self.push(Item::Ranging { at, device, ranging, height }, at);
+        self.say(at, Said::Ranging { device, ranging, height });
     }
 
     /// What a camera saw; the writer makes a PNG of it.
     pub fn image(&mut self, at: Instant, device: &'static str, image: Image) {
-        self.push(Item::Image { at, device, image }, at);
+        self.say(at, Said::Image { device, image });
     }
 
     /// What a device says now; allocates for texts.
     pub fn sample(&mut self, at: Instant, signal: Signal, value: Datum) {
-        self.push(Item::Sample { at, signal, value }, at);
+        self.say(at, Said::Sample { signal, value });
     }
 
     /// Something that no record says: what came from outside; allocates.
@@ -290,12 +237,12 @@ impl Recorder {
 
     /// What stands in the room; allocates, so meant for the start.
     pub fn scene(&mut self, at: Instant, shapes: Vec<Shape>) {
-        self.push(Item::Scene { at, shapes: shapes.into() }, at);
+        self.say(at, Said::Scene(shapes.into()));
     }
 
     /// A line for people; allocates, so not for use within a step.
     pub fn text(&mut self, at: Instant, level: Level, name: &'static str, text: &str) {
-        self.push(Item::Text { at, level, name, text: text.into() }, at);
+        self.say(at, Said::Text { level, name, text: text.into() });
     }
 
     /// From now on nothing is dropped: the run is over, and nobody is kept waiting.
@@ -327,6 +274,10 @@ impl Recorder {
     pub fn finish(mut self) -> Result<Written, LogError> {
         let (path, bytes) = self.close(CLOSE).unwrap_or(Err(LogError::Writer))?;
         Ok(Written { path, bytes, lost: self.lost })
+    }
+
+    fn say(&mut self, at: Instant, said: Said) {
+        self.push(Item::Said { at, said }, at);
     }
 
     fn push(&mut self, item: Item, at: Instant) {

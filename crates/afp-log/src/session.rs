@@ -11,10 +11,11 @@ use afp_session::{
     SampleRef, Sampling, Shape,
 };
 
+use crate::channels::{FRAMES, Signal};
 use crate::encode::Messages;
 use crate::error::LogError;
 use crate::names::OwnedNames;
-use crate::recorder::{About, FRAMES, Recorder, Signal, WhenFull, Written};
+use crate::recorder::{About, Recorder, WhenFull, Written};
 use crate::robot::{Image, Level, Transform};
 
 /// How often a log gets what the camera sees.

@@ -1,0 +1,106 @@
+//! The channels of a log: their topics and schemas, and the messages of the robot's channels.
+//!
+//! A new channel is a variant of [`Said`] here, a method of [`crate::Recorder`], its call in [`crate::SessionLog`], and an
+//! arm in `read.rs` if something reads it back.
+
+use afp_core::Instant;
+use afp_session::Datum;
+use prost::Message;
+
+use crate::proto::afp::Sample;
+use crate::proto::{AFP_SET, FOXGLOVE_SET};
+use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
+use crate::{event, foxglove};
+
+/// Frames in one message of [`Recorder::transforms`](crate::Recorder::transforms).
+pub const FRAMES: usize = 4;
+
+/// A channel by the names of its device and its signal; by its topic if it belongs to no device.
+pub(crate) type Key = (&'static str, &'static str);
+
+/// A channel, its schema, and the descriptors that explain the schema.
+pub(crate) type Channel = (Key, &'static str, &'static [u8]);
+
+pub(crate) const EVENTS: Channel = (("", "/plan/events"), "afp.PlanEvent", AFP_SET);
+pub(crate) const CONFIGURATION: Channel =
+    (("", "/plan/configuration"), "afp.Configuration", AFP_SET);
+pub(crate) const TABLE: Channel = (("", "/plan/table"), "afp.PlanTable", AFP_SET);
+const TRANSFORMS: Channel = (("", "/tf"), "foxglove.FrameTransforms", FOXGLOVE_SET);
+const POSE: Channel = (("", "/robot/pose"), "foxglove.PoseInFrame", FOXGLOVE_SET);
+const SCENE: Channel = (("", "/scene"), "foxglove.SceneUpdate", FOXGLOVE_SET);
+const TEXT: Channel = (("", "/log"), "foxglove.Log", FOXGLOVE_SET);
+
+/// The channels that every log has.
+pub(crate) const ALWAYS: [Channel; 7] =
+    [EVENTS, CONFIGURATION, TABLE, TRANSFORMS, POSE, SCENE, TEXT];
+
+/// The topic of a channel.
+pub(crate) fn topic(key: Key) -> String {
+    match key {
+        ("", topic) => topic.to_owned(),
+        (device, "") => format!("/robot/{device}"),
+        // What is about the whole robot.
+        ("robot", name) => format!("/robot/{name}"),
+        (device, name) => format!("/robot/{device}/{name}"),
+    }
+}
+
+/// A signal of a device that has a channel of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Signal {
+    /// The device.
+    pub device: &'static str,
+    /// The signal.
+    pub name: &'static str,
+    /// Its SI unit; empty for none.
+    pub unit: &'static str,
+}
+
+/// What a channel of the robot or of its world says.
+pub(crate) enum Said {
+    Transforms([Option<Transform>; FRAMES]),
+    Pose { frame: &'static str, pose: Pose2 },
+    Ranging { device: &'static str, ranging: Ranging, height: f64 },
+    Image { device: &'static str, image: Image },
+    Sample { signal: Signal, value: Datum },
+    Scene(Box<[Shape]>),
+    Text { level: Level, name: &'static str, text: Box<str> },
+}
+
+impl Said {
+    /// The channel that says it.
+    pub(crate) fn channel(&self) -> Channel {
+        match *self {
+            Said::Transforms(_) => TRANSFORMS,
+            Said::Pose { .. } => POSE,
+            Said::Ranging { device, .. } => ((device, ""), "foxglove.LaserScan", FOXGLOVE_SET),
+            Said::Image { device, .. } => ((device, ""), "foxglove.CompressedImage", FOXGLOVE_SET),
+            Said::Sample { signal, .. } => ((signal.device, signal.name), "afp.Sample", AFP_SET),
+            Said::Scene(_) => SCENE,
+            Said::Text { .. } => TEXT,
+        }
+    }
+
+    /// Appends its message to a buffer.
+    pub(crate) fn encode(self, at: Instant, buffer: &mut Vec<u8>) {
+        let encoded = match self {
+            Said::Transforms(transforms) => foxglove::transforms(at, &transforms).encode(buffer),
+            Said::Pose { frame, pose } => foxglove::pose(at, frame, pose).encode(buffer),
+            Said::Ranging { ranging, height, .. } => {
+                foxglove::ranging(&ranging, height).encode(buffer)
+            }
+            Said::Image { image, .. } => foxglove::image(&image).encode(buffer),
+            Said::Sample { signal, value } => {
+                let (time, unit) = (Some(event::timestamp(at)), signal.unit.to_owned());
+                let value = Some(event::encode_value(value));
+                Sample { time, value, unit }.encode(buffer)
+            }
+            Said::Scene(shapes) => foxglove::scene(at, &shapes).encode(buffer),
+            Said::Text { level, name, text } => {
+                foxglove::text(at, level, name, &text).encode(buffer)
+            }
+        };
+        // A Vec grows as needed; only a fixed buffer could be too short.
+        let _ = encoded;
+    }
+}
