@@ -42,7 +42,7 @@ pub use names::free_names;
 pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Point, Scene, Symbol};
 pub use scxml::scxml;
 pub use sketch::Rect;
-pub use svg::{default_icon, picture, sheet, svg};
+pub use svg::{default_icon, picture, properties, sheet, svg};
 pub use usage::{Count, PlanUsage, Reaction, Usage};
 
 /// Finds the SVG text of an icon that a template of a toolbox names.

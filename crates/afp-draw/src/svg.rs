@@ -13,7 +13,7 @@ use afp_dsl::outline::Outline;
 use paint::{escaped, line, number};
 
 pub use icon::default_icon;
-pub use style::sheet;
+pub use style::{properties, sheet};
 
 /// The main plan as an SVG picture, its sub-plans behind it unless the options say otherwise.
 ///

@@ -170,9 +170,9 @@ async fn file(Path(name): Path<String>) -> Response {
     }
 }
 
-/// The colours of drawings, which stand in one table for page, book and print.
+/// The colours of drawings: one table is for the page, the book and print.
 async fn colours() -> Response {
-    let sheet = afp_draw::sheet(afp_draw::Theme::Auto, false);
+    let sheet = afp_draw::sheet(afp_draw::Theme::Auto, false) + &afp_draw::properties();
     ([(header::CONTENT_TYPE, "text/css; charset=utf-8")], sheet).into_response()
 }
 

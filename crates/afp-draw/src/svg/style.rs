@@ -1,7 +1,7 @@
 //! The colours and fonts of drawings, for light and dark pages and for paper.
 //!
-//! The tables below are the only place where colours stand. A test measures them: texts differ
-//! from what they stand on by 4.5 : 1, lines and signs by 3 : 1, in every theme.
+//! The tables below are the only place that names these colours; a page reads them as [`properties`]. A test measures
+//! them: texts differ from what they stand on by 4.5 : 1, lines and signs by 3 : 1, in every theme.
 
 use super::super::Theme;
 
@@ -154,6 +154,20 @@ pub fn sheet(theme: Theme, usage: bool) -> String {
     };
     let more = if usage { USAGE_COMMON } else { "" };
     format!("{COMMON}{colours}{more}")
+}
+
+/// The colours of drawings as properties of a page: `--icon-actor-color` is the `color` of `.icon.actor`.
+pub fn properties() -> String {
+    let all = |declarations: fn(&Rule) -> &'static str| {
+        let named = RULES.iter().flat_map(|rule| {
+            let selector = rule.0.split(',').next().unwrap_or_default();
+            let name = selector.trim_start_matches('.').replace('.', "-");
+            declarations(rule).split(';').map(move |declaration| format!("--{name}-{declaration};"))
+        });
+        named.collect::<String>()
+    };
+    let (light, dark) = (all(|rule| rule.1), all(|rule| rule.2));
+    format!(":root{{{light}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}\n")
 }
 
 type Rule = (&'static str, &'static str, &'static str);
