@@ -7,6 +7,7 @@
 //! An extension is a crate of a few lines that calls [`fill`] with what it links in: `afp-py-wheel` for the Carbot, a
 //! generated one for a project with a robot or toolboxes of its own.
 
+mod attach;
 #[cfg(feature = "carbot")]
 mod carbot;
 mod component;

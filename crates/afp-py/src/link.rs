@@ -167,7 +167,8 @@ impl<R: Simulated> AnyLink for Link<R> {
     fn robot(&self, py: Python<'_>) -> PyResult<Py<Robot>> {
         let world = R::World::read(self.nowhere).map_err(|why| error(why.message))?;
         let robot = R::new(&world, 0).map_err(|why| error(SessionError::World(why.into())))?;
-        (self.robot)(py, Robot::new(Box::new(robot)))
+        let sense = |robot: &dyn Any, name: &str| link().sense(robot, name, false);
+        (self.robot)(py, Robot::new(Box::new(robot), sense))
     }
 
     fn sense(&self, robot: &dyn Any, name: &str, truth: bool) -> PyResult<Sensed> {

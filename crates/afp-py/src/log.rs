@@ -9,9 +9,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
+use crate::attach::in_background;
 use crate::errors::{error, log_error, run_error};
 use crate::link::link;
-use crate::pause::in_background;
 use crate::simulation::{Event, value};
 use crate::world::{World, table};
 

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread;
 use std::time::{Duration, Instant};
 
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
+use crate::attach::attached;
 use crate::component::Host;
 
 /// How often signals are looked at.
@@ -91,40 +89,4 @@ impl Pause {
         self.is_long = true;
         attached(|py| py.check_signals()).err().map(Halt::Raised)
     }
-}
-
-/// Calls Python. A thread that comes after the end of the interpreter rests for good: the program is about to end.
-pub fn attached<T>(call: impl FnOnce(Python<'_>) -> T) -> T {
-    Python::try_attach(call).unwrap_or_else(|| {
-        loop {
-            thread::park();
-        }
-    })
-}
-
-/// Computes something in a thread of its own, so that other threads of Python run and Ctrl-C is seen meanwhile; it is
-/// left to itself then.
-///
-/// # Errors
-/// What a handler of a signal raises; it panicked.
-pub fn in_background<T: Send + 'static>(
-    py: Python<'_>,
-    compute: impl FnOnce() -> T + Send + 'static,
-) -> PyResult<T> {
-    let (send, done) = channel();
-    py.detach(move || {
-        thread::spawn(move || {
-            // Nobody waits any more after a signal.
-            let _ = send.send(compute());
-        });
-        loop {
-            match done.recv_timeout(EVERY) {
-                Ok(computed) => return Ok(computed),
-                Err(RecvTimeoutError::Timeout) => attached(|py| py.check_signals())?,
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(PyRuntimeError::new_err("the computation broke"));
-                }
-            }
-        }
-    })
 }

@@ -16,6 +16,7 @@ use afp_ide::edit::{self, Change};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::source::{Source, Span};
 use afp_test::Coverage;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
@@ -24,7 +25,7 @@ use crate::errors::{error, plan_error, run_error};
 use crate::scenario::{self, Scenario};
 use crate::toolbox::Toolbox;
 
-use crate::pause::in_background;
+use crate::attach::in_background;
 use compile::Workspace;
 pub use diagnostic::{Diagnostic, diagnostics};
 
@@ -91,7 +92,17 @@ impl Plan {
     /// The scenarios of the file; none while it has errors.
     #[getter]
     fn scenarios(&self, py: Python<'_>) -> PyResult<Vec<Scenario>> {
-        scenario::scenarios(py, self)
+        let compiled = self.compiled(py)?;
+        let source = self.state(py).into_py_any(py)?;
+        let one = |index| Scenario {
+            compiled: Arc::clone(&compiled),
+            index,
+            file: self.file(),
+            toolboxes: self.python_toolboxes(py),
+            caveat: self.caveat(),
+            source: source.clone_ref(py),
+        };
+        Ok((0..compiled.scenarios.len()).map(one).collect())
     }
 
     /// The scenarios that cannot be run, while nothing else has errors: name, line and what is wrong.

@@ -9,7 +9,7 @@ use afp_session::Simulated;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::link::link;
+use crate::sensed::Sensed;
 use crate::value::no_pickle;
 
 /// The robot as a component in Python has it: devices and time, not the truth.
@@ -18,7 +18,11 @@ use crate::value::no_pickle;
 #[pyclass(module = "afp", frozen, subclass)]
 pub struct Robot {
     slot: Mutex<Slot>,
+    sense: Sense,
 }
+
+/// What a robot senses under a name.
+pub type Sense = fn(&dyn Any, &str) -> PyResult<Sensed>;
 
 /// The robot while a component is called; one that stands in for it otherwise.
 struct Slot {
@@ -67,8 +71,8 @@ const NO_CALL: &str = "the robot can be used only while a component is being cal
 
 impl Robot {
     /// A robot for which another one stands in.
-    pub fn new(stand_in: Box<dyn Held>) -> Robot {
-        Robot { slot: Mutex::new(Slot { robot: stand_in, caller: None }) }
+    pub fn new(stand_in: Box<dyn Held>, sense: Sense) -> Robot {
+        Robot { slot: Mutex::new(Slot { robot: stand_in, caller: None }), sense }
     }
 
     /// Takes the robot for a caller, or gives it back for none.
@@ -114,7 +118,7 @@ impl Robot {
 
     /// What a sensor says.
     pub(crate) fn sensed<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let sensed = self.with(|robot| link().sense(robot.as_any(), name, false))?;
+        let sensed = self.with(|robot| (self.sense)(robot.as_any(), name))?;
         sensed?.into_bound(py)
     }
 }

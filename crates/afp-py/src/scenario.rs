@@ -12,7 +12,6 @@ use afp_excerpt::words::shell_word;
 use afp_run::check_apart;
 use afp_syntax::source::Span;
 use afp_test::{Recording, Setting};
-use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
@@ -21,7 +20,6 @@ use crate::component::{AnyRegistry, Components, may_run};
 use crate::errors::{error, run_error};
 use crate::link::{fits, link};
 use crate::pause::{Halt, Pause};
-use crate::plan::Plan;
 use crate::simulation::read_of;
 use crate::toolbox::Toolbox;
 use crate::value::Pickled;
@@ -32,14 +30,14 @@ pub use verdict::{Broken, Verdict};
 /// A scenario of a file: a world, what happens, what is expected.
 #[pyclass(module = "afp", frozen)]
 pub struct Scenario {
-    compiled: Arc<Compiled>,
-    index: usize,
-    file: PathBuf,
-    toolboxes: Vec<Py<Toolbox>>,
+    pub compiled: Arc<Compiled>,
+    pub index: usize,
+    pub file: PathBuf,
+    pub toolboxes: Vec<Py<Toolbox>>,
     /// Why `afpc test` does something else than this does.
-    caveat: Option<&'static str>,
+    pub caveat: Option<&'static str>,
     /// What the plan is pickled as, with the text that this is a scenario of.
-    source: Py<PyAny>,
+    pub source: Py<PyAny>,
 }
 
 #[pymethods]
@@ -155,21 +153,6 @@ impl Scenario {
         let command = format!("afpc test {file} {}", shell_word(&self.checked()?.name));
         Ok(self.caveat.map_or_else(|| command.clone(), |why| format!("{command}  # {why}")))
     }
-}
-
-/// The scenarios of a plan's file.
-pub fn scenarios(py: Python<'_>, plan: &Plan) -> PyResult<Vec<Scenario>> {
-    let compiled = plan.compiled(py)?;
-    let source = plan.state(py).into_py_any(py)?;
-    let one = |index| Scenario {
-        compiled: Arc::clone(&compiled),
-        index,
-        file: plan.file(),
-        toolboxes: plan.python_toolboxes(py),
-        caveat: plan.caveat(),
-        source: source.clone_ref(py),
-    };
-    Ok((0..compiled.scenarios.len()).map(one).collect())
 }
 
 /// The scenarios that cannot be run: name, line and what is wrong.

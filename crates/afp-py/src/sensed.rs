@@ -1,11 +1,9 @@
 //! What a robot senses, as values that own what they say.
 
 use afp_session::{Image, Pose2, Ranging, SampleRef};
-use numpy::{IntoPyArray, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods, ToPyArray};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-
-use crate::world::table;
 
 /// What a sensor said.
 #[derive(Debug, PartialEq)]
@@ -70,4 +68,13 @@ impl Sensed {
             }
         }
     }
+}
+
+/// Rows of equal length as an array that owns its numbers.
+pub fn table<'py, const N: usize>(
+    py: Python<'py>,
+    rows: &[[f64; N]],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let flat: Vec<f64> = rows.iter().flatten().copied().collect();
+    flat.to_pyarray(py).reshape([rows.len(), N])
 }

@@ -28,11 +28,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{PyTraverseError, PyVisit};
 
+use crate::attach::in_background;
 use crate::component::{AnyRegistry, Components, Host};
 use crate::errors::{error, log_error, plan_error};
 use crate::forks;
 use crate::link::{devices, fits, link};
-use crate::pause::in_background;
 use crate::plan::Plan;
 use crate::value::{Given, measured, no_pickle, to_python};
 use crate::world::{World, table};

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use afp_run::world::{LoadedWorld, find};
 use afp_session::Pose2;
-use numpy::{PyArray2, ToPyArray};
+use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::{error, run_error};
 use crate::link::{fits, link};
+use crate::sensed::table;
 use crate::value::{Pickled, seed_of};
 
 /// What a world is pickled as: its text, its path, and where the robot starts instead of where the text says.
@@ -168,14 +169,4 @@ impl World {
         let read = loaded.path.clone();
         World { loaded, read }
     }
-}
-
-/// Rows of equal length as an array that owns its numbers.
-pub fn table<'py, const N: usize>(
-    py: Python<'py>,
-    rows: &[[f64; N]],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    use numpy::PyArrayMethods;
-    let flat: Vec<f64> = rows.iter().flatten().copied().collect();
-    flat.to_pyarray(py).reshape([rows.len(), N])
 }

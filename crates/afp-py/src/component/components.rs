@@ -6,9 +6,9 @@ use afp_dsl::Compiled;
 use pyo3::prelude::*;
 
 use super::{AnyRegistry, Host, register};
+use crate::attach::attached;
 use crate::errors::error;
 use crate::link::link;
-use crate::pause::attached;
 use crate::toolbox::{Ready, Toolbox};
 
 /// Components in Python for engines that make plans by themselves: each plan gets a robot of its own.

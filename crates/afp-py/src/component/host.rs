@@ -14,7 +14,7 @@ use pyo3::{PyTraverseError, PyVisit};
 
 use super::depth::inside;
 use super::handles::PyHandles;
-use crate::pause::attached;
+use crate::attach::attached;
 use crate::robot::{Caller, Robot};
 
 /// What a plan sees of an exception.

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 
 use super::event::Event;
 use super::time::instant;
-use crate::pause::in_background;
+use crate::attach::in_background;
 use crate::world::World;
 
 /// The names of a plan as it ran.

@@ -17,10 +17,10 @@ use pyo3::prelude::*;
 
 use super::watch::{Judging, Keeping, Kept};
 use super::{Sweeper, graph, with_setting};
+use crate::attach::attached;
 use crate::component::{AnyRegistry, Components, may_sweep};
 use crate::errors::run_error;
 use crate::link::link;
-use crate::pause::attached;
 
 /// How often signals are looked at while no outcome comes.
 const EVERY: Duration = Duration::from_millis(15);
