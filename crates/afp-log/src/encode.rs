@@ -1,4 +1,4 @@
-//! A run as messages: one method per kind of message, whoever takes them.
+//! A run as messages: one method per kind of message.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -6,60 +6,47 @@ use std::path::PathBuf;
 
 use afp_core::trace::{Author, Names, Record, TraceEntryId};
 use afp_core::{Instant, Value};
-use afp_session::{EventKind, RunEvent, author as author_of};
+use afp_session::{EventKind, OwnedRecord, RunEvent, author as author_of};
 use prost::Message;
 
-use crate::channels::{ALWAYS, CONFIGURATION, Channel, EVENTS, Key, TABLE, topic};
+use crate::channels::{ALWAYS, CONFIGURATION, Channel, EVENTS, Key, Said, TABLE, topic};
 use crate::error::LogError;
 use crate::event;
+use crate::messages::Messages;
 use crate::names::OwnedNames;
 use crate::proto::afp::{self, Configuration};
-use crate::recorder::Item;
 
-/// Who takes the messages of a run: a file, clients that watch.
-pub trait Messages: Send {
-    /// Opens a channel of protobuf messages: its topic, the name of its schema, the descriptors that explain it (a
-    /// `FileDescriptorSet`). Gives its number.
-    ///
-    /// # Errors
-    /// It cannot be opened.
-    fn open(&mut self, topic: &str, schema: &str, set: &[u8]) -> Result<u16, LogError>;
-
-    /// Takes a message; `sequence` counts those of its channel.
-    ///
-    /// # Errors
-    /// The disk is full or fails.
-    fn send(
-        &mut self,
-        channel: u16,
-        sequence: u32,
+/// What a recorder tells its writer.
+pub(crate) enum Item {
+    Record(OwnedRecord),
+    Started(Instant),
+    /// Items were dropped; what all entries hold stands beside, since commits may be among them.
+    Lost {
         at: Instant,
-        message: &[u8],
-    ) -> Result<(), LogError>;
+        count: u64,
+        entries: Box<[Value]>,
+    },
+    Said {
+        at: Instant,
+        said: Said,
+    },
+    Event(Box<RunEvent>),
+    End {
+        at: Instant,
+        facts: Vec<(String, String)>,
+    },
+}
 
-    /// What the run came to, by name.
-    ///
-    /// # Errors
-    /// The disk is full or fails.
-    fn came(&mut self, facts: Vec<(String, String)>) -> Result<(), LogError>;
-
-    /// What has been taken is to be seen by others.
-    ///
-    /// # Errors
-    /// The disk is full or fails.
-    fn flush(&mut self) -> Result<(), LogError>;
-
-    /// Nothing comes any more; `in_order` where the run is over. Gives the file and its size in bytes, where there is
-    /// one.
-    ///
-    /// # Errors
-    /// The disk is full or fails.
-    fn finish(self: Box<Self>, in_order: bool) -> Result<(PathBuf, u64), LogError>;
-
-    /// Nothing comes any more, and nothing came of the run: of a file nothing stays.
-    fn discard(self: Box<Self>) {
-        // There is nobody to tell.
-        let _ = self.finish(false);
+impl Item {
+    pub(crate) fn at(&self) -> Option<Instant> {
+        match self {
+            Item::Record(owned) => Some(owned.at),
+            Item::Event(event) => Some(event.at),
+            Item::Started(at)
+            | Item::Lost { at, .. }
+            | Item::Said { at, .. }
+            | Item::End { at, .. } => Some(*at),
+        }
     }
 }
 

@@ -14,7 +14,6 @@ use crate::proto::afp::plan_event::{self, Kind};
 use crate::proto::afp::plan_table::{Component, Outcome, Reaction};
 use crate::proto::afp::request::{self, Became, Output};
 use crate::proto::afp::{Entry, PlanEvent, PlanTable, Request, Value, plan_table, value};
-use crate::read::instant;
 
 /// What happened, as the bytes of a message: to be kept or sent without a log around it.
 pub fn pack(event: &RunEvent) -> Vec<u8> {
@@ -352,6 +351,14 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
         time: Some(timestamp(Instant::ZERO)),
         components: (0..names.components()).map(|id| component(ComponentId(id))).collect(),
     }
+}
+
+/// The instant of a protobuf time stamp; one before zero counts as zero.
+pub(crate) fn instant(time: &Option<Timestamp>) -> Instant {
+    let Some(Timestamp { seconds, nanos }) = *time else { return Instant::ZERO };
+    let (seconds, nanos) = (u64::try_from(seconds), u64::try_from(nanos));
+    let (seconds, nanos) = (seconds.unwrap_or(0), nanos.unwrap_or(0));
+    Instant::from_nanos(seconds.saturating_mul(1_000_000_000).saturating_add(nanos))
 }
 
 /// An instant as protobuf writes it.

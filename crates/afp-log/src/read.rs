@@ -8,10 +8,9 @@ use afp_core::Instant;
 use afp_session::{Datum, Outlines, RunEvent, frames};
 use mcap::records::Record;
 use prost::Message;
-use prost_types::Timestamp;
 
 use crate::error::LogError;
-use crate::event::{decode, decode_value};
+use crate::event::{decode, decode_value, instant};
 use crate::names::OwnedNames;
 use crate::proto::afp::{Configuration, Entry, PlanEvent, PlanTable, Sample};
 use crate::proto::foxglove::{
@@ -163,14 +162,6 @@ impl LogData {
 /// What all entries hold, as a message of `/plan/configuration` says; none for other bytes.
 pub fn configuration(bytes: &[u8]) -> Option<Configured> {
     Configuration::decode(bytes).ok().map(configured)
-}
-
-/// The instant of a protobuf time stamp; one before zero counts as zero.
-pub(crate) fn instant(time: &Option<Timestamp>) -> Instant {
-    let Some(Timestamp { seconds, nanos }) = *time else { return Instant::ZERO };
-    let (seconds, nanos) = (u64::try_from(seconds), u64::try_from(nanos));
-    let (seconds, nanos) = (seconds.unwrap_or(0), nanos.unwrap_or(0));
-    Instant::from_nanos(seconds.saturating_mul(1_000_000_000).saturating_add(nanos))
 }
 
 #[derive(Default)]

@@ -4,7 +4,7 @@ use afp_core::Instant;
 use afp_session::{Build, Done, EventKind, Pose2, Recipe, TextFile};
 
 use crate::read::LogData;
-use crate::recorder::About;
+use crate::write::About;
 
 /// The attachment that holds the world, a text of whatever form the robot's worlds have.
 pub const WORLD: &str = "world";

@@ -15,11 +15,12 @@ use afp_core::{Instant, Value, ValueRef};
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 
 use crate::channels::{FRAMES, Said, Signal};
-use crate::encode::{Encoder, Messages};
+use crate::encode::{Encoder, Item};
 use crate::error::LogError;
+use crate::messages::Messages;
 use crate::names::OwnedNames;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
-use crate::write::LogFile;
+use crate::write::{About, LogFile};
 use afp_session::{Datum, OwnedRecord, RunEvent};
 
 /// Items that the queue holds: a second of a busy plan.
@@ -40,15 +41,6 @@ pub enum WhenFull {
     Wait,
 }
 
-/// What a log says of the run before its first message.
-#[derive(Clone, Debug, Default)]
-pub struct About {
-    /// The metadata record `afp.run`: `plan`, `plan_hash`, `seed`, `world` and so on.
-    pub facts: Vec<(String, String)>,
-    /// Name, media type and text of each attachment.
-    pub attachments: Vec<(String, &'static str, String)>,
-}
-
 /// A log that was closed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
@@ -58,40 +50,6 @@ pub struct Written {
     pub bytes: u64,
     /// Items that were dropped because the writer could not keep up.
     pub lost: u64,
-}
-
-/// What goes through the queue.
-pub(crate) enum Item {
-    Record(OwnedRecord),
-    Started(Instant),
-    /// Items were dropped; what all entries hold stands beside, since commits may be among them.
-    Lost {
-        at: Instant,
-        count: u64,
-        entries: Box<[Value]>,
-    },
-    Said {
-        at: Instant,
-        said: Said,
-    },
-    Event(Box<RunEvent>),
-    End {
-        at: Instant,
-        facts: Vec<(String, String)>,
-    },
-}
-
-impl Item {
-    fn at(&self) -> Option<Instant> {
-        match self {
-            Item::Record(owned) => Some(owned.at),
-            Item::Event(event) => Some(event.at),
-            Item::Started(at)
-            | Item::Lost { at, .. }
-            | Item::Said { at, .. }
-            | Item::End { at, .. } => Some(*at),
-        }
-    }
 }
 
 /// Records a run into an MCAP file, or sends it to whoever watches.

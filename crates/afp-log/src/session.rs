@@ -12,11 +12,12 @@ use afp_session::{
 };
 
 use crate::channels::{FRAMES, Signal};
-use crate::encode::Messages;
 use crate::error::LogError;
+use crate::messages::Messages;
 use crate::names::OwnedNames;
-use crate::recorder::{About, Recorder, WhenFull, Written};
+use crate::recorder::{Recorder, WhenFull, Written};
 use crate::robot::{Image, Level, Transform};
+use crate::write::About;
 
 /// How often a log gets what the camera sees.
 const FILM: Duration = Duration::from_millis(500);

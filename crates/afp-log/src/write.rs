@@ -10,12 +10,20 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, Compression, WriteOptions, Writer};
 
-use crate::encode::Messages;
 use crate::error::LogError;
-use crate::recorder::About;
+use crate::messages::Messages;
 
 /// Uncompressed bytes after which a chunk is closed.
 const CHUNK: u64 = 256 * 1024;
+
+/// What a log says of the run before its first message.
+#[derive(Clone, Debug, Default)]
+pub struct About {
+    /// The metadata record `afp.run`: `plan`, `plan_hash`, `seed`, `world` and so on.
+    pub facts: Vec<(String, String)>,
+    /// Name, media type and text of each attachment.
+    pub attachments: Vec<(String, &'static str, String)>,
+}
 
 /// A file of records. It need not be one that can go back: a pipe takes a log too.
 pub(crate) type LogWriter = Writer<NoSeek<BufWriter<Output>>>;

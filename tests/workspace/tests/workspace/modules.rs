@@ -20,17 +20,13 @@ const IN_CIRCLES: &[(&str, usize)] = &[
     ("afp-draw", 25),
     ("afp-dsl", 7),
     ("afp-ide", 4),
-    ("afp-log", 8),
     ("afp-lsp", 23),
     ("afp-project", 2),
-    ("afp-py", 13),
-    ("afp-run", 3),
     ("afp-session", 12),
     ("afp-sim", 25),
     ("afp-studio", 4),
     ("afp-sweep", 5),
     ("afp-test", 6),
-    ("afpc", 32),
 ];
 
 /// The crates that must stay without circles.
