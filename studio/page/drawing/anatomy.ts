@@ -41,7 +41,7 @@ const HEAD = /^\s*(?:\/\/\/?.*\n\s*)*(actor|computation|subplan|supervise)\s+\w+
 /** The first line of an element or supervisor: its kind, template and timing. */
 export function headed(text: string): { kind: string; template: string; every: string; deadline: string } {
   const [, kind = "", template = "", rest = ""] = HEAD.exec(text) ?? [];
-  const after = (keyword: string): string => new RegExp(`\\b${keyword}\\s+(\\S+(?:\\s+(?:ns|us|ms|s|min|h)\\b)?)`).exec(rest)?.[1] ?? "";
+  const after = (keyword: string): string => new RegExp(`\\b${keyword}\\s+(\\S+(?:\\s+(?!every\\b|deadline\\b)[A-Za-z]+\\b)?)`).exec(rest)?.[1] ?? "";
   return { kind, template, every: after("every"), deadline: after("deadline") };
 }
 
