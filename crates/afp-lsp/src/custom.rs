@@ -9,9 +9,10 @@ pub(crate) mod items;
 pub(crate) mod offers;
 pub(crate) mod robot;
 mod scene;
+mod subscription;
 
-pub(crate) use drawing::Subscription;
 pub use drawings::Drawings;
+pub(crate) use subscription::Subscription;
 
 use serde::Deserialize;
 

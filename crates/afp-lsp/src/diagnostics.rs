@@ -5,8 +5,7 @@ use afp_syntax::source::Span;
 use gen_lsp_types as lsp;
 
 use crate::convert::Places;
-use crate::server::is_project;
-use crate::workspace::{Analysis, Workspace};
+use crate::workspace::{Analysis, Workspace, is_project};
 
 /// What is wrong with a document.
 pub(crate) fn of(workspace: &mut Workspace, path: &str) -> Vec<lsp::Diagnostic> {

@@ -10,6 +10,7 @@
 //! and changes of meaning, which `docs/editors.md` lists.
 
 mod answer;
+mod conversation;
 mod convert;
 mod custom;
 mod diagnostics;

@@ -22,6 +22,11 @@ use crate::uri::BUILT_IN;
 /// The name of the project file.
 pub(crate) const PROJECT: &str = "afp.toml";
 
+/// Whether a path is that of a project file.
+pub(crate) fn is_project(path: &str) -> bool {
+    path.rsplit('/').next() == Some(PROJECT)
+}
+
 /// The toolboxes that the files of a folder can use.
 #[derive(Debug)]
 pub(crate) struct ToolboxSet {

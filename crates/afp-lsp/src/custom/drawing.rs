@@ -9,13 +9,13 @@ use afp_dsl::outline::{Outline, Plan, PlanId};
 use afp_dsl::toolbox::Toolbox;
 use afp_ide::edit::item;
 use afp_syntax::item::Item;
-use afp_syntax::source::Span;
 use lsp_server::{Message, Notification};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::Document;
 use super::scene::{Facts, Shown};
+use super::subscription::{MadeFrom, Subscription, plans};
 use crate::answer::{Answer, Failure, ok};
 use crate::reads::Reads;
 use crate::server::Server;
@@ -36,28 +36,6 @@ pub(crate) struct Drawing {
     /// Whether the client wants to hear what changes; `false` ends that.
     #[serde(default)]
     subscribe: Option<bool>,
-}
-
-/// A drawing that a client has and hears the changes of.
-#[derive(Debug)]
-pub(crate) struct Subscription {
-    /// The plan that is wanted: without one, the first of the file.
-    plan: Option<String>,
-    /// The plans of the file, as the client was told.
-    plans: Vec<String>,
-    folded: Vec<Item>,
-    /// The scene, from which the next one is made.
-    scene: Arc<Scene>,
-    facts: Facts,
-    made_from: MadeFrom,
-}
-
-/// What a drawing was made from.
-#[derive(Debug)]
-struct MadeFrom {
-    analysis: Arc<Analysis>,
-    /// Positions and icons.
-    reads: Reads,
 }
 
 /// The whole drawing. Where there is none, the client goes on to hear of the one that it has.
@@ -151,34 +129,6 @@ fn draw(
     Ok(Drawn { scene, facts, plan, plans, symbols, made_from })
 }
 
-/// The names of the plans of a file, as they stand in it.
-fn plans(analysis: &Analysis) -> Vec<String> {
-    let own = analysis.compiled.outline.plans.iter().filter(|plan| plan.file() == analysis.file);
-    own.map(|plan| plan.item.name().to_owned()).collect()
-}
-
-impl Subscription {
-    /// Goes on with what has come in place of a plan that is gone: the one that stands where it did and has another name, or
-    /// the first one. While the text cannot be read, or its name is another plan's, it may come back.
-    fn follow(&mut self, analysis: &Analysis) {
-        let Some(gone) = &self.plan else { return };
-        let now = plans(analysis);
-        // Two of one name are told apart by numbers, which say nothing of which was which.
-        if now.contains(gone) || now.iter().any(|name| name.contains('#')) {
-            return;
-        }
-        let place = self.plans.iter().position(|name| name == gone);
-        let there = place.filter(|_| now.len() == self.plans.len()).and_then(|at| now.get(at));
-        let file = Span { file: analysis.file, start: 0, end: u32::MAX };
-        let is_readable = || analysis.compiled.diags.syntax_errors_within(file).next().is_none();
-        match there {
-            Some(name) if !self.plans.contains(name) => self.plan = Some(name.clone()),
-            _ if is_readable() => self.plan = None,
-            _ => {}
-        }
-    }
-}
-
 /// A plan of a file by name, its first one without a name.
 pub(super) fn find(
     outline: &Outline,
@@ -209,12 +159,6 @@ impl Workspace {
         let texts = analysis.compiled.sources.iter().enumerate().map(read);
         texts.map(|text| Layout::read(&text).0).collect()
     }
-
-    /// Whether a drawing of a document would be the same again.
-    fn is_drawn(&mut self, path: &str, from: &MadeFrom) -> bool {
-        let analysis = self.analysis(path);
-        analysis.is_some_and(|now| Arc::ptr_eq(&now, &from.analysis)) && from.reads.hold(self)
-    }
 }
 
 impl Server {
@@ -222,7 +166,7 @@ impl Server {
     pub(crate) fn changed_drawings(&mut self) -> Vec<Message> {
         let workspace = &mut self.workspace;
         let stale = |(path, known): (&String, &Subscription)| {
-            (!workspace.is_drawn(path, &known.made_from)).then(|| path.clone())
+            (!known.made_from.is_current(workspace, path)).then(|| path.clone())
         };
         let stale: Vec<_> = self.subscriptions.iter().filter_map(stale).collect();
         stale.into_iter().filter_map(|path| self.changed_drawing(&path)).collect()

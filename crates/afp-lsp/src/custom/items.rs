@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::Document;
+use super::scene::part;
 use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 
@@ -94,17 +95,6 @@ pub(crate) fn uses(server: &mut Server, params: Uses) -> Answer {
 
 pub(crate) fn no_item(path: &str) -> Failure {
     Failure::Malformed(format!("'{path}' is no path of an item"))
-}
-
-/// A part of an item in messages: what it is, and under which name.
-pub(crate) fn part(part: &Part) -> Value {
-    match part {
-        Part::Whole => json!({ "kind": "whole" }),
-        Part::Start(nth) => json!({ "kind": "start", "nth": nth }),
-        Part::Input { name, nth } => json!({ "kind": "input", "name": name, "nth": nth }),
-        Part::Output { name, nth } => json!({ "kind": "output", "name": name, "nth": nth }),
-        Part::Exit { name, nth } => json!({ "kind": "exit", "name": name, "nth": nth }),
-    }
 }
 
 fn meant(part: PartOf) -> Option<Part> {

@@ -11,8 +11,6 @@ use afp_syntax::item::Item;
 use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
 
-use super::items::part;
-
 /// What a client is told of a plan beside what is drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Facts {
@@ -246,4 +244,15 @@ fn tenths(rect: Rect) -> [f64; 4] {
 /// Rounded to a tenth of a pixel; no zero has a sign.
 fn tenth(value: f64) -> f64 {
     (value * 10.0).round() / 10.0 + 0.0
+}
+
+/// A part of an item in messages: what it is, and under which name.
+pub(crate) fn part(part: &Part) -> Value {
+    match part {
+        Part::Whole => json!({ "kind": "whole" }),
+        Part::Start(nth) => json!({ "kind": "start", "nth": nth }),
+        Part::Input { name, nth } => json!({ "kind": "input", "name": name, "nth": nth }),
+        Part::Output { name, nth } => json!({ "kind": "output", "name": name, "nth": nth }),
+        Part::Exit { name, nth } => json!({ "kind": "exit", "name": name, "nth": nth }),
+    }
 }

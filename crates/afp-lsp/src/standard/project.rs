@@ -9,8 +9,9 @@ use serde_json::{Value, json};
 
 use crate::answer::{Answer, ok};
 use crate::convert::Places;
-use crate::server::{Server, is_project};
+use crate::server::Server;
 use crate::uri;
+use crate::workspace::is_project;
 
 /// The text of a document that is a project file.
 pub(super) fn text(server: &Server, uri: &lsp::Uri) -> Option<String> {

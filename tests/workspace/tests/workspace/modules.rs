@@ -20,7 +20,7 @@ const IN_CIRCLES: &[(&str, usize)] = &[
     ("afp-draw", 25),
     ("afp-dsl", 7),
     ("afp-ide", 4),
-    ("afp-lsp", 23),
+    ("afp-lsp", 2),
     ("afp-project", 2),
     ("afp-session", 12),
     ("afp-sim", 25),
