@@ -52,16 +52,20 @@ impl Product {
     }
 }
 
-/// The product with these parts, built if need be.
-///
-/// # Errors
-/// No folder that can be written, no cargo, a crate that does not build.
-pub fn product(parts: &Parts<'_>, product: Product) -> Result<PathBuf, NotBuilt> {
-    let kept = Kept::new(parts, product)?;
-    let files = kept.files(parts)?;
-    match fresh::program(&kept.folder, &kept.around(parts), &files) {
-        Some(built) => Ok(built),
-        None => kept.build(parts, &files),
+impl Parts<'_> {
+    /// The file that has them linked in: what was kept of an earlier build if nothing has changed since, else built now.
+    ///
+    /// # Errors
+    /// No folder that can be written, no cargo, a crate that does not build.
+    pub fn product(mut self, product: Product) -> Result<PathBuf, NotBuilt> {
+        // The same whatever the order of the plans.
+        self.toolboxes.sort_by(|one, other| one.name.cmp(&other.name));
+        let kept = Kept::new(&self, product)?;
+        let files = kept.files(&self)?;
+        match fresh::program(&kept.folder, &kept.around(&self), &files) {
+            Some(built) => Ok(built),
+            None => kept.build(&self, &files),
+        }
     }
 }
 

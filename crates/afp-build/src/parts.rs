@@ -1,13 +1,9 @@
 //! What is linked: the robot of a project, and toolboxes.
 
-use std::path::PathBuf;
-
 use afp_dsl::graph::Graph;
 use afp_project::{CrateLink, HardwareLink, ProjectFile, RobotLink};
 use afp_run::RunError;
 
-use crate::NotBuilt;
-use crate::kept::{self, Product};
 use afp_toolboxes::project::{OwnToolbox, OwnToolboxes};
 
 /// What is linked into one program or extension.
@@ -108,16 +104,6 @@ impl<'a> Parts<'a> {
         let own = self.robot.as_ref().map(RobotLink::rust_type);
         let has = |own: &OwnToolbox| toolboxes.contains(&&*own.name);
         has_hardware && own.as_deref() == robot && self.toolboxes.iter().all(has)
-    }
-
-    /// The file that has them linked in: what was kept of an earlier build if nothing has changed since, else built now.
-    ///
-    /// # Errors
-    /// No folder that can be written, no cargo, a crate that does not build.
-    pub fn product(mut self, product: Product) -> Result<PathBuf, NotBuilt> {
-        // The same whatever the order of the plans.
-        self.toolboxes.sort_by(|one, other| one.name.cmp(&other.name));
-        kept::product(&self, product)
     }
 
     pub(crate) fn crates(&self) -> impl Iterator<Item = &CrateLink> {

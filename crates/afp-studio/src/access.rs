@@ -2,16 +2,13 @@
 
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use afp_token::Token;
 use axum::http::HeaderMap;
 use axum::http::header::{COOKIE, HOST, ORIGIN};
 
-use crate::lock::Lock;
-
-/// How long the code of an address works.
-pub(crate) const CODE_LASTS: Duration = Duration::from_secs(60);
+use crate::lock::{CODE_LASTS, Lock};
 
 /// What a browser must know, and where it may come from.
 #[derive(Clone, Debug)]

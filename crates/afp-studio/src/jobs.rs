@@ -9,8 +9,8 @@ use std::process::{Command, Stdio};
 use std::sync::mpsc::Sender;
 use std::thread;
 
+use crate::event::Event;
 use crate::room::{JobId, Order};
-use crate::sockets::Event;
 use group::Group;
 
 /// Processes that go on.

@@ -10,6 +10,7 @@
 
 mod access;
 mod debugging;
+mod event;
 mod examples;
 mod files;
 mod jobs;

@@ -12,8 +12,8 @@ use std::time::{Duration, SystemTime};
 
 use afp_token::Token;
 
-use crate::access::CODE_LASTS;
-
+/// How long the code of an address works.
+pub(crate) const CODE_LASTS: Duration = Duration::from_secs(60);
 /// How long the first one has to say its port.
 const SAYS_WITHIN: Duration = Duration::from_secs(3);
 

@@ -10,9 +10,10 @@ use std::time::{Duration, Instant};
 use afp_lsp::Message;
 use axum::extract::ws::{self, WebSocket};
 
+use crate::event::Event;
 use crate::jobs::Runner;
 use crate::outbox::{Outbox, Pulse, is_sent, outbox};
-use crate::room::{ClientId, JobId, Out, Room};
+use crate::room::{ClientId, Out, Room};
 
 /// More clients than this are turned away.
 pub(crate) const MOST_CLIENTS: usize = 8;
@@ -22,17 +23,6 @@ pub(crate) const MOST_CLIENTS: usize = 8;
 pub(crate) struct Sockets {
     events: Sender<Event>,
     next: Arc<AtomicU32>,
-}
-
-pub(crate) enum Event {
-    Joined(ClientId, Outbox),
-    Said(ClientId, Message),
-    Left(ClientId),
-    /// A job has printed a line.
-    JobSaid(JobId, String),
-    /// A job has closed its streams.
-    JobEnded(JobId),
-    End,
 }
 
 impl Sockets {

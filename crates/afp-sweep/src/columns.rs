@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::findings::Measure;
 use crate::grid::{Axis, Row, Sweep};
-use crate::outcome::Outcome;
+use crate::outcome::{FIXED, Outcome, of_robot};
 
 /// A column.
 pub struct Column {
@@ -35,25 +35,6 @@ impl Column {
         .unwrap_or_default()
     }
 }
-
-/// The columns that each table has.
-pub(crate) const FIXED: [&str; 15] = [
-    "run",
-    "world",
-    "seed",
-    "ending",
-    "where",
-    "why",
-    "time_s",
-    "distance_m",
-    "collisions",
-    "touched",
-    "interruptions",
-    "deadline_misses",
-    "trace",
-    "command",
-    "took_s",
-];
 
 /// The names of the columns of what is varied, of values as written and in SI units; with `in.` before it where a column
 /// has that name already.
@@ -127,11 +108,6 @@ pub fn columns(sweep: &Sweep, outcomes: &[Outcome]) -> Vec<Column> {
         column("took_s", Cells::Numbers(outcomes.iter().map(|it| Some(it.took_s)).collect())),
     ]);
     all
-}
-
-/// What a figure is called whose name is that of another column.
-pub(crate) fn of_robot(figure: &str) -> String {
-    format!("robot.{figure}")
 }
 
 fn column(name: &str, cells: Cells) -> Column {

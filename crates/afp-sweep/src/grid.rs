@@ -9,7 +9,7 @@ use afp_excerpt::words::shell_word;
 use afp_run::options::{Failure, Press, unquoted};
 use afp_run::world::LoadedWorld;
 
-use crate::ranges::Seeds;
+use crate::seeds::Seeds;
 
 /// Whole numbers below this are exact as floats.
 const EXACT: f64 = 9_007_199_254_740_992.0;

@@ -19,6 +19,7 @@ mod journal;
 mod outcome;
 mod output_files;
 mod ranges;
+mod seeds;
 mod setting;
 mod table;
 
@@ -30,7 +31,8 @@ pub use header::{Header, Parts};
 pub use journal::{Journal, JournalError};
 pub use outcome::{Ending, Outcome};
 pub use output_files::{Make, OutputFiles};
-pub use ranges::{Seeds, axis, seeds, worlds};
+pub use ranges::{axis, seeds, worlds};
+pub use seeds::Seeds;
 pub use setting::Setting;
 pub use table::to_csv;
 #[cfg(feature = "parquet")]

@@ -5,7 +5,24 @@ use std::collections::BTreeMap;
 use afp_session::{FigureValue, Figures};
 use serde::{Deserialize, Serialize};
 
-use crate::columns::{FIXED, of_robot};
+/// The columns that each table has.
+pub(crate) const FIXED: [&str; 15] = [
+    "run",
+    "world",
+    "seed",
+    "ending",
+    "where",
+    "why",
+    "time_s",
+    "distance_m",
+    "collisions",
+    "touched",
+    "interruptions",
+    "deadline_misses",
+    "trace",
+    "command",
+    "took_s",
+];
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -116,6 +133,11 @@ pub(crate) fn numbers(figures: &Figures) -> BTreeMap<String, Option<f64>> {
     }
     let own = |name: String| if FIXED.contains(&&*name) { of_robot(&name) } else { name };
     all.into_iter().map(|(name, number)| (own(name), number)).collect()
+}
+
+/// What a figure is called whose name is that of another column.
+pub(crate) fn of_robot(figure: &str) -> String {
+    format!("robot.{figure}")
 }
 
 /// What the robot touched, and for how long altogether, seconds.

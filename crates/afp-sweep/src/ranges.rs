@@ -1,86 +1,14 @@
 //! Seeds, worlds and values as people write them: `0..1000`, `random:7..99`, `distance=20cm..60cm:5cm`.
 
-use std::collections::BTreeSet;
-use std::fmt;
-use std::ops::Range;
-
 use afp_run::options::unquoted;
 
 use crate::grid::{Axis, Point};
+use crate::seeds::Seeds;
 
 /// A range whose step nobody gave has so many values.
 const POINTS: u64 = 5;
 /// More values than this are a mistake.
 const MOST: f64 = 1e6;
-
-/// The seeds of a sweep, each once.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Seeds(Kind);
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-enum Kind {
-    /// One after the other.
-    Range(Range<u64>),
-    /// Any others, in their order.
-    List(Vec<u64>),
-}
-
-impl Seeds {
-    /// Seeds from the first up to, and without, the second.
-    pub fn new(range: Range<u64>) -> Self {
-        Seeds(Kind::Range(range))
-    }
-
-    /// Seeds in that order; those that follow one another are the same as their range.
-    ///
-    /// # Errors
-    /// A seed that stands there twice: its run would be there twice.
-    pub fn list(seeds: Vec<u64>) -> Result<Self, String> {
-        let mut known = BTreeSet::new();
-        if let Some(twice) = seeds.iter().find(|seed| !known.insert(**seed)) {
-            return Err(format!("the seed {twice} is there twice"));
-        }
-        let follow =
-            seeds.windows(2).all(|pair| matches!(pair, [a, b] if a.checked_add(1) == Some(*b)));
-        Ok(match (seeds.first(), seeds.last().and_then(|last| last.checked_add(1))) {
-            (Some(first), Some(end)) if follow => Seeds::new(*first..end),
-            _ => Seeds(Kind::List(seeds)),
-        })
-    }
-
-    /// How many there are.
-    pub fn len(&self) -> u64 {
-        match &self.0 {
-            Kind::Range(range) => range.end.saturating_sub(range.start),
-            Kind::List(seeds) => seeds.len() as u64,
-        }
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// One of them, from 0.
-    pub fn nth(&self, number: u64) -> u64 {
-        match &self.0 {
-            Kind::Range(range) => range.start.saturating_add(number),
-            Kind::List(seeds) => seeds.get(number as usize).copied().unwrap_or_default(),
-        }
-    }
-}
-
-impl fmt::Display for Seeds {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
-            Kind::Range(range) => write!(f, "{}..{}", range.start, range.end),
-            Kind::List(seeds) => {
-                let seeds: Vec<_> = seeds.iter().map(u64::to_string).collect();
-                f.write_str(&seeds.join(","))
-            }
-        }
-    }
-}
 
 /// `0..1000` (the last is 999), `0..=999`, one seed, or several of these with commas between them.
 ///
