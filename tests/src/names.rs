@@ -1,6 +1,6 @@
 //! The names behind the ids of a plan, line by line, so that those of both back ends compare.
 
-use afp_core::trace::{ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Names, TraceEntryId};
+use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome, TraceEntryId};
 
 use crate::platform::Log;
 
@@ -32,10 +32,10 @@ pub fn note(names: &impl Names, log: &Log) {
 fn component(names: &impl Names, id: ComponentId) -> String {
     let component = names.component(id);
     let special = match component.kind {
-        ComponentKind::Supervisor => DEADLINE_MISSED,
-        _ => ERROR,
+        ComponentKind::Supervisor => Outcome::DeadlineMissed,
+        _ => Outcome::Error,
     };
-    let outcomes = (0..MANY).chain([special]).filter_map(|outcome| {
+    let outcomes = (0..MANY).map(Outcome::Declared).chain([special]).filter_map(|outcome| {
         let (name, target) = (names.outcome(id, outcome), names.target(id, outcome));
         (!name.is_empty()).then(|| format!(" {name} -> {target}"))
     });

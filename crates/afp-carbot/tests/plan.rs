@@ -7,7 +7,7 @@ mod plan {
 use afp_carbot::Carbot;
 use afp_core::quantity::Length;
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{ComponentId, Names};
+use afp_core::trace::{ComponentId, Names, Outcome};
 use plan::WallFollowing;
 
 /// Compiles only if every Carbot can run the plan.
@@ -21,7 +21,7 @@ fn names_are_those_of_the_text() {
     let names = plan.names();
     assert_eq!(names.components(), 11);
     assert_eq!(names.component(ComponentId(9)).path, "searchFirstWall.checkLane");
-    assert_eq!(names.target(ComponentId(3), 1), "turnAfterWallLost");
+    assert_eq!(names.target(ComponentId(3), Outcome::Declared(1)), "turnAfterWallLost");
     assert_eq!(plan.walldist(), None);
     plan.set_walldist(Length::from_si(0.25)).unwrap();
     assert_eq!(plan.walldist(), Some(Length::from_si(0.25)));

@@ -23,10 +23,46 @@ pub struct ComponentId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TraceEntryId(pub u32);
 
-/// The outcome number that stands for `DeadlineMissed` of a supervisor.
-pub const DEADLINE_MISSED: u16 = u16::MAX;
-/// The outcome number that stands for the `Error` of an element.
-pub const ERROR: u16 = u16::MAX - 1;
+/// Where an edge starts: a state or event of a component, or what every element or supervisor has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Outcome {
+    /// A state or event that the template declares, by position. Of a sub-plan 0 is `OK` and 1 `Interrupted`.
+    Declared(u16),
+    /// The `Error` of an element.
+    Error,
+    /// The `DeadlineMissed` of a supervisor.
+    DeadlineMissed,
+}
+
+impl Outcome {
+    /// The number that stands for the outcome in logs.
+    pub const fn number(self) -> u16 {
+        match self {
+            Outcome::Declared(position) => position,
+            Outcome::Error => u16::MAX - 1,
+            Outcome::DeadlineMissed => u16::MAX,
+        }
+    }
+
+    /// The outcome of a number from [`Outcome::number`].
+    pub const fn from_number(number: u16) -> Self {
+        match number {
+            u16::MAX => Outcome::DeadlineMissed,
+            position if position == Outcome::Error.number() => Outcome::Error,
+            position => Outcome::Declared(position),
+        }
+    }
+}
+
+/// The states or events that a component's template declares, with their names.
+pub fn declared<N: Names + ?Sized>(
+    names: &N,
+    id: ComponentId,
+) -> impl Iterator<Item = (Outcome, &str)> {
+    let outcomes = (0..u16::MAX).map(Outcome::Declared);
+    let named = outcomes.map(move |outcome| (outcome, names.outcome(id, outcome)));
+    named.take_while(|(_, name)| !name.is_empty())
+}
 
 /// How a plan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,8 +89,8 @@ pub enum Author {
 pub enum Verdict {
     /// Nothing.
     Clear,
-    /// This event, by position in the template.
-    Event(u16),
+    /// This event.
+    Event(Outcome),
     /// It failed.
     Fault(Fault),
 }
@@ -87,7 +123,7 @@ pub enum Record<'a> {
         /// The supervisor or actor.
         component: ComponentId,
         /// The event or state.
-        outcome: u16,
+        outcome: Outcome,
     },
     /// A supervisor was polled.
     Polled {
@@ -111,8 +147,8 @@ pub enum Record<'a> {
     Event {
         /// The supervisor.
         supervisor: ComponentId,
-        /// The event, or [`DEADLINE_MISSED`].
-        event: u16,
+        /// The event.
+        event: Outcome,
         /// The element of the same plan that is active or being entered, which decides where the event leads.
         element: ComponentId,
     },
@@ -121,8 +157,8 @@ pub enum Record<'a> {
     AlreadyThere {
         /// The supervisor.
         supervisor: ComponentId,
-        /// The event, or [`DEADLINE_MISSED`].
-        event: u16,
+        /// The event.
+        event: Outcome,
         /// That element.
         element: ComponentId,
     },
@@ -136,7 +172,7 @@ pub enum Record<'a> {
         /// The element.
         element: ComponentId,
         /// The state.
-        state: u16,
+        state: Outcome,
     },
     /// An entry changed; all entries of one commit follow one another.
     Committed {
@@ -170,7 +206,7 @@ pub enum Record<'a> {
         /// The supervisor that saw a reason.
         supervisor: ComponentId,
         /// The event.
-        event: u16,
+        event: Outcome,
     },
     /// An element goes on after an event that led to `resume`.
     Resumed {
@@ -335,10 +371,22 @@ pub struct TextPlace<'a> {
 pub struct Reaction<'a> {
     /// The supervisor.
     pub supervisor: ComponentId,
-    /// The event, or [`DEADLINE_MISSED`].
-    pub outcome: u16,
+    /// The event.
+    pub outcome: Outcome,
     /// Where it leads, as [`Names::target`] says it.
     pub target: &'a str,
+}
+
+impl<'a> Reaction<'a> {
+    /// A row of a generated plan: an event by position, none for a missed deadline.
+    #[doc(hidden)]
+    pub const fn new(supervisor: ComponentId, event: Option<u16>, target: &'a str) -> Self {
+        let outcome = match event {
+            Some(position) => Outcome::Declared(position),
+            None => Outcome::DeadlineMissed,
+        };
+        Reaction { supervisor, outcome, target }
+    }
 }
 
 impl ComponentName<'_> {
@@ -366,16 +414,15 @@ pub trait Names {
     fn components(&self) -> u32;
     /// A component.
     fn component(&self, id: ComponentId) -> ComponentName<'_>;
-    /// A state or event of a component, by position in its template; `DeadlineMissed` and `Error`
-    /// go by their own numbers.
-    fn outcome(&self, id: ComponentId, outcome: u16) -> &str;
+    /// A state or event of a component.
+    fn outcome(&self, id: ComponentId, outcome: Outcome) -> &str;
     /// Where an outcome leads: an element's name, `terminate`, `fail`, `ignore`, `resume`; empty where unconnected.
     /// Elements may lead events of global supervisors elsewhere, see [`Names::target_at`].
-    fn target(&self, id: ComponentId, outcome: u16) -> &str;
+    fn target(&self, id: ComponentId, outcome: Outcome) -> &str;
     /// The `n`-th edge of an element that holds instead of one of a global supervisor; `None` behind the last.
     fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>>;
     /// Where an outcome leads while an element of the same plan is active or being entered.
-    fn target_at(&self, id: ComponentId, outcome: u16, element: ComponentId) -> &str {
+    fn target_at(&self, id: ComponentId, outcome: Outcome, element: ComponentId) -> &str {
         let mut reactions = (0..u16::MAX).map_while(|n| self.reaction(element, n));
         let here = reactions.find(|each| (each.supervisor, each.outcome) == (id, outcome));
         here.map_or_else(|| self.target(id, outcome), |reaction| reaction.target)

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use afp_core::Fault;
-use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR};
+use afp_core::trace::{ComponentId, Outcome};
 use afp_session::{EndingKind, EventKind, RunEvent};
 
 use crate::adapter::{ClientId, Wanted};
@@ -235,7 +235,7 @@ impl Filters {
 
 /// Where an event happens.
 fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
-    let (id, outcome) = (event.component_id, event.outcome_id);
+    let (id, outcome) = (event.component_id, Outcome::from_number(event.outcome_id));
     let all = match event.kind {
         EventKind::Started => [Some(Spot::Start(id)), None, None],
         EventKind::Finished => [Some(Spot::Reports(id)), Some(Spot::Outcome(id, outcome)), None],
@@ -250,12 +250,12 @@ fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
         }
         // The plan itself ends, whether something of it failed or it all.
         EventKind::Faulted if id == ComponentId(0) => [None; 3],
-        EventKind::Faulted => [Some(Spot::Outcome(id, ERROR)), None, None],
+        EventKind::Faulted => [Some(Spot::Outcome(id, Outcome::Error)), None, None],
         EventKind::Ended if id == ComponentId(0) => {
             let failed = event.ending == Some(EndingKind::Error);
-            [failed.then_some(Spot::Outcome(id, ERROR)), None, None]
+            [failed.then_some(Spot::Outcome(id, Outcome::Error)), None, None]
         }
-        EventKind::Missed => [Some(Spot::Outcome(id, DEADLINE_MISSED)), None, None],
+        EventKind::Missed => [Some(Spot::Outcome(id, Outcome::DeadlineMissed)), None, None],
         // That a plan begins with its initial values is no writing.
         EventKind::Committed => {
             let entry = program.entries.get(event.entry_id.0 as usize);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use afp_core::Duration;
-use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR, TraceEntryId, TraceHash};
+use afp_core::trace::{ComponentId, Outcome, TraceEntryId, TraceHash};
 use afp_dsl::graph::{Component, EntryKind, Graph, PlanId};
 use afp_dsl::timing::{SupervisorTiming, timing};
 use afp_dsl::types::Type;
@@ -56,7 +56,7 @@ pub struct Unit {
     /// States or events: name and target.
     pub outcomes: Vec<(String, String)>,
     /// Its edges that hold instead of those of supervisors of its plan: supervisor, event and target.
-    pub reactions: Vec<(ComponentId, u16, String)>,
+    pub reactions: Vec<(ComponentId, Outcome, String)>,
     /// How often a supervisor is asked, and what follows from it.
     pub times: Option<Times>,
     /// Where it stands.
@@ -110,11 +110,11 @@ pub enum Spot {
     /// An actor or a sub-plan starts.
     Start(ComponentId),
     /// An element reaches a state, an event of a supervisor is taken.
-    Outcome(ComponentId, u16),
+    Outcome(ComponentId, Outcome),
     /// Any event of a supervisor is taken, a computation is done.
     Reports(ComponentId),
     /// An event of a supervisor is taken while the first one is active, which reacts to it by itself.
-    Reaction(ComponentId, ComponentId, u16),
+    Reaction(ComponentId, ComponentId, Outcome),
     /// An entry is written.
     Commit(TraceEntryId),
 }
@@ -180,16 +180,19 @@ impl Program {
     /// What can happen where a component and its edges stand.
     fn add_component(&mut self, id: ComponentId, place: &unfold::Place, texts: &Texts<'_>) {
         let Some(kind) = self.unit(id).map(|unit| unit.kind) else { return };
-        let special = if kind == ComponentKind::Supervisor { DEADLINE_MISSED } else { ERROR };
+        let special = match kind {
+            ComponentKind::Supervisor => Outcome::DeadlineMissed,
+            _ => Outcome::Error,
+        };
         self.add(texts.place(place.span), first(id, kind));
-        let outcomes = (0..).zip(&place.edges.outcomes);
+        let outcomes = (0..).map(Outcome::Declared).zip(&place.edges.outcomes);
         for (outcome, span) in outcomes.chain([(special, &place.edges.extra)]) {
             let at = span.map(|span| texts.place(span));
             at.into_iter().for_each(|at| self.add_edge(at, Spot::Outcome(id, outcome)));
         }
         for (edge, _, span) in &place.reactions {
             let (supervisor, event) = (ComponentId(edge.supervisor), edge.event);
-            let spot = Spot::Reaction(id, supervisor, event.unwrap_or(DEADLINE_MISSED));
+            let spot = Spot::Reaction(id, supervisor, reacts_on(event));
             self.add_edge(texts.place(*span), spot);
         }
     }
@@ -324,17 +327,17 @@ impl Program {
             let plan = self.units.first().filter(|plan| plan.path == component);
             return plan
                 .filter(|_| outcome == "Error")
-                .map(|_| Spot::Outcome(ComponentId(0), ERROR));
+                .map(|_| Spot::Outcome(ComponentId(0), Outcome::Error));
         };
         let at = at + 1;
         let known = self.units[at].outcomes.iter().position(|(name, _)| name == outcome);
-        let number = match (known, outcome) {
-            (Some(number), _) => u16::try_from(number).ok()?,
-            (None, "Error") => ERROR,
-            (None, "DeadlineMissed") => DEADLINE_MISSED,
+        let outcome = match (known, outcome) {
+            (Some(number), _) => Outcome::Declared(u16::try_from(number).ok()?),
+            (None, "Error") => Outcome::Error,
+            (None, "DeadlineMissed") => Outcome::DeadlineMissed,
             _ => return None,
         };
-        Some(Spot::Outcome(ComponentId(at as u32), number))
+        Some(Spot::Outcome(ComponentId(at as u32), outcome))
     }
 
     /// The entry that a name means inside a plan; a whole path finds it from everywhere.
@@ -367,8 +370,12 @@ fn times(graph: &Graph) -> BTreeMap<Span, Times> {
     timing(graph, None).supervisors.into_iter().map(row).collect()
 }
 
-fn reaction((edge, target): (Reaction, String)) -> (ComponentId, u16, String) {
-    (ComponentId(edge.supervisor), edge.event.unwrap_or(DEADLINE_MISSED), target)
+fn reaction((edge, target): (Reaction, String)) -> (ComponentId, Outcome, String) {
+    (ComponentId(edge.supervisor), reacts_on(edge.event), target)
+}
+
+fn reacts_on(event: Option<u16>) -> Outcome {
+    event.map_or(Outcome::DeadlineMissed, Outcome::Declared)
 }
 
 /// What happens at the line where a component is declared.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use afp_core::trace::{ComponentId, TraceEntryId};
+use afp_core::trace::{ComponentId, Outcome, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::unfold::ComponentKind;
 use afp_session::{Datum, EndingKind, EventKind, Miss, RunEvent};
@@ -26,9 +26,9 @@ pub struct State {
     /// Deadlines that a supervisor missed, and the last of them.
     misses: BTreeMap<ComponentId, (u64, Miss)>,
     /// When each state was reached, and each event taken by its own edge, last.
-    reached: BTreeMap<(ComponentId, u16), Instant>,
+    reached: BTreeMap<(ComponentId, Outcome), Instant>,
     /// When each event was taken last to which an element reacts by itself: element, supervisor, event.
-    reacted: BTreeMap<(ComponentId, ComponentId, u16), Instant>,
+    reacted: BTreeMap<(ComponentId, ComponentId, Outcome), Instant>,
     /// The last edge that was taken in each plan.
     taken: BTreeMap<ComponentId, Taken>,
     /// The edge by which each element became active last; none where its plan began with it.
@@ -102,9 +102,9 @@ impl State {
             // It is done at once, without a start.
             self.begin(by, event.at, program);
         }
-        let (element, outcome) = (event.element_id, event.outcome_id);
+        let (element, outcome) = (event.element_id, Outcome::from_number(event.outcome_id));
         let reactions = program.unit(element).map_or(&[][..], |unit| &unit.reactions);
-        let reacts = |(of, to, _): &(ComponentId, u16, String)| (*of, *to) == (by, outcome);
+        let reacts = |(of, to, _): &(ComponentId, Outcome, String)| (*of, *to) == (by, outcome);
         match event.kind == EventKind::Event && reactions.iter().any(reacts) {
             true => self.reacted.insert((element, by, outcome), event.at),
             false => self.reached.insert((by, outcome), event.at),
@@ -227,13 +227,13 @@ impl State {
         &self,
         element: ComponentId,
         supervisor: ComponentId,
-        event: u16,
+        event: Outcome,
     ) -> Option<Instant> {
         self.reacted.get(&(element, supervisor, event)).copied()
     }
 
     /// When a state was reached, or an event taken by its own edge, last.
-    pub fn reached(&self, id: ComponentId, outcome: u16) -> Option<Instant> {
+    pub fn reached(&self, id: ComponentId, outcome: Outcome) -> Option<Instant> {
         self.reached.get(&(id, outcome)).copied()
     }
 

@@ -1,7 +1,7 @@
 //! What happened as messages of the file, and back: names beside ids, so that a reader needs no tables.
 
 use afp_core::trace::{
-    self, Cause, ComponentId, ComponentName, ERROR, EntryName, Names, TraceEntryId,
+    self, Cause, ComponentId, ComponentName, EntryName, Names, TraceEntryId, declared,
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_session::{
@@ -313,17 +313,17 @@ pub(crate) fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: Valu
 /// What the plan consists of, as a message.
 pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     let outcomes = |id| {
-        let named = |n| Outcome {
-            name: names.outcome(id, n).to_owned(),
-            target: names.target(id, n).to_owned(),
+        let named = |(outcome, name): (_, &str)| Outcome {
+            name: name.to_owned(),
+            target: names.target(id, outcome).to_owned(),
         };
-        (0..ERROR).map(named).take_while(|outcome| !outcome.name.is_empty()).collect()
+        declared(names, id).map(named).collect()
     };
     let reactions = |id| {
         let edges = (0..u16::MAX).map_while(|n| names.reaction(id, n));
         let edges = edges.map(|edge| Reaction {
             supervisor_id: edge.supervisor.0,
-            outcome_id: edge.outcome.into(),
+            outcome_id: edge.outcome.number().into(),
             target: edge.target.to_owned(),
         });
         edges.collect()

@@ -1,7 +1,7 @@
 //! An owned copy of a plan's names, for threads that outlive the step that made a record.
 
 use afp_core::trace::{
-    ComponentId, ComponentKind, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Names,
+    ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome,
     PortName, Reaction, TextPlace, TraceEntryId,
 };
 
@@ -91,12 +91,12 @@ impl OwnedNames {
         self.components.get(id.0 as usize)
     }
 
-    fn outcomes(&self, id: ComponentId, outcome: u16) -> Option<&(String, String)> {
+    fn outcomes(&self, id: ComponentId, outcome: Outcome) -> Option<&(String, String)> {
         let component = self.get(id)?;
         match outcome {
-            DEADLINE_MISSED => Some(&component.missed),
-            ERROR => Some(&component.error),
-            other => component.outcomes.get(usize::from(other)),
+            Outcome::DeadlineMissed => Some(&component.missed),
+            Outcome::Error => Some(&component.error),
+            Outcome::Declared(position) => component.outcomes.get(usize::from(position)),
         }
     }
 }
@@ -109,9 +109,9 @@ impl Component {
             path: path.to_owned(),
             kind,
             template: template.to_owned(),
-            outcomes: (0..ERROR).map(both).take_while(|(name, _)| !name.is_empty()).collect(),
-            missed: both(DEADLINE_MISSED),
-            error: both(ERROR),
+            outcomes: declared(names, id).map(|(outcome, _)| both(outcome)).collect(),
+            missed: both(Outcome::DeadlineMissed),
+            error: both(Outcome::Error),
             inputs: (0..u16::MAX)
                 .map(|port| Port {
                     choices: until_empty(|value| names.input_choice(id, port, value)),
@@ -186,10 +186,10 @@ fn until_empty<'a>(name: impl Fn(u16) -> &'a str) -> Vec<String> {
     (0..u16::MAX).map(name).take_while(|name| !name.is_empty()).map(str::to_owned).collect()
 }
 
-fn reaction(row: &plan_table::Reaction) -> (ComponentId, u16, String) {
+fn reaction(row: &plan_table::Reaction) -> (ComponentId, Outcome, String) {
     // Positions are below this; a damaged one is that of nothing.
     let outcome = u16::try_from(row.outcome_id).unwrap_or(u16::MAX);
-    (ComponentId(row.supervisor_id), outcome, row.target.clone())
+    (ComponentId(row.supervisor_id), Outcome::from_number(outcome), row.target.clone())
 }
 
 fn text(found: Option<&String>) -> &str {
@@ -210,11 +210,11 @@ impl Names for OwnedNames {
         }
     }
 
-    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+    fn outcome(&self, id: ComponentId, outcome: Outcome) -> &str {
         text(self.outcomes(id, outcome).map(|(name, _)| name))
     }
 
-    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+    fn target(&self, id: ComponentId, outcome: Outcome) -> &str {
         text(self.outcomes(id, outcome).map(|(_, target)| target))
     }
 

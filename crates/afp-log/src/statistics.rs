@@ -1,7 +1,7 @@
 //! What a log says about deadlines, interruptions and coverage.
 
 use afp_core::Duration;
-use afp_core::trace::{ComponentId, ComponentKind, Names};
+use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome};
 use afp_session::{Counts, Usage};
 
 use crate::read::LogData;
@@ -76,10 +76,10 @@ pub fn statistics(log: &LogData) -> Statistics {
     for (id, usage) in (0..).map(ComponentId).zip(&counts.components) {
         let row = names.component(id);
         let path = row.path.to_owned();
-        let own = (0..).take(usage.outcomes.len()).map(|outcome| {
+        let own = (0..).map(Outcome::Declared).zip(&usage.outcomes).map(|(outcome, count)| {
             let count = match row.kind {
                 ComponentKind::Supervisor => counts.by_own_edge(id, outcome),
-                _ => usage.outcomes[usize::from(outcome)],
+                _ => *count,
             };
             let outcome_name = format!("{path}.{}", names.outcome(id, outcome));
             (count, names.target(id, outcome), outcome_name)

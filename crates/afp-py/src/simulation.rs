@@ -365,7 +365,7 @@ impl Runner {
         let mut injection = self.lock()?.injection(component, outcome)?;
         // Reading values may run Python, as above.
         if let Some(graph) = &self.compiled.graph {
-            let of = (component, outcome, injection.outcome);
+            let of = (component, outcome, injection.outcome.number());
             injection.outputs = stimuli::outputs(graph, of, outputs)?;
         }
         let mut session = self.lock()?;

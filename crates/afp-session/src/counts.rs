@@ -1,7 +1,7 @@
 //! How often a run used each part of its plan, and where it ended: the one place that counts.
 
 use afp_core::trace::{
-    self, Cause, ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Ending, Names, Record,
+    self, Cause, ComponentId, ComponentKind, Ending, Names, Outcome, Record, declared,
 };
 use afp_core::{Duration, Failure, Fault, Instant};
 
@@ -64,8 +64,8 @@ pub struct Usage {
 pub struct Reaction {
     /// The supervisor.
     pub supervisor: ComponentId,
-    /// The event, or [`DEADLINE_MISSED`].
-    pub outcome: u16,
+    /// The event.
+    pub outcome: Outcome,
     /// How often it was taken.
     pub count: u64,
 }
@@ -74,7 +74,7 @@ pub struct Reaction {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum LeftFor {
     /// A state or event.
-    Outcome(ComponentId, u16),
+    Outcome(ComponentId, Outcome),
     /// A fault of a component.
     Fault(ComponentId, Fault),
     /// A request from outside.
@@ -92,7 +92,6 @@ impl Counts {
     /// Nothing has happened yet.
     pub fn new(names: &dyn Names) -> Self {
         let ids = || (0..names.components()).map(ComponentId);
-        let known = |id| (0..ERROR).take_while(|n| !names.outcome(id, *n).is_empty()).count();
         let reactions = |id| {
             let edges = (0..u16::MAX).map_while(move |n| names.reaction(id, n));
             let none = |edge: trace::Reaction<'_>| Reaction {
@@ -103,7 +102,7 @@ impl Counts {
             edges.map(none).collect()
         };
         let usage = |id| Usage {
-            outcomes: vec![0; known(id)],
+            outcomes: vec![0; declared(names, id).count()],
             reactions: reactions(id),
             ..Usage::default()
         };
@@ -280,14 +279,15 @@ impl Counts {
         inner
     }
 
-    fn reached(&mut self, id: ComponentId, outcome: u16) {
+    fn reached(&mut self, id: ComponentId, outcome: Outcome) {
         self.with(id, |usage| match outcome {
-            DEADLINE_MISSED => usage.deadline_events += 1,
-            outcome => {
-                if let Some(count) = usage.outcomes.get_mut(usize::from(outcome)) {
+            Outcome::DeadlineMissed => usage.deadline_events += 1,
+            Outcome::Declared(position) => {
+                if let Some(count) = usage.outcomes.get_mut(usize::from(position)) {
                     *count += 1;
                 }
             }
+            Outcome::Error => {}
         });
     }
 }
@@ -295,11 +295,14 @@ impl Counts {
 impl Counts {
     /// How often an event, or a missed deadline, of a supervisor led where its own edge leads, which no element
     /// replaced.
-    pub fn by_own_edge(&self, supervisor: ComponentId, outcome: u16) -> u64 {
+    pub fn by_own_edge(&self, supervisor: ComponentId, outcome: Outcome) -> u64 {
         let Some(usage) = self.components.get(supervisor.0 as usize) else { return 0 };
         let all = match outcome {
-            DEADLINE_MISSED => usage.deadline_events,
-            outcome => usage.outcomes.get(usize::from(outcome)).copied().unwrap_or(0),
+            Outcome::DeadlineMissed => usage.deadline_events,
+            Outcome::Declared(position) => {
+                usage.outcomes.get(usize::from(position)).copied().unwrap_or(0)
+            }
+            Outcome::Error => 0,
         };
         let edges = self.components.iter().flat_map(|usage| &usage.reactions);
         let replaced =
@@ -307,7 +310,7 @@ impl Counts {
         all - replaced.map(|edge| edge.count).sum::<u64>().min(all)
     }
 
-    fn reacted(&mut self, supervisor: ComponentId, outcome: u16, element: ComponentId) {
+    fn reacted(&mut self, supervisor: ComponentId, outcome: Outcome, element: ComponentId) {
         self.with(element, |usage| {
             let mut edges = usage.reactions.iter_mut();
             let edge = edges.find(|each| (each.supervisor, each.outcome) == (supervisor, outcome));

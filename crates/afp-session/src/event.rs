@@ -4,7 +4,9 @@
 
 mod named;
 
-use afp_core::trace::{Author, Cause, ComponentId, Ending, Names, Record, TraceEntryId, Verdict};
+use afp_core::trace::{
+    Author, Cause, ComponentId, Ending, Names, Outcome, Record, TraceEntryId, Verdict,
+};
 use afp_core::{Duration, Fault, Instant, Value, ValueRef};
 
 use crate::stimulus::Stimulus;
@@ -357,7 +359,8 @@ impl RunEvent {
     /// The record behind it, as far as counting matters: without values, and with one fault for all. `None` where
     /// it says nothing about components.
     pub fn record(&self) -> Option<Record<'static>> {
-        let (component, outcome, none) = (self.component_id, self.outcome_id, ValueRef::Unset);
+        let (component, none) = (self.component_id, ValueRef::Unset);
+        let outcome = Outcome::from_number(self.outcome_id);
         Some(match self.kind {
             EventKind::Started => Record::Started { component },
             EventKind::Finished => Record::Finished { element: component, state: outcome },

@@ -10,7 +10,7 @@ use afp_core::devices::{ControlId, DeviceRow, controls, faults, find_control, fi
 use afp_core::trace::ComponentKind;
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
 #[cfg(feature = "load")]
-use afp_core::trace::{DEADLINE_MISSED, ERROR};
+use afp_core::trace::{Outcome, declared};
 use afp_types::Measured;
 
 use crate::event::{Datum, Holder};
@@ -193,11 +193,10 @@ fn injection(
     outputs: &[(u16, Datum)],
 ) -> Result<Request, RequestError> {
     let component = find(names, path).ok_or(RequestError::NoElement)?;
-    let named = |number| names.outcome(component, number);
-    let outcome = (0..ERROR)
-        .take_while(|number| !named(*number).is_empty())
-        .chain([ERROR, DEADLINE_MISSED])
-        .find(|number| named(*number) == outcome)
+    let known = declared(names, component).map(|(known, _)| known);
+    let outcome = known
+        .chain([Outcome::Error, Outcome::DeadlineMissed])
+        .find(|known| names.outcome(component, *known) == outcome)
         .ok_or_else(|| RequestError::NoOutcome(format!("{path}.{outcome}")))?;
     let outputs = outputs
         .iter()

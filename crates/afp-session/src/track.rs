@@ -2,7 +2,7 @@
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, find_signal, signals};
-use afp_core::trace::{ComponentId, ComponentKind, Names, Record};
+use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome, Record};
 
 use crate::observer::{NamedRecord, Observer, Sampling};
 use crate::sample::{Pose2, SampleRef, Shape};
@@ -30,7 +30,7 @@ pub struct Mark {
     /// Its supervisor.
     pub supervisor: ComponentId,
     /// The event.
-    pub event: u16,
+    pub event: Outcome,
 }
 
 /// Follows the pose of a robot that signals one (`robot.pose`), every [`SAMPLE`]; or a run that is over, from what is told of

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use afp_core::devices::{ControlId, FaultId, SignalId};
-use afp_core::trace::{Ending, Record, Verdict};
+use afp_core::trace::{Ending, Outcome, Record, Verdict};
 use afp_core::{Duration, Fault, Instant, Platform, SetError, Text, Value, WriteError};
 use afp_session::{
     AnySession, Applied, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError,
@@ -176,7 +176,7 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
     // `rest` does not run yet.
     let injection = afp::load::Injection {
         component: component(&session, "rest"),
-        outcome: 0,
+        outcome: Outcome::Declared(0),
         outputs: Vec::new(),
     };
     let id = session.at(at(50), Request::Inject(injection)).unwrap();
@@ -187,7 +187,7 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
     // Of two outcomes at one instant the first comes; what is said names it as scenarios do.
     let injection = || afp::load::Injection {
         component: component(&session, "go"),
-        outcome: 0,
+        outcome: Outcome::Declared(0),
         outputs: Vec::new(),
     };
     let twice = [injection(), injection()];

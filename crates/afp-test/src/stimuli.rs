@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use afp::load::{Injection, value_of};
 use afp_core::devices::{find_control, find_fault};
-use afp_core::trace::{ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Names};
+use afp_core::trace::{self, ComponentId, ComponentKind, Names};
 use afp_core::{Duration, Instant};
 use afp_dsl::scenario::{self, Action, Failure, MomentId, Outcome, Part, Scenario};
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
@@ -60,9 +60,9 @@ fn injected(injection: &scenario::Injection, names: &dyn Names) -> Injection {
     Injection {
         component,
         outcome: match (injection.outcome, names.component(component).kind) {
-            (Outcome::Declared(outcome), _) => outcome,
-            (Outcome::Special, ComponentKind::Supervisor) => DEADLINE_MISSED,
-            (Outcome::Special, _) => ERROR,
+            (Outcome::Declared(outcome), _) => trace::Outcome::Declared(outcome),
+            (Outcome::Special, ComponentKind::Supervisor) => trace::Outcome::DeadlineMissed,
+            (Outcome::Special, _) => trace::Outcome::Error,
         },
         outputs: injection.outputs.iter().map(|(port, value)| (*port, value_of(value))).collect(),
     }

@@ -9,7 +9,7 @@ mod tests;
 
 use afp_core::devices::SignalId;
 use afp_core::trace::{
-    Author, ComponentId, DEADLINE_MISSED, ERROR, Ending, Names, Record, TraceEntryId,
+    self, Author, ComponentId, Ending, Names, Record, TraceEntryId,
 };
 use afp_core::{Instant, Value, ValueRef};
 use afp_dsl::scenario::{
@@ -381,11 +381,11 @@ fn constant(value: &Value) -> Option<Constant> {
     })
 }
 
-/// An outcome as the trace numbers it.
-fn cause(component: ComponentId, outcome: u16) -> Cause {
+/// An outcome of the trace.
+fn cause(component: ComponentId, outcome: trace::Outcome) -> Cause {
     let outcome = match outcome {
-        DEADLINE_MISSED | ERROR => Outcome::Special,
-        outcome => Outcome::Declared(outcome),
+        trace::Outcome::DeadlineMissed | trace::Outcome::Error => Outcome::Special,
+        trace::Outcome::Declared(position) => Outcome::Declared(position),
     };
     Cause { component: component.0, outcome: Some(outcome) }
 }

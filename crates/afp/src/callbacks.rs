@@ -6,7 +6,7 @@ use afp_core::Instant;
 use afp_core::ValueRef;
 use afp_core::rt::NamedPlan;
 use afp_core::trace::{
-    ComponentId, ComponentKind, DEADLINE_MISSED, ERROR, Names, Record, Sink, TraceEntryId,
+    ComponentId, ComponentKind, Names, Outcome, Record, Sink, TraceEntryId, declared,
 };
 
 /// A sink that calls functions when a component starts, reports a state or an event, or an entry
@@ -27,7 +27,7 @@ pub struct Callbacks<'a, N> {
 
 enum Call<'a> {
     Start(ComponentId, Box<dyn FnMut(Instant) + 'a>),
-    Outcome(ComponentId, u16, Box<dyn FnMut(Instant) + 'a>),
+    Outcome(ComponentId, Outcome, Box<dyn FnMut(Instant) + 'a>),
     Write(TraceEntryId, Box<dyn FnMut(Instant, ValueRef<'_>) + 'a>),
 }
 
@@ -110,13 +110,12 @@ impl<'a, N: Names> Callbacks<'a, N> {
         Ok(self)
     }
 
-    /// All that a component can report, by number.
-    fn outcomes(&self, id: ComponentId) -> Vec<(u16, &str)> {
-        let own = (0..).map(|each| (each, self.names.outcome(id, each)));
-        let own = own.take_while(|(_, name)| !name.is_empty());
+    /// All that a component can report.
+    fn outcomes(&self, id: ComponentId) -> Vec<(Outcome, &str)> {
+        let own = declared(&self.names, id);
         let is_supervisor = self.names.component(id).kind == ComponentKind::Supervisor;
-        let missed = is_supervisor.then_some((DEADLINE_MISSED, "DeadlineMissed"));
-        own.chain(missed).chain([(ERROR, "Error")]).collect()
+        let missed = is_supervisor.then_some((Outcome::DeadlineMissed, "DeadlineMissed"));
+        own.chain(missed).chain([(Outcome::Error, "Error")]).collect()
     }
 
     fn component(&self, path: &str) -> Result<ComponentId, UnknownName> {
@@ -139,13 +138,15 @@ impl<N> Sink for Callbacks<'_, N> {
                 _ => {}
             }),
             // It has been told when it was missed.
-            Record::Event { event: DEADLINE_MISSED, .. } => {}
+            Record::Event { event: Outcome::DeadlineMissed, .. } => {}
             Record::Event { supervisor: component, event: outcome, .. }
             | Record::Finished { element: component, state: outcome } => {
                 self.outcome(at, component, outcome);
             }
-            Record::Missed { supervisor, .. } => self.outcome(at, supervisor, DEADLINE_MISSED),
-            Record::Faulted { component, .. } => self.outcome(at, component, ERROR),
+            Record::Missed { supervisor, .. } => {
+                self.outcome(at, supervisor, Outcome::DeadlineMissed);
+            }
+            Record::Faulted { component, .. } => self.outcome(at, component, Outcome::Error),
             Record::Committed { entry, new, .. } => self.each(|call| match call {
                 Call::Write(id, call) if *id == entry => call(at, new),
                 _ => {}
@@ -156,7 +157,7 @@ impl<N> Sink for Callbacks<'_, N> {
 }
 
 impl<'a, N> Callbacks<'a, N> {
-    fn outcome(&mut self, at: Instant, component: ComponentId, outcome: u16) {
+    fn outcome(&mut self, at: Instant, component: ComponentId, outcome: Outcome) {
         self.each(|call| match call {
             Call::Outcome(id, number, call) if (*id, *number) == (component, outcome) => call(at),
             _ => {}

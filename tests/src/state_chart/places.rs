@@ -1,6 +1,6 @@
 //! Where the components of a running plan are in its chart.
 
-use afp_core::trace::{ComponentId, DEADLINE_MISSED};
+use afp_core::trace::{ComponentId, Outcome};
 use afp_dsl::graph::{Component, Graph, PlanId, TemplateId};
 
 /// A component of a running plan.
@@ -25,10 +25,13 @@ pub enum Kind {
 
 impl Place {
     /// The event by which a chart knows an outcome.
-    pub fn event(&self, outcome: u16) -> String {
+    pub fn event(&self, outcome: Outcome) -> String {
         let name = match outcome {
-            DEADLINE_MISSED => "DeadlineMissed",
-            outcome => self.outcomes.get(usize::from(outcome)).map_or("", String::as_str),
+            Outcome::DeadlineMissed => "DeadlineMissed",
+            Outcome::Declared(position) => {
+                self.outcomes.get(usize::from(position)).map_or("", String::as_str)
+            }
+            Outcome::Error => "",
         };
         format!("{}.{name}", self.path)
     }

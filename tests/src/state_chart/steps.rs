@@ -1,7 +1,7 @@
 //! From a trace to the events of a chart and to what must be active between them.
 
 use afp_core::Fault;
-use afp_core::trace::{ComponentId, Ending, Record};
+use afp_core::trace::{ComponentId, Ending, Outcome, Record};
 use serde_json::{Value, json};
 
 use super::places::{Kind, Place, Places};
@@ -10,12 +10,12 @@ use super::places::{Kind, Place, Places};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seen {
     StopRequested,
-    Event(ComponentId, u16),
-    AlreadyThere(ComponentId, u16),
+    Event(ComponentId, Outcome),
+    AlreadyThere(ComponentId, Outcome),
     Diverted(ComponentId),
     Resumed(ComponentId),
     Interrupted(ComponentId),
-    Finished(ComponentId, u16),
+    Finished(ComponentId, Outcome),
     Started(ComponentId),
     Faulted(ComponentId),
     Ended(ComponentId, Ending),

@@ -114,7 +114,6 @@ const TRACE: &[&str] = &[
     "ComponentId",
     "ComponentKind",
     "ComponentName",
-    "DEADLINE_MISSED",
     "EntryKind",
     "EntryName",
     "Reaction",

@@ -1,7 +1,7 @@
 //! The names that a trace shows, with all sub-plans unfolded.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::{ToTokens, quote};
+use quote::quote;
 
 use super::context::Context;
 use super::shared::units_name;
@@ -134,13 +134,11 @@ fn variants(ty: &Type) -> &[String] {
 /// An edge of an element that holds instead of one of a global supervisor.
 fn reaction(reaction: &Reaction, target: &str) -> TokenStream {
     let supervisor = Literal::u32_unsuffixed(reaction.supervisor);
-    let outcome = match reaction.event {
-        Some(event) => Literal::u16_unsuffixed(event).into_token_stream(),
-        None => quote!(DEADLINE_MISSED),
+    let event = match reaction.event.map(Literal::u16_unsuffixed) {
+        Some(event) => quote!(Some(#event)),
+        None => quote!(None),
     };
-    quote! {
-        Reaction { supervisor: ComponentId(#supervisor), outcome: #outcome, target: #target }
-    }
+    quote!(Reaction::new(ComponentId(#supervisor), #event, #target))
 }
 
 fn entry(names: &EntryNames, texts: &PlanTexts) -> TokenStream {

@@ -9,7 +9,7 @@ use super::{Edge, Level, Stop, component, supervisor_id};
 use crate::clock::Clock;
 use crate::fault::Fault;
 use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables, Target};
-use crate::trace::{Author, Ending, Record};
+use crate::trace::{Author, Ending, Outcome, Record};
 
 /// Whether an event with this target interrupts nothing yet.
 pub(super) fn is_held(t: &impl Tables, target: Target) -> bool {
@@ -27,7 +27,7 @@ impl<P: PlanState> Level<P> {
         &mut self,
         t: &P::Tables,
         supervisor: u16,
-        (event, target): (u16, Target),
+        (event, target): (Outcome, Target),
         moment: Moment,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), What>

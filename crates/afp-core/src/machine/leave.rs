@@ -3,7 +3,7 @@
 use super::{Edge, Flow, Level, Stop, component};
 use crate::fault::Fault;
 use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Run, Tables, Target};
-use crate::trace::{Author, Ending, Record};
+use crate::trace::{Author, Ending, Outcome, Record};
 
 impl<P: PlanState> Level<P> {
     /// The active element has finished or failed.
@@ -113,7 +113,7 @@ impl<P: PlanState> Level<P> {
         cx: &mut Cx<'_, R>,
     ) -> Edge {
         let id = component(cx, element);
-        cx.trace(&Record::Finished { element: id, state });
+        cx.trace(&Record::Finished { element: id, state: Outcome::Declared(state) });
         self.commit(Author::Component(id), cx);
         Edge { target: t.table().edge(row.states, state), ending: Ending::Ok }
     }

@@ -8,7 +8,7 @@ use crate::clock::Clock;
 use crate::fault::Fault;
 use crate::machine::Flow;
 use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, Run, SupervisorRow, Tables, Target};
-use crate::trace::{Author, Cause, DEADLINE_MISSED, Ending, Record, Sink, Verdict};
+use crate::trace::{Author, Cause, Ending, Outcome, Record, Sink, Verdict};
 
 /// What a sweep over the supervisors brought.
 pub(super) enum Seen {
@@ -29,9 +29,9 @@ pub(super) struct Found {
 /// What a supervisor found.
 pub(super) enum What {
     /// An event to take, outputs staged, and where it leads.
-    Event(u16, Target),
+    Event(Outcome, Target),
     /// An event that could have resumed, all of it committed, and the edge that it leads to instead.
-    Leads(u16, Result<Edge, Stop>),
+    Leads(Outcome, Result<Edge, Stop>),
     /// It failed.
     Fault(Fault),
 }
@@ -183,9 +183,10 @@ impl<P: PlanState> Level<P> {
             slot.next = release.next;
         }
         let deadline = release.at + row.deadline;
-        let (event, end) = match poll.fired.position() {
-            Some(DEADLINE_MISSED) => (None, poll.end.max(deadline + Duration::from_nanos(1))),
-            event => (event, poll.end),
+        let (event, end) = match poll.fired.outcome() {
+            Some(Outcome::Declared(event)) => (Some(event), poll.end),
+            Some(_) => (None, poll.end.max(deadline + Duration::from_nanos(1))),
+            None => (None, poll.end),
         };
         let late = end > deadline || release.skipped > 0;
         if late {
@@ -193,6 +194,7 @@ impl<P: PlanState> Level<P> {
         }
         if let Some(event) = event {
             let target = t.table().edge(row.events, event);
+            let event = Outcome::Declared(event);
             if takes(t, supervisor, event, target, moment, cx) {
                 if let Some(fault) = poll.fired.fault {
                     return Err(What::Fault(fault));
@@ -205,8 +207,8 @@ impl<P: PlanState> Level<P> {
             return Err(What::Fault(fault));
         }
         let missed = late && !moment.look;
-        if missed && takes(t, supervisor, DEADLINE_MISSED, row.on_miss, moment, cx) {
-            let event = (DEADLINE_MISSED, row.on_miss);
+        if missed && takes(t, supervisor, Outcome::DeadlineMissed, row.on_miss, moment, cx) {
+            let event = (Outcome::DeadlineMissed, row.on_miss);
             return self.take(t, supervisor, event, moment, cx).map(|()| release.next);
         }
         Ok(release.next)
@@ -217,7 +219,7 @@ impl<P: PlanState> Level<P> {
         &mut self,
         t: &P::Tables,
         supervisor: u16,
-        (event, target): (u16, Target),
+        (event, target): (Outcome, Target),
         moment: Moment,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), What>
@@ -299,11 +301,11 @@ impl<P: PlanState> Level<P> {
 impl Fired {
     #[inline]
     fn is_nothing(self) -> bool {
-        self.position().is_none() && self.fault.is_none()
+        self.event.is_none() && self.fault.is_none()
     }
 
     fn verdict(self) -> Verdict {
-        match (self.position().filter(|event| *event != DEADLINE_MISSED), self.fault) {
+        match (self.outcome().filter(|event| *event != Outcome::DeadlineMissed), self.fault) {
             (Some(event), _) => Verdict::Event(event),
             (None, Some(fault)) => Verdict::Fault(fault),
             (None, None) => Verdict::Clear,
@@ -326,7 +328,7 @@ fn serve(first: Instant, period: Duration, now: Instant) -> Release {
 fn takes<R: Run>(
     t: &impl Tables,
     supervisor: u16,
-    event: u16,
+    event: Outcome,
     target: Target,
     moment: Moment,
     cx: &mut Cx<'_, R>,

@@ -6,8 +6,8 @@ use crate::fault::Fault;
 use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 use crate::rt::state::PlanState;
 use crate::trace::{
-    ComponentId, ComponentKind, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Names,
-    PortName, Reaction, TextPlace, TraceEntryId,
+    ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome, PortName,
+    Reaction, TextPlace, TraceEntryId,
 };
 
 /// The names of a generated plan, sub-plans unfolded.
@@ -215,22 +215,24 @@ impl Names for NameTable {
         self.row(id).map_or(ComponentName::NONE, |row| row.name)
     }
 
-    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+    fn outcome(&self, id: ComponentId, outcome: Outcome) -> &str {
         match outcome {
-            DEADLINE_MISSED => "DeadlineMissed",
-            ERROR => "Error",
-            _ => {
-                let row = self.row(id).and_then(|row| row.outcomes.get(usize::from(outcome)));
+            Outcome::DeadlineMissed => "DeadlineMissed",
+            Outcome::Error => "Error",
+            Outcome::Declared(position) => {
+                let row = self.row(id).and_then(|row| row.outcomes.get(usize::from(position)));
                 row.map_or("", |(name, _)| name)
             }
         }
     }
 
-    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+    fn target(&self, id: ComponentId, outcome: Outcome) -> &str {
         let Some(row) = self.row(id) else { return "" };
         match outcome {
-            DEADLINE_MISSED | ERROR => row.special,
-            _ => row.outcomes.get(usize::from(outcome)).map_or("", |(_, target)| target),
+            Outcome::DeadlineMissed | Outcome::Error => row.special,
+            Outcome::Declared(position) => {
+                row.outcomes.get(usize::from(position)).map_or("", |(_, target)| target)
+            }
         }
     }
 

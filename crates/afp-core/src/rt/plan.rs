@@ -11,7 +11,7 @@ use crate::rt::run::Run;
 use crate::rt::state::{Plan, PlanState};
 use crate::rt::store::{Entry, Stored};
 use crate::rt::table::Child;
-use crate::trace::{Author, ComponentId, DEADLINE_MISSED, Ending, Record, Sink, TraceEntryId};
+use crate::trace::{Author, ComponentId, Ending, Outcome, Record, Sink, TraceEntryId};
 
 /// When a supervisor is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,8 +22,8 @@ pub struct Slot {
 /// What a poll of a supervisor brought. A fault beside an event is one of its outputs.
 #[derive(Clone, Copy, Debug)]
 pub struct Fired {
-    /// One more than the event's position: two plain words come back in registers.
-    event: Option<NonZeroU32>,
+    /// One more than the event's number: two plain words come back in registers.
+    pub(crate) event: Option<NonZeroU32>,
     pub(crate) fault: Option<Fault>,
 }
 
@@ -123,14 +123,14 @@ impl Fired {
 
     /// The poll counts as one that ended after its deadline: for tests.
     pub fn missed() -> Self {
-        Fired::event(DEADLINE_MISSED, Ok(()))
+        Fired::event(Outcome::DeadlineMissed.number(), Ok(()))
     }
 
-    /// The event, by position in the template.
+    /// The event.
     #[inline]
-    pub(crate) fn position(&self) -> Option<u16> {
+    pub(crate) fn outcome(&self) -> Option<Outcome> {
         // Made from 16 bits.
-        self.event.map(|event| event.get().saturating_sub(1) as u16)
+        self.event.map(|event| Outcome::from_number(event.get().saturating_sub(1) as u16))
     }
 
     /// The supervisor failed.
@@ -183,7 +183,7 @@ impl<R: Run> Cx<'_, R> {
 
     /// Traces that a component reports what whoever tests the plan put there. `part` counts the
     /// plan's elements, then its supervisors.
-    pub fn show_injected(&mut self, part: u32, outcome: u16) {
+    pub fn show_injected(&mut self, part: u32, outcome: Outcome) {
         let component = ComponentId(self.place.components.saturating_add(part));
         self.trace(&Record::Injected { component, outcome });
     }

@@ -5,7 +5,8 @@ use core::fmt;
 use afp_types::{Instant, Measured, Quantity, ValueRef};
 
 use super::{
-    Author, Cause, ComponentId, ComponentKind, ERROR, Ending, Names, Record, TraceEntryId, Verdict,
+    Author, Cause, ComponentId, ComponentKind, Ending, Names, Outcome, Record, TraceEntryId,
+    Verdict,
 };
 use crate::fault::Fault;
 
@@ -84,7 +85,7 @@ impl<N: Names + ?Sized> Line<'_, N> {
         &self,
         f: &mut fmt::Formatter<'_>,
         id: ComponentId,
-        outcome: u16,
+        outcome: Outcome,
         element: ComponentId,
     ) -> fmt::Result {
         f.write_str(self.names.outcome(id, outcome))?;
@@ -97,7 +98,7 @@ impl<N: Names + ?Sized> Line<'_, N> {
     /// Where the `Error` edge of a failed element leads; a supervisor has none.
     fn error_target(&self, f: &mut fmt::Formatter<'_>, id: ComponentId) -> fmt::Result {
         let supervisor = self.names.component(id).kind == ComponentKind::Supervisor;
-        match self.names.target(id, ERROR) {
+        match self.names.target(id, Outcome::Error) {
             target if !supervisor && !target.is_empty() => write!(f, " -> {target}"),
             _ => Ok(()),
         }

@@ -2,7 +2,7 @@
 
 use afp_core::rt::ElementKind;
 use afp_core::trace::{
-    ComponentId, ComponentKind, ComponentName, DEADLINE_MISSED, ERROR, EntryKind, EntryName, Names,
+    ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome,
     Reaction, TraceEntryId,
 };
 
@@ -90,17 +90,17 @@ impl Names for SpecNames {
         ComponentName { path: &component.path, kind: component.kind, template: "" }
     }
 
-    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+    fn outcome(&self, id: ComponentId, outcome: Outcome) -> &str {
         match outcome {
-            DEADLINE_MISSED | ERROR => self.get(id).special.0,
-            outcome => &self.get(id).outcomes[usize::from(outcome)].0,
+            Outcome::Declared(at) => &self.get(id).outcomes[usize::from(at)].0,
+            _ => self.get(id).special.0,
         }
     }
 
-    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+    fn target(&self, id: ComponentId, outcome: Outcome) -> &str {
         match outcome {
-            DEADLINE_MISSED | ERROR => self.get(id).special.1,
-            outcome => &self.get(id).outcomes[usize::from(outcome)].1,
+            Outcome::Declared(at) => &self.get(id).outcomes[usize::from(at)].1,
+            _ => self.get(id).special.1,
         }
     }
 

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 use std::collections::btree_map::{BTreeMap, Entry};
 use std::time::Duration as Wall;
 
-use afp_core::trace::{ComponentId, DEADLINE_MISSED};
+use afp_core::trace::{ComponentId, Outcome};
 use afp_dsl::unfold::ComponentKind;
 use afp_session::EventKind;
 use serde_json::Value;
@@ -160,13 +160,13 @@ fn edges(program: &Program, plan: ComponentId, here: ComponentId) -> Vec<(Report
             && it.owner.is_none_or(|owner| owner == here)
     });
     for (id, watcher) in watchers {
-        for (number, (name, target)) in (0..).zip(&watcher.outcomes) {
-            let own = unit.reactions.iter().find(|(of, event, _)| (*of, *event) == (id, number));
+        for (event, (name, target)) in (0..).map(Outcome::Declared).zip(&watcher.outcomes) {
+            let own = unit.reactions.iter().find(|(of, on, _)| (*of, *on) == (id, event));
             let target = own.map_or(&**target, |(.., target)| target);
             all.push((report(id, name), target));
         }
-        let missed =
-            unit.reactions.iter().find(|(of, event, _)| (*of, *event) == (id, DEADLINE_MISSED));
+        let missed = (id, Outcome::DeadlineMissed);
+        let missed = unit.reactions.iter().find(|(of, on, _)| (*of, *on) == missed);
         all.extend(missed.map(|(.., target)| (report(id, "DeadlineMissed"), &**target)));
     }
     all

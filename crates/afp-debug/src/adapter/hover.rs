@@ -2,7 +2,7 @@
 //! element is active, what a supervisor reported, when an edge was taken.
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, DEADLINE_MISSED, ERROR};
+use afp_core::trace::{ComponentId, Outcome};
 use afp_dsl::unfold::ComponentKind;
 
 use super::look::{Group, component, said};
@@ -189,15 +189,15 @@ fn binds(behind: &str) -> bool {
     behind.strip_prefix('=').is_some_and(|rest| !rest.starts_with('='))
 }
 
-/// The number of a state or event of a component.
-fn outcome_of(unit: &Unit, name: &str) -> Option<u16> {
+/// A state or event of a component.
+fn outcome_of(unit: &Unit, name: &str) -> Option<Outcome> {
     match name {
-        "Error" => return Some(ERROR),
-        "DeadlineMissed" => return Some(DEADLINE_MISSED),
+        "Error" => return Some(Outcome::Error),
+        "DeadlineMissed" => return Some(Outcome::DeadlineMissed),
         _ => {}
     }
     let index = unit.outcomes.iter().position(|(known, _)| known == name)?;
-    u16::try_from(index).ok()
+    u16::try_from(index).ok().map(Outcome::Declared)
 }
 
 fn time(at: Instant) -> String {

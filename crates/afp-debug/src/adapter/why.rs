@@ -1,6 +1,6 @@
 //! Why an element runs, or does not: the edge that led to it, and what all edges to it wait for.
 
-use afp_core::trace::{ComponentId, ERROR};
+use afp_core::trace::{ComponentId, Outcome};
 use afp_core::{Duration, Instant};
 use afp_dsl::unfold::ComponentKind;
 use serde::Deserialize;
@@ -106,22 +106,20 @@ fn edges(program: &Program, state: &State, plan: ComponentId, name: &str) -> Vec
     let mut edges = Vec::new();
     for (id, unit) in inside {
         let known = unit.outcomes.iter().map(|(name, target)| (&**name, &**target));
-        for (number, (outcome, _)) in
-            (0..ERROR).zip(known).filter(|(_, (_, target))| *target == name)
-        {
-            let last = state.reached(id, number).map(|at| at.as_secs_f64());
+        for (number, (outcome, _)) in (0..).zip(known).filter(|(_, (_, target))| *target == name) {
+            let last = state.reached(id, Outcome::Declared(number)).map(|at| at.as_secs_f64());
             edges.push(json!({
                 "from": unit.path, "outcome": outcome, "last": last, "looks": state.is_on(id),
                 "values": values(program, state, id),
             }));
         }
-        for (watcher, number, _) in unit.reactions.iter().filter(|(.., target)| target == name) {
+        for (watcher, event, _) in unit.reactions.iter().filter(|(.., target)| target == name) {
             let Some(supervisor) = program.unit(*watcher) else { continue };
-            let outcome = supervisor.outcomes.get(usize::from(*number));
+            let outcome = supervisor.outcomes.get(usize::from(event.number()));
             let outcome = outcome.map_or("DeadlineMissed", |(name, _)| name);
             edges.push(json!({
                 "from": supervisor.path, "outcome": outcome, "during": unit.name,
-                "last": state.reacted(id, *watcher, *number).map(|at| at.as_secs_f64()),
+                "last": state.reacted(id, *watcher, *event).map(|at| at.as_secs_f64()),
                 "looks": state.is_on(*watcher) && state.is_on(id),
                 "values": values(program, state, *watcher),
             }));

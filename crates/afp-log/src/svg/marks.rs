@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use afp_core::trace::{ComponentId, ComponentKind, ERROR, Names};
+use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome, declared};
 use afp_session::Mark;
 
 use super::canvas::Canvas;
@@ -12,12 +12,12 @@ const SYMBOLS: usize = 12;
 
 /// The kinds of events that have symbols, in the order of the plan: all that lead somewhere, so that one has the same
 /// symbol in every run; in a plan with more of them than symbols those that came.
-pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, u16)> {
+pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, Outcome)> {
     let supervisors = (0..names.components()).map(ComponentId);
     let supervisors =
         supervisors.filter(|id| names.component(*id).kind == ComponentKind::Supervisor);
     let events = |id: ComponentId| {
-        let known = (0..ERROR).take_while(move |event| !names.outcome(id, *event).is_empty());
+        let known = declared(names, id).map(|(event, _)| event);
         known.filter(move |event| !matches!(names.target(id, *event), "" | "ignore"))
     };
     let all = supervisors.flat_map(|id| events(id).map(move |event| (id, event)));
@@ -39,8 +39,8 @@ const OFTEN: usize = 12;
 const SMALL: f64 = 0.45;
 
 /// Draws each mark where it was taken, with the symbol of its kind; small ones below others.
-pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, u16)]) {
-    let is = |kind: &(ComponentId, u16), mark: &Mark| *kind == (mark.supervisor, mark.event);
+pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, Outcome)]) {
+    let is = |kind: &(ComponentId, Outcome), mark: &Mark| *kind == (mark.supervisor, mark.event);
     let count = |kind| marks.iter().filter(|mark| is(kind, mark)).count();
     let (often, seldom): (Vec<_>, Vec<_>) =
         kinds.iter().enumerate().partition(|(_, kind)| count(kind) > OFTEN);
@@ -55,7 +55,7 @@ pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, u
 /// The kinds that came with their symbols, by their names, and how often each came.
 pub(super) fn counted<'a>(
     marks: &'a [Mark],
-    kinds: &'a [(ComponentId, u16)],
+    kinds: &'a [(ComponentId, Outcome)],
     names: &'a dyn Names,
 ) -> impl Iterator<Item = (usize, String, usize)> + 'a {
     let counted = kinds.iter().enumerate().map(|(symbol, &(id, event))| {

@@ -14,7 +14,7 @@ use std::thread;
 use afp_core::devices::DeviceRow;
 use afp_core::trace::{
     Author, Cause, ComponentId, ComponentKind, ComponentName, Ending, EntryKind, EntryName, Names,
-    Reaction, Record, Sink, TraceEntryId, Verdict,
+    Outcome, Reaction, Record, Sink, TraceEntryId, Verdict,
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
@@ -37,6 +37,9 @@ fn begun(path: &Path, devices: &'static [DeviceRow]) -> SessionLog {
 /// A plan of one actor with one supervisor and two entries.
 struct Names1;
 
+/// The first state or event of a template.
+const FIRST: Outcome = Outcome::Declared(0);
+
 impl Names for Names1 {
     fn components(&self) -> u32 {
         3
@@ -52,16 +55,16 @@ impl Names for Names1 {
         ComponentName { path, kind, template }
     }
 
-    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
-        match (id.0, outcome) {
+    fn outcome(&self, id: ComponentId, outcome: Outcome) -> &str {
+        match (id.0, outcome.number()) {
             (1, 0) => "ForwardSuccessful",
             (2, 0) => "TouchSensorPressed",
             _ => "",
         }
     }
 
-    fn target(&self, id: ComponentId, outcome: u16) -> &str {
-        match (id.0, outcome) {
+    fn target(&self, id: ComponentId, outcome: Outcome) -> &str {
+        match (id.0, outcome.number()) {
             (1, 0) => "terminate",
             (2, 0) => "go",
             _ => "",
@@ -69,7 +72,7 @@ impl Names for Names1 {
     }
 
     fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
-        let (supervisor, outcome) = (ComponentId(2), 0);
+        let (supervisor, outcome) = (ComponentId(2), FIRST);
         let here = (element.0, n) == (1, 0);
         here.then_some(Reaction { supervisor, outcome, target: "terminate" })
     }
@@ -144,14 +147,14 @@ fn run(log: &mut Recorder) {
     }
     let (lateness, cause) = (Duration::from_millis(3), Cause::LongPoll);
     log.record(at(2001), &Record::Missed { supervisor: touch, lateness, cause, skipped: 2 });
-    log.record(at(2001), &Record::Event { supervisor: touch, event: 0, element: ComponentId(1) });
+    log.record(at(2001), &Record::Event { supervisor: touch, event: FIRST, element: ComponentId(1) });
     log.record(at(2001), &Record::Interrupted { element: go });
     let author = Author::Component(touch);
     let old = ValueRef::Unset;
     let (entry, new) = (TraceEntryId(1), ValueRef::Choice(1));
     log.record(at(2001), &Record::Committed { author, entry, old, new });
     log.record(at(2001), &Record::Started { component: go });
-    log.record(at(3001), &Record::Finished { element: go, state: 0 });
+    log.record(at(3001), &Record::Finished { element: go, state: FIRST });
     log.record(at(3001), &Record::Ended { plan: ComponentId(0), ending: Ending::Ok });
     log.text(at(3001), Level::Info, "afp", "done");
 }
@@ -181,9 +184,9 @@ fn what_is_written_is_read() {
     assert_eq!(log.span, Some((at(0), at(3001))));
     assert_eq!(log.topics["/tf"].schema, "foxglove.FrameTransforms");
     assert_eq!(log.topics["/robot/ultrasonic"].messages, 40);
-    assert_eq!(log.names.target(ComponentId(1), 0), "terminate");
-    assert_eq!(log.names.target_at(ComponentId(2), 0, ComponentId(1)), "terminate");
-    assert_eq!(log.names.target_at(ComponentId(2), 0, ComponentId(3)), "go");
+    assert_eq!(log.names.target(ComponentId(1), FIRST), "terminate");
+    assert_eq!(log.names.target_at(ComponentId(2), FIRST, ComponentId(1)), "terminate");
+    assert_eq!(log.names.target_at(ComponentId(2), FIRST, ComponentId(3)), "go");
     assert_eq!(log.events.len(), 2009);
     let event = &log.events[2003];
     assert_eq!(event.kind, EventKind::Event);

@@ -1,7 +1,7 @@
 //! What the names of a plan stand for in a run of it.
 
 use afp::load::{Injection, PlanNames};
-use afp_core::trace::{ComponentId, ComponentKind, Names, TraceEntryId};
+use afp_core::trace::{ComponentId, ComponentKind, Names, TraceEntryId, declared};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
@@ -15,10 +15,9 @@ impl Run {
             self.find(path, &[ComponentKind::Actor, ComponentKind::Supervisor]).ok_or_else(
                 || PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'")),
             )?;
-        let known = (0..u16::MAX).map(|number| names.outcome(component, number));
-        let known: Vec<_> = known.take_while(|name| !name.is_empty()).collect();
-        let found = (0..).zip(&known).find(|(_, name)| **name == outcome);
+        let found = declared(&**names, component).find(|(_, name)| *name == outcome);
         let (outcome, _) = found.ok_or_else(|| {
+            let known: Vec<_> = declared(&**names, component).map(|(_, name)| name).collect();
             let known = known.join(", ");
             PyValueError::new_err(format!("'{path}' has no '{outcome}'; there are: {known}"))
         })?;

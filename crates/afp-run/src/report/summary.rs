@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, TraceHash};
+use afp_core::trace::{ComponentId, ComponentKind, Ending, Names, Outcome, TraceHash};
 use afp_session::{
     AnySession, Applied, Counts, Done, Figure, FigureValue, Figures, Observer, Requested, Span,
     Stimulus, Usage,
@@ -203,7 +203,7 @@ fn counted(
 fn outcomes(counts: &Counts, names: &dyn Names) -> Vec<(String, u64)> {
     let mut all = Vec::new();
     for (id, usage) in (0..).map(ComponentId).zip(&counts.components) {
-        for (outcome, count) in (0..).zip(&usage.outcomes) {
+        for (outcome, count) in (0..).map(Outcome::Declared).zip(&usage.outcomes) {
             if *count > 0 {
                 let (path, name) = (names.component(id).path, names.outcome(id, outcome));
                 all.push((format!("{path}.{name}"), *count));

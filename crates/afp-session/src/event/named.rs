@@ -1,7 +1,8 @@
 //! Records of a trace as events with names.
 
 use afp_core::trace::{
-    Author, ComponentId, Ending, EntryName, Names, PortName, Record, TraceEntryId, Verdict,
+    Author, ComponentId, Ending, EntryName, Names, Outcome, PortName, Record, TraceEntryId,
+    Verdict,
 };
 use afp_core::{Fault, ValueRef};
 
@@ -86,11 +87,11 @@ impl<N: Names + ?Sized> Namer<'_, N> {
         RunEvent { kind, component: self.path(id), component_id: id, ..RunEvent::default() }
     }
 
-    fn outcome(&self, kind: EventKind, id: ComponentId, outcome: u16) -> RunEvent {
+    fn outcome(&self, kind: EventKind, id: ComponentId, outcome: Outcome) -> RunEvent {
         RunEvent {
             outcome: self.names.outcome(id, outcome).to_owned(),
             target: self.names.target(id, outcome).to_owned(),
-            outcome_id: outcome,
+            outcome_id: outcome.number(),
             ..self.about(kind, id)
         }
     }
@@ -100,7 +101,7 @@ impl<N: Names + ?Sized> Namer<'_, N> {
         &self,
         kind: EventKind,
         supervisor: ComponentId,
-        event: u16,
+        event: Outcome,
         element: ComponentId,
     ) -> RunEvent {
         let mut reactions = (0..u16::MAX).map_while(|n| self.names.reaction(element, n));

@@ -2,7 +2,7 @@
 
 use afp::load::PlanNames;
 use afp_core::Instant;
-use afp_core::trace::{Author, ComponentId, DEADLINE_MISSED, Names, Record};
+use afp_core::trace::{Author, ComponentId, Names, Outcome, Record};
 use afp_dsl::graph::Graph;
 use afp_dsl::unfold::places;
 use afp_log::LogData;
@@ -60,9 +60,9 @@ impl Hits {
             let id = ComponentId(number);
             let reactions = usage.reactions.iter().map(|edge| edge.count).collect();
             if self.counts.is_supervisor(id) {
-                let own = (0..).take(usage.outcomes.len());
+                let own = (0..).map(Outcome::Declared).take(usage.outcomes.len());
                 let outcomes = own.map(|event| self.counts.by_own_edge(id, event)).collect();
-                let special = self.counts.by_own_edge(id, DEADLINE_MISSED);
+                let special = self.counts.by_own_edge(id, Outcome::DeadlineMissed);
                 return Touched { starts: usage.starts, outcomes, reactions, special };
             }
             let special = usage.faults + of_supervisors;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::rt::{
     BadValue, Child, Cx, Flow, Machine, Plan, PlanState, Polled, Run, Started, input,
 };
-use afp_core::trace::ERROR;
+use afp_core::trace::Outcome;
 use afp_core::{Environment, Fault};
 use afp_dsl::graph;
 
@@ -154,13 +154,13 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     ) -> Polled {
         let Some(injected) = self.injected.take() else { return Polled::Pending };
         cx.show_injected(element.into(), injected.outcome);
-        if injected.outcome == ERROR {
+        let Outcome::Declared(state) = injected.outcome else {
             return Polled::Failed(Fault::INJECTED);
-        }
+        };
         let mut stage = Stage::new(&self.outputs, &mut config.staged);
         injected.stage(&mut stage);
         match stage.result() {
-            Ok(()) => Polled::Forced(injected.outcome),
+            Ok(()) => Polled::Forced(state),
             Err(why) => Polled::Failed(cx.note(why)),
         }
     }

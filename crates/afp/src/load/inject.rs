@@ -3,7 +3,7 @@
 use std::fmt;
 
 use afp_core::Value;
-use afp_core::trace::ComponentId;
+use afp_core::trace::{ComponentId, Outcome};
 
 use super::outputs::Stage;
 
@@ -12,12 +12,9 @@ use super::outputs::Stage;
 pub struct Injection {
     /// The supervisor or actor.
     pub component: ComponentId,
-    /// Its event or state, by position in the template; [`ERROR`] makes an actor fail, [`DEADLINE_MISSED`] makes the
-    /// next poll of a supervisor count as a late one.
-    ///
-    /// [`ERROR`]: afp_core::trace::ERROR
-    /// [`DEADLINE_MISSED`]: afp_core::trace::DEADLINE_MISSED
-    pub outcome: u16,
+    /// Its event or state; [`Outcome::Error`] makes an actor fail, [`Outcome::DeadlineMissed`] makes the next poll of a
+    /// supervisor count as a late one.
+    pub outcome: Outcome,
     /// The outputs that come with it, by position among the template's, each of its port's type.
     pub outputs: Vec<(u16, Value)>,
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::trace::{
-    ComponentId, ComponentName, DEADLINE_MISSED, ERROR, EntryName, Names, PortName, Reaction,
+    ComponentId, ComponentName, EntryName, Names, Outcome, PortName, Reaction,
     TextPlace, TraceEntryId,
 };
 use afp_dsl::graph::Graph;
@@ -93,29 +93,30 @@ impl Names for PlanNames {
         }
     }
 
-    fn outcome(&self, id: ComponentId, outcome: u16) -> &str {
+    fn outcome(&self, id: ComponentId, outcome: Outcome) -> &str {
         match outcome {
-            DEADLINE_MISSED => "DeadlineMissed",
-            ERROR => "Error",
-            _ => {
-                let names = self.get(id).and_then(|c| c.outcomes.get(usize::from(outcome)));
+            Outcome::DeadlineMissed => "DeadlineMissed",
+            Outcome::Error => "Error",
+            Outcome::Declared(position) => {
+                let names = self.get(id).and_then(|c| c.outcomes.get(usize::from(position)));
                 names.map_or("", |(name, _)| name)
             }
         }
     }
 
-    fn target(&self, id: ComponentId, outcome: u16) -> &str {
+    fn target(&self, id: ComponentId, outcome: Outcome) -> &str {
         let Some(names) = self.get(id) else { return "" };
         match outcome {
-            DEADLINE_MISSED | ERROR => &names.special,
-            _ => names.outcomes.get(usize::from(outcome)).map_or("", |(_, target)| target),
+            Outcome::DeadlineMissed | Outcome::Error => &names.special,
+            Outcome::Declared(position) => {
+                names.outcomes.get(usize::from(position)).map_or("", |(_, target)| target)
+            }
         }
     }
 
     fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
         let (reaction, target) = self.get(element)?.reactions.get(usize::from(n))?;
-        let supervisor = ComponentId(reaction.supervisor);
-        Some(Reaction { supervisor, outcome: reaction.event.unwrap_or(DEADLINE_MISSED), target })
+        Some(Reaction::new(ComponentId(reaction.supervisor), reaction.event, target))
     }
 
     fn input(&self, id: ComponentId, port: u16) -> &str {

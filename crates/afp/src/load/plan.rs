@@ -10,7 +10,7 @@ use afp_core::rt::{
     BadValue, Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Run, Scale, Slot, Started,
     Tables, Unit, initial, int_to_float,
 };
-use afp_core::trace::{DEADLINE_MISSED, Sink};
+use afp_core::trace::{Outcome, Sink};
 use afp_core::{Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
@@ -178,12 +178,10 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
             return Fired::NOTHING;
         };
         cx.show_injected(part, injected.outcome);
-        if injected.outcome == DEADLINE_MISSED {
-            return Fired::missed();
-        }
+        let Outcome::Declared(event) = injected.outcome else { return Fired::missed() };
         let mut stage = Stage::new(&watch.outputs, &mut self.config.staged);
         injected.stage(&mut stage);
-        Fired::event(injected.outcome, cx.noted(stage.result()))
+        Fired::event(event, cx.noted(stage.result()))
     }
 
     /// The cell of an object entry.

@@ -3,7 +3,7 @@
 use super::*;
 use afp_carbot::devices::Navigator;
 use afp_core::quantity::{AngularSpeed, Speed};
-use afp_core::trace::{ComponentId, ComponentName, EntryName, Reaction, TraceEntryId};
+use afp_core::trace::{ComponentId, ComponentName, EntryName, Outcome, Reaction, TraceEntryId};
 use afp_sim::World;
 
 const ROOM: &str = "version = 1\n[robot]\npose_m_deg = [2, 2, 0]\n[[wall]]\n\
@@ -20,10 +20,10 @@ impl Names for One {
         let kind = if id.0 == 0 { ComponentKind::Plan } else { ComponentKind::Actor };
         ComponentName { path: "one", kind, template: "One" }
     }
-    fn outcome(&self, _: ComponentId, _: u16) -> &str {
+    fn outcome(&self, _: ComponentId, _: Outcome) -> &str {
         ""
     }
-    fn target(&self, _: ComponentId, _: u16) -> &str {
+    fn target(&self, _: ComponentId, _: Outcome) -> &str {
         ""
     }
     fn reaction(&self, _: ComponentId, _: u16) -> Option<Reaction<'_>> {
@@ -110,7 +110,7 @@ fn a_sensor_that_nobody_has_asked_since_the_start_of_the_actor_does_not_count() 
 #[test]
 fn a_motion_left_behind_breaks_a_rule() {
     let element = ComponentId(1);
-    for record in [Record::Interrupted { element }, Record::Finished { element, state: 0 }] {
+    for record in [Record::Interrupted { element }, Record::Finished { element, state: Outcome::Declared(0) }] {
         let (_, mut watch) = watched();
         drive(&mut watch, 0, 20);
         watch.on_record(at(20), &record, &One);
