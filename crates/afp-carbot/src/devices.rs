@@ -2,6 +2,30 @@
 //!
 //! The list `devices!` below has the traits that templates ask for. [`Carbot`] and [`register!`](crate::register) follow
 //! from it.
+//!
+//! A robot implements the traits of the devices that it has. Sensors answer with a [`Reading`]:
+//!
+//! ```
+//! use afp_carbot::devices::{Invalid, Reading, TouchSensor};
+//! use afp_core::Instant;
+//!
+//! struct Board {
+//!     now: Instant,
+//!     /// The bumper as the board reported it last, and when.
+//!     bumper: Option<(bool, Instant)>,
+//! }
+//!
+//! impl TouchSensor for Board {
+//!     fn touched(&self) -> Reading<bool> {
+//!         match self.bumper {
+//!             Some((pressed, time)) => Reading::valid(pressed, time),
+//!             None => Reading::invalid(Invalid::NotYet, self.now),
+//!         }
+//!     }
+//! }
+//! # let board = Board { now: Instant::ZERO, bumper: Some((true, Instant::ZERO)) };
+//! # assert_eq!(board.touched().value, Ok(true));
+//! ```
 
 mod battery;
 mod buttons;

@@ -26,6 +26,31 @@ use afp_carbot::devices::{Grid, Shift};
 use afp_core::{Fault, Reason};
 
 /// A way to compute the flow from one picture to the next.
+///
+/// ```
+/// use afp_carbot::devices::{Grid, Shift};
+/// use afp_core::Fault;
+/// use afp_navigation::flow::{BAD_PICTURES, OpticalFlow, Picture};
+///
+/// /// A way for tests: nothing ever moves.
+/// struct Still;
+///
+/// impl OpticalFlow for Still {
+///     fn flow(
+///         &mut self,
+///         before: &Picture,
+///         after: &Picture,
+///         _: &Grid,
+///         shifts: &mut [Option<Shift>],
+///     ) -> Result<(), Fault> {
+///         if before.grey().len() != after.grey().len() {
+///             return Err(BAD_PICTURES);
+///         }
+///         shifts.fill(Some(Shift { right: 0.0, down: 0.0 }));
+///         Ok(())
+///     }
+/// }
+/// ```
 pub trait OpticalFlow: Send + 'static {
     /// Writes how far what is at each place of the grid in `before` has moved in `after`, or none where
     /// that cannot be told. Pictures are of one size, `shifts` has an element for each place.

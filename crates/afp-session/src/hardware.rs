@@ -23,6 +23,55 @@ use crate::{Pose2, Shape};
 /// Whoever drives it lets no more than 20 ms pass without [`Platform::advance`], and calls
 /// [`emergency_stop`](afp_core::Environment::emergency_stop) before it leaves it alone. A process can die without either, so the
 /// robot itself stops when it hears nothing any more.
+///
+/// ```
+/// use afp_session::{Hardware, Settings};
+/// use std::error::Error;
+/// # use afp_session::{Robot, Samples};
+/// # use std::convert::Infallible;
+/// # use afp_core::devices::{ControlId, DeviceRow, Devices, FaultId};
+/// # use afp_core::{Environment, Instant, Platform, StillClock};
+/// # struct NoDevices;
+/// # impl Devices for NoDevices {
+/// #     const TABLE: &'static [DeviceRow] = &[];
+/// #     type Control = Infallible;
+/// #     type Fault = Infallible;
+/// #     fn control(_: ControlId) -> Option<Infallible> { None }
+/// #     fn fault(_: FaultId, _: Option<f64>) -> Option<Infallible> { None }
+/// # }
+/// # impl Environment for Toy {
+/// #     fn stop(&mut self, _: Instant) {}
+/// #     fn emergency_stop(&mut self) {}
+/// # }
+/// # impl Platform for Toy {
+/// #     type Clock = StillClock;
+/// #     fn clock(&self) -> StillClock { StillClock }
+/// #     fn now(&self) -> Instant { self.now }
+/// #     fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
+/// # }
+/// # impl Robot for Toy {
+/// #     type Devices = NoDevices;
+/// #     fn sample(&self, _: &mut Samples<'_, '_>) {}
+/// # }
+///
+/// struct Toy {
+///     port: String,
+///     baud: u32,
+///     now: Instant,
+/// }
+///
+/// impl Hardware for Toy {
+///     type Error = Box<dyn Error + Send + Sync>;
+///
+///     fn open(settings: &Settings) -> Result<Self, Self::Error> {
+///         let port = settings.get("port").ok_or("'settings' does not name the 'port'")?;
+///         let baud = settings.get_or("baud", "115200").parse()?;
+///         Ok(Toy { port: port.to_owned(), baud, now: Instant::ZERO })
+///     }
+/// }
+/// # let settings = Settings::new([("port", "/dev/ttyUSB0"), ("baud", "fast")]);
+/// # assert!(Toy::open(&settings).is_err());
+/// ```
 pub trait Hardware:
     Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
 {

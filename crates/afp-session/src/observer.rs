@@ -21,6 +21,27 @@ pub enum Go {
 }
 
 /// Says whether time may pass: holds a run back to real time, pauses it, calls it off.
+///
+/// ```
+/// use afp_core::Instant;
+/// use afp_session::{Gate, Go};
+///
+/// /// Stops the run after so many stretches of time.
+/// struct AtMost(u32);
+///
+/// impl Gate for AtMost {
+///     fn pass(&mut self, _: Instant, _: Instant) -> Go {
+///         match self.0.checked_sub(1) {
+///             Some(left) => self.0 = left,
+///             None => return Go::Stop,
+///         }
+///         Go::On
+///     }
+/// }
+/// # let mut gate = AtMost(1);
+/// # assert_eq!(gate.pass(Instant::MAX, Instant::ZERO), Go::On);
+/// # assert_eq!(gate.pass(Instant::MAX, Instant::ZERO), Go::Stop);
+/// ```
 pub trait Gate {
     /// Time is about to pass from `now` up to `target`.
     fn pass(&mut self, target: Instant, now: Instant) -> Go {
@@ -111,6 +132,27 @@ impl Applied<'_> {
 }
 
 /// Called with what happens in a run. It never changes the session.
+///
+/// ```
+/// use afp_core::{Instant, StartError};
+/// use afp_session::{AnySession, NamedRecord, Observer, Open};
+///
+/// /// Keeps the lines of the trace.
+/// #[derive(Default)]
+/// struct Lines(Vec<String>);
+///
+/// impl Observer for Lines {
+///     fn on_record(&mut self, record: &NamedRecord<'_>) {
+///         self.0.push(record.line.to_owned());
+///     }
+/// }
+///
+/// fn trace(session: &mut dyn AnySession) -> Result<Vec<String>, StartError> {
+///     let mut lines = Lines::default();
+///     session.run(Instant::MAX, &mut Open, &mut [&mut lines])?;
+///     Ok(lines.0)
+/// }
+/// ```
 pub trait Observer {
     /// A record of the step that is over.
     fn on_record(&mut self, record: &NamedRecord<'_>) {

@@ -23,6 +23,64 @@ pub type FaultOf<R> = <<R as Robot>::Devices as Devices>::Fault;
 pub struct Refused;
 
 /// A platform with devices. Hardware leaves `press` and `set_faults` out.
+///
+/// The robot has one button, which is also its signal. `Button`, `Panel` and `PRESSED` usually come from `toolbox!`:
+///
+/// ```
+/// use afp_session::{Refused, Robot, SampleRef, Samples, read_signal};
+/// # use afp_core::devices::{ControlId, ControlRow, DeviceRow, Devices, FaultId};
+/// # use afp_core::devices::{SignalId, SignalRow, SignalType};
+/// # use afp_core::{Environment, Instant, Platform, StillClock};
+/// # const PRESSED: SignalId = SignalId(0);
+/// # #[derive(Clone, Copy)]
+/// # struct Button;
+/// # struct Panel;
+/// # impl Devices for Panel {
+/// #     const TABLE: &'static [DeviceRow] = &[DeviceRow {
+/// #         name: "panel",
+/// #         help: "",
+/// #         controls: &[ControlRow { name: "go", help: "", stops: false }],
+/// #         faults: &[],
+/// #         signals: &[SignalRow { name: "pressed", ty: SignalType::Bool, truth: false, help: "" }],
+/// #     }];
+/// #     type Control = Button;
+/// #     type Fault = std::convert::Infallible;
+/// #     fn control(_: ControlId) -> Option<Button> { Some(Button) }
+/// #     fn fault(_: FaultId, _: Option<f64>) -> Option<std::convert::Infallible> { None }
+/// # }
+/// # impl Environment for Toy {
+/// #     fn stop(&mut self, _: Instant) {}
+/// #     fn emergency_stop(&mut self) {}
+/// # }
+/// # impl Platform for Toy {
+/// #     type Clock = StillClock;
+/// #     fn clock(&self) -> StillClock { StillClock }
+/// #     fn now(&self) -> Instant { self.now }
+/// #     fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
+/// # }
+///
+/// struct Toy {
+///     now: Instant,
+///     pressed: bool,
+/// }
+///
+/// impl Robot for Toy {
+///     type Devices = Panel;
+///
+///     fn press(&mut self, _: Button, held: bool) -> Result<(), Refused> {
+///         self.pressed = held;
+///         Ok(())
+///     }
+///
+///     fn sample(&self, to: &mut Samples<'_, '_>) {
+///         to.put(PRESSED, SampleRef::Bool(self.pressed));
+///     }
+/// }
+/// # let mut toy = Toy { now: Instant::ZERO, pressed: false };
+/// # toy.press(Button, true)?;
+/// # read_signal(&toy, PRESSED, &mut |value| assert_eq!(value, SampleRef::Bool(true)));
+/// # Ok::<(), Refused>(())
+/// ```
 pub trait Robot: Platform {
     /// Its devices.
     type Devices: Devices;
@@ -94,6 +152,52 @@ pub struct Droppable {
 }
 
 /// A robot in a world, in virtual time.
+///
+/// ```
+/// use afp_session::{NoWorld, Simulated, WorldError};
+/// # use afp_session::{Robot, Samples};
+/// # use std::convert::Infallible;
+/// # use afp_core::devices::{ControlId, DeviceRow, Devices, FaultId};
+/// # use afp_core::{Environment, Instant, Platform, StillClock};
+/// # struct NoDevices;
+/// # impl Devices for NoDevices {
+/// #     const TABLE: &'static [DeviceRow] = &[];
+/// #     type Control = Infallible;
+/// #     type Fault = Infallible;
+/// #     fn control(_: ControlId) -> Option<Infallible> { None }
+/// #     fn fault(_: FaultId, _: Option<f64>) -> Option<Infallible> { None }
+/// # }
+/// # impl Environment for Toy {
+/// #     fn stop(&mut self, _: Instant) {}
+/// #     fn emergency_stop(&mut self) {}
+/// # }
+/// # impl Platform for Toy {
+/// #     type Clock = StillClock;
+/// #     fn clock(&self) -> StillClock { StillClock }
+/// #     fn now(&self) -> Instant { self.now }
+/// #     fn advance(&mut self, to: Instant) { self.now = self.now.max(to) }
+/// # }
+/// # impl Robot for Toy {
+/// #     type Devices = NoDevices;
+/// #     fn sample(&self, _: &mut Samples<'_, '_>) {}
+/// # }
+///
+/// struct Toy {
+///     now: Instant,
+///     seed: u64,
+/// }
+///
+/// impl Simulated for Toy {
+///     type World = NoWorld;
+///     type Error = WorldError;
+///
+///     fn new(_: &NoWorld, seed: u64) -> Result<Self, WorldError> {
+///         Ok(Toy { now: Instant::ZERO, seed })
+///     }
+/// }
+/// # assert_eq!(Toy::new(&NoWorld, 3)?.seed, 3);
+/// # Ok::<(), WorldError>(())
+/// ```
 pub trait Simulated:
     Robot<Devices: Devices<Fault: Send>> + Platform<Clock: Send> + Sized + Send + 'static
 {
@@ -125,6 +229,34 @@ pub trait Simulated:
 }
 
 /// Judges a run, with all that the robot's own crate knows of the robot.
+///
+/// ```
+/// use afp_core::Instant;
+/// use afp_session::{Figure, FigureValue, Measure};
+/// # struct Toy { x: f64 }
+///
+/// /// The farthest point that the robot reached.
+/// #[derive(Clone, Default)]
+/// struct Farthest(f64);
+///
+/// impl Measure<Toy> for Farthest {
+///     fn on_sample(&mut self, _: Instant, robot: &Toy) {
+///         self.0 = self.0.max(robot.x);
+///     }
+///
+///     fn figures(&self) -> Vec<Figure> {
+///         let value = FigureValue::Numbers(vec![("m", self.0)]);
+///         vec![Figure { name: "farthest", value, text: format!("{:.2} m", self.0) }]
+///     }
+///
+///     fn keyframe(&self) -> Option<Box<dyn Measure<Toy>>> {
+///         Some(Box::new(self.clone()))
+///     }
+/// }
+/// # let mut farthest = Farthest::default();
+/// # farthest.on_sample(Instant::ZERO, &Toy { x: 0.5 });
+/// # assert_eq!(farthest.figures()[0].text, "0.50 m");
+/// ```
 pub trait Measure<R>: Send {
     /// Takes a record of the step that is over.
     fn on_record(&mut self, record: &NamedRecord<'_>, robot: &R) {

@@ -9,6 +9,48 @@ use std::sync::Arc;
 use crate::sample::{Pose2, Shape};
 
 /// What a simulated robot is put into, as read from a text.
+///
+/// ```
+/// use afp_session::{Drawing, Pose2, Shape, World, WorldError};
+///
+/// #[derive(Clone, Debug)]
+/// struct Hall {
+///     length: f64,
+///     start: Pose2,
+/// }
+///
+/// impl World for Hall {
+///     const DEFAULT: &'static str = "10";
+///
+///     fn read(text: &str) -> Result<Self, WorldError> {
+///         let wrong = |_| WorldError::new(Some(0..text.len()), "expected a length in metres");
+///         Ok(Hall { length: text.parse().map_err(wrong)?, start: Pose2::default() })
+///     }
+///
+///     fn name(&self) -> &str {
+///         "hall"
+///     }
+///
+///     fn started_at(&self, start: Pose2) -> Result<Self, WorldError> {
+///         match (0.0..self.length).contains(&start.x) {
+///             true => Ok(Hall { start, ..self.clone() }),
+///             false => Err(WorldError::new(None, "the robot starts outside of the hall")),
+///         }
+///     }
+///
+///     fn scene(&self) -> Vec<Shape> {
+///         Vec::new()
+///     }
+///
+///     fn drawing(&self) -> Drawing {
+///         Drawing { start: self.start, ..Drawing::default() }
+///     }
+/// }
+/// # let hall = Hall::read(Hall::DEFAULT)?;
+/// # assert!(hall.started_at(Pose2 { x: 12.0, ..Pose2::default() }).is_err());
+/// # assert!(Hall::read("long").is_err());
+/// # Ok::<(), WorldError>(())
+/// ```
 pub trait World: Clone + fmt::Debug + Send + Sync + 'static {
     /// The text of the world for plans that come without one.
     const DEFAULT: &'static str;

@@ -10,6 +10,30 @@ use crate::chassis::Chassis;
 use afp_session::{Drawing, Pose2, Shape};
 
 /// What a robot is to its worlds.
+///
+/// ```
+/// use afp_session::World;
+/// use afp_sim::parts::{Body, Chassis, Footprint, NoTables, WorldOf};
+///
+/// /// A round robot, 30 cm wide.
+/// #[derive(Clone, Debug)]
+/// struct Round;
+///
+/// impl Body for Round {
+///     const CHASSIS: Chassis = Chassis {
+///         shape: Footprint::Round(0.15),
+///         mass: 2.0,
+///         height: 0.1,
+///         ranging_height: 0.05,
+///     };
+///     const DEFAULT: &'static str = "version = 1\n[robot]\npose_m_deg = [0, 0, 0]";
+///     type Own = NoTables;
+/// }
+///
+/// let world = WorldOf::<Round>::read(Round::DEFAULT)?;
+/// # assert_eq!(world.drawing().start, afp_session::Pose2::default());
+/// # Ok::<(), afp_session::WorldError>(())
+/// ```
 pub trait Body: Clone + Debug + Send + Sync + 'static {
     /// Its body.
     const CHASSIS: Chassis;

@@ -17,14 +17,27 @@ use super::registry::Registry;
 
 /// A platform that knows the templates that plans for it may use.
 ///
-/// ```ignore
-/// impl afp::load::Templates for Lamp {
+/// ```
+/// use afp::load::{Library, Templates};
+/// # use afp::{Environment, Instant};
+/// # struct Lamp;
+/// # impl Environment for Lamp {
+/// #     fn stop(&mut self, _: Instant) {}
+/// #     fn emergency_stop(&mut self) {}
+/// # }
+///
+/// impl Templates for Lamp {
 ///     fn add_to(library: &mut Library<Self>) {
 ///         library.register(afp_std::templates::register);
-///         library.toolbox("signals.afp", signals::templates::SOURCE);
-///         library.register(signals::templates::register);
+///         // With a toolbox of its own also:
+///         // library.toolbox("signals.afp", signals::templates::SOURCE);
+///         // library.register(signals::templates::register);
 ///     }
 /// }
+/// # let mut library = Library::<Lamp>::new();
+/// # Lamp::add_to(&mut library);
+/// # let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
+/// # library.load_text("p.afp", plan).unwrap();
 /// ```
 pub trait Templates: Environment + Sized + 'static {
     /// Adds the toolboxes, and what implements their templates on this platform.

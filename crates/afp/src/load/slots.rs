@@ -15,6 +15,43 @@ pub type See<'a> = Option<&'a mut dyn FnMut(u16, ValueRef<'_>)>;
 ///
 /// At `start` all inputs are pulled, shown and checked against their ports' ranges, at `poll` those that
 /// are live.
+///
+/// An actor that finishes at its first poll; the slots of supervisors and computations are written alike:
+///
+/// ```
+/// use afp::load::{ActorSlot, Args, BadValue, Outputs, See};
+/// use afp::{Fault, Instant};
+///
+/// struct AtOnce;
+///
+/// impl<E: ?Sized> ActorSlot<E> for AtOnce {
+///     fn start(
+///         &mut self,
+///         _: &dyn Args,
+///         _: See<'_>,
+///         _: &mut E,
+///         _: Instant,
+///     ) -> Result<(), BadValue> {
+///         Ok(())
+///     }
+///
+///     fn poll(
+///         &mut self,
+///         _: &dyn Args,
+///         _: &mut dyn Outputs,
+///         _: &mut E,
+///         _: Instant,
+///     ) -> Result<Option<u16>, BadValue> {
+///         Ok(Some(0))
+///     }
+///
+///     fn interrupt(&mut self, _: &mut E, _: Instant) -> Result<(), Fault> {
+///         Ok(())
+///     }
+///
+///     fn clear(&mut self) {}
+/// }
+/// ```
 pub trait ActorSlot<E: ?Sized>: Send {
     /// Makes the actor and begins to act.
     ///
