@@ -3,8 +3,8 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{Line, Names, NoTrace, Record, Sink, TraceEntryId};
-use afp_core::{Fault, Instant, Scheduler, StartError, Wake};
+use afp_core::trace::{Line, Names, NoTrace, Record, Sink};
+use afp_core::{EntryId, Fault, Instant, Scheduler, StartError, Wake};
 
 use crate::platform::{CostClock, Log, Platform};
 use crate::script::{Outside, Script};
@@ -103,7 +103,7 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
         match catch_unwind(AssertUnwindSafe(start)) {
             Ok(Ok(wake)) => Some(self.noted(wake)),
             Ok(Err(StartError::InputMissing(entry))) => {
-                let entry = self.sink.0.names.entry(TraceEntryId(u32::from(entry))).path;
+                let entry = self.sink.0.names.entry(entry.into()).path;
                 self.log.note(format!("[cannot start without {entry}]"));
                 None
             }
@@ -139,7 +139,7 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
             match what {
                 Outside::Stop => self.scheduler.request_stop(),
                 Outside::Write(name, value) => {
-                    let entry = self.scheduler.plan().entry_named(name).unwrap_or(u16::MAX);
+                    let entry = self.scheduler.plan().entry_named(name).unwrap_or(EntryId(u16::MAX));
                     if let Err(why) = self.scheduler.write(entry, value.clone()) {
                         self.log.note(format!("{now} [{name} refused: {why}]"));
                     }

@@ -23,7 +23,9 @@ pub mod trace;
 
 pub use core::task::Poll;
 
-pub use afp_types::{Duration, Instant, MAX_TEXT, MAX_TRANSITIONS_PER_STEP, Text, Value, ValueRef};
+pub use afp_types::{
+    Duration, ElementId, EntryId, Instant, MAX_TEXT, MAX_TRANSITIONS_PER_STEP, Text, Value, ValueRef,
+};
 pub use clock::{Clock, StillClock};
 pub use component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Supervisor,

@@ -6,7 +6,7 @@ mod outside;
 
 use core::fmt;
 
-use afp_types::{Instant, MAX_TRANSITIONS_PER_STEP, Value};
+use afp_types::{ElementId, EntryId, Instant, MAX_TRANSITIONS_PER_STEP, Value};
 use heapless::Deque;
 
 use crate::clock::Clock;
@@ -14,7 +14,7 @@ use crate::component::Environment;
 use crate::fault::{Failure, Fault};
 use crate::machine::{Flow, Machine};
 use crate::rt::{Cx, Place, Plan, PlanState, Run, StepState};
-use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink, TraceEntryId};
+use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink};
 
 use guard::guarded;
 
@@ -38,8 +38,8 @@ pub enum Wake {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StartError {
-    /// This `in` entry, by position, has neither a value nor a default.
-    InputMissing(u16),
+    /// This `in` entry has neither a value nor a default.
+    InputMissing(EntryId),
     /// It has been started before.
     AlreadyStarted,
 }
@@ -65,7 +65,7 @@ impl fmt::Display for StartError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StartError::InputMissing(entry) => {
-                write!(f, "input {entry} of the plan (by position, from 0) has no value")
+                write!(f, "input {} of the plan (by position, from 0) has no value", entry.0)
             }
             StartError::AlreadyStarted => f.write_str("the plan has been started before"),
         }
@@ -85,7 +85,7 @@ impl<N: Names> fmt::Display for NamedStartError<'_, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             StartError::InputMissing(entry) => {
-                let name = self.1.entry(TraceEntryId(entry.into())).path;
+                let name = self.1.entry(entry.into()).path;
                 write!(f, "the input '{name}' has no value: set it before the start")
             }
             error => error.fmt(f),
@@ -154,9 +154,9 @@ impl<P: PlanState> Scheduler<P> {
         self.machine.plan_mut()
     }
 
-    /// The active element of the outermost plan, by position.
-    pub fn active(&self) -> Option<u16> {
-        self.machine.active()
+    /// The active element of the outermost plan.
+    pub fn active(&self) -> Option<ElementId> {
+        self.machine.active().map(ElementId)
     }
 
     /// How the plan ended, once it has.
@@ -195,7 +195,7 @@ impl<P: PlanState> Scheduler<P> {
             State::Running | State::Ended(_) => return Err(StartError::AlreadyStarted),
         }
         if let Some(entry) = self.machine.plan().missing_input() {
-            return Err(StartError::InputMissing(entry));
+            return Err(StartError::InputMissing(EntryId(entry)));
         }
         self.state = State::Running;
         self.last = now;

@@ -6,7 +6,7 @@
 mod display;
 mod hash;
 
-use afp_types::{Duration, Instant, ValueRef};
+use afp_types::{Duration, EntryId, Instant, ValueRef};
 
 use crate::fault::{Detail, Fault};
 
@@ -22,6 +22,13 @@ pub struct ComponentId(pub u32);
 /// An entry of a running plan, sub-plans unfolded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TraceEntryId(pub u32);
+
+impl From<EntryId> for TraceEntryId {
+    /// The entry of the outermost plan, whose entries come first.
+    fn from(entry: EntryId) -> Self {
+        TraceEntryId(entry.0.into())
+    }
+}
 
 /// Where an edge starts: a state or event of a component, or what every element or supervisor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -352,7 +352,7 @@ impl Target for SessionTarget<'_> {
 fn cannot_start(why: StartError, program: &Program) -> String {
     match why {
         StartError::InputMissing(entry) => {
-            let name = program.entries.get(usize::from(entry)).map_or("", |entry| &*entry.path);
+            let name = program.entries.get(entry.index()).map_or("", |entry| &*entry.path);
             format!(
                 "the 'in' entry '{name}' has neither a value nor a default: give it one with 'set'"
             )

@@ -198,7 +198,7 @@ fn story<P: Plan<Script> + NamedPlan>(
 ) -> (Vec<String>, Vec<String>) {
     let mut script = Script { seek: seek.iter().cloned().collect(), ..Script::default() };
     let speed = plan.entry_named("speed").unwrap();
-    plan.set_input(speed, &Value::Float(0.5)).unwrap();
+    plan.set_input(speed.0, &Value::Float(0.5)).unwrap();
     let mut sink = Lines { names: plan.names(), lines: Vec::new() };
     let mut scheduler = Scheduler::new(plan);
     let mut wake = scheduler.start((&mut script, &mut sink, &StillClock), Instant::ZERO).unwrap();
@@ -282,7 +282,7 @@ fn an_input_without_a_default_must_be_given() {
     let mut scheduler = Scheduler::new(Everything::new());
     let started =
         scheduler.start((&mut Script::default(), &mut NoTrace, &StillClock), Instant::ZERO);
-    assert_eq!(format!("{started:?}"), "Err(InputMissing(1))");
+    assert_eq!(format!("{started:?}"), "Err(InputMissing(EntryId(1)))");
 }
 
 #[test]
@@ -291,10 +291,10 @@ fn entries_are_set_and_read_by_name() {
     let speed = plan.entry_named("speed").unwrap();
     let value = plan.read(speed, "36 km/h").unwrap();
     assert_eq!(value, Value::Float(10.0));
-    plan.set_input(speed, &value).unwrap();
+    plan.set_input(speed.0, &value).unwrap();
     assert_eq!(plan.speed(), Some(Speed::from_si(10.0)));
-    assert!(plan.set_input(speed, &Value::Float(f64::NAN)).is_err());
-    assert!(plan.set_input(plan.entry_named("half").unwrap(), &Value::Float(1.0)).is_err());
+    assert!(plan.set_input(speed.0, &Value::Float(f64::NAN)).is_err());
+    assert!(plan.set_input(plan.entry_named("half").unwrap().0, &Value::Float(1.0)).is_err());
 }
 
 #[test]

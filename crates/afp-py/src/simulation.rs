@@ -298,7 +298,7 @@ impl Runner {
         let session = self.lock()?;
         let number = session.entry(name)?;
         let value = session.session.entry(number).to_owned();
-        let id = TraceEntryId(number.into());
+        let id = TraceEntryId::from(number);
         let names = session.names.clone();
         drop(session);
         to_python(py, value.borrow(), |choice| names.choice(id, choice).to_owned())

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use afp_core::trace::{EntryName, Names, TraceEntryId};
-use afp_core::{Fault, MAX_TEXT, Text, Value, ValueRef};
+use afp_core::{EntryId, Fault, MAX_TEXT, Text, Value, ValueRef};
 use afp_dsl::types::Type;
 use afp_session::AnySession;
 use afp_syntax::diagnostics::words::a;
@@ -85,8 +85,8 @@ impl Given {
     ///
     /// # Errors
     /// It does not fit.
-    pub fn for_entry(self, session: &dyn AnySession, entry: u16) -> PyResult<Value> {
-        let id = TraceEntryId(entry.into());
+    pub fn for_entry(self, session: &dyn AnySession, entry: EntryId) -> PyResult<Value> {
+        let id = TraceEntryId::from(entry);
         let about = session.names().entry(id);
         let wrong = |what: String| unfit(about, &what);
         match self {

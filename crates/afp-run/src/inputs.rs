@@ -1,6 +1,6 @@
 //! `--set` and `--vary`: values for the plan's `in` entries and for its world.
 
-use afp_core::trace::{Names, TraceEntryId};
+use afp_core::trace::Names;
 use afp_core::{StartError, Value};
 use afp_excerpt::words::a;
 use afp_session::{AnyRobot, AnySession, NotSet, what_it_takes};
@@ -48,7 +48,7 @@ pub fn set(session: &mut dyn AnySession, name: &str, text: &str) -> Result<Value
 pub fn missing(error: StartError, names: &dyn Names) -> RunError {
     match error {
         StartError::InputMissing(entry) => {
-            let about = names.entry(TraceEntryId(entry.into()));
+            let about = names.entry(entry.into());
             let path = about.path;
             RunError::usage(
                 format!("the 'in' entry '{path}' has neither a value nor a default"),

@@ -4,7 +4,7 @@ use std::any::Any;
 
 use afp_core::devices::{DeviceRow, SignalId};
 use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
-use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
+use afp_core::{Duration, EntryId, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
 use crate::figures::Figures;
 use crate::not_set::NotSet;
@@ -33,8 +33,8 @@ pub trait AnySession: Send {
     /// How the plan ended, once it has.
     fn ending(&self) -> Option<Ending>;
 
-    /// The value of an entry of the plan itself, by position.
-    fn entry(&self, id: u16) -> ValueRef<'_>;
+    /// The value of an entry of the plan itself.
+    fn entry(&self, id: EntryId) -> ValueRef<'_>;
 
     /// Deadlines missed so far, skipped releases included.
     fn misses(&self) -> u64;
@@ -46,7 +46,7 @@ pub trait AnySession: Send {
     ///
     /// # Errors
     /// It is none of the entry's type.
-    fn read_text(&self, entry: u16, text: &str) -> Result<Value, Fault>;
+    fn read_text(&self, entry: EntryId, text: &str) -> Result<Value, Fault>;
 
     /// Writes an entry as people write it, `35 cm`: before the start an `in` entry, later with the next step. Gives
     /// the value.
@@ -59,7 +59,7 @@ pub trait AnySession: Send {
     ///
     /// # Errors
     /// The value does not fit, the plan has ended, or too many writes wait.
-    fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError>;
+    fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError>;
 
     /// Asks for something at an instant. It is checked now and done then; what cannot be done then is reported to
     /// observers.

@@ -2,7 +2,7 @@
 
 use afp_core::devices::SignalId;
 use afp_core::trace::{ComponentId, Ending, Names, Record};
-use afp_core::{Duration, Instant, ValueRef};
+use afp_core::{Duration, EntryId, Instant, ValueRef};
 
 use crate::event::{Done, Requested, RunEvent};
 use crate::request::{RequestError, RequestId};
@@ -205,7 +205,7 @@ pub struct View<'a> {
 
 /// What a view shows.
 pub(crate) trait Inside {
-    fn entry(&self, id: u16) -> ValueRef<'_>;
+    fn entry(&self, id: EntryId) -> ValueRef<'_>;
     fn active(&self) -> Option<ComponentId>;
     fn ending(&self) -> Option<Ending>;
     fn names(&self) -> &dyn Names;
@@ -218,8 +218,8 @@ impl View<'_> {
         self.now
     }
 
-    /// The value of an entry of the plan itself, by position.
-    pub fn entry(&self, id: u16) -> ValueRef<'_> {
+    /// The value of an entry of the plan itself.
+    pub fn entry(&self, id: EntryId) -> ValueRef<'_> {
         self.inside.entry(id)
     }
 

@@ -7,7 +7,7 @@ use std::fmt;
 use afp::load::Injection;
 use afp_core::devices::{ControlId, FaultId};
 use afp_core::trace::ComponentId;
-use afp_core::{Duration, Instant, Value, WriteError};
+use afp_core::{Duration, EntryId, Instant, Value, WriteError};
 
 use crate::sample::Pose2;
 
@@ -21,7 +21,7 @@ pub const HOLD: Duration = Duration::from_millis(200);
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// An entry is written: before the start an `in` entry at once, later with the next step.
-    Write(u16, Value),
+    Write(EntryId, Value),
     /// A control is held down until it is let go, or let go, whoever holds it.
     Press(ControlId, bool),
     /// A control is held down for a while, and then for as long as somebody else holds it.

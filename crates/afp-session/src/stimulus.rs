@@ -4,7 +4,7 @@ use std::fmt;
 
 #[cfg(feature = "load")]
 use afp::load::Injection;
-use afp_core::Duration;
+use afp_core::{Duration, EntryId};
 use afp_core::devices::{ControlId, DeviceRow, controls, faults, find_control, find_fault};
 #[cfg(feature = "load")]
 use afp_core::trace::ComponentKind;
@@ -95,7 +95,7 @@ impl Stimulus {
         };
         match request {
             Request::Write(entry, value) => {
-                let id = TraceEntryId((*entry).into());
+                let id = TraceEntryId::from(*entry);
                 Stimulus::Write {
                     entry: names.entry(id).path.to_owned(),
                     value: Datum::new(names, Holder::Entry(id), value.borrow()),
@@ -154,7 +154,7 @@ impl Stimulus {
                 let id = ids.find(|id| names.entry(*id).path == entry).ok_or_else(unknown)?;
                 let number = u16::try_from(id.0).map_err(|_| unknown())?;
                 let value = value.value(names, Holder::Entry(id)).ok_or_else(unknown)?;
-                Request::Write(number, value)
+                Request::Write(EntryId(number), value)
             }
             Stimulus::Press { control, held } => {
                 let id = find_control(devices, control).ok_or(RequestError::NoControl)?;

@@ -11,7 +11,7 @@ use std::sync::atomic::Ordering;
 
 use afp_core::devices::{ControlId, FaultId, SignalId};
 use afp_core::trace::{Ending, Outcome, Record, Verdict};
-use afp_core::{Duration, Fault, Instant, Platform, SetError, Text, Value, WriteError};
+use afp_core::{Duration, EntryId, Fault, Instant, Platform, SetError, Text, Value, WriteError};
 use afp_session::{
     AnySession, Applied, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError,
     RequestId, SampleRef, Sampling, Session, Stimulus, View,
@@ -155,7 +155,7 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
         (Request::Press(ControlId(9), true), RequestError::NoControl),
         (Request::Break(FaultId(9), None, Duration::MAX), RequestError::NoFault),
         (Request::Break(SLIP, Some(2.0), Duration::MAX), RequestError::Amount(2.0)),
-        (Request::Write(1, Value::Bool(true)), RequestError::Write(WriteError::Type)),
+        (Request::Write(EntryId(1), Value::Bool(true)), RequestError::Write(WriteError::Type)),
     ] {
         assert_eq!(session.at(at(10), request), Err(why));
     }
@@ -221,7 +221,7 @@ fn an_entry_is_set_before_the_start_and_written_later() {
     assert!(matches!(refused.cause, SetError::Unreadable { .. }), "{refused:?}");
     assert!(refused.help.contains("cm/s"), "{}", refused.help);
     session
-        .at(Instant::ZERO, Request::Write(0, Value::Text(Text::try_from("a").unwrap())))
+        .at(Instant::ZERO, Request::Write(EntryId(0), Value::Text(Text::try_from("a").unwrap())))
         .unwrap();
     let mut notes = Notes::default();
     session.run(at(1000), &mut Open, &mut [&mut notes]).unwrap();

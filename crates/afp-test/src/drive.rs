@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use afp::load::value_of;
 use afp_core::devices::SignalId;
 use afp_core::trace::TraceEntryId;
-use afp_core::{Duration, Instant, StartError};
+use afp_core::{Duration, EntryId, Instant, StartError};
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
@@ -230,7 +230,7 @@ impl Judge<'_> {
     /// Whatever the plan holds has been committed: half a commit would be seen here.
     fn compare(&mut self, view: &View<'_>) {
         let entries = &self.scenario.graph.main().entries;
-        let held = (0..entries.len() as u16).map(|entry| view.entry(entry));
+        let held = (0..entries.len() as u16).map(|entry| view.entry(EntryId(entry)));
         let Some((index, held, known)) = self.watch.differs(held).filter(|_| self.is_consistent)
         else {
             return;

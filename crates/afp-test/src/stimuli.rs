@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use afp::load::{Injection, value_of};
 use afp_core::devices::{find_control, find_fault};
 use afp_core::trace::{self, ComponentId, ComponentKind, Names};
-use afp_core::{Duration, Instant};
+use afp_core::{Duration, EntryId, Instant};
 use afp_dsl::scenario::{self, Action, Failure, MomentId, Outcome, Part, Scenario};
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
 
@@ -38,7 +38,7 @@ fn requested(session: &dyn AnySession, action: &Action) -> Result<Request, Reque
         id.ok_or(RequestError::NoControl)
     };
     Ok(match action {
-        Action::Set(entry, value) => Request::Write(*entry, value_of(value)),
+        Action::Set(entry, value) => Request::Write(EntryId(*entry), value_of(value)),
         Action::Press(part, time) => {
             Request::Hold(control(part)?, time.map_or(HOLD, Duration::from_nanos))
         }

@@ -1,6 +1,6 @@
 //! The names of a plan as static rows, and plans that can be addressed by name.
 
-use afp_types::{Text, Value};
+use afp_types::{EntryId, Text, Value};
 
 use crate::fault::Fault;
 use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
@@ -160,21 +160,21 @@ pub trait NamedPlan: PlanState {
     /// The names, to be kept apart from the running plan.
     fn names(&self) -> Self::Names;
 
-    /// Reads a value for an entry, by position, as it would stand in the plan: `35 cm`, `true`,
+    /// Reads a value for an entry as it would stand in the plan: `35 cm`, `true`,
     /// `Side.left`; texts without quotes. Only [`NamedPlan::units`] are understood.
     ///
     /// # Errors
     /// [`Fault::CONVERSION`]; [`Fault::TOO_LONG`] for a text.
-    fn read(&self, entry: u16, text: &str) -> Result<Value, Fault> {
+    fn read(&self, entry: EntryId, text: &str) -> Result<Value, Fault> {
         let names = self.names();
-        let id = TraceEntryId(entry.into());
+        let id = entry.into();
         let EntryName { ty, unit, .. } = names.entry(id);
         match ty {
             "bool" => parse_bool(text).map(Value::Bool),
             "int" => parse_int(text).map(Value::Int),
             "float" => parse_float(text).map(Value::Float),
             "string" => Ok(Value::Text(Text::try_from(text)?)),
-            _ if !unit.is_empty() => parse_quantity(text, self.units(entry)).map(Value::Float),
+            _ if !unit.is_empty() => parse_quantity(text, self.units(entry.0)).map(Value::Float),
             ty => {
                 let name = text.trim().strip_prefix(ty).and_then(|rest| rest.strip_prefix('.'));
                 let choices = (0..u16::MAX).map(|value| names.choice(id, value));
@@ -188,11 +188,11 @@ pub trait NamedPlan: PlanState {
     fn units(&self, entry: u16) -> impl Iterator<Item = Unit<'_>>;
 
     /// The position of an entry of the plan itself.
-    fn entry_named(&self, name: &str) -> Option<u16> {
+    fn entry_named(&self, name: &str) -> Option<EntryId> {
         let names = self.names();
         let mut ids = (0..names.entries()).map(TraceEntryId);
         let found = ids.find(|id| names.entry(*id).path == name)?;
-        u16::try_from(found.0).ok().filter(|_| !name.contains('.'))
+        u16::try_from(found.0).ok().filter(|_| !name.contains('.')).map(EntryId)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Driving a plan on a platform, and replacing a plan by another one.
 
-use afp_types::Instant;
+use afp_types::{EntryId, Instant};
 
 use super::{Scheduler, StartError, State, Wake};
 use crate::component::Environment;
@@ -113,7 +113,7 @@ impl<P: PlanState> Scheduler<P> {
         P: Plan<R::Env>,
     {
         if let Some(entry) = plan.missing_input() {
-            return Err(StartError::InputMissing(entry));
+            return Err(StartError::InputMissing(EntryId(entry)));
         }
         if matches!(self.state, State::Running | State::Broken { .. }) {
             self.request_stop();

@@ -4,7 +4,7 @@ use core::error::Error;
 use core::fmt;
 use core::marker::PhantomData;
 
-use afp_types::{Value, ValueRef};
+use afp_types::{EntryId, Value, ValueRef};
 
 use super::{Scheduler, State};
 use crate::fault::Fault;
@@ -14,7 +14,7 @@ use crate::trace::{EntryKind, Names, TraceEntryId};
 /// An entry of the plan `P` that takes values of type `T` from outside. `plan!` makes a constant of
 /// each `in` and `var` entry: `Patrol::WAY`.
 pub struct TypedEntry<P, T> {
-    position: u16,
+    position: EntryId,
     of: PhantomData<fn(P, T)>,
 }
 
@@ -39,11 +39,11 @@ impl<P, T> TypedEntry<P, T> {
     /// The entry at a position of the plan.
     #[doc(hidden)]
     pub const fn new(position: u16) -> Self {
-        TypedEntry { position, of: PhantomData }
+        TypedEntry { position: EntryId(position), of: PhantomData }
     }
 
     /// Its position among the entries of the plan.
-    pub const fn position(self) -> u16 {
+    pub const fn position(self) -> EntryId {
         self.position
     }
 }
@@ -58,7 +58,7 @@ impl<P, T> Copy for TypedEntry<P, T> {}
 
 impl<P, T> fmt::Debug for TypedEntry<P, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "TypedEntry({})", self.position)
+        write!(f, "TypedEntry({})", self.position.0)
     }
 }
 
@@ -142,14 +142,14 @@ impl<P: PlanState> Scheduler<P> {
     ///
     /// # Errors
     /// [`SetError`]: the plan has no such entry, or the entry cannot be set now, or the text is no value of its type.
-    pub fn read_named(&self, entry: &str, text: &str) -> Result<(u16, Value), SetError>
+    pub fn read_named(&self, entry: &str, text: &str) -> Result<(EntryId, Value), SetError>
     where
         P: NamedPlan,
     {
         let plan = self.plan();
         let position = plan.entry_named(entry).ok_or(SetError::Unknown)?;
         let names = plan.names();
-        let id = TraceEntryId(position.into());
+        let id = position.into();
         match names.entry(id).kind {
             EntryKind::Out | EntryKind::Const => return Err(WriteError::ReadOnly.into()),
             EntryKind::Var if self.state == State::Ready => {
@@ -161,16 +161,16 @@ impl<P: PlanState> Scheduler<P> {
         Ok((position, plan.read(position, text).map_err(unreadable)?))
     }
 
-    /// As [`Scheduler::set`], by position, with any value; quantities are in SI units.
+    /// As [`Scheduler::set`], with any value; quantities are in SI units.
     ///
     /// # Errors
     /// [`WriteError`]: the plan gets nothing.
-    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
+    pub fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError> {
         match self.state {
-            State::Ready => self.machine.plan_mut().set_input(entry, &value),
+            State::Ready => self.machine.plan_mut().set_input(entry.0, &value),
             State::Running => {
-                self.machine.plan().accepts(entry, &value)?;
-                self.writes.push_back((entry, value)).map_err(|_| WriteError::QueueFull)
+                self.machine.plan().accepts(entry.0, &value)?;
+                self.writes.push_back((entry.0, value)).map_err(|_| WriteError::QueueFull)
             }
             State::Broken { .. } | State::Ended(_) => Err(WriteError::Ended),
         }
@@ -183,7 +183,7 @@ impl<P: PlanState> Scheduler<P> {
         P: NamedPlan,
     {
         let plan = self.plan();
-        plan.entry_named(entry).map(|position| plan.entry(position))
+        plan.entry_named(entry).map(|position| plan.entry(position.0))
     }
 
     /// Asks the plan to stop: the next step interrupts it and ends it as `Interrupted`. A plan that

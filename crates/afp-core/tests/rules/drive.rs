@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use afp_core::trace::{Ending, EntryKind, NoTrace};
-use afp_core::{Fault, Scheduler, StartError, Value, Wake};
+use afp_core::{ElementId, EntryId, Fault, Scheduler, StartError, Value, Wake};
 
 use crate::support::build::{Builder, actor, guard, plan, sub_plan};
 use crate::support::ms;
@@ -68,7 +68,7 @@ fn a_panic_that_unwinds_past_the_driver_stops_the_platform() {
 fn a_plan_that_cannot_start_leaves_the_platform_alone() {
     let mut plan = scheduler(plan("p").entry("size", EntryKind::In, Value::Unset).with(actor("a")));
     let mut world = World::default();
-    assert_eq!(plan.run(&mut world), Err(StartError::InputMissing(0)));
+    assert_eq!(plan.run(&mut world), Err(StartError::InputMissing(EntryId(0))));
     assert_eq!(world.calls, [""; 0]);
 }
 
@@ -129,8 +129,8 @@ fn another_plan_takes_the_place_of_one_that_runs() {
         let plan = Scripted::new(plan.build());
         running.replace(plan, (&mut world, &mut NoTrace, &clock), ms(at))
     };
-    assert_eq!(put(&mut running, missing, 6), Err(StartError::InputMissing(0)));
-    assert_eq!(running.active(), Some(0), "the old plan goes on");
+    assert_eq!(put(&mut running, missing, 6), Err(StartError::InputMissing(EntryId(0))));
+    assert_eq!(running.active(), Some(ElementId(0)), "the old plan goes on");
     assert_eq!(put(&mut running, other, 7), Ok(Wake::At(ms(17))));
     assert_eq!(world.calls, ["0 start a", "7 interrupt a", "7 start c"]);
 }

@@ -1,7 +1,7 @@
 //! Writes and stop requests from outside.
 
 use afp_core::trace::{Ending, EntryKind};
-use afp_core::{MAX_WRITES_PER_STEP, StartError, Value, Wake, WriteError};
+use afp_core::{EntryId, MAX_WRITES_PER_STEP, StartError, Value, Wake, WriteError};
 
 use crate::support::build::{Builder, actor, guard, plan};
 use crate::support::run::{Run, assert_lines};
@@ -48,8 +48,8 @@ fn a_write_that_does_not_fit_is_the_writers_error() {
     let mut run = Run::started(watched(), World::default());
     assert_eq!(run.write("fixed", 2), Err(WriteError::ReadOnly));
     assert_eq!(run.write("result", 2), Err(WriteError::ReadOnly));
-    assert_eq!(run.scheduler.write(99, Value::Int(1)), Err(WriteError::Unknown));
-    assert_eq!(run.scheduler.write(1, Value::Bool(true)), Err(WriteError::Type));
+    assert_eq!(run.scheduler.write(EntryId(99), Value::Int(1)), Err(WriteError::Unknown));
+    assert_eq!(run.scheduler.write(EntryId(1), Value::Bool(true)), Err(WriteError::Type));
     run.trace();
     run.step(5);
     assert_eq!(run.trace(), [""; 0]);
@@ -127,7 +127,7 @@ fn an_input_without_value_keeps_the_plan_from_starting() {
             .with(actor("a").reads("size").on("Done", "a"))
     };
     let mut run = Run::ready(build(), World::default());
-    assert_eq!(run.start(), Err(StartError::InputMissing(0)));
+    assert_eq!(run.start(), Err(StartError::InputMissing(EntryId(0))));
     assert_eq!((run.world.calls.len(), run.trace().len()), (0, 0));
     run.scheduler.plan_mut().expect("not started").set("size", Value::Int(4));
     run.start().expect("the input is set");

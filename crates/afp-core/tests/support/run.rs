@@ -1,7 +1,7 @@
 //! Steps a plan on its world and keeps what happened.
 
 use afp_core::trace::{Ending, Line, Record, Sink};
-use afp_core::{Instant, Scheduler, StartError, Value, Wake, WriteError};
+use afp_core::{EntryId, Instant, Scheduler, StartError, Value, Wake, WriteError};
 
 use super::build::Builder;
 use super::ms;
@@ -80,7 +80,7 @@ impl Run {
 
     pub fn write(&mut self, entry: &str, value: i64) -> Result<(), WriteError> {
         let entry = self.scheduler.plan().spec().entry(entry);
-        self.scheduler.write(entry, Value::Int(value))
+        self.scheduler.write(EntryId(entry), Value::Int(value))
     }
 
     pub fn names(&self) -> &SpecNames {
@@ -107,7 +107,7 @@ impl Run {
 
     pub fn active(&self) -> Option<&'static str> {
         let active = self.scheduler.active()?;
-        Some(self.scheduler.plan().spec().elements[usize::from(active)].name)
+        Some(self.scheduler.plan().spec().elements[active.index()].name)
     }
 
     /// The trace since the last call.

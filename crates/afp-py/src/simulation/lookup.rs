@@ -1,6 +1,7 @@
 //! What the names of a plan stand for in a run of it.
 
 use afp::load::{Injection, PlanNames};
+use afp_core::EntryId;
 use afp_core::trace::{ComponentId, ComponentKind, Names, TraceEntryId, declared};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -43,9 +44,9 @@ impl Run {
     ///
     /// # Errors
     /// It has no such entry.
-    pub fn entry(&self, name: &str) -> PyResult<u16> {
+    pub fn entry(&self, name: &str) -> PyResult<EntryId> {
         let known = self.own_entries();
-        let found = (0..).zip(&known).find(|(_, known)| *known == name);
+        let found = (0..).map(EntryId).zip(&known).find(|(_, known)| *known == name);
         found.map(|(number, _)| number).ok_or_else(|| {
             let none = format!("the plan has no entry '{name}'");
             PyKeyError::new_err(match known.is_empty() {

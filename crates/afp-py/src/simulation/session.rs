@@ -9,8 +9,8 @@ use std::{io, mem};
 
 use afp::load::PlanNames;
 use afp_core::devices::find_signal;
-use afp_core::trace::{ComponentKind, Ending, Names, Record, TraceEntryId};
-use afp_core::{Fault, Instant, StartError, Value};
+use afp_core::trace::{ComponentKind, Ending, Names, Record};
+use afp_core::{EntryId, Fault, Instant, StartError, Value};
 use afp_dsl::graph::Graph;
 use afp_log::{OwnedNames, SessionLog, WhenFull};
 use afp_run::RunError;
@@ -263,7 +263,7 @@ impl Run {
     fn no_start(&self, why: StartError) -> PyErr {
         match (missing(why, &self.names), why) {
             (RunError::Usage { message, .. }, StartError::InputMissing(entry)) => {
-                let path = self.names.entry(TraceEntryId(entry.into())).path;
+                let path = self.names.entry(entry.into()).path;
                 error(format!("{message}\n  help: give it one, set={{\"{path}\": ...}}"))
             }
             (other, _) => run_error(&other),
@@ -326,9 +326,9 @@ impl Run {
     ///
     /// # Errors
     /// The value does not fit, or too many writes wait.
-    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), String> {
+    pub fn write(&mut self, entry: EntryId, value: Value) -> Result<(), String> {
         let written = self.session.write(entry, value);
-        let about = self.session.names().entry(TraceEntryId(entry.into()));
+        let about = self.session.names().entry(entry.into());
         written.map_err(|why| refusal(why, about))
     }
 

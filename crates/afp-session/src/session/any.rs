@@ -5,7 +5,7 @@ use std::any::Any;
 use afp_core::devices::{DeviceRow, SignalId};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Ending, Names, TraceHash};
-use afp_core::{Duration, Fault, Instant, StartError, Value, ValueRef, WriteError};
+use afp_core::{Duration, EntryId, Fault, Instant, StartError, Value, ValueRef, WriteError};
 
 use super::{Session, report};
 use crate::any::AnySession;
@@ -51,8 +51,8 @@ where
         self.ending()
     }
 
-    fn entry(&self, id: u16) -> ValueRef<'_> {
-        self.scheduler.plan().entry(id)
+    fn entry(&self, id: EntryId) -> ValueRef<'_> {
+        self.scheduler.plan().entry(id.0)
     }
 
     fn misses(&self) -> u64 {
@@ -63,7 +63,7 @@ where
         self.read(signal, to);
     }
 
-    fn read_text(&self, entry: u16, text: &str) -> Result<Value, Fault> {
+    fn read_text(&self, entry: EntryId, text: &str) -> Result<Value, Fault> {
         self.scheduler.plan().read(entry, text)
     }
 
@@ -71,7 +71,7 @@ where
         self.set(entry, text)
     }
 
-    fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
+    fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError> {
         self.write(entry, value)
     }
 

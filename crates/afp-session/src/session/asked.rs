@@ -5,7 +5,9 @@ use afp::load::{Injection, LoadedPlan, NotInjected};
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Names};
-use afp_core::{Duration, Instant, Value, WriteError};
+use afp_core::{Duration, EntryId, Instant, Value, WriteError};
+#[cfg(feature = "load")]
+use afp_core::ElementId;
 
 use super::Session;
 use crate::hardware::Hardware;
@@ -21,7 +23,7 @@ use crate::stimulus::Stimulus;
 /// What only loaded plans can do, as functions over them.
 pub(super) struct Testing<P> {
     #[cfg(feature = "load")]
-    inject: fn(&mut P, Option<u16>, &Injection) -> Result<(), NotInjected>,
+    inject: fn(&mut P, Option<ElementId>, &Injection) -> Result<(), NotInjected>,
     idle: fn(&mut P, Option<ComponentId>) -> bool,
 }
 
@@ -137,7 +139,7 @@ where
                 Err(RequestError::Refused)
             }
             Request::Write(entry, value) => {
-                self.scheduler.plan().accepts(*entry, value).map_err(RequestError::Write)
+                self.scheduler.plan().accepts(entry.0, value).map_err(RequestError::Write)
             }
             Request::Press(id, _) | Request::Hold(id, _) => self.check_control(*id),
             Request::Break(id, amount, _) => self.check_fault(*id, *amount),
@@ -282,7 +284,7 @@ where
     ///
     /// # Errors
     /// The value does not fit, the plan has ended, or too many writes wait.
-    pub fn write(&mut self, entry: u16, value: Value) -> Result<(), WriteError> {
+    pub fn write(&mut self, entry: EntryId, value: Value) -> Result<(), WriteError> {
         self.scheduler.write(entry, value.clone())?;
         let at = self.after_step_at(self.robot.now());
         let request = Request::Write(entry, value);
@@ -303,7 +305,7 @@ where
         });
         set.map_err(|why| {
             let plan = self.scheduler.plan();
-            let units = plan.entry_named(entry).into_iter().flat_map(|id| plan.units(id));
+            let units = plan.entry_named(entry).into_iter().flat_map(|id| plan.units(id.0));
             let units: Vec<_> = units.map(|unit| unit.name).collect();
             NotSet::new(why, &self.names, self.started, (entry, text), &units)
         })

@@ -6,7 +6,7 @@ use afp_core::devices::Devices;
 use afp_core::devices::SignalId;
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Ending, Line, Names};
-use afp_core::{Fault, Instant, Scheduler, ValueRef};
+use afp_core::{EntryId, Fault, Instant, Scheduler, ValueRef};
 
 use super::Session;
 use crate::observer::{Inside, NamedRecord, Observer, View};
@@ -22,8 +22,8 @@ struct Looked<'a, P: NamedPlan, R> {
 }
 
 impl<P: NamedPlan, R: Robot> Inside for Looked<'_, P, R> {
-    fn entry(&self, id: u16) -> ValueRef<'_> {
-        self.scheduler.plan().entry(id)
+    fn entry(&self, id: EntryId) -> ValueRef<'_> {
+        self.scheduler.plan().entry(id.0)
     }
 
     fn active(&self) -> Option<ComponentId> {
@@ -46,7 +46,7 @@ impl<P: NamedPlan, R: Robot> Inside for Looked<'_, P, R> {
 
 /// The active element of the outermost plan.
 pub(super) fn active<P: NamedPlan>(scheduler: &Scheduler<P>) -> Option<ComponentId> {
-    scheduler.active().map(|element| ComponentId(u32::from(element) + 1))
+    scheduler.active().map(|element| ComponentId(u32::from(element.0) + 1))
 }
 
 impl<P, R, S> Session<P, R, S>

@@ -1,8 +1,8 @@
 //! What tests put in the place of components: outcomes, and actors that do nothing.
 
-use afp_core::Environment;
 use afp_core::rt::Tables;
 use afp_core::trace::ComponentId;
+use afp_core::{ElementId, Environment};
 
 use super::LoadedPlan;
 use crate::load::element::ElementSlot;
@@ -18,11 +18,11 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// The component is not being polled, or has not yet reported the outcome before this one; nothing changes then.
     pub fn inject(
         &mut self,
-        active: Option<u16>,
+        active: Option<ElementId>,
         injection: &Injection,
     ) -> Result<(), NotInjected> {
         let part = injection.component.0.checked_sub(1).ok_or(NotInjected::NotActive)?;
-        self.inject_at(active, part, injection)
+        self.inject_at(active.map(|element| element.0), part, injection)
     }
 
     /// As [`LoadedPlan::inject`]; `part` counts from this plan's first element.
