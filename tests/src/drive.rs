@@ -139,7 +139,8 @@ impl<P: NamedPlan + Plan<Platform>, S: Sink> Run<'_, P, S> {
             match what {
                 Outside::Stop => self.scheduler.request_stop(),
                 Outside::Write(name, value) => {
-                    let entry = self.scheduler.plan().entry_named(name).unwrap_or(EntryId(u16::MAX));
+                    let entry =
+                        self.scheduler.plan().entry_named(name).unwrap_or(EntryId(u16::MAX));
                     if let Err(why) = self.scheduler.write(entry, value.clone()) {
                         self.log.note(format!("{now} [{name} refused: {why}]"));
                     }

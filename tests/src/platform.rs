@@ -71,7 +71,7 @@ impl Platform {
         let mut result = Ok(());
         for act in self.script.acts(channel, phase, now) {
             match act {
-                Act::Cost(more) => cost = cost + *more,
+                Act::Cost(more) => cost += *more,
                 Act::Fault => result = Err(SCRIPTED),
                 // Without the hook that would print it.
                 Act::Panic => resume_unwind(Box::new("as the script says")),

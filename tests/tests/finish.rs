@@ -43,7 +43,11 @@ fn finished(text: &str, script: &str) -> (Vec<String>, Wake) {
     scheduler.start((&mut platform, &mut sink, &clock), Instant::ZERO).expect("it can start");
     let (before, active) = (log.lines().len(), scheduler.active());
     let text = Value::Text(Text::try_from(text).expect("it is short"));
-    let injection = Injection { component: ComponentId(1), outcome: Outcome::Declared(1), outputs: vec![(3, text)] };
+    let injection = Injection {
+        component: ComponentId(1),
+        outcome: Outcome::Declared(1),
+        outputs: vec![(3, text)],
+    };
     scheduler.plan_under_test().inject(active, &injection).expect("it is active");
     let now = Instant::from_nanos(10_000_000);
     let wake = scheduler.step((&mut platform, &mut sink, &clock), now);

@@ -55,7 +55,7 @@ fn the_template_in_the_readme_does_what_it_says() {
     while Actor::<templates::Blink, _>::poll(&mut blink, templates::blink::Live {}, &mut lamp, now)
         == Ok(Poll::Pending)
     {
-        now = now + Duration::from_millis(10);
+        now += Duration::from_millis(10);
     }
     assert_eq!((lamp.on, lamp.times, now), (false, 3, Instant::from_nanos(2_500_000_000)));
 }

@@ -179,12 +179,12 @@ impl Fake {
     }
 
     pub(crate) fn millis(&self) -> u64 {
-        self.now.as_nanos() / 1_000_000
+        self.now.since(Instant::ZERO).as_millis()
     }
 
     /// Lets ten milliseconds pass.
     pub(crate) fn tick(&mut self) {
-        self.now = self.now + Duration::from_millis(10);
+        self.now += Duration::from_millis(10);
         if self.now.since(self.commanded) > Duration::from_millis(200) {
             self.command = (0.0, 0.0);
         }

@@ -24,7 +24,8 @@ pub mod trace;
 pub use core::task::Poll;
 
 pub use afp_types::{
-    Duration, ElementId, EntryId, Instant, MAX_TEXT, MAX_TRANSITIONS_PER_STEP, Text, Value, ValueRef,
+    Duration, ElementId, EntryId, Instant, MAX_TEXT, MAX_TRANSITIONS_PER_STEP, Text, Value,
+    ValueRef,
 };
 pub use clock::{Clock, StillClock};
 pub use component::{

@@ -26,7 +26,7 @@ mod sweep;
 use crate::fault::Fault;
 use crate::rt::{Committer, Cx, ElementRow, Plan, PlanState, Polled, Run, Slot, Tables, Target};
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
-use afp_types::Instant;
+use afp_types::{Duration, Instant};
 use at::StepAt;
 use sweep::Seen;
 
@@ -314,7 +314,6 @@ fn next_on_grid(due: Instant, row: &ElementRow, now: Instant) -> Instant {
 
 #[cold]
 fn skip(due: Instant, row: &ElementRow, now: Instant) -> Instant {
-    let period = row.period.as_nanos().max(1);
-    let periods = (now - due).as_nanos() / period + 1;
-    Instant::from_nanos(due.as_nanos().saturating_add(periods.saturating_mul(period)))
+    let period = row.period.max(Duration::from_nanos(1));
+    due + period * ((now - due).periods(period) + 1)
 }

@@ -87,7 +87,7 @@ impl<'m> SessionTarget<'m> {
                 number += 1;
                 number % 2 == 1
             });
-            self.apart = self.apart + self.apart;
+            self.apart = self.apart * 2;
         }
     }
 

@@ -197,8 +197,8 @@ impl State {
     /// When a supervisor that is asked so often is asked next: the grid begins where it began to watch.
     pub fn next_release(&self, id: ComponentId, every: Duration, now: Instant) -> Option<Instant> {
         let since = *self.watching.get(&id)?;
-        let (every, passed) = (every.as_nanos().max(1), (now - since).as_nanos());
-        Some(since + Duration::from_nanos((passed / every + 1).saturating_mul(every)))
+        let every = every.max(Duration::from_nanos(1));
+        Some(since + every * ((now - since).periods(every) + 1))
     }
 
     /// The value of an entry; none before it was written.

@@ -1,8 +1,8 @@
 //! An owned copy of a plan's names, for threads that outlive the step that made a record.
 
 use afp_core::trace::{
-    ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome,
-    PortName, Reaction, TextPlace, TraceEntryId,
+    ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome, PortName,
+    Reaction, TextPlace, TraceEntryId, declared,
 };
 
 use crate::proto::afp::{PlanTable, plan_table};
@@ -26,7 +26,7 @@ struct Component {
     inputs: Vec<Port>,
     outputs: Vec<Port>,
     /// Supervisor and event of each edge that holds instead of theirs, and its target.
-    reactions: Vec<(ComponentId, u16, String)>,
+    reactions: Vec<(ComponentId, Outcome, String)>,
 }
 
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,7 @@
 //! The monotonic clock of a robot that exists.
 
 use std::thread;
-use std::time::{Duration as Span, Instant as Wall};
+use std::time::Instant as Wall;
 
 use afp_core::{Clock, Duration, Instant};
 
@@ -20,8 +20,7 @@ impl RealTime {
 
     /// How much has passed.
     pub fn now(&self) -> Instant {
-        let nanos = self.began.elapsed().as_nanos();
-        Instant::from_nanos(u64::try_from(nanos).unwrap_or(u64::MAX))
+        Instant::ZERO + self.began.elapsed().into()
     }
 
     /// Sleeps up to an instant; not at all where it has passed. It wakes late, by what the system needs, never early.
@@ -31,7 +30,7 @@ impl RealTime {
             if left == Duration::ZERO {
                 return;
             }
-            thread::sleep(Span::from_nanos(left.as_nanos()));
+            thread::sleep(left.into());
         }
     }
 }

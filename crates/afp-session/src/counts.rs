@@ -186,7 +186,7 @@ impl Counts {
             mine.long_polls += other.long_polls;
             mine.skipped += other.skipped;
             mine.worst_lateness = mine.worst_lateness.max(other.worst_lateness);
-            mine.active = mine.active + other.active;
+            mine.active += other.active;
             for (mine, other) in mine.outcomes.iter_mut().zip(&other.outcomes) {
                 *mine += other;
             }
@@ -262,7 +262,7 @@ impl Counts {
     fn stopped(&mut self, at: Instant, id: ComponentId) {
         self.with(id, |usage| {
             if let Some(since) = usage.since.take() {
-                usage.active = usage.active + at.since(since);
+                usage.active += at.since(since);
             }
         });
     }

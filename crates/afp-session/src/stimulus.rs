@@ -4,13 +4,13 @@ use std::fmt;
 
 #[cfg(feature = "load")]
 use afp::load::Injection;
-use afp_core::{Duration, EntryId};
 use afp_core::devices::{ControlId, DeviceRow, controls, faults, find_control, find_fault};
 #[cfg(feature = "load")]
 use afp_core::trace::ComponentKind;
 use afp_core::trace::{ComponentId, Names, TraceEntryId};
 #[cfg(feature = "load")]
 use afp_core::trace::{Outcome, declared};
+use afp_core::{Duration, EntryId};
 use afp_types::Measured;
 
 use crate::event::{Datum, Holder};

@@ -202,7 +202,7 @@ impl Simulation {
     }
 
     fn grid(&self, step: u64) -> Instant {
-        Instant::from_nanos(step.saturating_mul(STEP.as_nanos()))
+        Instant::ZERO + STEP * step
     }
 
     fn position(&self) -> &Isometry {

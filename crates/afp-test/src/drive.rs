@@ -120,7 +120,7 @@ fn session(
     let session = robot.session(&scenario.graph, &*world.world, scenario.seed, &[]);
     let mut session = session.map_err(|why| world.no_session(why))?;
     for (entry, value) in &scenario.set {
-        let set = session.write(*entry, value_of(value));
+        let set = session.write(EntryId(*entry), value_of(value));
         set.map_err(|why| refused(scenario, &why.to_string()))?;
     }
     session.set_rest(REST);

@@ -8,9 +8,7 @@ pub(crate) mod signals;
 mod tests;
 
 use afp_core::devices::SignalId;
-use afp_core::trace::{
-    self, Author, ComponentId, Ending, Names, Record, TraceEntryId,
-};
+use afp_core::trace::{self, Author, ComponentId, Ending, Names, Record, TraceEntryId};
 use afp_core::{Instant, Value, ValueRef};
 use afp_dsl::scenario::{
     Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario, Subject,

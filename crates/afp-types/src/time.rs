@@ -1,10 +1,21 @@
 //! Instants and spans in whole nanoseconds.
 //!
-//! Plans count time from the start of their run. Additions saturate: a deadline past the end of
-//! time never comes, and no step can panic over it.
+//! Plans count time from the start of their run. All arithmetic saturates, at zero and at the end of time: a deadline past
+//! it never comes, and no step can panic over it.
+//!
+//! ```
+//! use afp_types::{Duration, Instant};
+//!
+//! let mut at = Instant::ZERO + Duration::from_millis(20) * 3;
+//! at += Duration::from_secs(1);
+//! assert_eq!((at - Instant::ZERO).as_millis(), 1_060);
+//! assert_eq!(at - Duration::from_secs(2), Instant::ZERO);
+//! assert_eq!(Duration::from_secs(1).periods(Duration::from_millis(300)), 3);
+//! assert_eq!(Duration::from(core::time::Duration::MAX), Duration::MAX);
+//! ```
 
 use core::fmt;
-use core::ops::{Add, Sub};
+use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 /// A point in time, in nanoseconds since the clock's zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -82,6 +93,19 @@ impl Duration {
         self.0
     }
 
+    /// Whole milliseconds.
+    pub const fn as_millis(self) -> u64 {
+        self.0 / 1_000_000
+    }
+
+    /// How many whole periods fit into the span; a period of zero counts as one nanosecond.
+    pub const fn periods(self, period: Duration) -> u64 {
+        match self.0.checked_div(period.0) {
+            Some(periods) => periods,
+            None => self.0,
+        }
+    }
+
     /// Seconds.
     pub fn as_secs_f64(self) -> f64 {
         self.0 as f64 / 1e9
@@ -92,6 +116,19 @@ impl Add<Duration> for Instant {
     type Output = Instant;
     fn add(self, span: Duration) -> Instant {
         Instant(self.0.saturating_add(span.0))
+    }
+}
+
+impl AddAssign<Duration> for Instant {
+    fn add_assign(&mut self, span: Duration) {
+        *self = *self + span;
+    }
+}
+
+impl Sub<Duration> for Instant {
+    type Output = Instant;
+    fn sub(self, span: Duration) -> Instant {
+        Instant(self.0.saturating_sub(span.0))
     }
 }
 
@@ -108,10 +145,43 @@ impl From<Duration> for core::time::Duration {
     }
 }
 
+impl From<core::time::Duration> for Duration {
+    /// [`Duration::MAX`] for what is longer.
+    fn from(duration: core::time::Duration) -> Self {
+        Duration(u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX))
+    }
+}
+
 impl Add for Duration {
     type Output = Duration;
     fn add(self, other: Duration) -> Duration {
         Duration(self.0.saturating_add(other.0))
+    }
+}
+
+impl AddAssign for Duration {
+    fn add_assign(&mut self, other: Duration) {
+        *self = *self + other;
+    }
+}
+
+impl Sub for Duration {
+    type Output = Duration;
+    fn sub(self, other: Duration) -> Duration {
+        Duration(self.0.saturating_sub(other.0))
+    }
+}
+
+impl SubAssign for Duration {
+    fn sub_assign(&mut self, other: Duration) {
+        *self = *self - other;
+    }
+}
+
+impl Mul<u64> for Duration {
+    type Output = Duration;
+    fn mul(self, times: u64) -> Duration {
+        Duration(self.0.saturating_mul(times))
     }
 }
 

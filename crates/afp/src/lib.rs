@@ -24,10 +24,10 @@
 
 pub use afp_core as core;
 pub use afp_core::{
-    Actor, Clock, Computation, Detail, Duration, ElementId, Ending, EntryId, Environment, Events, Failure, Fault,
-    Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Run, Scheduler,
-    SetError, StartError, StillClock, Subject, Supervisor, Text, Ticket, TypedEntry, Value,
-    ValueRef, Wake, Worker, WriteError, quantity, trace,
+    Actor, Clock, Computation, Detail, Duration, ElementId, Ending, EntryId, Environment, Events,
+    Failure, Fault, Instant, Job, NamedPlan, Plan, PlanState, Platform, Poll, Reading, Reason, Run,
+    Scheduler, SetError, StartError, StillClock, Subject, Supervisor, Text, Ticket, TypedEntry,
+    Value, ValueRef, Wake, Worker, WriteError, quantity, trace,
 };
 
 mod callbacks;

@@ -199,7 +199,7 @@ impl Platform for Vacuum {
     }
 
     fn advance(&mut self, to: Instant) {
-        let grid = |ticks: u64| Instant::from_nanos(ticks * TICK.as_nanos());
+        let grid = |ticks: u64| Instant::ZERO + TICK * ticks;
         while grid(self.ticks + 1) <= to {
             self.ticks += 1;
             self.now = grid(self.ticks);

@@ -26,7 +26,7 @@ impl<E: Lamp + ?Sized> Actor<templates::Blink, E> for Blink {
     fn poll(&mut self, _: Live, env: &mut E, now: Instant) -> Result<Poll<State>, Fault> {
         if now >= self.next && self.changes_left > 0 {
             self.changes_left -= 1;
-            self.next = self.next + self.period;
+            self.next += self.period;
             env.light(self.changes_left % 2 == 1);
         }
         Ok(if self.changes_left == 0 { Poll::Ready(State::Blinked) } else { Poll::Pending })

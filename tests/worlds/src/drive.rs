@@ -60,11 +60,11 @@ pub struct Seen {
 impl Seen {
     fn look(&mut self, robot: &Witness, things: &[String]) {
         if self.pushes.look(robot, things) {
-            self.pushing = self.pushing + LOOK;
+            self.pushing += LOOK;
         }
         let truth = robot.sim.truth();
         if truth.touching().next().is_some() && !truth.is_halted() {
-            self.touching = self.touching + LOOK;
+            self.touching += LOOK;
         }
         let off = robot.sim.localisation_error().filter(|[off, _]| *off > ASTRAY);
         self.astray = self.astray.or(off.map(|_| robot.sim.now()));
@@ -114,7 +114,7 @@ pub fn run(case: &Case) -> Outcome {
             watch.borrow_mut().look(&robot.sim);
             diary.borrow_mut().poses.push(robot.sim.truth().pose());
             seen.look(&robot, &things);
-            look = look + LOOK;
+            look += LOOK;
         }
         case.chance.happen(&mut next, &mut robot.sim);
         if due <= now {

@@ -139,7 +139,7 @@ impl Account {
         };
         *row.endings.entry(ending.to_owned()).or_default() += 1;
         row.contacts += outcome.contacts.len();
-        row.pushing = row.pushing + outcome.seen.pushing;
+        row.pushing += outcome.seen.pushing;
         row.longest = row.longest.max(outcome.seen.pushing);
     }
 

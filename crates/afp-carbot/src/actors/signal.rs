@@ -53,7 +53,7 @@ impl<E: Navigator + Signals + ?Sized> Actor<templates::Signal, E> for Signal {
 impl Signal {
     fn change<E: Signals + ?Sized>(&mut self, env: &mut E, now: Instant) {
         self.left -= 1;
-        self.next = self.next + self.half;
+        self.next += self.half;
         let on = self.left % 2 == 1;
         env.signal(on && self.light, self.tone.filter(|_| on), now);
     }

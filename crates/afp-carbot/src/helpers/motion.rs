@@ -58,7 +58,7 @@ mod tests {
         let mut ramp = Ramp::new(0.5, now);
         let (mut driven, mut fastest, mut last) = (0.0, 0.0_f64, 0.0_f64);
         for _ in 0..600 {
-            now = now + Duration::from_millis(10);
+            now += Duration::from_millis(10);
             let rate = ramp.rate(1.0 - driven, 0.2, now);
             assert!(rate - last <= 0.5 * 0.01 + 1e-12, "jerk at {now}");
             (fastest, last) = (fastest.max(rate), rate);

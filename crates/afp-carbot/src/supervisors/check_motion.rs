@@ -69,8 +69,7 @@ impl<E: FlowCamera + Odometry + ?Sized> Supervisor<templates::CheckMotion, E> fo
         let Some(flow) = self.guard.next(reading, self.last, now)? else { return Ok(None) };
         self.last = reading.time;
         // Of a picture in which the robot moved nobody knows how, nothing is said.
-        let before = reading.time.as_nanos().saturating_sub(flow.span.as_nanos());
-        let before = Instant::from_nanos(before);
+        let before = reading.time - flow.span;
         let step = Step::between(&self.history, &lens, before, reading.time);
         let view = step.map(|step| View { lens, step, flow, speed: self.speed });
         let something = match view {

@@ -108,16 +108,8 @@ pub static NAMES: NameTable = NameTable {
             )
             .reacting(
                 &[
-                    Reaction {
-                        supervisor: ComponentId(3),
-                        outcome: 0,
-                        target: "rest",
-                    },
-                    Reaction {
-                        supervisor: ComponentId(3),
-                        outcome: DEADLINE_MISSED,
-                        target: "terminate",
-                    },
+                    Reaction::new(ComponentId(3), Some(0), "rest"),
+                    Reaction::new(ComponentId(3), None, "terminate"),
                 ],
             ),
         ComponentRow::new(

@@ -318,9 +318,9 @@ fn serve(first: Instant, period: Duration, now: Instant) -> Release {
     if first + period > now {
         return Release { at: first, next: first + period, skipped: 0 };
     }
-    let span = period.as_nanos().max(1);
-    let skipped = (now - first).as_nanos() / span;
-    let at = Instant::from_nanos(first.as_nanos().saturating_add(skipped.saturating_mul(span)));
+    let span = period.max(Duration::from_nanos(1));
+    let skipped = (now - first).periods(span);
+    let at = first + span * skipped;
     Release { at, next: at + period, skipped }
 }
 

@@ -2,8 +2,8 @@
 
 use afp_core::rt::ElementKind;
 use afp_core::trace::{
-    ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome,
-    Reaction, TraceEntryId,
+    ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome, Reaction,
+    TraceEntryId,
 };
 
 use super::build::Spec;

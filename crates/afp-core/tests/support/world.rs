@@ -120,7 +120,7 @@ impl World {
         let mut result = Ok(());
         for act in self.holding(who, phase, now) {
             match act {
-                Act::Cost(more) => cost = cost + more,
+                Act::Cost(more) => cost += more,
                 Act::Fault => result = Err(SCRIPTED),
                 // Without the hook that would print it.
                 Act::Panic => std::panic::resume_unwind(Box::new("as the script says")),

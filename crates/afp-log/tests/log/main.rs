@@ -147,7 +147,10 @@ fn run(log: &mut Recorder) {
     }
     let (lateness, cause) = (Duration::from_millis(3), Cause::LongPoll);
     log.record(at(2001), &Record::Missed { supervisor: touch, lateness, cause, skipped: 2 });
-    log.record(at(2001), &Record::Event { supervisor: touch, event: FIRST, element: ComponentId(1) });
+    log.record(
+        at(2001),
+        &Record::Event { supervisor: touch, event: FIRST, element: ComponentId(1) },
+    );
     log.record(at(2001), &Record::Interrupted { element: go });
     let author = Author::Component(touch);
     let old = ValueRef::Unset;

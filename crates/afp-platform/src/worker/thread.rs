@@ -120,7 +120,7 @@ fn work<J: Job>(mut to_do: Consumer<Task<J>>, mut done: Producer<Task<J>>) {
             Ok(mut task) => {
                 let begun = Wall::now();
                 task.result = attempt(&mut *task.job);
-                task.overran = begun.elapsed().as_nanos() > u128::from(J::TAKES.as_nanos());
+                task.overran = begun.elapsed() > J::TAKES.into();
                 // There is room for every job, so only a worker that was dropped refuses it.
                 if done.push(task).is_err() {
                     return;

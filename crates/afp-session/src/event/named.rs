@@ -1,8 +1,7 @@
 //! Records of a trace as events with names.
 
 use afp_core::trace::{
-    Author, ComponentId, Ending, EntryName, Names, Outcome, PortName, Record, TraceEntryId,
-    Verdict,
+    Author, ComponentId, Ending, EntryName, Names, Outcome, PortName, Record, TraceEntryId, Verdict,
 };
 use afp_core::{Fault, ValueRef};
 

@@ -2,12 +2,12 @@
 
 #[cfg(feature = "load")]
 use afp::load::{Injection, LoadedPlan, NotInjected};
+#[cfg(feature = "load")]
+use afp_core::ElementId;
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{ComponentId, Names};
 use afp_core::{Duration, EntryId, Instant, Value, WriteError};
-#[cfg(feature = "load")]
-use afp_core::ElementId;
 
 use super::Session;
 use crate::hardware::Hardware;

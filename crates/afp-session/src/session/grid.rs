@@ -70,7 +70,7 @@ impl SampleGrid {
 impl Stretch {
     /// Whether a multiple of a period has come.
     pub(crate) fn has_multiple_of(self, every: Duration) -> bool {
-        let passed = |at: Instant| at.as_nanos() / every.as_nanos().max(1);
+        let passed = |at: Instant| at.since(Instant::ZERO).periods(every);
         self.after.is_none_or(|after| passed(after) < passed(self.to))
     }
 }
@@ -78,8 +78,8 @@ impl Stretch {
 /// The first multiple of any of the periods after `now`.
 fn next(periods: impl Iterator<Item = Duration>, now: Instant) -> Instant {
     let after = |every: Duration| {
-        let every = every.as_nanos().max(1);
-        Instant::from_nanos((now.as_nanos() / every).saturating_add(1).saturating_mul(every))
+        let every = every.max(Duration::from_nanos(1));
+        Instant::ZERO + every * now.since(Instant::ZERO).periods(every).saturating_add(1)
     };
     periods.map(after).min().unwrap_or(Instant::MAX)
 }

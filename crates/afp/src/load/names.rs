@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use afp_core::trace::{
-    ComponentId, ComponentName, EntryName, Names, Outcome, PortName, Reaction,
-    TextPlace, TraceEntryId,
+    ComponentId, ComponentName, EntryName, Names, Outcome, PortName, Reaction, TextPlace,
+    TraceEntryId,
 };
 use afp_dsl::graph::Graph;
 use afp_dsl::types::Type;

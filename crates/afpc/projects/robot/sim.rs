@@ -116,7 +116,7 @@ impl Platform for {{Name}} {
     }
 
     fn advance(&mut self, to: Instant) {
-        let at = |ticks: u64| Instant::from_nanos(ticks * TICK.as_nanos());
+        let at = |ticks: u64| Instant::ZERO + TICK * ticks;
         while at(self.ticks + 1) <= to {
             self.ticks += 1;
             self.now = at(self.ticks);

@@ -110,7 +110,9 @@ fn a_sensor_that_nobody_has_asked_since_the_start_of_the_actor_does_not_count() 
 #[test]
 fn a_motion_left_behind_breaks_a_rule() {
     let element = ComponentId(1);
-    for record in [Record::Interrupted { element }, Record::Finished { element, state: Outcome::Declared(0) }] {
+    for record in
+        [Record::Interrupted { element }, Record::Finished { element, state: Outcome::Declared(0) }]
+    {
         let (_, mut watch) = watched();
         drive(&mut watch, 0, 20);
         watch.on_record(at(20), &record, &One);

@@ -51,7 +51,7 @@ impl Eyes {
         let mut watch: CheckMotion = Supervisor::<Template, Self>::start(inputs, self, self.now)?;
         let (mut seen, mut last) = (0, None);
         for _ in 0..millis / 10 {
-            self.now = self.now + Duration::from_millis(10);
+            self.now += Duration::from_millis(10);
             if self.now.as_nanos().is_multiple_of(50_000_000) && !self.frozen {
                 self.taken = self.now;
             }
