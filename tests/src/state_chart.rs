@@ -12,7 +12,6 @@ use std::cell::RefCell;
 
 use afp_core::Instant;
 use afp_core::trace::{Observe, Record};
-use afp_draw::Options;
 use afp_dsl::graph::Graph;
 use serde_json::{Value, json};
 
@@ -32,7 +31,7 @@ pub fn case(name: &str, graph: &Graph, scripts: &[Script]) -> Value {
     let runs: Vec<Steps> = runs.collect();
     let cut = runs.iter().filter(|run| run.cut).count();
     let runs: Vec<Value> = runs.iter().map(Steps::json).collect();
-    let chart = afp_draw::scxml(graph, &Options::default());
+    let chart = afp_draw::scxml(graph, None, true);
     json!({ "name": name, "chart": chart, "runs": runs, "cut": cut })
 }
 

@@ -1,6 +1,6 @@
 //! Where the drawings of several plans stand in one picture: in rows, in the order in which the plans are met.
 
-use super::scene::Point;
+use super::polyline::Point;
 
 /// Width by height that a picture should have: that of a screen or a slide.
 pub(super) const WANTED: f64 = 4.0 / 3.0;

@@ -1,8 +1,10 @@
 //! Drawings of plans: the paper's notation as a [`Scene`] and as SVG, GraphViz text, JSON with
-//! places, and the flow of action as State Chart XML.
+//! places. Drawings read the outline, so that plans with errors are drawn too, with errors marked
+//! in their places.
 //!
-//! Drawings read the outline, so that plans with errors are drawn too, with what is wrong marked
-//! where it is. A state chart is for other engines to run, so it reads the graph.
+//! Two folders do other jobs and know nothing of drawings. [`layout_file`] reads and writes the file
+//! of positions. `scxml` writes the flow of action as State Chart XML; another engine runs a state
+//! chart, so it reads the graph.
 
 mod arrange;
 mod card;
@@ -34,14 +36,15 @@ use crate::layout_file::Layout;
 use afp_dsl::outline::PlanId;
 use afp_dsl::toolbox::Toolbox;
 use afp_syntax::item::Item;
-use afp_syntax::source::Sources;
 
 pub use dot::dot;
 pub use json::json;
 pub use names::free_names;
-pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Point, Scene, Symbol};
+pub use polyline::Point;
+pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Scene};
 pub use scxml::scxml;
 pub use sketch::Rect;
+pub use svg::paint::Symbol;
 pub use svg::{default_icon, picture, properties, sheet, svg};
 pub use usage::{Count, PlanUsage, Reaction, Usage};
 
@@ -54,8 +57,6 @@ pub type Icons<'a> = &'a dyn Fn(&Toolbox, &str) -> Option<String>;
 pub struct Options<'a> {
     /// The plan to be drawn; without one the main plan.
     pub plan: Option<PlanId>,
-    /// The texts that the spans of a graph point into; a state chart then shows formulas as written.
-    pub sources: Option<&'a Sources>,
     /// Where icons come from; without one, and for icons that it does not know, each kind of
     /// element has a simple picture of its own.
     pub icons: Option<Icons<'a>>,
@@ -96,7 +97,6 @@ impl Default for Options<'_> {
     fn default() -> Self {
         Options {
             plan: None,
-            sources: None,
             icons: None,
             positions: &[],
             theme: Theme::Auto,
@@ -114,7 +114,6 @@ impl fmt::Debug for Options<'_> {
         f.debug_struct("Options")
             .field("plan", &self.plan)
             .field("warnings", &self.warnings)
-            .field("sources", &self.sources.is_some())
             .field("icons", &self.icons.is_some())
             .field("positions", &self.positions.len())
             .field("theme", &self.theme)

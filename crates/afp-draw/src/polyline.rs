@@ -1,6 +1,7 @@
 //! Right-angled polylines: how long, which way, and how far from their ends they are one with others.
 
-use crate::scene::Point;
+/// A place in pixels, y downwards.
+pub type Point = (f64, f64);
 
 /// How far two points are apart along right-angled lines.
 pub(crate) fn distance(a: Point, b: Point) -> f64 {

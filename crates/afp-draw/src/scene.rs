@@ -17,10 +17,11 @@ use super::arrange::arrange;
 use super::card::{self, Card, Leaving};
 use super::layout::{self, Link, Node, Placement};
 use super::legend::legend;
+use super::polyline::Point;
 #[cfg(test)]
 use super::sketch::Arrow;
 use super::sketch::{Rect, Sketch};
-use super::svg::paint::{self, Content, Painter};
+use super::svg::paint::{self, Content, Painter, Symbol};
 use super::usage::{Class, Use};
 use super::view::View;
 use afp_dsl::outline::{Component, Outline, Part};
@@ -30,9 +31,6 @@ use gone::Gone;
 use held::Held;
 use painted::Painted;
 use rustc_hash::FxHashMap;
-
-/// A place in pixels, y downwards.
-pub type Point = (f64, f64);
 
 /// Space around everything, in pixels.
 const MARGIN: f64 = 24.0;
@@ -51,15 +49,6 @@ pub struct Scene {
     pub size: Point,
     /// What colours mean in a drawing by use, as a fragment.
     pub legend: Option<String>,
-}
-
-/// An icon.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Symbol {
-    /// What a fragment calls it.
-    pub id: String,
-    /// A `symbol` element.
-    pub svg: String,
 }
 
 /// One plan of a drawing, in coordinates of its own.

@@ -8,8 +8,8 @@ mod chart;
 mod names;
 mod view;
 
-use super::Options;
 use afp_dsl::graph::Graph;
+use afp_syntax::source::Sources;
 use chart::Chart;
 use names::Scope;
 use view::View;
@@ -20,9 +20,10 @@ use view::View;
 /// `Plan-Error`. Events are named `sub:element.State`, `sub:element-supervisor.Event` and, for
 /// global supervisors, `sub:supervisor.Event`; a fault's event is `Error`. The document's first
 /// comment says this too, and what is left out: the order in which supervisors are asked, periods,
-/// deadlines, values. Formulas of the text stand in comments.
-pub fn scxml(graph: &Graph, options: &Options) -> String {
-    let view = View { graph, plan: graph.main(), options };
+/// deadlines, values. With `data`, comments have the formulas: as written if the texts that the spans of the graph
+/// point into are given, else printed.
+pub fn scxml(graph: &Graph, sources: Option<&Sources>, data: bool) -> String {
+    let view = View { graph, plan: graph.main(), sources, data };
     let scope = Scope::outermost(&view.plan.name);
     let mut chart = Chart::default();
     chart.document(&view, &scope);

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use afp_draw::{Options, scxml};
+use afp_draw::scxml;
 use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
@@ -13,11 +13,11 @@ use roxmltree::{Document, Node};
 const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_following.afp");
 const EVERY_PART: &str = include_str!("draw/every_part.afp");
 
-fn chart(text: &str, options: &Options) -> String {
+fn chart(text: &str, data: bool) -> String {
     let toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     let compiled = compile(&Source::new("plan.afp", text), &toolboxes, &Texts::default());
     assert!(compiled.graph.is_some(), "{}", compiled.render(false));
-    scxml(&compiled.graph.unwrap(), &Options { sources: Some(&compiled.sources), ..*options })
+    scxml(&compiled.graph.unwrap(), Some(&compiled.sources), data)
 }
 
 /// The parts of the recommendation that a plan needs: an element's attributes and children.
@@ -92,14 +92,14 @@ const SCXML: &str = "http://www.w3.org/2005/07/scxml";
 #[test]
 fn charts_are_what_the_recommendation_asks_for() {
     for text in [WALL_FOLLOWING, EVERY_PART] {
-        is_valid(&chart(text, &Options::default()));
-        is_valid(&chart(text, &Options { data: false, ..Options::default() }));
+        is_valid(&chart(text, true));
+        is_valid(&chart(text, false));
     }
 }
 
 #[test]
 fn every_edge_of_wall_following_is_a_transition() {
-    let text = chart(WALL_FOLLOWING, &Options::default());
+    let text = chart(WALL_FOLLOWING, true);
     let edges = [
         "event=\"escape.EscapeButtonPressed\" target=\"WallFollowing-Interrupted\"",
         "event=\"searchFirstWall-touch.TouchSensorPressed\" target=\"WallFollowing.backupCollision\"",
@@ -111,7 +111,7 @@ fn every_edge_of_wall_following_is_a_transition() {
         assert!(text.contains(edge), "no '{edge}' in\n{text}");
     }
     assert!(text.contains("<!-- Forward(distance = -walldist) -->"), "{text}");
-    let flow = chart(WALL_FOLLOWING, &Options { data: false, ..Options::default() });
+    let flow = chart(WALL_FOLLOWING, false);
     assert!(!flow.contains("walldist"), "{flow}");
 }
 
@@ -127,7 +127,7 @@ fn components_are_written_with_all_that_they_take() {
             computation read: Row(table = stops, index = n, x, y) { Row -> wait, End -> terminate }
             actor wait: Wait(duration = 1 s) { Elapsed -> terminate }
         }";
-    let chart = |data| chart(text, &Options { data, ..Options::default() });
+    let chart = |data| chart(text, data);
     let (full, flow) = (chart(true), chart(false));
     assert!(full.contains("<!-- Row(table = stops, index = n, x => x, y => y) -->"), "{full}");
     assert!(full.contains("<!-- Wait(duration = 1 s) -->"), "{full}");
@@ -136,7 +136,7 @@ fn components_are_written_with_all_that_they_take() {
 
 #[test]
 fn the_head_says_what_is_left_out() {
-    let text = chart(WALL_FOLLOWING, &Options::default());
+    let text = chart(WALL_FOLLOWING, true);
     for words in
         ["order in which supervisors are asked", "periods, deadlines", "entries and values"]
     {
@@ -150,7 +150,7 @@ fn formulas_cannot_break_a_comment() {
                 computation one: Assign(value = 1 - --a, result => c) { Done -> two }\n\
                 computation two: Assign(value = \"--><state>--\" + b, result => b) { Done -> terminate }\n\
                 out c: int\n}\n";
-    is_valid(&chart(text, &Options::default()));
+    is_valid(&chart(text, true));
 }
 
 #[test]
@@ -161,6 +161,6 @@ fn a_thousand_nested_sub_plans_fit_on_the_stack() {
         text += &format!("plan P{depth} {{ start s subplan s: P{inner} {{ OK -> terminate }} }}\n");
     }
     text += "plan P1000 { start w actor w: Wait(duration = 1 s) { Elapsed -> terminate } }\n";
-    let text = chart(&text, &Options::default());
+    let text = chart(&text, true);
     assert_eq!(text.matches("<state ").count(), 1002);
 }

@@ -209,8 +209,7 @@ impl Plan {
     fn scxml(&self, py: Python<'_>) -> PyResult<String> {
         let compiled = self.compiled(py)?;
         let graph = compiled.graph.as_ref().ok_or_else(|| plan_error(py, &compiled))?;
-        let options = Options { sources: Some(&compiled.sources), ..Options::default() };
-        Ok(afp_draw::scxml(graph, &options))
+        Ok(afp_draw::scxml(graph, Some(&compiled.sources), true))
     }
 
     /// The names of the plans of the file.

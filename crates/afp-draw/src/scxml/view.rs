@@ -1,19 +1,20 @@
 //! The graph as a chart sees it: inputs with their texts, exits with their names.
 
-use super::super::{Options, formula};
+use super::super::formula;
 use afp_dsl::graph::{
     Component, Element, ElementId, Entry, EntryKind, Formula, Graph, Output, Plan, PlanId,
     Supervisor, SupervisorId, Target, TemplateId,
 };
 use afp_dsl::toolbox::{InPort, Template};
-use afp_syntax::source::Span;
+use afp_syntax::source::{Sources, Span};
 
-/// A plan in its graph, with the options of the drawing.
+/// A plan in its graph, with the options of the chart.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
     pub(super) graph: &'a Graph,
     pub(super) plan: &'a Plan,
-    pub(super) options: &'a Options<'a>,
+    pub(super) sources: Option<&'a Sources>,
+    pub(super) data: bool,
 }
 
 /// An input port and what feeds it.
@@ -72,7 +73,7 @@ impl<'a> View<'a> {
         let with =
             |(port, formula): (&'a InPort, &Formula)| self.input(&port.name, port.span, formula);
         let inputs = template.inputs.iter().zip(self.shown(formulas)).map(with);
-        let table = template.table().filter(|_| self.options.data);
+        let table = template.table().filter(|_| self.data);
         let table = table.map(|(port, table)| Input {
             port: &port.name,
             text: table.name.clone(),
@@ -91,13 +92,13 @@ impl<'a> View<'a> {
 
     /// All or nothing, as the options say.
     fn shown<'d, T>(&self, data: &'d [T]) -> &'d [T] {
-        if self.options.data { data } else { &[] }
+        if self.data { data } else { &[] }
     }
 
     /// A formula that stands where the port is declared is the port's default.
     fn input(&self, port: &'a str, declared: Span, formula: &Formula) -> Input<'a> {
         let bound = formula.span != declared;
-        let sources = self.options.sources.filter(|_| bound);
+        let sources = self.sources.filter(|_| bound);
         Input { port, text: formula::text(formula, self.plan, sources), bound }
     }
 

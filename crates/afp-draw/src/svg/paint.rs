@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Display, Write};
 
 use super::super::Icons;
-use super::super::scene::{Point, Symbol};
 use super::super::sketch::{Anchor, Arrow, Frame, Label, Picture, Rect, Shape, Sketch, Tip};
 use super::super::usage::Class;
 use super::icon;
-use crate::polyline::{direction, distance, shortened};
+use crate::polyline::{Point, direction, distance, shortened};
 use afp_dsl::outline::Part;
 use afp_syntax::item::Item;
 
@@ -39,6 +38,15 @@ struct IconUse {
     y: f64,
     size: f64,
     class: Class,
+}
+
+/// An icon.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Symbol {
+    /// What a fragment calls it.
+    pub id: String,
+    /// A `symbol` element.
+    pub svg: String,
 }
 
 /// Paints parts and remembers which icons they use.

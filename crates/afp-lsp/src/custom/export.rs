@@ -73,7 +73,6 @@ pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
             Some(_) => find(outline, analysis.file, plan)?,
             None => None,
         },
-        sources: Some(&analysis.compiled.sources),
         icons: Some(&icons),
         positions: &positions,
         theme,
@@ -94,7 +93,7 @@ pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
         "scxml" => {
             let graph = analysis.compiled.graph.as_ref();
             let graph = graph.ok_or_else(|| Failure::Refused("the plan has errors".to_owned()))?;
-            afp_draw::scxml(graph, &options)
+            afp_draw::scxml(graph, Some(&analysis.compiled.sources), options.data)
         }
         other => {
             let known = "write 'svg', 'png', 'css', 'dot', 'json' or 'scxml'";

@@ -106,7 +106,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let icons = |toolbox: &Toolbox, name: &str| file.own.icon(toolbox, name);
     let outline = &file.compiled.outline;
     let options = Options {
-        sources: Some(&file.compiled.sources),
         icons: Some(&icons),
         positions: &positions,
         theme: arguments.theme(format),
@@ -121,7 +120,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         Format::Dot => afp_draw::dot(outline, &options),
         Format::Scxml => {
             let graph = file.compiled.graph.as_ref().ok_or(NoPlan::Wrong)?;
-            afp_draw::scxml(graph, &options)
+            afp_draw::scxml(graph, Some(&file.compiled.sources), options.data)
         }
     };
     match &arguments.output {
