@@ -1,11 +1,16 @@
 //! Enums of toolboxes and plan files as Rust enums.
 
+use std::sync::Arc;
+
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::layout::doc;
 use crate::rust_type::variant;
 use afp_dsl::types::Enum;
+
+/// An enum of a plan file, with its Rust name.
+pub type FileEnum = (Arc<Enum>, Ident);
 
 /// The enum, under a Rust name, with everything that entries and ports need of it.
 pub fn choices(core: &TokenStream, choices: &Enum, name: &Ident) -> TokenStream {

@@ -6,7 +6,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::plan::units_name;
+use crate::names::units_name;
 use crate::rust_type::{TypePaths, float, int, long, variant};
 use afp_dsl::graph::{Formula, FormulaKind, Function, Operator};
 use afp_dsl::types::{Conversion, Dimension, Type};

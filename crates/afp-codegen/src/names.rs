@@ -1,6 +1,9 @@
 //! Names of the text as Rust identifiers.
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+
+use afp_dsl::types::Dimension;
 
 /// Rust's words that need `r#` to be names.
 const KEYWORDS: &[&str] = &[
@@ -29,6 +32,25 @@ pub fn ident(name: &str) -> Ident {
         Ident::new(&format!("{name}_"), Span::call_site())
     } else {
         Ident::new(name, Span::call_site())
+    }
+}
+
+/// A path that a toolbox names, such as `afp_carbot` or `crate::gripper`.
+pub fn path(text: &str) -> TokenStream {
+    let parts = text.split("::").map(|part| match part {
+        "crate" | "self" | "super" => Ident::new(part, Span::call_site()),
+        part => ident(part),
+    });
+    quote!(#(#parts)::*)
+}
+
+/// The static of the units of a dimension.
+pub fn units_name(dimension: Dimension) -> Ident {
+    let name = dimension.name().replace('/', "_PER_").replace('-', "_MINUS_");
+    let name = name.replace('*', "_").replace('^', "").to_uppercase();
+    match name.strip_prefix('1') {
+        Some(rest) => ident(&format!("ONE{rest}")),
+        None => ident(&name),
     }
 }
 

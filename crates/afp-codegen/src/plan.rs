@@ -26,7 +26,6 @@ use crate::layout::{comment, doc};
 use afp_dsl::graph::{Graph, PlanId};
 use afp_syntax::source::Span;
 use context::{Context, Shared};
-pub(crate) use shared::units_name;
 
 /// The Rust code of a graph: a module for each plan, and what they share.
 #[derive(Clone, Debug)]
@@ -60,7 +59,7 @@ pub struct Module {
 pub fn plan(graph: &Graph, options: &Options) -> Generated {
     let shared = Shared::of(graph);
     let mut modules = shared::modules(graph, &shared.enums, options);
-    modules.extend(tables::module(graph, &shared, options));
+    modules.extend(tables::module(graph, &shared.enums, &shared.tables, options));
     let ids = (0..=u16::MAX).map(PlanId).take(graph.plans.len());
     modules.extend(ids.map(|id| module(&Context::new(graph, &shared, id), options, id)));
     let (main, plan) = shared.names.plan(graph.main);
@@ -82,7 +81,8 @@ fn module(context: &Context<'_>, options: &Options, id: PlanId) -> Module {
         ("Rules", rules::rules(context)),
         ("Names", names::names(context, id)),
     ];
-    let imports = imports::imports(&options.core, context, &sections);
+    let imports =
+        imports::imports(&options.core, context.graph, &context.shared.names.toolboxes, &sections);
     Module { name: context.module.clone(), doc: about, imports, sections, span: plan.span }
 }
 

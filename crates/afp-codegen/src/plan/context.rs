@@ -5,8 +5,9 @@ use std::sync::Arc;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use crate::enums::FileEnum;
 use crate::formula::reads;
-use crate::names::{UniqueNames, camel, ident, shout, snake};
+use crate::names::{UniqueNames, camel, ident, path, shout, snake};
 use crate::rust_type::TypePaths;
 use crate::toolbox;
 use afp_dsl::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
@@ -16,8 +17,8 @@ use afp_dsl::types::{Enum, Object, Type};
 
 use super::graph_names::GraphNames;
 use super::imports::imported;
-use super::shared::{FileEnum, enums_of};
-use super::tables::{FileTable, tables_of};
+use super::shared::enums_of;
+use super::tables::{FileTable, enum_path, tables_of};
 
 /// Statics of the module itself.
 const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "REASONS", "SUPERVISORS", "SWEEPS"];
@@ -155,7 +156,8 @@ impl<'a> Context<'a> {
 
     /// Gives the types as this plan's module sees them.
     pub fn with_type_paths<R>(&self, run: impl FnOnce(&TypePaths<'_>) -> R) -> R {
-        let choice = &|choices: &Enum| self.enum_path(choices);
+        let choice =
+            &|choices: &Enum| enum_path(self.graph, &self.shared.enums, &quote!(super), choices);
         let object = &|object: &Object| {
             let toolbox = self.graph.toolboxes.iter().find(|t| t.name == object.toolbox);
             let (module, name) =
@@ -163,19 +165,6 @@ impl<'a> Context<'a> {
             quote!(#module::#name)
         };
         run(&TypePaths { core: TokenStream::new(), quantity: TokenStream::new(), choice, object })
-    }
-
-    /// The path of an enum, from the plan's module.
-    fn enum_path(&self, choices: &Enum) -> TokenStream {
-        let camel = || ident(&camel(&choices.name));
-        let Some(toolbox) = &choices.toolbox else {
-            let named = self.shared.enums.iter().find(|(known, _)| **known == *choices);
-            let name = named.map_or_else(camel, |(_, name)| name.clone());
-            return quote!(super::enums::#name);
-        };
-        let found = self.graph.toolboxes.iter().find(|known| known.name == *toolbox);
-        let (module, name) = (path(found.map_or("crate", |toolbox| &toolbox.rust_path)), camel());
-        quote!(#module::templates::#name)
     }
 
     /// The Rust type of a value.
@@ -212,15 +201,6 @@ pub struct Paths {
     pub marker: TokenStream,
     pub module: TokenStream,
     pub implementation: TokenStream,
-}
-
-/// A path that a toolbox names, such as `afp_carbot` or `crate::gripper`.
-pub fn path(text: &str) -> TokenStream {
-    let parts = text.split("::").map(|part| match part {
-        "crate" | "self" | "super" => Ident::new(part, proc_macro2::Span::call_site()),
-        part => ident(part),
-    });
-    quote!(#(#parts)::*)
 }
 
 /// Names components so that nothing collides.

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 
-use super::context::{Context, path};
-use crate::names::ident;
+use crate::names::{ident, path};
+use afp_dsl::graph::Graph;
 
 /// What lives at the root of `afp_core`.
 const CORE: &[&str] = &[
@@ -128,7 +128,8 @@ pub fn imported() -> impl Iterator<Item = &'static str> {
 /// The items for what the sections name.
 pub fn imports(
     core: &TokenStream,
-    context: &Context<'_>,
+    graph: &Graph,
+    aliases: &[Ident],
     sections: &[(&'static str, TokenStream)],
 ) -> TokenStream {
     let mut used = BTreeSet::new();
@@ -150,7 +151,7 @@ pub fn imports(
             names => Some(quote!(use #module::{#(#names),*};)),
         }
     });
-    let toolboxes = context.graph.toolboxes.iter().zip(&context.shared.names.toolboxes);
+    let toolboxes = graph.toolboxes.iter().zip(aliases);
     let toolboxes = toolboxes.filter_map(|(toolbox, alias)| {
         let module = path(&toolbox.rust_path);
         let item = quote!(use #module::templates as #alias;);

@@ -4,8 +4,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::context::Context;
-use super::shared::units_name;
 use crate::layout::doc;
+use crate::names::units_name;
 use crate::rust_type::float;
 use afp_dsl::graph::{EntryKind, Graph, PlanId};
 use afp_dsl::types::{Dimension, Type};

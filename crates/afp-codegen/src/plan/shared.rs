@@ -1,20 +1,18 @@
 //! What the plans of a graph share: enums of their files, and units that texts may carry.
 
-use std::sync::Arc;
-
 use afp_types::Scale;
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Module;
 use crate::Options;
-use crate::enums;
+use crate::enums::{self, FileEnum};
 use crate::layout::doc;
-use crate::names::{UniqueNames, camel, ident};
+use crate::names::{UniqueNames, camel, ident, units_name};
 use crate::rust_type::int;
 use afp_dsl::graph::{EntryKind, Formula, FormulaKind, Graph};
 use afp_dsl::types::readable::{ReadableUnit, readable};
-use afp_dsl::types::{Conversion, Dimension, Enum, Type};
+use afp_dsl::types::{Conversion, Dimension, Type};
 
 /// The modules `enums` and `units`, where they have anything in them.
 pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Module> {
@@ -44,16 +42,6 @@ pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Modu
     modules
 }
 
-/// The static of the units of a dimension.
-pub fn units_name(dimension: Dimension) -> Ident {
-    let name = dimension.name().replace('/', "_PER_").replace('-', "_MINUS_");
-    let name = name.replace('*', "_").replace('^', "").to_uppercase();
-    match name.strip_prefix('1') {
-        Some(rest) => ident(&format!("ONE{rest}")),
-        None => ident(&name),
-    }
-}
-
 fn units(dimension: Dimension) -> TokenStream {
     let name = units_name(dimension);
     let rows: Vec<_> = readable(dimension).iter().map(unit).collect();
@@ -78,9 +66,6 @@ fn unit(unit: &ReadableUnit) -> TokenStream {
     };
     quote!(Unit { name: #name, scale: Scale::#scale })
 }
-
-/// An enum of a plan file, with its Rust name.
-pub type FileEnum = (Arc<Enum>, Ident);
 
 /// The enums of the plan files that any entry or formula has, in the order of first use.
 pub fn enums_of(graph: &Graph) -> Vec<FileEnum> {

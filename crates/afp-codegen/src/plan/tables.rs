@@ -9,12 +9,10 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Module;
-use super::context::Shared;
-use super::shared::FileEnum;
 use crate::Options;
+use crate::enums::FileEnum;
 use crate::layout::doc;
-use crate::names::{UniqueNames, camel, ident, snake};
-use crate::plan::context::path;
+use crate::names::{UniqueNames, camel, ident, path, snake};
 use crate::rust_type::{TypePaths, int, variant};
 use afp_dsl::graph::{Component, Graph};
 use afp_dsl::table::{Cell, Table};
@@ -52,10 +50,14 @@ pub fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
 }
 
 /// The module `tables`, where any plan reads one.
-pub fn module(graph: &Graph, shared: &Shared, options: &Options) -> Option<Module> {
-    let Shared { enums, tables, .. } = shared;
+pub fn module(
+    graph: &Graph,
+    enums: &[FileEnum],
+    tables: &[FileTable],
+    options: &Options,
+) -> Option<Module> {
     let core = &options.core;
-    let choice = &|choices: &Enum| enum_path(graph, enums, choices);
+    let choice = &|choices: &Enum| enum_path(graph, enums, &quote!(super::super), choices);
     // No column holds an object.
     let object = &|_: &Object| TokenStream::new();
     let quantity = quote!(#core::quantity::);
@@ -74,13 +76,18 @@ pub fn module(graph: &Graph, shared: &Shared, options: &Options) -> Option<Modul
     })
 }
 
-/// The path of an enum, from the module of a table.
-fn enum_path(graph: &Graph, enums: &[FileEnum], choices: &Enum) -> TokenStream {
+/// The path of an enum from a module; `root` leads to the module that has all others.
+pub fn enum_path(
+    graph: &Graph,
+    enums: &[FileEnum],
+    root: &TokenStream,
+    choices: &Enum,
+) -> TokenStream {
     let camel = || ident(&camel(&choices.name));
     let Some(toolbox) = &choices.toolbox else {
         let named = enums.iter().find(|(known, _)| **known == *choices);
         let name = named.map_or_else(camel, |(_, name)| name.clone());
-        return quote!(super::super::enums::#name);
+        return quote!(#root::enums::#name);
     };
     let found = graph.toolboxes.iter().find(|known| known.name == *toolbox);
     let (module, name) = (path(found.map_or("crate", |toolbox| &toolbox.rust_path)), camel());
