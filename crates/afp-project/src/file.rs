@@ -7,11 +7,9 @@ use afp_excerpt::{Mark, Report, Severity};
 use afp_output::read_text_file;
 
 use crate::krate::{self, CrateLink, HardwareLink, RobotLink};
+use crate::path::{NAME, shown};
 use crate::project::{Mistake, Project, Toolbox};
 use crate::read::read;
-
-/// The file's name.
-pub(crate) const NAME: &str = "afp.toml";
 
 /// A project file that says nothing wrong; where there is none, nothing is said.
 #[derive(Clone, Debug)]
@@ -211,13 +209,6 @@ impl std::error::Error for ProjectError {
             ProjectError::Wrong { .. } => None,
         }
     }
-}
-
-/// A path as people name it who work in the current folder.
-pub fn shown(path: &Path) -> PathBuf {
-    let here = std::env::current_dir().ok();
-    let below = here.and_then(|here| Some(path.strip_prefix(here).ok()?.to_owned()));
-    below.unwrap_or_else(|| path.to_owned())
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use afp_output::read_text_file;
 use toml_edit::Document;
 
-use crate::file::{NAME, shown};
+use crate::path::{NAME, shown};
 use crate::project::{Crate, Hardware, Mistake, Origin, Robot, Toolbox};
 
 /// A crate of the project, as a manifest can depend on it.

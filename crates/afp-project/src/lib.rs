@@ -29,15 +29,17 @@
 mod file;
 mod keys;
 mod krate;
+mod path;
 mod project;
 mod read;
 mod spot;
 mod time;
 mod tree;
 
-pub use file::{ProjectError, ProjectFile, ToolboxFile, shown};
+pub use file::{ProjectError, ProjectFile, ToolboxFile};
 pub use keys::{Key, keys};
 pub use krate::{CrateLink, HardwareLink, RobotLink};
+pub use path::shown;
 pub use project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
 pub use spot::{Spot, SpotKind, headings, spot};

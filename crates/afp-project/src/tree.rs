@@ -4,7 +4,7 @@ use std::collections::{HashSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use crate::file::NAME;
+use crate::path::NAME;
 
 /// Folders deeper than this are not looked into.
 const DEPTH: usize = 12;
