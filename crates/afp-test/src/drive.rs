@@ -20,8 +20,8 @@ use afp_toolboxes::project::own_toolbox_texts;
 use crate::Recording;
 use crate::setting::Setting;
 use crate::stimuli;
-use crate::verdict::{Broken, Verdict};
-use crate::watch::Watch;
+use crate::verdict::Verdict;
+use crate::watch::{Broken, Watch};
 use crate::watch::signals::Signals;
 
 /// How long a run goes on when the plan has ended: the robot comes to rest.

@@ -30,9 +30,9 @@ pub use coverage::{Coverage, Part, PartKind};
 pub use generate::{Generated, generate, is_generated};
 pub use macros::check;
 pub use setting::Setting;
-pub use verdict::{Broken, Verdict};
-pub use watch::Activation;
+pub use verdict::Verdict;
 pub use watch::hits::{Hits, Touched};
+pub use watch::{Activation, Broken};
 
 /// Where a run is recorded, with what it takes to repeat it.
 #[derive(Clone, Copy)]

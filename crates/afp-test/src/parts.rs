@@ -1,6 +1,7 @@
 //! The components of a plan by their numbers, each with what the graph says of it.
 
-use afp_draw::{Count, PlanUsage, Reaction, Usage};
+mod usage;
+
 use afp_dsl::graph::{
     Component, Element, ElementId, Graph, Output, Plan, PlanId, Supervisor, SupervisorId,
     TemplateId,
@@ -9,8 +10,6 @@ use afp_dsl::scenario::{Injection, Outcome};
 use afp_dsl::toolbox::{Constant, OutPort};
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{Goal, Place, Unfolded, places, unfold};
-
-use crate::watch::hits::Hits;
 
 /// A plan by the numbers of its components.
 pub(crate) struct Parts<'a> {
@@ -171,39 +170,6 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// Adds up what was used, plan by plan, over all places at which a plan is used.
-    pub(crate) fn usage(&self, hits: &Hits) -> Usage {
-        let plans = self.graph.plans.iter().map(|plan| PlanUsage {
-            plan: plan.span,
-            elements: plan.elements.iter().map(none_of_element).collect(),
-            supervisors: plan.supervisors.iter().map(|each| none(each.events.len())).collect(),
-            entries: vec![0; plan.entries.len()],
-        });
-        let mut usage = Usage { plans: plans.collect() };
-        for (part, touched) in self.parts.iter().zip(hits.components()) {
-            let Some(plan) = usage.plans.get_mut(part.plan.index()) else { continue };
-            let count = match part.what {
-                What::Element(id) => plan.elements.get_mut(id.index()),
-                What::Supervisor(id) => plan.supervisors.get_mut(id.index()),
-                What::Plan => None,
-            };
-            if let Some(count) = count {
-                count.starts += touched.starts;
-                count.special += touched.special;
-                let outcomes = count.outcomes.iter_mut().zip(&touched.outcomes);
-                outcomes.for_each(|(sum, count)| *sum += count);
-                let reactions = count.reactions.iter_mut().zip(&touched.reactions);
-                reactions.for_each(|(sum, count)| sum.count += count);
-            }
-        }
-        for home in &self.homes {
-            let Some(plan) = usage.plans.get_mut(home.plan.index()) else { continue };
-            let written = hits.entries.iter().skip(home.entries as usize);
-            plan.entries.iter_mut().zip(written).for_each(|(sum, count)| *sum += count);
-        }
-        usage
-    }
-
     /// The entries that a component writes at all, by number.
     pub(crate) fn written(&self, number: u32) -> Vec<u32> {
         let first = self.part(number).map_or(0, |(_, part)| part.entries);
@@ -262,20 +228,6 @@ impl<'a> Parts<'a> {
         let text = format!("fire {}.Error", self.path(number));
         (Injection { component: number, outcome: Outcome::Special, outputs: Vec::new() }, text)
     }
-}
-
-fn none(outcomes: usize) -> Count {
-    Count { outcomes: vec![0; outcomes], ..Count::default() }
-}
-
-/// In the order in which a trace names the reactions.
-fn none_of_element(element: &Element) -> Count {
-    let tables = element.reactions.iter().flat_map(|table| {
-        let events = (0..).map(Some).take(table.events.len()).chain([None]);
-        let edges = events.filter(|event| table.target(*event).is_some());
-        edges.map(|event| Reaction { supervisor: table.supervisor.index(), event, count: 0 })
-    });
-    Count { reactions: tables.collect(), ..none(element.states.len()) }
 }
 
 fn add(graph: &Graph, home: Part, parts: &mut Vec<Part>, homes: &mut Vec<Part>) {

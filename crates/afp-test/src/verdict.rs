@@ -3,10 +3,9 @@
 use std::fmt::Write;
 
 use afp_core::{Duration, Ending, Instant};
-use afp_syntax::source::Span;
 
-use crate::watch::Activation;
 use crate::watch::hits::Hits;
+use crate::watch::{Activation, Broken};
 
 /// How much of the timeline is told before and behind what broke.
 const BEFORE: usize = 8;
@@ -31,19 +30,6 @@ pub struct Verdict {
     pub timeline: Vec<(Instant, String)>,
     /// The hash of the trace: the same for the same scenario, on every machine. That of its log has the stop at the end in it.
     pub trace: u64,
-}
-
-/// Something that was not as expected.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Broken {
-    /// The line of the scenario.
-    pub text: String,
-    /// Its place.
-    pub span: Span,
-    /// When it became clear.
-    pub at: Instant,
-    /// What happened instead.
-    pub why: String,
 }
 
 impl Verdict {

@@ -1,5 +1,6 @@
 //! Follows the records of a run: which edges are taken, what is active, what entries hold, what was expected.
 
+mod claims;
 mod expected;
 pub(crate) mod hits;
 pub(crate) mod moments;
@@ -17,8 +18,8 @@ use afp_dsl::toolbox::Constant;
 use afp_dsl::unfold::{Goal, Place, places};
 
 use afp_session::{Datum, Holder, SampleRef};
+use afp_syntax::source::Span;
 
-use crate::verdict::Broken;
 use expected::Expected;
 use hits::Hits;
 use moments::Moments;
@@ -41,6 +42,19 @@ pub(crate) struct Watch<'a> {
     expected: Vec<Expected<'a>>,
     pub(crate) moments: Moments<'a>,
     pub(crate) hits: Hits,
+}
+
+/// Something that was not as expected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Broken {
+    /// The line of the scenario.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
+    /// When it became clear.
+    pub at: Instant,
+    /// What happened instead.
+    pub why: String,
 }
 
 /// A stretch of time in which an element was active.

@@ -1,13 +1,12 @@
 //! One expectation while a scenario runs.
 
-use afp_core::trace::{Author, ComponentId};
 use afp_core::{Ending, Fault, Instant};
 use afp_dsl::scenario::{Claim, Expectation, Operand, Subject, Wanted, Window};
 use afp_dsl::toolbox::Constant;
 
+use super::claims::{happens, holds};
 use super::moments::Moments;
-use super::{Occurrence, State, ends, fits, leads};
-use crate::verdict::Broken;
+use super::{Broken, Occurrence, State};
 
 /// So many times are told.
 const MOST: usize = 5;
@@ -164,46 +163,6 @@ impl<'a> Expected<'a> {
             Claim::Compare { left, right, .. } => compared(left, right, state),
             _ => "it was otherwise".to_owned(),
         }
-    }
-}
-
-/// Whether a claim is about this.
-pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
-    match (claim, occurrence) {
-        (
-            Claim::Transition { from, to, by },
-            Occurrence::Edge { from: left, to: goal, by: why },
-        ) => from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why)),
-        (Claim::Happens(wanted), Occurrence::Outcome(cause)) => fits(wanted, *cause),
-        (Claim::End(wanted), Occurrence::End(ending, last)) => ends(*wanted, *ending, *last),
-        (Claim::Interrupt(wanted), Occurrence::Interrupt(element)) => wanted == element,
-        (Claim::Commit { of, by }, Occurrence::Commit { entry, author, first }) => {
-            let by = by.is_none_or(|by| *author == Author::Component(ComponentId(by)));
-            by && of.map_or(*first, |of| of == *entry)
-        }
-        _ => false,
-    }
-}
-
-/// Whether a claim holds now; `None` for one that is no matter of the plan's state.
-pub(super) fn holds(claim: &Claim, state: &State) -> Option<bool> {
-    match claim {
-        Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),
-        Claim::Running => Some(state.ending.is_none()),
-        Claim::Compare { left, comparison, right } => {
-            let left = state.held(left)?;
-            let right = match right {
-                Operand::Value(value) => Some(value.clone()),
-                Operand::Subject(other) => state.held(other)?,
-            };
-            let both = left.zip(right);
-            Some(both.is_some_and(|(left, right)| comparison.holds(&left, &right)))
-        }
-        Claim::Transition { .. }
-        | Claim::Happens(_)
-        | Claim::End(_)
-        | Claim::Interrupt(_)
-        | Claim::Commit { .. } => None,
     }
 }
 

@@ -3,9 +3,8 @@
 use afp_core::Instant;
 use afp_dsl::scenario::{Moment, MomentId};
 
-use super::expected::{happens, holds};
-use super::{Occurrence, State};
-use crate::verdict::Broken;
+use super::claims::{happens, holds};
+use super::{Broken, Occurrence, State};
 
 /// Which moments have come, and when.
 pub(crate) struct Moments<'a> {
