@@ -27,11 +27,12 @@ mod rename;
 mod several;
 mod tree;
 mod wire;
+mod workspace;
 
 use std::rc::Rc;
 
 use buffer::TextBuffer;
-use project::Workspace;
+use workspace::Workspace;
 
 use afp_dsl::Toolboxes;
 use afp_syntax::diagnostics::Diagnostics;

@@ -9,8 +9,9 @@ mod scenarios;
 
 use super::buffer::{Splice, TextBuffer};
 use super::list::{Page, indented};
-use super::project::{Project, Workspace};
+use super::project::Project;
 use super::tree::{self, Scope, children, is_named, name_of, range};
+use super::workspace::Workspace;
 use super::{Item, Refused, add, fragment, name, remove};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};

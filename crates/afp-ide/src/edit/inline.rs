@@ -7,8 +7,9 @@ mod data;
 mod text;
 mod visibility;
 
-use super::project::{Project, Workspace};
+use super::project::Project;
 use super::tree::{self, Scope, children, name_of, name_token, range, target};
+use super::workspace::Workspace;
 use super::{Item, Refused, add, connect, name, refer, remove};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};

@@ -1,11 +1,11 @@
-//! The files of a project: which of them sees what of the others, and a buffer of each.
+//! The files of a project and what the names in them mean.
 
 use std::rc::Rc;
 
 use super::buffer::{Splice, TextBuffer};
-use super::{Item, Refused, refer, tree};
+use super::tree;
 use afp_dsl::Toolboxes;
-use afp_dsl::files::{joined, normalised};
+use afp_dsl::files::joined;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::index::{DefinitionKind, Index, Meaning};
 use afp_dsl::index_files;
@@ -13,70 +13,6 @@ use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::{Source, Span};
 use afp_syntax::{Node, Token};
-
-/// The files that a change may edit.
-pub(super) struct Workspace {
-    /// Their normalised paths.
-    pub paths: Vec<String>,
-    /// Their texts in the making.
-    pub buffers: Vec<TextBuffer>,
-    /// The file that the change names its items in.
-    pub home: usize,
-}
-
-impl Workspace {
-    /// Begins with files, of which `home` must be one.
-    pub fn new(files: &[Source], toolboxes: &Rc<Toolboxes>, home: usize) -> Workspace {
-        let paths = files.iter().map(|file| normalised(&file.name)).collect();
-        let buffers =
-            files.iter().map(|file| TextBuffer::new(&file.text, toolboxes.clone())).collect();
-        Workspace { paths, buffers, home }
-    }
-
-    /// The buffer of the file that the change is about.
-    pub fn buffer(&mut self) -> &mut TextBuffer {
-        &mut self.buffers[self.home]
-    }
-
-    /// How many syntax errors the files have.
-    pub fn syntax_errors(&self) -> usize {
-        self.buffers.iter().map(TextBuffer::syntax_errors).sum()
-    }
-
-    /// What the files say now.
-    pub fn project(&self) -> Project {
-        let roots: Vec<_> = self.buffers.iter().map(TextBuffer::root).collect();
-        let sees = roots.iter().enumerate().map(|(index, root)| {
-            let used = paths_of_uses(root).filter_map(|written| {
-                let path = joined(&self.paths[index], &written);
-                self.paths.iter().position(|known| *known == path)
-            });
-            std::iter::once(index).chain(used.filter(|used| *used != index)).collect()
-        });
-        let sources = self.paths.iter().zip(&self.buffers);
-        let sources = sources.map(|(path, buffer)| Source::new(path, buffer.text())).collect();
-        let toolboxes = self.buffers[self.home].toolboxes.clone();
-        Project::new(sees.collect(), roots, sources, toolboxes)
-    }
-
-    /// Checks that no other file names an item.
-    pub fn check_inside(&self, item: &Item) -> Result<(), Refused> {
-        self.check_unnamed(item, |_| true)
-    }
-
-    /// Checks that no other file names an item in what a plan does: the check marks scenarios of one that is gone.
-    pub fn check_unused(&self, item: &Item) -> Result<(), Refused> {
-        self.check_unnamed(item, |name| refer::scenario(name).is_none())
-    }
-
-    fn check_unnamed(&self, item: &Item, counts: impl Fn(&Token) -> bool) -> Result<(), Refused> {
-        let found = refer::to(&self.project(), self.home, item);
-        let mut others = found.iter().filter(|(file, name)| *file != self.home && counts(name));
-        let Some((file, _)) = others.next() else { return Ok(()) };
-        let (name, path) = (item.name(), &self.paths[*file]);
-        Err(Refused::new(format!("'{name}' is named in '{path}': take it out of there first")))
-    }
-}
 
 /// The paths behind `use`, as written.
 pub(super) fn paths_of_uses(root: &Node) -> impl Iterator<Item = String> {
@@ -111,7 +47,7 @@ impl Project {
         Project::new(vec![vec![0]], vec![buffer.root()], vec![source], toolboxes)
     }
 
-    fn new(
+    pub(super) fn new(
         sees: Vec<Vec<usize>>,
         roots: Vec<Node>,
         sources: Vec<Source>,

@@ -1,7 +1,8 @@
 //! Another name for an item, wherever the files refer to it.
 
-use super::project::{Project, Workspace};
+use super::project::Project;
 use super::tree::{self, Scope, name_token, range, scope_of};
+use super::workspace::Workspace;
 use super::{Item, Refused, name, refer};
 use afp_dsl::types::is_built_in;
 use afp_syntax::kind::Kind;

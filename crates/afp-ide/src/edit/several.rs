@@ -8,8 +8,8 @@ mod translate;
 
 use std::rc::Rc;
 
-use super::project::Workspace;
 use super::tree::{self, Scope, children, name_of};
+use super::workspace::Workspace;
 use super::{Change, Item, Refused, TextEdit, begin, end, fragment, make, name};
 use afp_dsl::Toolboxes;
 use afp_syntax::kind::Kind;

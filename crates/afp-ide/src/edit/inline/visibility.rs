@@ -1,7 +1,8 @@
 //! Brings what the elements of another file name into view of the file that they are put into.
 
-use crate::edit::project::{Project, Workspace};
+use crate::edit::project::Project;
 use crate::edit::tree::{self, below, children, single};
+use crate::edit::workspace::Workspace;
 use crate::edit::{Refused, add};
 use afp_dsl::files::relative;
 use afp_syntax::Node;

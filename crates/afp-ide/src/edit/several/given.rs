@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::project::Workspace;
-use super::super::{Binding, Change, Item, Refused};
-use super::translate;
+use super::super::{Change, Item};
 use afp_syntax::kind::Kind;
 
 /// The names that items were given in place of those that were wished for.
@@ -54,7 +52,7 @@ impl Given {
     }
 
     /// A name of a plan, as it is given.
-    fn name(&self, plan: &str, name: String) -> String {
+    pub(super) fn name(&self, plan: &str, name: String) -> String {
         let key = (plan.to_owned(), None, name);
         self.names.get(&key).map_or(key.2, |name| name.given.clone())
     }
@@ -86,39 +84,8 @@ impl Given {
         self.all.push((wished, given));
     }
 
-    /// A change under the names that were given; not yet the text that it adds.
-    pub(super) fn in_change(
-        &self,
-        workspace: &mut Workspace,
-        change: Change,
-    ) -> Result<Change, Refused> {
-        let plan = match &change {
-            Change::Bind { component: item, .. }
-            | Change::SetTiming { supervisor: item, .. }
-            | Change::SetEntryValue { entry: item, .. } => item.plan_name().to_owned(),
-            _ => String::new(),
-        };
-        let mut formula = |text: String| translate::formula(workspace, self, &plan, text);
-        Ok(match self.in_names(change) {
-            Change::Bind { component, port, to } => {
-                let to = match to {
-                    Binding::In(text) => Binding::In(formula(text)?),
-                    Binding::Out(entry) => Binding::Out(self.name(&plan, entry)),
-                };
-                Change::Bind { component, port, to }
-            }
-            Change::SetTiming { supervisor, keyword, value } => {
-                Change::SetTiming { supervisor, keyword, value: value.map(formula).transpose()? }
-            }
-            Change::SetEntryValue { entry, value } => {
-                Change::SetEntryValue { entry, value: value.map(formula).transpose()? }
-            }
-            other => other,
-        })
-    }
-
     /// A change whose items and names are those that were given.
-    fn in_names(&self, change: Change) -> Change {
+    pub(super) fn in_names(&self, change: Change) -> Change {
         use Change as C;
 
         let in_plan = |plan: &str, name: Option<String>| name.map(|name| self.name(plan, name));

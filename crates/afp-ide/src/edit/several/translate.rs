@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use super::super::project::Workspace;
 use super::super::tree::{Scope, children};
-use super::super::{Item, Refused, name, rename};
+use super::super::workspace::Workspace;
+use super::super::{Binding, Change, Item, Refused, name, rename};
 use super::given::Given;
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Source;
@@ -21,8 +21,41 @@ struct Surroundings {
     names: Vec<(Item, String)>,
 }
 
+impl Given {
+    /// A change under the names that were given; not yet the text that it adds.
+    pub(super) fn in_change(
+        &self,
+        workspace: &mut Workspace,
+        change: Change,
+    ) -> Result<Change, Refused> {
+        let plan = match &change {
+            Change::Bind { component: item, .. }
+            | Change::SetTiming { supervisor: item, .. }
+            | Change::SetEntryValue { entry: item, .. } => item.plan_name().to_owned(),
+            _ => String::new(),
+        };
+        let mut translated = |text: String| formula(workspace, self, &plan, text);
+        Ok(match self.in_names(change) {
+            Change::Bind { component, port, to } => {
+                let to = match to {
+                    Binding::In(text) => Binding::In(translated(text)?),
+                    Binding::Out(entry) => Binding::Out(self.name(&plan, entry)),
+                };
+                Change::Bind { component, port, to }
+            }
+            Change::SetTiming { supervisor, keyword, value } => {
+                Change::SetTiming { supervisor, keyword, value: value.map(translated).transpose()? }
+            }
+            Change::SetEntryValue { entry, value } => {
+                Change::SetEntryValue { entry, value: value.map(translated).transpose()? }
+            }
+            other => other,
+        })
+    }
+}
+
 /// A formula of a plan under the names that items of the plan were given.
-pub(super) fn formula(
+fn formula(
     workspace: &mut Workspace,
     given: &Given,
     plan: &str,
