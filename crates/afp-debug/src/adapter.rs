@@ -8,6 +8,7 @@ mod goto;
 mod hover;
 mod launch;
 mod look;
+mod mode;
 mod outside;
 mod places;
 mod roles;
@@ -33,10 +34,9 @@ use crate::target::Target;
 
 pub use clients::{ClientId, Outgoing};
 pub use launch::Launch;
-pub(crate) use places::Wanted;
 
 use clients::Client;
-use steer::{Mode, Pace};
+use mode::{Mode, Pace};
 
 /// What an adapter cannot do by itself.
 pub trait Host<'h> {

@@ -1,16 +1,20 @@
 //! Breakpoints: where a run pauses.
 
+mod wanted;
+
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use afp_core::Fault;
 use afp_core::trace::{ComponentId, Outcome};
 use afp_session::{EndingKind, EventKind, RunEvent};
 
-use crate::adapter::{ClientId, Wanted};
+use crate::adapter::ClientId;
 use crate::hit_count::HitCount;
 use crate::program::{Program, Spot};
 use crate::state::State;
 use crate::watched::Watched;
+
+pub(crate) use wanted::{At, Wanted};
 
 /// What a run stands still at: of every client what it has set, together.
 #[derive(Debug, Default)]

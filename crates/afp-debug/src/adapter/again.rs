@@ -6,7 +6,7 @@ use afp_excerpt::words::shell_word;
 use afp_session::{DEFAULT_UNTIL, HOLD, Stimulus};
 
 use super::Launch;
-use super::ended::By;
+use super::mode::By;
 use crate::target::Target;
 
 /// The command; none where the run had something from outside for which there is no option: a value written or forced on

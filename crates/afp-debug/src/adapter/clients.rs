@@ -1,10 +1,11 @@
 //! The clients of a run: how each counts lines, which events it subscribed to, joining and leaving.
 
+use std::time::Duration as Wall;
+
 use dapts::IEvent;
 use serde_json::{Value, json};
 
 use super::Adapter;
-use super::roles::Lease;
 
 /// A client of an adapter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -43,6 +44,14 @@ pub(super) struct Client {
     pub lease: Option<Lease>,
     /// Whether it has said goodbye.
     pub over: bool,
+}
+
+/// When a client was asked last whether it is there, and since when it has not said so.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lease {
+    pub asked: Wall,
+    /// How long an answer could have been heard to what was asked; none where all is answered.
+    pub open: Option<Wall>,
 }
 
 /// How a client counts.

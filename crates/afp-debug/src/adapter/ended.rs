@@ -4,21 +4,11 @@ use afp_session::{EndingKind, Figure, FigureValue};
 use dapts::event;
 use serde_json::{Map, Value, json};
 
+use super::mode::By;
 use super::{Adapter, Run, again};
 
 /// So many stretches of time are told one by one.
 const SPANS: usize = 4;
-
-/// Who or what ended a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum By {
-    /// The plan itself.
-    Plan,
-    /// The time that it was given.
-    Until,
-    /// A client, by its name.
-    Client(String),
-}
 
 impl Adapter<'_> {
     /// Tells how the plan ended.

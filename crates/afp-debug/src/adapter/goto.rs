@@ -12,7 +12,7 @@ use afp_dsl::unfold::ComponentKind;
 use afp_session::EventKind;
 use serde_json::Value;
 
-use super::steer::Mode;
+use super::mode::Mode;
 use super::{Adapter, Answer, Refusal, Run};
 use crate::program::{Program, Spot};
 use crate::target::Happened;

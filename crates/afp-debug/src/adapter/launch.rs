@@ -10,8 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::clients::Counting;
-use super::ended::By;
-use super::steer::{Mode, Pace};
+use super::mode::{By, Mode, Pace};
 use super::stop::stopped_event;
 use super::{Adapter, Answer, Guard, Refusal, Run, parse};
 use crate::breakpoints::Filters;

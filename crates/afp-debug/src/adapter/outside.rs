@@ -10,7 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::steer::Pace;
+use super::mode::Pace;
 use super::{Adapter, Answer, Refusal};
 use crate::log_target::READ_ONLY;
 use crate::target::Target;

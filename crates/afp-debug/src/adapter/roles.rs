@@ -9,8 +9,8 @@ use dapts::{BreakpointEventReason as Changed, StoppedEventReason as Reason, even
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use super::clients::Lease;
 use super::launch::capabilities;
-use super::steer::Mode;
 use super::{Adapter, Answer, ClientId, Refusal};
 
 /// How often who steers is asked whether it is there.
@@ -44,14 +44,6 @@ const STEERS: &[&str] = &[
     "stepIn",
     "stepOut",
 ];
-
-/// When a client was asked last whether it is there, and since when it has not said so.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lease {
-    asked: Wall,
-    /// How long an answer could have been heard to what was asked; none where all is answered.
-    open: Option<Wall>,
-}
 
 #[derive(Deserialize)]
 pub(super) struct Wanted {
@@ -212,12 +204,5 @@ impl Adapter<'_> {
     pub(super) fn lease_due(&self) -> Option<Wall> {
         let client = self.clients.get(&self.operator?)?;
         client.lease.map(|_| LOOK)
-    }
-}
-
-impl Mode {
-    /// Whether it is a step of a client.
-    fn is_step(self) -> bool {
-        matches!(self, Mode::Next(_) | Mode::Into | Mode::Out(_) | Mode::One | Mode::Goto(_))
     }
 }

@@ -3,14 +3,13 @@
 use std::time::Duration as Wall;
 
 use afp_core::trace::ComponentId;
-use afp_core::{Duration, Instant};
 use afp_session::EventKind;
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::ended::By;
 use super::goto::is_there;
+use super::mode::{By, Mode, Pace};
 use super::{Adapter, Answer, Refusal, Run, parse};
 use crate::breakpoints::Hits;
 use crate::program::Program;
@@ -21,56 +20,6 @@ pub(super) const BATCH: usize = 2_000;
 
 /// How much time on the wall lies between two messages about what is the case.
 const STATES: Wall = Wall::from_millis(50);
-
-/// How a run goes on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mode {
-    /// It stands still.
-    Held,
-    /// Until something holds it.
-    On,
-    /// Until the next transition of a plan, or the end of that plan.
-    Next(ComponentId),
-    /// Until the next transition of any plan.
-    Into,
-    /// Until a sub-plan has ended.
-    Out(ComponentId),
-    /// One step of the scheduler.
-    One,
-    /// Until an element is active, along edges that are brought about.
-    Goto(ComponentId),
-    /// Up to an instant, whatever happens.
-    Seek(Instant),
-    /// The plan has ended.
-    Over,
-}
-
-/// How fast time passes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pace {
-    /// A multiple of time on the wall; none is as fast as it can be computed.
-    factor: Option<f64>,
-    /// The two times when it began to pass.
-    since: (Instant, Wall),
-}
-
-impl Pace {
-    pub fn new(factor: Option<f64>, at: Instant, now: Wall) -> Pace {
-        Pace { factor, since: (at, now) }
-    }
-
-    /// The instant that is now.
-    fn limit(&self, now: Wall) -> Instant {
-        let (at, wall) = self.since;
-        match self.factor {
-            None => Instant::MAX,
-            Some(factor) => {
-                let passed = now.saturating_sub(wall).as_secs_f64() * factor;
-                at + Duration::from_secs_f64(passed)
-            }
-        }
-    }
-}
 
 #[derive(Deserialize)]
 pub(super) struct Step {

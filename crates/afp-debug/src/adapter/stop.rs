@@ -8,8 +8,7 @@ use dapts::{StoppedEventReason as Reason, event};
 use serde_json::json;
 
 use super::clients::Client;
-use super::ended::By;
-use super::steer::Mode;
+use super::mode::{By, Mode};
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Kind;
 use crate::program::Program;

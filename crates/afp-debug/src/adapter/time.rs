@@ -5,7 +5,8 @@ use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::steer::{BATCH, Mode, Step, is_transition};
+use super::mode::Mode;
+use super::steer::{BATCH, Step, is_transition};
 use super::{Adapter, Answer, Run};
 use crate::breakpoints::Hits;
 use crate::target::{Advance, Position};
