@@ -5,7 +5,6 @@
 
 mod config;
 mod constant;
-mod element;
 mod error;
 mod formula;
 mod inject;
@@ -29,3 +28,8 @@ pub use names::PlanNames;
 pub use plan::LoadedPlan;
 pub use registry::Registry;
 pub use slots::{ActorSlot, ComputationSlot, See, SupervisorSlot};
+
+/// Items with their 16-bit numbers, of which the tables of a plan have no more.
+fn numbered<T>(items: impl IntoIterator<Item = T>) -> impl Iterator<Item = (u16, T)> {
+    (0..=u16::MAX).zip(items)
+}

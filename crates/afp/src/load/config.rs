@@ -8,7 +8,7 @@ use afp_core::{Fault, Value, ValueRef};
 use afp_dsl::graph::Entry;
 use afp_dsl::types::Type;
 
-use super::plan::numbered;
+use super::numbered;
 
 /// An object of some Rust type that only its templates know.
 pub trait ObjectCell: Send {

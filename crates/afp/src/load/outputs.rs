@@ -9,7 +9,7 @@ use afp_dsl::graph;
 
 use super::config::{ObjectCell, Staged, Values};
 use super::formula::{Converter, Formula};
-use super::plan::numbered;
+use super::numbered;
 
 /// The bound formulas of a component, and room for the texts that they make.
 #[derive(Clone)]

@@ -1,6 +1,7 @@
 //! An instance of a graph: the interpreter's side of the contract with the scheduler.
 
 mod carry;
+mod element;
 mod loader;
 mod testing;
 
@@ -16,16 +17,17 @@ use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
 
 use super::config::{Config, ObjectCell};
-use super::element::ElementSlot;
 use super::error::LoadError;
 use super::formula::{Formula, spellings};
 use super::inject::Injected;
 use super::names::PlanNames;
+use super::numbered;
 use super::outputs::{Binding, Inputs, Stage, limit};
 use super::registry::Registry;
 use super::slots::SupervisorSlot;
 use super::tables::LoadedTables;
 use carry::Carried;
+use element::ElementSlot;
 use loader::Loader;
 
 /// A plan loaded at run time, for platform `E`.
@@ -188,11 +190,6 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     pub(super) fn cell(&self, entry: u16) -> Option<&dyn ObjectCell> {
         self.config.values.cell(entry)
     }
-}
-
-/// Items with their 16-bit numbers, of which the tables of a plan have no more.
-pub(super) fn numbered<T>(items: impl IntoIterator<Item = T>) -> impl Iterator<Item = (u16, T)> {
-    (0..=u16::MAX).zip(items)
 }
 
 /// A value of the entry's own type: an `int` given to a `float` becomes one.

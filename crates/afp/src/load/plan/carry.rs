@@ -4,8 +4,9 @@ use afp_core::{Environment, Value};
 use afp_dsl::graph::EntryKind;
 use afp_dsl::types::Type;
 
-use super::{LoadedPlan, numbered};
+use super::LoadedPlan;
 use crate::load::config::ObjectCell;
+use crate::load::numbered;
 use crate::load::outputs::limit;
 
 /// The value of an entry that takes the place of its initial value.

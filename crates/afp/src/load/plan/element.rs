@@ -9,11 +9,12 @@ use afp_core::trace::Outcome;
 use afp_core::{Environment, Fault};
 use afp_dsl::graph;
 
-use super::config::Config;
-use super::inject::{Injected, Injection, NotInjected};
-use super::outputs::{Binding, Inputs, Stage};
-use super::plan::{LoadedPlan, numbered};
-use super::slots::{ActorSlot, ComputationSlot};
+use super::LoadedPlan;
+use crate::load::config::Config;
+use crate::load::inject::{Injected, Injection, NotInjected};
+use crate::load::numbered;
+use crate::load::outputs::{Binding, Inputs, Stage};
+use crate::load::slots::{ActorSlot, ComputationSlot};
 
 /// An element of a loaded plan.
 pub struct ElementSlot<E: ?Sized + 'static> {

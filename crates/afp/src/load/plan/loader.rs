@@ -8,9 +8,9 @@ use afp_dsl::graph::{self, Component, Graph, PlanId};
 use afp_dsl::types::Type;
 use afp_syntax::source::Span;
 
+use super::element::{ElementSlot, Running};
 use super::{EntryInfo, LoadedPlan, WatchSlot};
 use crate::load::config::Config;
-use crate::load::element::{ElementSlot, Running};
 use crate::load::error::LoadError;
 use crate::load::formula::Formula;
 use crate::load::names::PlanNames;

@@ -5,7 +5,7 @@ use afp_core::trace::ComponentId;
 use afp_core::{ElementId, Environment};
 
 use super::LoadedPlan;
-use crate::load::element::ElementSlot;
+use super::element::ElementSlot;
 use crate::load::inject::{Injection, NotInjected};
 
 impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
