@@ -21,8 +21,8 @@ use crate::Recording;
 use crate::setting::Setting;
 use crate::stimuli;
 use crate::verdict::Verdict;
-use crate::watch::{Broken, Watch};
 use crate::watch::signals::Signals;
+use crate::watch::{Broken, Watch};
 
 /// How long a run goes on when the plan has ended: the robot comes to rest.
 const REST: Duration = Duration::from_millis(1000);

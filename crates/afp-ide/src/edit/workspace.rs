@@ -5,8 +5,8 @@ use std::rc::Rc;
 use super::buffer::TextBuffer;
 use super::project::{Project, paths_of_uses};
 use super::{Item, Refused, refer};
-use afp_dsl::files::{joined, normalised};
 use afp_dsl::Toolboxes;
+use afp_dsl::files::{joined, normalised};
 use afp_syntax::Token;
 use afp_syntax::source::Source;
 
