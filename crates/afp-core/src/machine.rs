@@ -24,22 +24,13 @@ mod leave;
 mod sweep;
 
 use crate::fault::Fault;
-use crate::rt::{Committer, Cx, ElementRow, Plan, PlanState, Polled, Run, Slot, Tables, Target};
+use crate::rt::{
+    Committer, Cx, ElementRow, Flow, Plan, PlanState, Polled, Run, Slot, Tables, Target,
+};
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
 use afp_types::{Duration, Instant};
 use at::StepAt;
 use sweep::Seen;
-
-/// How a level stands after its start or its step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Flow {
-    /// An element is active; nothing is due before this instant.
-    Running(Instant),
-    /// The plan has ended.
-    Ended(Ending),
-    /// The whole run has to end: livelock or a failed interrupt.
-    Fatal(Fault),
-}
 
 /// A plan, its rows and the state of its scheduling.
 pub struct Machine<P: PlanState> {

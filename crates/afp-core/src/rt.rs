@@ -13,7 +13,9 @@ mod row;
 mod run;
 mod state;
 mod store;
+mod sub_plan;
 mod table;
+mod write;
 
 pub use formula::{
     Scale, Unit, abs, atan2, bool_to_float, bool_to_int, clamp, cos, float_to_int, hypot, int_abs,
@@ -26,15 +28,16 @@ pub use native::{
     finite, initial, input, limited, output, print_choice, read_choice, set_input, stage_outside,
     store_text, within, within_int, within_value,
 };
-pub use plan::{Committer, Cx, Fired, Polled, Slot, Started};
+pub use plan::{Committer, Cx, Fired, Flow, Polled, Slot, Started};
 pub(crate) use plan::{Place, StepState};
 pub use ports::{Args, FromArgs, Outcome, Outputs, Ports, Registry};
 pub use probe::{ActorSupported, Probe, SupervisorSupported, Unsupported};
 pub use row::{RowInputs, row};
 pub use run::Run;
-pub use state::{AtElement, Plan, PlanState, WriteError};
+pub use state::{AtElement, Plan, PlanState};
 pub use store::{Any, Choice, Discrete, Entry, Number, Object, Stored, Writable};
 pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
+pub use write::WriteError;
 
 pub use crate::fault::BadValue;
 
@@ -42,4 +45,4 @@ pub use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Environment, Events, Supervisor,
     SupervisorTemplate,
 };
-pub use crate::machine::{Flow, Machine};
+pub use crate::machine::Machine;

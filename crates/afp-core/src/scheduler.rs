@@ -12,8 +12,8 @@ use heapless::Deque;
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::{Failure, Fault};
-use crate::machine::{Flow, Machine};
-use crate::rt::{Cx, Place, Plan, PlanState, Run, StepState};
+use crate::machine::Machine;
+use crate::rt::{Cx, Flow, Place, Plan, PlanState, Run, StepState};
 use crate::trace::{Author, ComponentId, Ending, Names, NoTrace, Record, Sink};
 
 use guard::guarded;

@@ -1,11 +1,10 @@
 //! Entering an element: its supervisors start, all due supervisors are polled (the look), then it starts.
 
 use super::sweep::{Found, Moment, What};
-use super::{Edge, Level, Stop, component, supervisor_id};
+use super::{Edge, Flow, Level, Stop, component, supervisor_id};
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
-use crate::machine::Flow;
 use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables};
 use crate::trace::Record;
 

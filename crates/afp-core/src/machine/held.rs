@@ -11,15 +11,6 @@ use crate::fault::Fault;
 use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables, Target};
 use crate::trace::{Author, Ending, Outcome, Record};
 
-/// Whether an event with this target interrupts nothing yet.
-pub(super) fn is_held(t: &impl Tables, target: Target) -> bool {
-    match target {
-        Target::Resume => true,
-        Target::Element(element) => t.table().element(element).is_some_and(|row| row.resumes),
-        Target::Terminate | Target::Fail(_) | Target::Ignore | Target::None => false,
-    }
-}
-
 impl<P: PlanState> Level<P> {
     /// Takes an event that is held, its outputs staged. The element goes on, or there is an edge to leave
     /// it by.

@@ -2,11 +2,9 @@
 
 use afp_types::{Duration, Instant};
 
-use super::held::is_held;
-use super::{Edge, Level, Stop, component, supervisor_id};
+use super::{Edge, Flow, Level, Stop, component, supervisor_id};
 use crate::clock::Clock;
 use crate::fault::Fault;
-use crate::machine::Flow;
 use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, Run, SupervisorRow, Tables, Target};
 use crate::trace::{Author, Cause, Ending, Outcome, Record, Sink, Verdict};
 
@@ -346,6 +344,15 @@ fn takes<R: Run>(
             }
             !there
         }
+    }
+}
+
+/// Whether an event with this target interrupts nothing yet.
+fn is_held(t: &impl Tables, target: Target) -> bool {
+    match target {
+        Target::Resume => true,
+        Target::Element(element) => t.table().element(element).is_some_and(|row| row.resumes),
+        Target::Terminate | Target::Fail(_) | Target::Ignore | Target::None => false,
     }
 }
 

@@ -13,8 +13,8 @@ use crate::rt::formula::parse_choice;
 use crate::rt::plan::{Cx, Fired, Polled, Started};
 use crate::rt::ports::{Outcome, Ports};
 use crate::rt::run::Run;
-use crate::rt::state::WriteError;
 use crate::rt::store::{Choice, Entry, Stored, Writable};
+use crate::rt::write::WriteError;
 
 impl<R: Run> Cx<'_, R> {
     /// Starts an actor with its inputs.

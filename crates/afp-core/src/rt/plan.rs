@@ -5,13 +5,22 @@ use core::num::NonZeroU32;
 use afp_types::{Instant, ValueRef};
 
 use crate::fault::{BadValue, Detail, Failure, Fault, Port, Subject};
-use crate::machine::{Flow, Machine};
 use crate::rt::ports::Ports;
 use crate::rt::run::Run;
-use crate::rt::state::{Plan, PlanState};
 use crate::rt::store::{Entry, Stored};
 use crate::rt::table::Child;
 use crate::trace::{Author, ComponentId, Ending, Outcome, Record, Sink, TraceEntryId};
+
+/// How a level stands after its start or its step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Flow {
+    /// An element is active; nothing is due before this instant.
+    Running(Instant),
+    /// The plan has ended.
+    Ended(Ending),
+    /// The whole run has to end: livelock or a failed interrupt.
+    Fatal(Fault),
+}
 
 /// When a supervisor is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -205,37 +214,6 @@ impl<R: Run> Cx<'_, R> {
             },
         })
     }
-
-    /// Gives a sub-plan its live inputs before its step, as a commit of its element. `write` writes those
-    /// that have changed and tells whether there are any.
-    pub fn pass_live<P: PlanState>(
-        &mut self,
-        child: Child,
-        machine: &mut Machine<P>,
-        write: impl FnOnce(&mut P, &mut Committer<'_, R::Sink>) -> bool,
-    ) {
-        let number = self.step.commits.wrapping_add(1);
-        let mut to = Committer {
-            sink: &mut *self.sink,
-            at: self.now,
-            author: Author::Component(self.place.component),
-            entries: self.place.entries.saturating_add(child.entries),
-            number,
-        };
-        if write(machine.plan_mut(), &mut to) {
-            self.step.commits = number;
-        }
-    }
-
-    /// Starts a sub-plan whose `in` entries are set.
-    pub fn start_sub_plan<P: Plan<R::Env>>(
-        &mut self,
-        child: Child,
-        machine: &mut Machine<P>,
-    ) -> Flow {
-        self.trace(&Record::Started { component: self.place.component });
-        self.inside(child, |cx| machine.start(cx))
-    }
 }
 
 impl<R: Run> Cx<'_, R> {
@@ -364,49 +342,5 @@ impl<S: Sink> Committer<'_, S> {
     /// The number of this commit, by which objects are known.
     pub fn number(&self) -> u32 {
         self.number
-    }
-}
-
-impl Started {
-    /// What a sub-plan's start brought; `stage` stages its results.
-    pub fn sub_plan<R: Run>(
-        flow: Flow,
-        stage: impl FnOnce() -> Result<(), BadValue>,
-        cx: &mut Cx<'_, R>,
-    ) -> Self {
-        match ended(flow, stage, cx) {
-            None => Started::SubPlan(flow),
-            Some(Ok(state)) => Started::Done(state),
-            Some(Err(fault)) => Started::Failed(fault),
-        }
-    }
-}
-
-impl Polled {
-    /// What a sub-plan's step brought; `stage` stages its results.
-    pub fn sub_plan<R: Run>(
-        flow: Flow,
-        stage: impl FnOnce() -> Result<(), BadValue>,
-        cx: &mut Cx<'_, R>,
-    ) -> Self {
-        match ended(flow, stage, cx) {
-            None => Polled::SubPlan(flow),
-            Some(Ok(state)) => Polled::Done(state),
-            Some(Err(fault)) => Polled::EndedInError(fault),
-        }
-    }
-}
-
-/// The state that a sub-plan reached, if it ended: `OK` is 0, `Interrupted` 1.
-fn ended<R: Run>(
-    flow: Flow,
-    stage: impl FnOnce() -> Result<(), BadValue>,
-    cx: &mut Cx<'_, R>,
-) -> Option<Result<u16, Fault>> {
-    match flow {
-        Flow::Ended(Ending::Ok) => Some(cx.noted_outside(stage()).map(|()| 0)),
-        Flow::Ended(Ending::Interrupted) => Some(cx.noted_outside(stage()).map(|()| 1)),
-        Flow::Ended(Ending::Error(fault)) => Some(Err(fault)),
-        Flow::Running(_) | Flow::Fatal(_) => None,
     }
 }

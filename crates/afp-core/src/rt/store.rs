@@ -7,7 +7,7 @@ use afp_types::{Text, Value, ValueRef};
 use crate::fault::Fault;
 use crate::quantity::Quantity;
 use crate::rt::formula::int_to_float;
-use crate::rt::state::WriteError;
+use crate::rt::write::WriteError;
 
 /// A value that an entry can hold. The default is what unset storage holds.
 pub trait Stored: Default {

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use afp_types::{Instant, Measured, Quantity, ValueRef};
+use afp_types::{Instant, ValueRef};
 
 use super::{
     Author, Cause, ComponentId, ComponentKind, Ending, Names, Outcome, Record, TraceEntryId,
@@ -22,38 +22,6 @@ pub struct Line<'a, N: ?Sized> {
     pub record: &'a Record<'a>,
     /// The names of the plan.
     pub names: &'a N,
-}
-
-/// The range of an entry.
-pub(super) struct Range<'a> {
-    pub least: f64,
-    pub greatest: f64,
-    pub unit: &'a str,
-}
-
-impl fmt::Display for Range<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let bound = |value, other| Bound { value, other, unit: self.unit };
-        let [least, greatest] = [self.least, self.greatest];
-        write!(f, "from {} to {}", bound(least, greatest), bound(greatest, least))
-    }
-}
-
-/// A bound beside another one, as people write it; to the last digit where that is not all of it.
-struct Bound<'a> {
-    value: f64,
-    other: f64,
-    unit: &'a str,
-}
-
-impl fmt::Display for Bound<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Bound { value, other, unit } = *self;
-        match Measured::exact(value, unit) {
-            Some(shown) => shown.beside(Measured::new(other, unit)).fmt(f),
-            None => Quantity { value, unit }.fmt(f),
-        }
-    }
 }
 
 impl<N: Names + ?Sized> Line<'_, N> {

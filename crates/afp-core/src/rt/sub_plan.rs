@@ -1,0 +1,86 @@
+//! A sub-plan as an element: what its machine is given, and what its start and its step bring.
+
+use crate::fault::{BadValue, Fault};
+use crate::machine::Machine;
+use crate::rt::plan::{Committer, Cx, Flow, Polled, Started};
+use crate::rt::run::Run;
+use crate::rt::state::{Plan, PlanState};
+use crate::rt::table::Child;
+use crate::trace::{Author, Ending, Record};
+
+impl<R: Run> Cx<'_, R> {
+    /// Gives a sub-plan its live inputs before its step, as a commit of its element. `write` writes those
+    /// that have changed and tells whether there are any.
+    pub fn pass_live<P: PlanState>(
+        &mut self,
+        child: Child,
+        machine: &mut Machine<P>,
+        write: impl FnOnce(&mut P, &mut Committer<'_, R::Sink>) -> bool,
+    ) {
+        let number = self.step.commits.wrapping_add(1);
+        let mut to = Committer {
+            sink: &mut *self.sink,
+            at: self.now,
+            author: Author::Component(self.place.component),
+            entries: self.place.entries.saturating_add(child.entries),
+            number,
+        };
+        if write(machine.plan_mut(), &mut to) {
+            self.step.commits = number;
+        }
+    }
+
+    /// Starts a sub-plan whose `in` entries are set.
+    pub fn start_sub_plan<P: Plan<R::Env>>(
+        &mut self,
+        child: Child,
+        machine: &mut Machine<P>,
+    ) -> Flow {
+        self.trace(&Record::Started { component: self.place.component });
+        self.inside(child, |cx| machine.start(cx))
+    }
+}
+
+impl Started {
+    /// What a sub-plan's start brought; `stage` stages its results.
+    pub fn sub_plan<R: Run>(
+        flow: Flow,
+        stage: impl FnOnce() -> Result<(), BadValue>,
+        cx: &mut Cx<'_, R>,
+    ) -> Self {
+        match ended(flow, stage, cx) {
+            None => Started::SubPlan(flow),
+            Some(Ok(state)) => Started::Done(state),
+            Some(Err(fault)) => Started::Failed(fault),
+        }
+    }
+}
+
+impl Polled {
+    /// What a sub-plan's step brought; `stage` stages its results.
+    pub fn sub_plan<R: Run>(
+        flow: Flow,
+        stage: impl FnOnce() -> Result<(), BadValue>,
+        cx: &mut Cx<'_, R>,
+    ) -> Self {
+        match ended(flow, stage, cx) {
+            None => Polled::SubPlan(flow),
+            Some(Ok(state)) => Polled::Done(state),
+            Some(Err(fault)) => Polled::EndedInError(fault),
+        }
+    }
+}
+
+/// The state that a sub-plan reached, if it ended: `OK` is 0, `Interrupted` 1.
+fn ended<R: Run>(
+    flow: Flow,
+    stage: impl FnOnce() -> Result<(), BadValue>,
+    cx: &mut Cx<'_, R>,
+) -> Option<Result<u16, Fault>> {
+    match flow {
+        Flow::Ended(Ending::Ok) => Some(cx.noted_outside(stage()).map(|()| 0)),
+        Flow::Ended(Ending::Interrupted) => Some(cx.noted_outside(stage()).map(|()| 1)),
+        Flow::Ended(Ending::Error(fault)) => Some(Err(fault)),
+        Flow::Running(_) | Flow::Fatal(_) => None,
+    }
+}
