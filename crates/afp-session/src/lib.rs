@@ -25,6 +25,7 @@
 
 mod any;
 mod counts;
+mod datum;
 mod event;
 mod faults;
 mod figures;
@@ -32,12 +33,14 @@ mod hardware;
 mod holds;
 mod not_set;
 mod observer;
+mod opened;
 mod recipe;
 mod record;
 mod request;
 mod robot;
 mod robots;
 mod sample;
+mod sampling;
 mod session;
 mod stimulus;
 mod track;
@@ -46,26 +49,25 @@ mod world;
 
 pub use any::AnySession;
 pub use counts::{Counts, Usage};
-pub use event::{
-    Datum, Done, EndingKind, EventKind, Holder, Miss, OUTSIDE, Requested, RunEvent, author,
-};
+pub use datum::{Datum, Holder};
+pub use event::{Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
-pub use hardware::{Hardware, LastResort, NoWorld, Opened, Settings};
-#[cfg(feature = "load")]
-pub use hardware::{Opener, hardware};
+pub use hardware::{Hardware, LastResort, NoWorld, Settings};
 pub use not_set::{NotSet, refusal, what_it_takes};
 pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
+pub use opened::Opened;
+#[cfg(feature = "load")]
+pub use opened::{Opener, hardware};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
 pub use request::{DEFAULT_UNTIL, HOLD, Put, Request, RequestError, RequestId};
-pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulated};
+pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulated, read_signal};
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
 pub use robots::{Loader, simulated};
-pub use sample::{
-    Image, Pose2, Ranging, SampleRef, Samples, Shape, Transform, frames, read_signal,
-};
+pub use sample::{Image, Pose2, Ranging, SampleRef, Shape, Transform, frames};
+pub use sampling::Samples;
 pub use session::{SAMPLE, Session};
 pub use stimulus::Stimulus;
 pub use track::{Mark, Track, Waypoint};

@@ -3,14 +3,15 @@
 use std::error::Error;
 use std::fmt;
 
-use afp_core::devices::Devices;
+use afp_core::devices::{Devices, SignalId};
 use afp_core::{Instant, Platform};
 
 use crate::faults::Active;
 use crate::figures::Figure;
 use crate::observer::NamedRecord;
 use crate::request::{Put, RequestError};
-use crate::sample::{Pose2, Samples};
+use crate::sample::{Pose2, SampleRef};
+use crate::sampling::Samples;
 use crate::world::World;
 
 /// What can be held down on a robot.
@@ -284,3 +285,9 @@ impl fmt::Display for Refused {
 }
 
 impl Error for Refused {}
+
+/// What a signal of a robot is now; `to` is not called where the robot has no value for it.
+pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
+    let table = <R::Devices as Devices>::TABLE;
+    robot.sample(&mut Samples::of_one(robot.now(), table, signal, to));
+}

@@ -2,14 +2,10 @@
 //!
 //! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres and radians.
 
-use afp_core::devices::{DeviceRow, Devices, SignalId, SignalType};
-use afp_core::{Fault, Instant};
+use afp_core::Instant;
+use afp_core::devices::SignalType;
 
-use crate::event::Datum;
-use crate::observer::{Observer, Sampling};
-use crate::robot::Robot;
-use crate::session::broken::wrong_type;
-use crate::session::grid::Stretch;
+use crate::datum::Datum;
 
 /// The frames that logs and pictures know of any robot.
 pub mod frames {
@@ -168,118 +164,5 @@ impl SampleRef<'_> {
                 | (SampleRef::Image(_), SignalType::Image)
                 | (SampleRef::Outline(_), SignalType::Outline)
         )
-    }
-}
-
-/// Takes the samples of an instant from a robot and gives each to whoever wants it.
-pub struct Samples<'a, 'o> {
-    at: Instant,
-    /// What the robot declares.
-    table: &'static [DeviceRow],
-    to: To<'a, 'o>,
-    /// What was wrong with the first sample that is of another type than is declared.
-    wrong: Option<Fault>,
-}
-
-enum To<'a, 'o> {
-    /// Those observers whose turn it is.
-    Observers(&'a mut [&'o mut dyn Observer], Turn),
-    /// Somebody who asks for one signal.
-    One(SignalId, &'a mut dyn FnMut(SampleRef<'_>)),
-}
-
-/// What a signal of a robot is now; `to` is not called where the robot has no value for it.
-pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {
-    let table = <R::Devices as Devices>::TABLE;
-    robot.sample(&mut Samples::of_one(robot.now(), table, signal, to));
-}
-
-/// Whose turn it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Turn {
-    /// Those of whose grid an instant has come; those that sample at each step have their turn after it, where
-    /// there is one.
-    Grid {
-        /// Whether a step is about to be made.
-        before_step: bool,
-        /// What has come since the last time.
-        stretch: Stretch,
-    },
-    /// A step is over: those that sample at each step.
-    Step,
-}
-
-impl<'a, 'o> Samples<'a, 'o> {
-    pub(crate) fn of_turn(
-        at: Instant,
-        table: &'static [DeviceRow],
-        to: &'a mut [&'o mut dyn Observer],
-        turn: Turn,
-    ) -> Self {
-        Samples { at, table, to: To::Observers(to, turn), wrong: None }
-    }
-
-    pub(crate) fn of_one(
-        at: Instant,
-        table: &'static [DeviceRow],
-        signal: SignalId,
-        to: &'a mut dyn FnMut(SampleRef<'_>),
-    ) -> Self {
-        Samples { at, table, to: To::One(signal, to), wrong: None }
-    }
-
-    /// Whether anybody wants a signal: to be asked before what is dear to compute.
-    pub fn wants(&self, signal: SignalId) -> bool {
-        match &self.to {
-            To::Observers(all, turn) => {
-                all.iter().any(|each| turn.includes(each.sampling()) && each.wants(self.at, signal))
-            }
-            To::One(wanted, _) => *wanted == signal,
-        }
-    }
-
-    /// Gives a sample to whoever wants it. One of another type than the robot's toolbox declares ends the run in `Error`.
-    pub fn put(&mut self, signal: SignalId, value: SampleRef<'_>) {
-        if let Some(wrong) = wrong_type(self.table, signal, &value) {
-            self.wrong.get_or_insert(wrong);
-            return;
-        }
-        match &mut self.to {
-            To::Observers(all, turn) => {
-                for each in all.iter_mut() {
-                    if turn.includes(each.sampling()) && each.wants(self.at, signal) {
-                        each.on_sample(self.at, signal, value);
-                    }
-                }
-            }
-            To::One(wanted, to) if *wanted == signal => to(value),
-            To::One(..) => {}
-        }
-    }
-
-    /// The samples of this instant are complete; what was wrong with one of them, if something was.
-    pub(crate) fn finish(self) -> Option<Fault> {
-        if let To::Observers(all, turn) = self.to {
-            for each in all.iter_mut() {
-                if turn.includes(each.sampling()) {
-                    each.after_samples(self.at);
-                }
-            }
-        }
-        self.wrong
-    }
-}
-
-impl Turn {
-    /// Whether it is the turn of an observer of that sampling.
-    fn includes(self, sampling: Sampling) -> bool {
-        match (self, sampling) {
-            (_, Sampling::Never) | (Turn::Step, Sampling::Every(_)) => false,
-            (Turn::Grid { stretch, .. }, Sampling::Every(every)) => stretch.has_multiple_of(every),
-            (Turn::Grid { before_step, stretch }, Sampling::Following(every)) => {
-                !before_step && stretch.has_multiple_of(every)
-            }
-            (Turn::Step, Sampling::Following(_)) => true,
-        }
     }
 }

@@ -20,7 +20,7 @@ use crate::observer::{Gate, Go, Observer, Open};
 use crate::record::{Keep, Kept};
 use crate::request::{Request, Requests};
 use crate::robot::{FaultOf, Measure, Robot};
-use crate::sample::Turn;
+use crate::sampling::Turn;
 
 use asked::Testing;
 use grid::SampleGrid;

@@ -13,7 +13,7 @@ use afp_core::trace::{Outcome, declared};
 use afp_core::{Duration, EntryId};
 use afp_types::Measured;
 
-use crate::event::{Datum, Holder};
+use crate::datum::{Datum, Holder};
 use crate::request::{HOLD, Put, Request, RequestError};
 use crate::sample::Pose2;
 
@@ -212,30 +212,6 @@ fn injection(
     _: &[(u16, Datum)],
 ) -> Result<Request, RequestError> {
     Err(RequestError::Compiled)
-}
-
-impl Datum {
-    /// The value as people write it; the number of a quantity is in that SI unit.
-    pub fn in_unit(&self, unit: &str) -> String {
-        match self {
-            Datum::Number(number) => Measured::new(*number, unit).to_string(),
-            other => other.to_string(),
-        }
-    }
-}
-
-impl fmt::Display for Datum {
-    /// As in a plan, quantities in SI units without the unit.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Datum::Unset => f.write_str("unset"),
-            Datum::Truth(truth) => truth.fmt(f),
-            Datum::Integer(integer) => integer.fmt(f),
-            Datum::Number(number) => number.fmt(f),
-            Datum::Text(text) => write!(f, "{text:?}"),
-            Datum::Choice(text) | Datum::Object(text) => f.write_str(text),
-        }
-    }
 }
 
 impl fmt::Display for Stimulus {

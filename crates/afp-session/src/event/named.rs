@@ -5,7 +5,8 @@ use afp_core::trace::{
 };
 use afp_core::{Fault, ValueRef};
 
-use super::{Datum, EndingKind, EventKind, Holder, Miss, OUTSIDE, RunEvent, author};
+use super::{EndingKind, EventKind, Miss, OUTSIDE, RunEvent, author};
+use crate::datum::{Datum, Holder};
 
 /// Puts names in place of ids.
 pub(super) struct Namer<'a, N: ?Sized> {

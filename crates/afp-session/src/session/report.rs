@@ -11,8 +11,9 @@ use afp_core::{EntryId, Fault, Instant, Scheduler, ValueRef};
 use super::Session;
 use crate::observer::{Inside, NamedRecord, Observer, View};
 use crate::record::{Keep, is_clear};
-use crate::robot::Robot;
-use crate::sample::{SampleRef, Samples, Turn, read_signal};
+use crate::robot::{Robot, read_signal};
+use crate::sample::SampleRef;
+use crate::sampling::{Samples, Turn};
 
 /// What a view of a session shows.
 struct Looked<'a, P: NamedPlan, R> {
