@@ -43,7 +43,7 @@ fn run(plan: &str, limit: u64) -> (Vec<String>, bool) {
     let text = format!("use std\n{}", plan.replace("LIMIT", &limit.to_string()));
     let compiled = compile(&Source::new("loops.afp", text), &toolboxes(), &Texts::default());
     let told = compiled.diags.iter().filter(|each| each.code == Code::E0312);
-    let told = told.map(|each| each.help.clone()).collect();
+    let told = told.map(|each| each.help_text()).collect();
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
     let trace = interpret(graph, &"until 100 ms".parse::<Script>().unwrap());
     (told, trace.iter().any(|line| line.contains("livelock")))

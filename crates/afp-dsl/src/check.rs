@@ -49,8 +49,8 @@ use crate::index::{self, Declared, Index, Meanings, Recorder};
 use crate::outline::Outline;
 use crate::scenario::Scenario;
 use afp_syntax::ast::{Item, Name};
-use afp_syntax::diagnostics::words;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, list};
+use afp_syntax::message;
 
 pub(crate) use head::PlanHead;
 use outline::Material;
@@ -198,7 +198,7 @@ fn check_flow(
 
 /// Reports a type that hides one of the language.
 pub(crate) fn shadows(name: &Name, diags: &mut Diagnostics) {
-    let message = format!("'{}' is a type of the language", name.text);
+    let message = message!("'{}' is a type of the language", name.text);
     diags.push(Diagnostic::new(Code::E0213, name.span, message).help("choose another name"));
 }
 
@@ -215,10 +215,10 @@ fn select(
         let index = own().position(|head| name(head).as_deref() == Some(main));
         if index.is_none() {
             let names: Vec<_> = own().filter_map(name).collect();
-            let message = format!("the file has no plan '{main}'");
+            let message = message!("the file has no plan '{}'", main);
             let help = match names.as_slice() {
-                [] => "add a plan of that name".to_owned(),
-                names => format!("name {}", words::list(names.iter().map(String::as_str), "or")),
+                [] => "add a plan of that name".into(),
+                names => message!("name {}", list(names.iter().map(String::as_str), "or")),
             };
             let top = file.whole().before();
             diags.push(Diagnostic::new(Code::E0504, top, message).help(help));
@@ -244,7 +244,7 @@ fn no_plan(file: &PlanFile) -> Diagnostic {
     });
     match head {
         Some(name) => {
-            let message = format!("the file is the toolbox '{}' and has no plan", name.text);
+            let message = message!("the file is the toolbox '{}' and has no plan", name.text);
             Diagnostic::new(Code::E0503, name.span, message)
                 .help("name a file with a plan that uses the toolbox")
         }

@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use crate::files::{Files, joined, normalised};
 use afp_syntax::ast::{File, Item, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
+use afp_syntax::message;
 use afp_syntax::source::{Source, Sources, Span};
 use afp_syntax::unquote;
 use afp_syntax::{Parse, parse};
@@ -159,7 +160,7 @@ impl Gathering<'_> {
             };
             self.found[user].paths.push((written.span, used));
             if let Some((_, first)) = lines.iter().find(|(known, _)| *known == used) {
-                let message = format!("{} is used twice", written.text.replace('"', "'"));
+                let message = message!("{} is used twice", Words(written.text.replace('"', "'")));
                 self.diags.push(
                     Diagnostic::new(Code::E0212, line.span(), message)
                         .note(*first, "first used here")
@@ -186,7 +187,7 @@ impl Gathering<'_> {
             wrong.push(match self.toolboxes.get(&text) {
                 Some(_) => {
                     Diagnostic::new(error.code, error.span, "a toolbox is used by its name alone")
-                        .help(format!("write 'use {text}'"))
+                        .help(message!("write 'use {}'", text))
                         .replace(text.clone())
                 }
                 None => error,
@@ -258,21 +259,20 @@ impl Gathering<'_> {
 
     fn unusable(&self, why: &Unusable, path: &str, span: Span) -> Diagnostic {
         match why {
-            Unusable::Unread(reason) => {
-                Diagnostic::new(Code::E0506, span, format!("cannot read '{path}': {reason}"))
-                    .help("write the path of a plan file, seen from the folder of this file")
-            }
+            Unusable::Unread(reason) => Diagnostic::new(
+                Code::E0506,
+                span,
+                message!("cannot read '{}': {}", path, Words(reason)),
+            )
+            .help("write the path of a plan file, seen from the folder of this file"),
             Unusable::Toolbox(name) => {
                 let message =
-                    format!("'{path}' is the toolbox '{name}', which is used by its name");
+                    message!("'{}' is the toolbox '{}', which is used by its name", path, name);
                 let error = Diagnostic::new(Code::E0508, span, message);
                 if self.toolboxes.get(name).is_some() {
-                    return error.help(format!("write 'use {name}'")).replace(name);
+                    return error.help(message!("write 'use {}'", name)).replace(name);
                 }
-                error.help(format!(
-                    "write 'use {name}', and list it in afp.toml: \
-                     '[toolboxes] {name} = {{ path = \"...\", crate = \"...\" }}'"
-                ))
+                error.help(message!("write 'use {}', and list it in afp.toml: '[toolboxes] {} = {{ path = \"...\", crate = \"...\" }}'", name, name))
             }
         }
     }
@@ -280,30 +280,30 @@ impl Gathering<'_> {
 
 /// What is wrong with a path as it is written.
 fn path_error(path: &str, span: Span) -> Option<Diagnostic> {
-    let refused = |message: String| Diagnostic::new(Code::E0507, span, message);
+    let refused = |message: Message| Diagnostic::new(Code::E0507, span, message);
     let quoted = |path: &str| format!("\"{path}\"");
     if path.trim().is_empty() {
-        let error = refused("the path is empty".to_owned());
+        let error = refused("the path is empty".into());
         return Some(error.help("write the path of a plan file, such as \"avoid.afp\""));
     }
     if path.starts_with(['/', '\\']) || path.get(1..2) == Some(":") {
         let help =
             "write the path from the folder of this file, so that it holds on other computers too";
-        return Some(refused(format!("'{path}' is an absolute path")).help(help));
+        return Some(refused(message!("'{}' is an absolute path", path)).help(help));
     }
     if path.contains('\\') {
         let right = quoted(&path.replace('\\', "/"));
-        let error = refused("the parts of a path are separated by '/'".to_owned());
-        return Some(error.help(format!("write {right}")).replace(right));
+        let error = refused("the parts of a path are separated by '/'".into());
+        return Some(error.help(message!("write {}", Words(&right))).replace(right));
     }
     let name = path.rsplit('/').next().unwrap_or(path);
     if name.ends_with(".afp") && name != ".afp" {
         return None;
     }
-    let error = refused(format!("'{path}' does not end in '.afp'"));
+    let error = refused(message!("'{}' does not end in '.afp'", path));
     if name.contains('.') || name.is_empty() {
         return Some(error.help("write the path of a plan file"));
     }
     let right = quoted(&format!("{path}.afp"));
-    Some(error.help(format!("write {right}")).replace(right))
+    Some(error.help(message!("write {}", Words(&right))).replace(right))
 }

@@ -7,6 +7,7 @@ pub mod text;
 use std::fmt;
 use std::sync::Arc;
 
+use afp_syntax::diagnostics::{Arg, ToArg};
 use afp_syntax::source::Span;
 
 pub use afp_syntax::dimension::Dimension;
@@ -153,5 +154,11 @@ impl fmt::Display for Type {
             Type::Number => f.write_str("number"),
             Type::Discrete => f.write_str("discrete"),
         }
+    }
+}
+
+impl ToArg for Type {
+    fn to_arg(&self) -> Arg {
+        Arg::Name(self.to_string())
     }
 }

@@ -53,9 +53,9 @@ fn fixes(view: &View, place: Span) -> Vec<Action> {
     let found = view.compiled.diags.iter().enumerate().filter(|(_, each)| touches(each));
     let fix = |(index, diagnostic): (usize, &Diagnostic)| {
         let fix = diagnostic.fix.clone()?;
-        let title = match diagnostic.help.is_empty() {
-            true => diagnostic.message.clone(),
-            false => diagnostic.help.clone(),
+        let title = match diagnostic.help_text() {
+            help if help.is_empty() => diagnostic.message_text(),
+            help => help,
         };
         Some(Action { title, kind: ActionKind::Fix, mends: Some(index), edits: vec![fix] })
     };

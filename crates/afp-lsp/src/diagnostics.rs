@@ -30,9 +30,9 @@ pub(crate) fn one(
     places: &Places<'_>,
     diagnostic: &Diagnostic,
 ) -> lsp::Diagnostic {
-    let notes = diagnostic.notes.iter().filter_map(|note| {
-        let location = workspace.location(&analysis.compiled, note.span)?;
-        Some(lsp::DiagnosticRelatedInformation { location, message: note.text.clone() })
+    let notes = diagnostic.note_texts().filter_map(|(span, message)| {
+        let location = workspace.location(&analysis.compiled, span)?;
+        Some(lsp::DiagnosticRelatedInformation { location, message })
     });
     let notes: Vec<_> = notes.collect();
     lsp::Diagnostic {
@@ -44,7 +44,7 @@ pub(crate) fn one(
         }),
         code: Some(diagnostic.code.as_str().into()),
         source: Some("afp".to_owned()),
-        message: lsp::Message::String(said(&diagnostic.message, &diagnostic.help)),
+        message: lsp::Message::String(said(&diagnostic.message_text(), &diagnostic.help_text())),
         related_information: (!notes.is_empty()).then_some(notes),
         ..lsp::Diagnostic::default()
     }

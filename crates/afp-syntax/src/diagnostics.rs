@@ -5,23 +5,29 @@
 
 mod codes;
 mod json;
+mod message;
 mod render;
+mod shown;
 mod tables;
 
 use std::collections::BTreeSet;
 
+use crate::message;
 use crate::source::Span;
 
 pub use afp_excerpt::{Severity, words};
 pub use codes::Code;
+pub use message::{Arg, Message, ToArg, Words, holes, list};
+#[doc(hidden)]
+pub use shown::show_only_codes;
 
 /// Another place that explains the diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Label {
+struct Label {
     /// The place.
-    pub span: Span,
+    span: Span,
     /// What is there.
-    pub text: String,
+    text: Message,
 }
 
 /// A replacement of text that mends the error.
@@ -33,6 +39,54 @@ pub struct Edit {
     pub text: String,
 }
 
+/// What a diagnostic is about, for everything that decides by it. The wording of its message decides nothing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    /// Nothing that a decision depends on.
+    #[default]
+    Other,
+    /// A name that is missing in the text.
+    MissingName,
+    /// A name that nothing has.
+    Unknown {
+        /// What it would be the name of.
+        what: Sought,
+        /// The name.
+        name: String,
+        /// The plan in which it was sought, if the text names that.
+        plan: Option<String>,
+    },
+    /// A path of a scenario.
+    Path(String),
+}
+
+/// What the help of a diagnostic asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Aim {
+    /// Another text at the place.
+    #[default]
+    Write,
+    /// No text at the place.
+    Remove,
+    /// A change elsewhere.
+    Elsewhere,
+}
+
+/// What a name can be sought for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sought {
+    /// A template, a plan, or the toolbox in front of it.
+    Template,
+    /// An entry of a plan.
+    Entry,
+    /// An element of a plan.
+    Element,
+    /// A supervisor of a plan.
+    Supervisor,
+    /// A toolbox.
+    Toolbox,
+}
+
 /// One thing the compiler has to say.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
@@ -40,47 +94,107 @@ pub struct Diagnostic {
     pub code: Code,
     /// How bad it is.
     pub severity: Severity,
-    /// What is wrong: lower case, no final period, the user's names in single quotes.
-    pub message: String,
     /// The smallest text to change.
     pub span: Span,
+    /// What it is about.
+    pub subject: Subject,
+    /// What is wrong: lower case, no final period, the user's names in single quotes.
+    message: Message,
+    /// What was found instead, which ends the message.
+    found: Option<Box<Message>>,
     /// Other places that matter.
-    pub notes: Vec<Label>,
+    notes: Vec<Label>,
     /// What to do.
-    pub help: String,
+    help: Message,
+    /// What that asks for.
+    pub aim: Aim,
     /// The edit that does it, where there is one.
     pub fix: Option<Edit>,
 }
 
 impl Diagnostic {
     /// A diagnostic whose severity is the one its code has by nature.
-    pub fn new(code: Code, span: Span, message: impl Into<String>) -> Diagnostic {
+    pub fn new(code: Code, span: Span, message: impl Into<Message>) -> Diagnostic {
         Diagnostic {
             code,
             severity: code.severity(),
-            message: message.into(),
             span,
+            subject: Subject::Other,
+            message: message.into(),
+            found: None,
             notes: Vec::new(),
-            help: String::new(),
+            help: Message::default(),
+            aim: Aim::Write,
             fix: None,
         }
     }
 
+    /// Says what it is about.
+    pub fn about(mut self, subject: Subject) -> Diagnostic {
+        self.subject = subject;
+        self
+    }
+
+    /// Is about a name that nothing has.
+    pub fn unknown(self, what: Sought, name: &str) -> Diagnostic {
+        self.about(Subject::Unknown { what, name: name.to_owned(), plan: None })
+    }
+
+    /// Is about a name that nothing in a plan has, which is written elsewhere.
+    pub fn unknown_in(self, plan: &str, what: Sought, name: &str) -> Diagnostic {
+        let plan = Some(plan.to_owned());
+        self.about(Subject::Unknown { what, name: name.to_owned(), plan })
+    }
+
+    /// Moves it to another place.
+    pub fn at(mut self, span: Span) -> Diagnostic {
+        self.span = span;
+        self
+    }
+
+    /// Says what was found instead.
+    pub fn found(mut self, found: Message) -> Diagnostic {
+        self.found = Some(Box::new(found));
+        self
+    }
+
     /// Says what to do.
-    pub fn help(mut self, text: impl Into<String>) -> Diagnostic {
+    pub fn help(mut self, text: impl Into<Message>) -> Diagnostic {
         self.help = text.into();
         self
     }
 
+    /// Says what to do elsewhere.
+    pub fn elsewhere(mut self, text: impl Into<Message>) -> Diagnostic {
+        self.aim = Aim::Elsewhere;
+        self.help(text)
+    }
+
+    /// Says what to write at another place, with the edit that does it.
+    pub fn write_at(self, span: Span, text: impl Into<String>) -> Diagnostic {
+        let text = text.into();
+        self.help(message!("write '{}'", text)).fix(span, text)
+    }
+
+    /// Says what to write at the primary span, with the edit that does it.
+    pub fn write(self, text: impl Into<String>) -> Diagnostic {
+        let span = self.span;
+        self.write_at(span, text)
+    }
+
     /// Points at another place.
-    pub fn note(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+    pub fn note(mut self, span: Span, text: impl Into<Message>) -> Diagnostic {
         self.notes.push(Label { span, text: text.into() });
         self
     }
 
     /// Gives the edit that follows the help.
     pub fn fix(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.fix = Some(Edit { span, text: text.into() });
+        let text = text.into();
+        if text.is_empty() {
+            self.aim = Aim::Remove;
+        }
+        self.fix = Some(Edit { span, text });
         self
     }
 
@@ -88,6 +202,29 @@ impl Diagnostic {
     pub fn replace(self, text: impl Into<String>) -> Diagnostic {
         let span = self.span;
         self.fix(span, text)
+    }
+
+    /// The diagnostic without notes, help and edit, for those that know better ones.
+    pub fn bare(&self) -> Diagnostic {
+        let Diagnostic { subject, message, found, .. } = self.clone();
+        Diagnostic { subject, found, ..Diagnostic::new(self.code, self.span, message) }
+    }
+
+    /// Replaces what it says to do.
+    pub fn set_help(&mut self, text: impl Into<Message>) {
+        self.help = text.into();
+    }
+
+    /// What is wrong, to be compared with others.
+    pub fn message(&self) -> &Message {
+        &self.message
+    }
+
+    /// The names that the message mentions.
+    pub fn names(&self) -> Vec<&str> {
+        let mut names = Vec::new();
+        self.message.names(&mut names);
+        names
     }
 }
 

@@ -8,8 +8,9 @@ mod unit;
 
 use afp_types::number_length;
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use crate::kind::Kind;
+use crate::message;
 use crate::source::Span;
 
 pub(super) use foreign::CHOICE;
@@ -40,8 +41,8 @@ impl Token<'_> {
     }
 
     /// Its text in quotes, cut where it is long.
-    pub(super) fn shown(&self) -> String {
-        format!("'{}'", self.text.chars().take(30).collect::<String>())
+    pub(super) fn shown(&self) -> Message {
+        message!("'{}'", self.text.chars().take(30).collect::<String>())
     }
 }
 
@@ -165,7 +166,7 @@ impl<'t> Lexer<'t, '_> {
         let text = &rest[..length];
         let span = self.push(Kind::Name, length);
         if !text.is_ascii() {
-            let message = format!("the name '{text}' has characters that are not ASCII");
+            let message = message!("the name '{}' has characters that are not ASCII", text);
             self.diags.push(
                 Diagnostic::new(Code::E0113, span, message)
                     .help("use the letters a to z and A to Z, digits and '_'"),

@@ -24,7 +24,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rowan::{Checkpoint, GreenNode, GreenNodeBuilder, Language};
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use crate::kind::{Afp, Kind};
 use crate::lexer::Token;
 use crate::source::Span;
@@ -257,15 +257,12 @@ impl<'t, 'd> Parser<'t, 'd> {
         self.text_between(self.at + first, self.at + end)
     }
 
-    fn found(&self) -> String {
+    fn found(&self) -> Message {
         self.found_at(0)
     }
 
-    fn found_at(&self, ahead: usize) -> String {
-        match self.token(ahead) {
-            None => "the end of the file".to_owned(),
-            Some(token) => token.shown(),
-        }
+    fn found_at(&self, ahead: usize) -> Message {
+        found(self.token(ahead))
     }
 
     // Building.
@@ -407,6 +404,11 @@ fn own_trivia(trivia: &[Token<'_>]) -> usize {
     let help = trivia.iter().position(|token| token.kind == Kind::Doc).unwrap_or(trivia.len());
     let before_help = trivia[..help].iter().rposition(is_blank_line).map_or(0, |index| index + 1);
     if help < after_blank { before_help } else { after_blank }
+}
+
+/// What is said of a token that is found in the place of something else.
+fn found(token: Option<Token<'_>>) -> Message {
+    token.map_or_else(|| "the end of the file".into(), |token| token.shown())
 }
 
 /// The names behind 'supervise' in the braces of plans, and in no others within them.

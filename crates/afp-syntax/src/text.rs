@@ -2,6 +2,7 @@
 
 use crate::ast::Name;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::message;
 
 /// The text without quotes and with its escapes resolved; reports escapes that do not exist.
 ///
@@ -26,9 +27,9 @@ pub fn unquote(quoted: &Name, diags: &mut Diagnostics) -> String {
                         Diagnostic::new(
                             Code::E0104,
                             span,
-                            format!("there is no escape '\\{other}'"),
+                            message!("there is no escape '\\{}'", other),
                         )
-                        .help(format!("write '\\\\{other}' for a backslash"))
+                        .help(message!("write '\\\\{}' for a backslash", other))
                         .replace(format!("\\\\{other}")),
                     );
                 }

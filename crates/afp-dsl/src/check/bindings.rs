@@ -12,8 +12,8 @@ use crate::check::signature::{Input, Signature};
 use crate::graph::{EntryKind, Formula, Output};
 use crate::types::{Constant, Type};
 use afp_syntax::ast::{self, Bind, Name};
-use afp_syntax::diagnostics::words;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words, list};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use rustc_hash::FxHashMap;
 
@@ -63,7 +63,7 @@ pub(crate) fn check(
         Generic::Unknown => Bound { valid: None, generic: None },
         Generic::Undecided => {
             if !site.broken {
-                let message = format!("nothing decides the type of '{}'", signature.name);
+                let message = message!("nothing decides the type of '{}'", signature.name);
                 diags.push(
                     Diagnostic::new(Code::E0241, site.reference, message)
                         .help("bind one of its ports to a value or an entry"),
@@ -205,7 +205,7 @@ fn record_port(
 }
 
 fn bound_twice(port: &Name, first: &Name) -> Diagnostic {
-    Diagnostic::new(Code::E0226, port.span, format!("'{}' is bound twice", port.text))
+    Diagnostic::new(Code::E0226, port.span, message!("'{}' is bound twice", port.text))
         .note(first.span, "first bound here")
         .help("remove one of them")
 }
@@ -223,14 +223,12 @@ fn output_for_an_input(
     if value.is_none() || matches!(kind, Some(EntryKind::Var | EntryKind::Out)) {
         return error;
     }
-    let help = format!("write '{} => ' and an entry of the plan that takes it", port.text);
-    Diagnostic::new(error.code, error.span, error.message).help(help)
+    let help = message!("write '{} => ' and an entry of the plan that takes it", port.text);
+    error.bare().help(help)
 }
 
 pub(super) fn mixed_up(sign: Span, port: &Name, is: &str, right: &str) -> Diagnostic {
-    Diagnostic::new(Code::E0227, sign, format!("'{}' is {is}", port.text))
-        .help(format!("write '{right}'"))
-        .replace(right)
+    Diagnostic::new(Code::E0227, sign, message!("'{}' is {}", port.text, Words(is))).write(right)
 }
 
 fn inputs(
@@ -270,16 +268,16 @@ fn inputs(
 }
 
 fn without_value(signature: &Signature, missing: &[&Input], site: &Site) -> Diagnostic {
-    let names = words::list(missing.iter().map(|input| &*input.name), "and");
+    let names = list(missing.iter().map(|input| &*input.name), "and");
     let verb = if missing.len() == 1 { "has" } else { "have" };
     let examples: Vec<_> = missing
         .iter()
         .map(|input| format!("{} = {}", input.name, example(input.ty.as_ref())))
         .collect();
-    let message = format!("{names} of '{}' {verb} no value", signature.name);
+    let message = message!("{} of '{}' {} no value", names, signature.name, Words(verb));
     Diagnostic::new(Code::E0225, site.reference, message)
         .note(missing[0].span, "declared here without a default")
-        .help(format!("bind every input, such as '({})'", examples.join(", ")))
+        .help(message!("bind every input, such as '({})'", examples.join(", ")))
 }
 
 /// How a value of the type may look.
@@ -305,7 +303,7 @@ fn out_of_range(
     formula: &Formula,
     value: Option<Constant>,
 ) -> Option<Diagnostic> {
-    let message = |value| format!("'{value}' is out of the range of '{}'", input.name);
+    let message = |value: String| message!("'{}' is out of the range of '{}'", value, input.name);
     let error = range::outside(&value?, input.range?, ty, formula.span, message)?;
     Some(error.note(input.span, "the range is declared here"))
 }

@@ -3,13 +3,14 @@
 use std::rc::Rc;
 
 use crate::check::foreign;
-use crate::check::names::{ambiguous, unknown};
+use crate::check::names::{ambiguous, offer};
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Context, PlanHead};
 use crate::files::relative;
 use crate::toolbox::{TemplateKind, Toolbox};
 use afp_syntax::ast::{Name, Ref};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Something of a name.
@@ -82,7 +83,9 @@ impl Context<'_> {
         let of_itself =
             is_plan && !self.other_plans(reference.span()).any(|other| other == name.text);
         diags.push(match unfit(&signature, reference.span(), wanted) {
-            error if of_itself => Diagnostic::new(error.code, reference.span(), error.message)
+            error if of_itself => error
+                .bare()
+                .at(reference.span())
                 .help("name a template: a plan cannot be part of itself"),
             error => error,
         });
@@ -126,31 +129,32 @@ impl Context<'_> {
             && !self.file.imports.iter().any(|import| import.qualifier == home.text)
         {
             let known = self.file.imports.iter().map(|import| import.qualifier.as_str());
-            let message = format!("no toolbox is used as '{}'", home.text);
-            let error = Diagnostic::new(Code::E0201, span, &*message);
+            let message = message!("no toolbox is used as '{}'", home.text);
+            let error = Diagnostic::new(Code::E0201, span, message);
+            let error = error.unknown(Sought::Template, &home.text);
             if words::nearest(&home.text, known.clone()).is_none()
-                && let Some(error) = self.in_another_toolbox(name, Some(home), error)
+                && let Some(error) = self.in_another_toolbox(name, Some(home), &error)
             {
                 return error;
             }
-            let none = format!("add 'use {}' at the top of the file", home.text);
-            return unknown(Code::E0201, home.span, message, &home.text, known, &none);
+            let none = message!("add 'use {}' at the top of the file", home.text);
+            return offer(error.at(home.span), &home.text, known, none);
         }
         let message = match wanted.keyword {
-            "subplan" => format!("there is no plan '{}'", name.text),
-            _ => format!("there is no template '{}'", name.text),
+            "subplan" => message!("there is no plan '{}'", name.text),
+            _ => message!("there is no template '{}'", name.text),
         };
+        let error = Diagnostic::new(Code::E0201, span, message);
+        let error = error.unknown(Sought::Template, &name.text);
         if wanted.keyword == "subplan"
             && let Some(path) = self.home_of_plan(name)
         {
             let line = format!("use \"{path}\"");
-            return Diagnostic::new(Code::E0201, span, message)
-                .help(format!("add '{line}' at the top of the file"))
+            return error
+                .help(message!("add '{}' at the top of the file", line))
                 .fix(self.file.top, format!("{line}\n"));
         }
-        if let Some(error) =
-            self.in_another_toolbox(name, home, Diagnostic::new(Code::E0201, span, &*message))
-        {
+        if let Some(error) = self.in_another_toolbox(name, home, &error) {
             return error;
         }
         let templates = self.file.imports.iter().flat_map(|import| &import.toolbox.templates);
@@ -162,10 +166,8 @@ impl Context<'_> {
         }
         known.sort_unstable();
         known.dedup();
-        unknown(
-            Code::E0201,
-            span,
-            message,
+        offer(
+            error,
             &name.text,
             known,
             match wanted.keyword {
@@ -180,12 +182,13 @@ impl Context<'_> {
         &self,
         name: &Name,
         home: Option<&Name>,
-        error: Diagnostic,
+        error: &Diagnostic,
     ) -> Option<Diagnostic> {
+        let error = error.bare();
         let has = |toolbox: &Toolbox| toolbox.templates.iter().any(|it| it.name == name.text);
         if let Some(used) = self.file.imports.iter().find(|import| has(&import.toolbox)) {
             let better = format!("{}.{}", used.qualifier, name.text);
-            return Some(error.help(format!("write '{better}'")).replace(better));
+            return Some(error.write(better));
         }
         let is_named = |toolbox: &Toolbox| home.is_some_and(|home| home.text == toolbox.name);
         let others = self.program.toolboxes.iter().filter(|toolbox| has(toolbox));
@@ -199,10 +202,10 @@ impl Context<'_> {
             true => format!("use {word}"),
             false => format!("use {} as {word}", other.name),
         };
-        let add = format!("add '{line}' at the top of the file");
+        let add = message!("add '{}' at the top of the file", line);
         Some(match home {
             Some(home) if home.text != word => {
-                error.help(format!("{add}, and write '{word}.{}'", name.text))
+                error.help(message!("{}, and write '{}.{}'", add, word, name.text))
             }
             _ => error.help(add).fix(self.file.top, format!("{line}\n")),
         })
@@ -226,13 +229,12 @@ impl Context<'_> {
 fn unfit(signature: &Signature, span: Span, wanted: &Wanted) -> Diagnostic {
     let name = &signature.name;
     let right = signature.kind.keyword();
-    let message = format!("'{name}' is {}", signature.kind.describe());
+    let message = message!("'{}' is {}", name, Words(signature.kind.describe()));
     let supervisor = signature.kind == SignatureKind::Template(TemplateKind::Supervisor);
     match wanted.span {
-        Some(keyword) if !supervisor => Diagnostic::new(Code::E0217, keyword, message)
-            .note(span, "used here")
-            .help(format!("write '{right}'"))
-            .replace(right),
+        Some(keyword) if !supervisor => {
+            Diagnostic::new(Code::E0217, keyword, message).note(span, "used here").write(right)
+        }
         Some(keyword) => Diagnostic::new(Code::E0217, keyword, message)
             .note(span, "used here")
             .help("attach it to an actor with 'supervise', or name an actor's template"),

@@ -13,7 +13,8 @@ use crate::gather::PlanFile;
 use crate::toolbox::{Outcome, StatesOf, Template, Toolbox};
 use crate::types::text::a_type;
 use crate::types::{Enum, Type};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Adds to the toolboxes in use a template for each enum, where a file speaks of such a template.
@@ -84,10 +85,10 @@ pub(super) fn chosen(
     let home = match generic? {
         Type::Enum(home) => home,
         other => {
-            let message = format!(
+            let message = message!(
                 "the states of '{}' are the values of an enum, and this is {}",
                 signature.name,
-                a_type(other)
+                Words(a_type(other))
             );
             diags.push(
                 Diagnostic::new(Code::E0244, at, message)
@@ -99,9 +100,10 @@ pub(super) fn chosen(
     if let Some(index) =
         home.variants.iter().position(|v| [ERROR, DEADLINE_MISSED].contains(&v.as_str()))
     {
-        let message = format!(
+        let message = message!(
             "'{}' has the value '{}', which no state can be called",
-            home.name, home.variants[index]
+            home.name,
+            home.variants[index]
         );
         let declared = home.variant_spans.get(index).copied().unwrap_or(home.span);
         diags.push(

@@ -10,7 +10,10 @@ use super::places::{ByLine, Lines, Ranges, Within};
 use super::{PlanHead, Program, meant};
 use crate::gather::PlanFile;
 use afp_syntax::ast::{Element, Item, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Severity, words::nearest};
+use afp_syntax::diagnostics::{
+    Code, Diagnostic, Diagnostics, Message, Severity, Sought, Subject, words::nearest,
+};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -36,9 +39,6 @@ const MISSING: &[Code] = &[
     Code::E0608,
 ];
 
-/// What the grammar says of a declaration without a name.
-const NAMELESS: &str = "expected a name";
-
 /// Names that are not there.
 const UNKNOWN: &[Code] =
     &[Code::E0201, Code::E0209, Code::E0216, Code::E0238, Code::E0248, Code::E0602];
@@ -58,9 +58,8 @@ pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut D
         |each: &&Diagnostic| each.code < Code::E0201 && each.severity == Severity::Error;
     let unread: Vec<Span> = diags.iter().filter(is_unread).map(|each| each.span).collect();
     if !unread.is_empty() {
-        let nameless =
-            diags.iter().filter(is_unread).filter(|each| each.message.contains(NAMELESS));
-        let nameless = nameless.map(|each| each.span).collect();
+        let is_nameless = |each: &&Diagnostic| each.subject == Subject::MissingName;
+        let nameless = diags.iter().filter(is_nameless).map(|each| each.span).collect();
         hold_back_unread(files, &Unread { places: unread, nameless }, diags);
     }
     if diags.iter().any(|each| each.code == Code::E0603) {
@@ -116,10 +115,11 @@ fn hold_back_unread(files: &[PlanFile], all: &Unread, diags: &mut Diagnostics) {
             return true;
         }
         let may_come_of = || {
-            let named = each.message.split('\'').skip(1).step_by(2);
-            // Of an edge that is not there the element that it would lead from.
-            let most = if each.code == Code::E0603 { 1 } else { usize::MAX };
-            let mut parts = named.take(most).flat_map(|name| name.split('.'));
+            let named = match &each.subject {
+                Subject::Path(path) => vec![path.as_str()],
+                _ => each.names(),
+            };
+            let mut parts = named.into_iter().flat_map(|name| name.split('.'));
             let nameless_types = match each.code {
                 Code::E0232 | Code::E0239 => Some(&enums),
                 Code::E0253 => Some(&tables),
@@ -234,7 +234,7 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
     // What is wrong in a plan comes before what scenarios say of it.
     all.sort_by_cached_key(|each| (around(each.span).is_none(), each.span));
     for each in all {
-        match first.entry(subject(program, &each, around(each.span))) {
+        match first.entry(Once::new(program, &each, around(each.span))) {
             Entry::Occupied(known) => {
                 let (said, others) = &mut joined[*known.get()];
                 if said.span != each.span && others.last() != Some(&each.span) {
@@ -256,10 +256,9 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
             let end = head.node.span().end as usize;
             // Scenarios may use names of the plan, and are not read while it is wrong.
             let is_behind = |name: &str| last.get(name).is_some_and(|index| *index >= end);
-            if others.is_empty() && !is_behind(name_of(&error)) {
-                return None;
-            }
-            slip(program, head, &error).filter(|(name, _)| !is_behind(&name.text))
+            let found = slip(program, head, &error);
+            let found = found.filter(|(_, used)| !others.is_empty() || is_behind(used));
+            found.filter(|(name, _)| !is_behind(&name.text))
         });
         diags.push(match slip {
             Some((name, meant)) => at_declaration(&error, &others, &name, &meant),
@@ -269,26 +268,24 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// What is not there: what it would be, in which plan, and its name.
-fn subject(
-    program: &Program<'_>,
-    error: &Diagnostic,
-    plan: Option<usize>,
-) -> (Code, Option<usize>, String) {
-    let of = error.message.split('\'').nth(1);
-    let is_it =
-        |head: &PlanHead| head.name.as_ref().is_some_and(|name| of == Some(name.text.as_str()));
-    let plan = plan.or_else(|| program.plans.iter().position(is_it));
-    match error.code {
-        // Elements are named in plans and in scenarios.
-        Code::E0602 if error.message.contains("has no element or supervisor") => {
-            (Code::E0216, plan, name_of(error).to_owned())
-        }
-        // Something else is wrong with the component, or with the entry.
-        Code::E0602 | Code::E0209 if !error.message.contains("no entry") => {
-            (error.code, plan, format!("{} {}", error.span.start, error.message))
-        }
-        code => (code, plan, name_of(error).to_owned()),
+/// What is said once, however often it is wrong.
+#[derive(PartialEq, Eq, Hash)]
+enum Once {
+    /// A name that nothing has: what it would be, and in which plan.
+    Name(Sought, Option<usize>, String),
+    /// Something else, at its place.
+    Place(Code, Span, Message),
+}
+
+impl Once {
+    fn new(program: &Program<'_>, error: &Diagnostic, around: Option<usize>) -> Once {
+        let Subject::Unknown { what, name, plan } = &error.subject else {
+            return Once::Place(error.code, error.span, error.message().clone());
+        };
+        let of = plan.as_ref().unwrap_or(name);
+        let is_it = |head: &PlanHead| head.name.as_ref().is_some_and(|name| name.text == *of);
+        let plan = around.or_else(|| program.plans.iter().position(is_it));
+        Once::Name(*what, plan, name.clone())
     }
 }
 
@@ -310,9 +307,8 @@ fn hold_back_edges(program: &Program<'_>, diags: &mut Diagnostics) {
     let (mut names, right) = (names(wrong), names(right));
     names.retain(|name| !right.contains(name));
     diags.retain(|each| {
-        let mut named = each.message.split('\'').skip(1).step_by(2);
-        let comes_of = |name: &str| name.split('.').any(|part| names.contains(part));
-        each.code != Code::E0603 || !named.any(comes_of)
+        let comes_of = |name: &&str| name.split('.').any(|part| names.contains(part));
+        each.code != Code::E0603 || !each.names().iter().any(comes_of)
     });
 }
 
@@ -321,11 +317,6 @@ fn last_places<'a>(program: &Program<'a>, file: usize) -> FxHashMap<&'a str, usi
     let text = program.files.get(file).map_or("", |file| file.text);
     let place = |word: &str| word.as_ptr().addr() - text.as_ptr().addr();
     words(text).map(|word| (word, place(word))).collect()
-}
-
-/// The last name that an error mentions.
-fn name_of(error: &Diagnostic) -> &str {
-    error.message.split('\'').skip(1).step_by(2).last().unwrap_or_default()
 }
 
 /// The name that is declared, used nowhere, and differs from one that is used and not there by a slip; and that one.
@@ -350,12 +341,10 @@ fn slip(program: &Program<'_>, head: &PlanHead, error: &Diagnostic) -> Option<(N
 /// Says it where the name is declared.
 fn at_declaration(error: &Diagnostic, others: &[Span], name: &Name, meant: &str) -> Diagnostic {
     let message =
-        format!("nothing uses '{}', and '{meant}', which is used, is not there", name.text);
-    let said = Diagnostic::new(error.code, name.span, message)
-        .help(format!("write '{meant}'"))
-        .replace(meant);
+        message!("nothing uses '{}', and '{}', which is used, is not there", name.text, meant);
+    let said = Diagnostic::new(error.code, name.span, message).write(meant);
     let places = std::iter::once(&error.span).chain(others).take(MOST_PLACES);
-    places.fold(said, |said, place| said.note(*place, format!("'{meant}' is used here")))
+    places.fold(said, |said, place| said.note(*place, message!("'{}' is used here", meant)))
 }
 
 /// Says it where the name is used first. One edit does not mend several places.

@@ -7,8 +7,9 @@ pub(crate) use unit::{bare, likely, unit_missing};
 use crate::graph::{Formula, FormulaKind};
 use crate::types::text::{self, a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::literal::Literal;
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
@@ -79,20 +80,21 @@ pub(crate) fn remark(conversion: &Conversion, span: Span, diags: &mut Diagnostic
                 .help("use a number where that is not wanted")
         }
         Conversion::ToText(from) => {
-            let message = format!("{} becomes a text", a_type(from));
+            let message = message!("{} becomes a text", Words(a_type(from)));
             let help = match from {
                 Type::Quantity(dimension) if *dimension != Dimension::NONE => {
-                    format!(
+                    message!(
                         "it is shown in '{}'; divide by a unit for the bare number",
                         dimension.si_unit()
                     )
                 }
-                _ => "use a text where that is not wanted".to_owned(),
+                _ => "use a text where that is not wanted".into(),
             };
             Diagnostic::new(Code::E0207, span, message).help(help)
         }
         Conversion::FromText(to) => {
-            let message = format!("the text becomes {} at run time, which may fail", a_type(to));
+            let message =
+                message!("the text becomes {} at run time, which may fail", Words(a_type(to)));
             Diagnostic::new(Code::E0208, span, message)
                 .help("connect 'Error' for the case that it fails, or use an entry of that type")
         }
@@ -115,7 +117,8 @@ fn example(ty: &Type, range: Option<(f64, f64)>) -> String {
 
 fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &str) -> Diagnostic {
     let span = formula.span;
-    let expected = format!("expected {}, found {}", a_type(want), a_type(&formula.ty));
+    let expected =
+        message!("expected {}, found {}", Words(a_type(want)), Words(a_type(&formula.ty)));
     match (&formula.ty, want) {
         (Type::Int | Type::Quantity(Dimension::NONE), Type::Quantity(dimension)) => {
             unit_missing(formula, *dimension, Some(range), text)
@@ -123,12 +126,12 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
         (Type::Quantity(dimension), Type::Int | Type::Quantity(Dimension::NONE)) => {
             let unit = dimension.usual_unit();
             let whole = bracketed(formula, text);
-            let number = format!("'{whole} / 1 {unit}' for the number of '{unit}'");
+            let number = message!("'{} / 1 {}' for the number of '{}'", whole, unit, unit);
             let error = Diagnostic::new(Code::E0204, span, expected);
             match without_unit(text) {
-                Some(bare) => error.help(format!("write '{bare}', or {number}")).replace(bare),
+                Some(bare) => error.help(message!("write '{}', or {}", bare, number)).replace(bare),
                 None => {
-                    error.help(format!("write {number}")).replace(format!("{whole} / 1 {unit}"))
+                    error.help(message!("write {}", number)).replace(format!("{whole} / 1 {unit}"))
                 }
             }
         }
@@ -145,21 +148,20 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
             match sign {
                 Some(sign) => {
                     let better = format!("{} {sign} 1 rad", bracketed(formula, text));
-                    error.help(format!("angles have a unit: write '{better}'")).replace(better)
+                    error.help(message!("angles have a unit: write '{}'", better)).replace(better)
                 }
-                None => error.help(format!(
+                None => error.help(message!(
                     "use {}, such as '{}', in place of {}",
-                    a_dimension(*dimension),
+                    Words(a_dimension(*dimension)),
                     example(want, range),
-                    a_dimension(*found)
+                    Words(a_dimension(*found))
                 )),
             }
         }
         (_, Type::Object(home)) => Diagnostic::new(Code::E0206, span, expected)
-            .help(format!("name an entry that holds a '{}'", home.name)),
-        (_, want) => {
-            Diagnostic::new(Code::E0206, span, expected).help(format!("use {}", a_type(want)))
-        }
+            .help(message!("name an entry that holds a '{}'", home.name)),
+        (_, want) => Diagnostic::new(Code::E0206, span, expected)
+            .help(message!("use {}", Words(a_type(want)))),
     }
 }
 

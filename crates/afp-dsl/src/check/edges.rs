@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use crate::check::formula::too_long;
-use crate::check::names::{Indices, is_word, unknown};
+use crate::check::names::{Indices, is_word, offer, unknown};
 use crate::check::resume;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::synonyms::{self, Leads};
@@ -13,8 +13,8 @@ use crate::graph::{EdgeSpans, ElementId, ReasonId, Target};
 use crate::index::{Recorder, Word};
 use crate::toolbox::TemplateKind;
 use afp_syntax::ast::{Edge, Name};
-use afp_syntax::diagnostics::words;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, list, words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 use afp_types::MAX_TEXT;
@@ -225,7 +225,7 @@ pub(super) fn connect<'e>(
                 Diagnostic::new(
                     Code::E0226,
                     name.span,
-                    format!("'{}' is connected twice", name.text),
+                    message!("'{}' is connected twice", name.text),
                 )
                 .note(first.span, "first connected here")
                 .help("remove one of the edges"),
@@ -308,7 +308,7 @@ pub(crate) fn word(name: &str) -> Option<Word> {
 
 fn unknown_outcome(origin: &Origin<'_>, name: &Name, extra: &str) -> Diagnostic {
     let word = if origin.supervisor { "event" } else { "state" };
-    let message = format!("'{}' has no {word} '{}'", origin.signature.name, name.text);
+    let message = message!("'{}' has no {} '{}'", origin.signature.name, Words(word), name.text);
     if origin.supervisor && name.text == ERROR {
         let help = "remove it: where a supervisor fails, its element takes the 'Error' edge; one of the plan ends that in \
                     'Error'";
@@ -374,7 +374,9 @@ pub(crate) fn find(
         let words =
             words.filter(|word| leads != Leads::Start && elements.indices.find(word).is_none());
         let names = elements.names().chain(words);
-        let message = format!("the plan has no element '{}'", to.text);
+        let message = message!("the plan has no element '{}'", to.text);
+        let error = Diagnostic::new(Code::E0216, to.span, message);
+        let error = error.unknown(Sought::Element, &to.text);
         // None can be called like a word.
         let none = match is_word(&to.text) {
             true => "add an element, and name that",
@@ -382,10 +384,8 @@ pub(crate) fn find(
         };
         let meant = synonyms::target(&to.text, leads);
         diags.push(match meant.filter(|_| words::nearest(&to.text, elements.names()).is_none()) {
-            Some(word) => Diagnostic::new(Code::E0216, to.span, message)
-                .help(format!("write '{word}'"))
-                .replace(word),
-            None => unknown(Code::E0216, to.span, message, &to.text, names, none),
+            Some(word) => error.write(word),
+            None => offer(error, &to.text, names, none),
         });
         return None;
     };
@@ -407,14 +407,19 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
     let name = origin.name.map_or("", |name| name.text.as_str());
     if missing.len() > unknown {
         let verb = if missing.len() == 1 { "leads" } else { "lead" };
-        let message =
-            format!("{} of '{name}' {verb} nowhere", words::list(missing.iter().copied(), "and"));
+        let message = message!(
+            "{} of '{}' {} nowhere",
+            list(missing.iter().copied(), "and"),
+            name,
+            Words(verb)
+        );
         let either = if origin.supervisor { "'terminate' or 'ignore'" } else { "or 'terminate'" };
         let edges: Vec<_> = missing.iter().map(|state| format!("{state} -> ...")).collect();
-        diags.push(
-            Diagnostic::new(Code::E0211, origin.span, message)
-                .help(format!("add '{}' with an element, {either}", edges.join(", "))),
-        );
+        diags.push(Diagnostic::new(Code::E0211, origin.span, message).help(message!(
+            "add '{}' with an element, {}",
+            edges.join(", "),
+            Words(either)
+        )));
     }
     // An unknown one may be meant for it.
     let named = unknown > 0 || seen.iter().any(|name| name.text == "Interrupted");
@@ -424,7 +429,7 @@ fn report_missing(origin: &Origin<'_>, seen: &[&Name], unknown: usize, diags: &m
             Diagnostic::new(
                 Code::E0233,
                 origin.span,
-                format!("'Interrupted' of '{name}' leads nowhere"),
+                message!("'{}' of '{}' leads nowhere", "Interrupted", name),
             )
             .note(edge, "this event ends the plan as interrupted")
             .help("add 'Interrupted -> ...' with an element, or 'terminate'"),

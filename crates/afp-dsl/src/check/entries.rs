@@ -11,6 +11,7 @@ use crate::index::Recorder;
 use crate::types::Type;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// The entries of a plan as written; those without a name are left out. Also tells where which one
 /// stands.
@@ -79,7 +80,7 @@ impl Site<'_> {
         &'s self,
         entries: &'s [EntryDraft],
         readable: &'s dyn Fn(usize) -> bool,
-        unreadable: &'s str,
+        unreadable: &'static str,
     ) -> Scope<'s> {
         let Site { indices, types, text, record } = *self;
         Scope { types, tables: &[], entries, indices, readable, unreadable, text, record }
@@ -171,7 +172,7 @@ fn limit(
     let value = own.value.as_ref().zip(own.init.as_ref()).zip(range);
     let error = value.and_then(|((value, init), range)| {
         let name = &own.name.text;
-        let message = |value| format!("'{value}' is out of the range of '{name}'");
+        let message = |value: String| message!("'{}' is out of the range of '{}'", value, name);
         let error = range::outside(value, range, ty, init.span, message)?;
         Some(error.note(written.2, "the range is declared here"))
     });
@@ -187,7 +188,7 @@ fn missing(own: &EntryDraft, entry: &ast::Entry, diags: &mut Diagnostics) {
     if entry.ty().is_none() {
         untyped(own, entry, None, diags);
     } else if own.kind == EntryKind::Const {
-        let message = format!("the constant '{}' has no value", own.name.text);
+        let message = message!("the constant '{}' has no value", own.name.text);
         diags.push(
             Diagnostic::new(Code::E0225, own.name.span, message).help("write '=' and its value"),
         );
@@ -201,11 +202,11 @@ fn untyped(own: &EntryDraft, entry: &ast::Entry, of_value: Option<&Type>, diags:
     }
     let name = &own.name;
     let error =
-        Diagnostic::new(Code::E0241, name.span, format!("the entry '{}' has no type", name.text));
+        Diagnostic::new(Code::E0241, name.span, message!("the entry '{}' has no type", name.text));
     diags.push(match of_value {
         Some(ty) => error
-            .help(format!("write its type: '{}: {ty}'", name.text))
+            .help(message!("write its type: '{}: {}'", name.text, ty))
             .fix(name.span.after(), format!(": {ty}")),
-        None => error.help(format!("write its type, such as '{}: float'", name.text)),
+        None => error.help(message!("write its type, such as '{}: float'", name.text)),
     });
 }

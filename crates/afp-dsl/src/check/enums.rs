@@ -8,6 +8,7 @@ use crate::rows::MAX_ROWS;
 use crate::types::Enum;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// Reads an enum; `None` without a name.
 pub(crate) fn read(
@@ -27,7 +28,7 @@ pub(crate) fn read(
             Diagnostic::new(
                 Code::E0225,
                 name.span,
-                format!("the enum '{}' has no values", name.text),
+                message!("the enum '{}' has no values", name.text),
             )
             .help("list at least one name in its braces"),
         );

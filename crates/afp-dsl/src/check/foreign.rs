@@ -7,6 +7,7 @@ use crate::check::signature::Signature;
 use crate::gather::Toolboxes;
 use crate::toolbox::{Device, DeviceKind, TemplateKind, Toolbox};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Reports a template of another robot's toolbox that needs what the robot of the project does not have: a device that it
@@ -31,21 +32,33 @@ pub(crate) fn check(
     let missing = toolbox.devices.iter().filter(commanded).find(lacks);
     let (message, help) = match missing {
         Some(device) => (
-            format!(
-                "'{name}' of '{other}' commands '{}', which the robot '{own}' does not have",
-                device.name
+            message!(
+                "'{}' of '{}' commands '{}', which the robot '{}' does not have",
+                name,
+                other,
+                device.name,
+                own
             ),
-            format!(
-                "use a template of '{own}'; or, if the robot does what '{name}' asks for, declare '{} {} {{}}' in its toolbox",
+            message!(
+                "use a template of '{}'; or, if the robot does what '{}' asks for, declare '{} {} {{}}' in its toolbox",
+                own,
+                name,
                 if device.kind == DeviceKind::Sensor { "sensor" } else { "device" },
                 device.name
             ),
         ),
         None if looks && sensors(toolbox).all(|sensor| lacks(&sensor)) => (
-            format!("'{name}' looks at sensors of '{other}', of which the robot '{own}' has none"),
-            format!(
-                "use a supervisor of '{own}'; or, if the robot has what '{name}' looks at, declare it in its toolbox \
-                 under its name in '{other}'"
+            message!(
+                "'{}' looks at sensors of '{}', of which the robot '{}' has none",
+                name,
+                other,
+                own
+            ),
+            message!(
+                "use a supervisor of '{}'; or, if the robot has what '{}' looks at, declare it in its toolbox under its name in '{}'",
+                own,
+                name,
+                other
             ),
         ),
         None => return,

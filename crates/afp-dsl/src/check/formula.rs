@@ -19,7 +19,8 @@ use crate::index::{Recorder, Word};
 use crate::table::Table;
 use crate::types::{Constant, Type};
 use afp_syntax::ast;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Severity, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Greatest number of literals, entries and operations in one formula.
@@ -38,7 +39,7 @@ pub(crate) struct Scope<'a> {
     /// Which of them can be read here, by place.
     pub readable: &'a dyn Fn(usize) -> bool,
     /// Why the others cannot.
-    pub unreadable: &'a str,
+    pub unreadable: &'static str,
     /// The text of the file.
     pub text: &'a str,
     /// What is found out about names.
@@ -101,7 +102,7 @@ impl Scope<'_> {
         let typer = Typer { scope: self, size: Cell::new(0) };
         let typed = typer.formula(formula, false, diags);
         if typer.size.get() > MAX_SIZE {
-            let message = format!("the formula has more than {MAX_SIZE} parts");
+            let message = message!("the formula has more than {} parts", Words(MAX_SIZE));
             diags.push(
                 Diagnostic::new(Code::E0231, formula.span(), message)
                     .help("compute a part of it in an entry of its own"),
@@ -315,7 +316,7 @@ impl Typer<'_> {
         };
         let entry = &scope.entries[index];
         if !(scope.readable)(index) {
-            let message = format!("'{}' has no value yet", name.text);
+            let message = message!("'{}' has no value yet", name.text);
             diags.push(
                 Diagnostic::new(Code::E0229, name.span, message)
                     .note(entry.name.span, "declared here")
@@ -361,7 +362,7 @@ impl Typer<'_> {
         record.definition(home.span, found.span);
         let Some(index) = found.variants.iter().position(|variant| *variant == name.text) else {
             let known = found.variants.iter().map(String::as_str);
-            let message = format!("'{}' has no value '{}'", found.name, name.text);
+            let message = message!("'{}' has no value '{}'", found.name, name.text);
             let none = "declare the value in the enum";
             diags.push(unknown(Code::E0239, name.span, message, &name.text, known, none));
             return None;
@@ -401,8 +402,12 @@ pub(crate) fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
 
 /// A text of more than [`MAX_TEXT`] bytes.
 pub(crate) fn too_long(span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0230, span, format!("the text is longer than {MAX_TEXT} bytes"))
-        .help(format!("shorten it to at most {MAX_TEXT} bytes of UTF-8"))
+    Diagnostic::new(
+        Code::E0230,
+        span,
+        message!("the text is longer than {} bytes", Words(MAX_TEXT)),
+    )
+    .help(message!("shorten it to at most {} bytes of UTF-8", Words(MAX_TEXT)))
 }
 
 impl EntryDraft {

@@ -8,7 +8,8 @@ use crate::graph::ToolboxId;
 use crate::index::Recorder;
 use crate::toolbox::Toolbox;
 use afp_syntax::ast::{File, Item, Name, Use};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// A toolbox that a file uses.
@@ -50,10 +51,10 @@ pub(crate) fn read(
         if let Some((_, first)) =
             imports.iter().find(|(known, _)| known.qualifier == import.qualifier)
         {
-            let message = format!("two toolboxes are used as '{}'", import.qualifier);
+            let message = message!("two toolboxes are used as '{}'", import.qualifier);
             let message =
                 if imports.iter().any(|(known, _)| Arc::ptr_eq(&known.toolbox, &import.toolbox)) {
-                    format!("'{}' is used twice", import.qualifier)
+                    message!("'{}' is used twice", import.qualifier)
                 } else {
                     message
                 };
@@ -91,7 +92,7 @@ fn devices_of_two(
     });
     let Some((other, device, own)) = both else { return };
     let message =
-        format!("'{other}' and '{}' both declare the device '{}'", toolbox.name, own.name);
+        message!("'{}' and '{}' both declare the device '{}'", other, toolbox.name, own.name);
     diags.push(
         Diagnostic::new(Code::E0517, name.span, message)
             .note(device.span, "one declaration")
@@ -116,15 +117,10 @@ fn one(
         // A toolbox with errors of its own has been reported with them.
         if toolboxes.broken(&name.text).is_none() {
             let known: Vec<_> = toolboxes.iter().map(|toolbox| toolbox.name.as_str()).collect();
-            let message = format!("there is no toolbox '{}'", name.text);
-            diags.push(unknown(
-                Code::E0238,
-                name.span,
-                message,
-                &name.text,
-                known,
-                "remove the line",
-            ));
+            let message = message!("there is no toolbox '{}'", name.text);
+            let none = "remove the line";
+            let error = unknown(Code::E0238, name.span, message, &name.text, known, none);
+            diags.push(error.unknown(Sought::Toolbox, &name.text));
         }
         return None;
     };
@@ -184,9 +180,13 @@ pub(crate) fn check_order(file: &File, diags: &mut Diagnostics) {
         others = true;
         if let Some(head) = toolbox {
             diags.push(
-                Diagnostic::new(Code::E0114, span, format!("{what} stands in a toolbox"))
-                    .note(head, "this makes the file a toolbox")
-                    .help("move it to a file of its own"),
+                Diagnostic::new(
+                    Code::E0114,
+                    span,
+                    message!("{} stands in a toolbox", Words(&what)),
+                )
+                .note(head, "this makes the file a toolbox")
+                .help("move it to a file of its own"),
             );
         }
     }
@@ -206,7 +206,7 @@ pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
             _ => None,
         };
         if let Some(name) = name {
-            let message = format!("'{}' is declared outside of a toolbox", name.text);
+            let message = message!("'{}' is declared outside of a toolbox", name.text);
             diags.push(
                 Diagnostic::new(Code::E0114, name.span, message)
                     .help("move it to a file that begins with 'toolbox' and a name"),
@@ -218,7 +218,7 @@ pub(crate) fn check_no_templates(file: &File, diags: &mut Diagnostics) {
 /// Reports a version of the language that this compiler does not know.
 pub(crate) fn check_version(file: &File, diags: &mut Diagnostics) {
     if let Some(version) = file.version().filter(|version| version.text != "1") {
-        let message = format!("version {} of the language is not known", version.text);
+        let message = message!("version {} of the language is not known", Words(version.text));
         diags.push(
             Diagnostic::new(Code::E0505, version.span, message)
                 .help("write 'afp 1', or use a newer compiler")

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::{PlanHead, Program};
 use crate::toolbox::Toolbox;
 use afp_syntax::ast;
-use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::diagnostics::{Code, Diagnostic, Message};
+use afp_syntax::message;
 use afp_syntax::units::Unit;
 
 /// Says of a name that is not there what else it is, if it is something.
@@ -44,16 +45,16 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     if !follows_number {
         return None;
     }
-    let said = Diagnostic::new(error.code, error.span, &*error.message);
+    let said = error.bare();
     let ours = if spelled.is_some() { last.to_owned() } else { meant()? };
     let whole = Some(of(&ours)).filter(is_unit)?;
     // `20 cm/sec`, `1 m/s2`
     if spelled.is_none() && left.len() + 1 == before.len() {
-        return Some(said.help(format!("write '{whole}'")).replace(ours));
+        return Some(said.help(message!("write '{}'", whole)).replace(ours));
     }
     let mut place = error.span;
     place.start = u32::try_from(first.len()).ok()?;
-    let help = format!("a unit has no blanks: write '{whole}'");
+    let help = message!("a unit has no blanks: write '{}'", whole);
     Some(said.help(help).fix(place, whole))
 }
 
@@ -61,10 +62,10 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
 fn entry(head: &PlanHead, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
     let elements = head.node.elements();
     let element = elements.iter().filter_map(|it| it.name()).find(|it| it.text == name)?;
-    let said = Diagnostic::new(error.code, error.span, &*error.message);
+    let said = error.bare();
     let help =
         "formulas read entries: let an output of the element go to one with '=>', and name that";
-    Some(said.note(element.span, format!("'{name}' is an element")).help(help))
+    Some(said.note(element.span, message!("'{}' is an element", name)).help(help))
 }
 
 /// An element of another plan.
@@ -81,9 +82,10 @@ fn element(
         Some((head.name.as_ref()?.text.clone(), element.span))
     });
     let (other, place) = found.next()?;
-    let said = Diagnostic::new(error.code, error.span, &*error.message);
-    let help = format!("lead to a 'subplan' made of '{other}', or add an element '{name}' here");
-    Some(said.note(place, format!("'{name}' is an element of '{other}'")).help(help))
+    let said = error.bare();
+    let help =
+        message!("lead to a 'subplan' made of '{}', or add an element '{}' here", other, name);
+    Some(said.note(place, message!("'{}' is an element of '{}'", name, other)).help(help))
 }
 
 /// What a name behind an arrow is, if it is something but no element.
@@ -93,28 +95,29 @@ fn no_element(
     name: &str,
     error: &Diagnostic,
 ) -> Option<Diagnostic> {
-    let said = || Diagnostic::new(error.code, error.span, &*error.message);
+    let said = error.bare();
     let guards = head.node.guards().into_iter();
     if let Some(guard) = guards.filter_map(|it| it.name()).find(|it| it.text == name) {
-        let note = format!("'{name}' is a supervisor, which watches beside the elements");
-        return Some(said().note(guard.span, note).help("lead to the element that comes next"));
+        let note = message!("'{}' is a supervisor, which watches beside the elements", name);
+        return Some(said.note(guard.span, note).help("lead to the element that comes next"));
     }
     let mut plans = program.plans.iter().filter_map(|head| head.name.as_ref());
     if let Some(plan) = plans.find(|plan| plan.text == name) {
-        let help = format!("add an element made of it, 'subplan NAME: {name}', and lead to that");
-        return Some(said().note(plan.span, format!("'{name}' is a plan")).help(help));
+        let help =
+            message!("add an element made of it, 'subplan NAME: {}', and lead to that", name);
+        return Some(said.note(plan.span, message!("'{}' is a plan", name)).help(help));
     }
     let is_it = |toolbox: &&Arc<Toolbox>| toolbox.templates.iter().any(|it| it.name == name);
     program.toolboxes.iter().find(is_it)?;
-    let help = format!("add an element made of '{name}', and lead to that by its own name");
-    Some(said().help(help))
+    let help = message!("add an element made of '{}', and lead to that by its own name", name);
+    Some(said.help(help))
 }
 
 /// What help on too many values says of the first two that may be one number with a decimal comma.
 pub(super) fn decimal_comma<'a>(
     values: impl Iterator<Item = &'a ast::Formula> + Clone,
-) -> Option<String> {
+) -> Option<Message> {
     let mut pairs = values.clone().zip(values.skip(1));
     let better = pairs.find_map(|(value, next)| value.with_decimal_point(next))?;
-    Some(format!("; if '{}' is one number, write '{better}'", better.replace('.', ",")))
+    Some(message!("; if '{}' is one number, write '{}'", better.replace('.', ","), better))
 }

@@ -1,7 +1,8 @@
 //! Names of one scope: each is used once, can be spelled in Rust, and differs in more than case.
 
 use afp_syntax::ast::Name;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words, list, words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 use rustc_hash::FxHashMap;
@@ -32,11 +33,11 @@ impl DeclaredNames {
             return true;
         };
         let clash = if first.text == name.text {
-            Diagnostic::new(Code::E0212, name.span, format!("'{}' is declared twice", name.text))
+            Diagnostic::new(Code::E0212, name.span, message!("'{}' is declared twice", name.text))
                 .help("give one of them another name")
         } else {
             let message =
-                format!("'{}' and '{}' differ only in case or '_'", name.text, first.text);
+                message!("'{}' and '{}' differ only in case or '_'", name.text, first.text);
             Diagnostic::new(Code::E0213, name.span, message)
                 .help("give one of them a name that differs in a letter")
         };
@@ -82,12 +83,10 @@ pub(crate) fn is_word(name: &str) -> bool {
 /// Warns of an entry that reads like a unit behind a number.
 pub(crate) fn entry(name: &Name, diags: &mut Diagnostics) {
     if Unit::parse(&name.text).is_some() {
-        let message = format!("'{}' is also a unit", name.text);
-        diags.push(Diagnostic::new(Code::E0240, name.span, message).help(
-            "give the entry a longer name, so that '2 ".to_owned()
-                + &name.text
-                + "' cannot be misread",
-        ));
+        let message = message!("'{}' is also a unit", name.text);
+        let help =
+            message!("give the entry a longer name, so that '2 {}' cannot be misread", name.text);
+        diags.push(Diagnostic::new(Code::E0240, name.span, message).help(help));
     }
 }
 
@@ -101,20 +100,20 @@ pub(crate) fn ambiguous(
 ) -> Diagnostic {
     let full = found.iter().filter_map(|(home, _)| home.map(|home| format!("{home}.{name}")));
     let full: Vec<_> = full.collect();
-    let write = words::list(full.iter().map(String::as_str), "or");
+    let write = list(full.iter().map(String::as_str), "or");
     let files = found.iter().filter(|(home, _)| home.is_none());
     let (who, help) = match (full.len(), found.len() - full.len()) {
-        (_, 0) => ("toolboxes", format!("write {write}")),
-        (0, _) => ("files", "give one of them another name".to_owned()),
-        _ => ("files and toolboxes", format!("write {write}, or rename the one of the file")),
+        (_, 0) => ("toolboxes", message!("write {}", write)),
+        (0, _) => ("files", "give one of them another name".into()),
+        _ => ("files and toolboxes", message!("write {}, or rename the one of the file", write)),
     };
-    let message = format!("several {who} have {what} '{name}'");
+    let message = message!("several {} have {} '{}'", Words(who), Words(what), name);
     let error = Diagnostic::new(Code::E0237, span, message).help(help);
     files.fold(error, |error, (_, place)| error.note(*place, "declared here"))
 }
 
 fn refuse(name: &Name, diags: &mut Diagnostics) {
-    let message = format!("'{}' cannot be a name here", name.text);
+    let message = message!("'{}' cannot be a name here", name.text);
     diags.push(Diagnostic::new(Code::E0213, name.span, message).help("choose another name"));
 }
 
@@ -136,30 +135,39 @@ pub(crate) fn key(name: &str) -> String {
 pub(crate) fn unknown<'a>(
     code: Code,
     span: Span,
-    message: String,
+    message: impl Into<Message>,
     name: &str,
     known: impl IntoIterator<Item = &'a str, IntoIter: Clone>,
-    none: &str,
+    none: impl Into<Message>,
+) -> Diagnostic {
+    offer(Diagnostic::new(code, span, message), name, known, none)
+}
+
+/// Adds to a diagnostic for such a name what was probably meant, or what there is.
+pub(crate) fn offer<'a>(
+    diagnostic: Diagnostic,
+    name: &str,
+    known: impl IntoIterator<Item = &'a str, IntoIter: Clone>,
+    none: impl Into<Message>,
 ) -> Diagnostic {
     let known = known.into_iter();
-    let diagnostic = Diagnostic::new(code, span, message);
     match once(words::all_nearest(name, known.clone()), usize::MAX).as_slice() {
         [] => {}
-        [meant] => return diagnostic.help(format!("write '{meant}'")).replace(*meant),
+        [meant] => return diagnostic.write(*meant),
         // Which one is meant nobody knows.
         several => {
             let some = several.iter().copied().take(MOST_LISTED);
-            return diagnostic.help(format!("write {}", words::list(some, "or")));
+            return diagnostic.help(message!("write {}", list(some, "or")));
         }
     }
     let mut some = once(known, MOST_LISTED + 1);
     match some.len() {
-        0 => diagnostic.help(none),
+        0 => diagnostic.elsewhere(none),
         count if count > MOST_LISTED => {
             some.truncate(MOST_LISTED);
-            diagnostic.help(format!("write one of {}, among others", words::list(some, "or")))
+            diagnostic.help(message!("write one of {}, among others", list(some, "or")))
         }
-        _ => diagnostic.help(format!("write {}", words::list(some, "or"))),
+        _ => diagnostic.help(message!("write {}", list(some, "or"))),
     }
 }
 

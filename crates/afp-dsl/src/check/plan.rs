@@ -22,6 +22,7 @@ use crate::rows::Table;
 use crate::types::Type;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 use component::{Checked, Components};
@@ -257,16 +258,16 @@ fn start(
                 Diagnostic::new(
                     Code::E0215,
                     span,
-                    format!("'{text}' does not say where it starts"),
+                    message!("'{}' does not say where it starts", text),
                 )
-                .help(format!("add 'start {one}', or another element")),
+                .help(message!("add 'start {}', or another element", one)),
             );
         }
         return None;
     };
     for other in &starts[1..] {
         diags.push(
-            Diagnostic::new(Code::E0215, other.span(), "a plan has one 'start'")
+            Diagnostic::new(Code::E0215, other.span(), message!("a plan has one '{}'", "start"))
                 .note(first.span(), "the first one")
                 .help("remove one of them"),
         );

@@ -3,7 +3,8 @@
 use crate::types::text;
 use crate::types::{Constant, Type};
 use afp_syntax::ast::Formula;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Least and greatest value as written, and the place of both.
@@ -52,10 +53,10 @@ fn end(written: &Formula, value: &Constant, diags: &mut Diagnostics) -> Option<f
     match *value {
         Constant::Int(whole) if whole != end as i64 => {
             let message =
-                format!("'{whole}' cannot be the end of a range, which is kept as a float");
+                message!("'{}' cannot be the end of a range, which is kept as a float", whole);
             diags.push(
                 Diagnostic::new(Code::E0513, written.span(), message)
-                    .help(format!("write '{}', the nearest number that can be", end as i64)),
+                    .help(message!("write '{}', the nearest number that can be", end as i64)),
             );
             None
         }
@@ -97,15 +98,16 @@ pub(crate) fn outside(
     range: (f64, f64),
     ty: &Type,
     place: Span,
-    message: impl FnOnce(String) -> String,
+    message: impl FnOnce(String) -> Message,
 ) -> Option<Diagnostic> {
     if contains(range, value) {
         return None;
     }
     let value = shown(value, ty)?;
     let [least, greatest] = [range.0, range.1].map(|end| text::value(end, ty));
-    Some(
-        Diagnostic::new(Code::E0224, place, message(value))
-            .help(format!("use a value from '{least}' to '{greatest}'")),
-    )
+    Some(Diagnostic::new(Code::E0224, place, message(value)).help(message!(
+        "use a value from '{}' to '{}'",
+        least,
+        greatest
+    )))
 }

@@ -12,7 +12,8 @@ use crate::graph::{Reactions, SupervisorId};
 use crate::index::Recorder;
 use crate::outline::{Component, ComponentKind};
 use afp_syntax::ast::{self, ElementKind, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Sought};
+use afp_syntax::message;
 
 /// What the reactions of a plan are checked against.
 pub(super) struct Watchers<'a> {
@@ -107,24 +108,26 @@ impl Watchers<'_> {
             Some(own) => Diagnostic::new(
                 Code::E0248,
                 name.span,
-                format!("'{}' watches this element alone", name.text),
+                message!("'{}' watches this element alone", name.text),
             )
+            .unknown(Sought::Supervisor, &name.text)
             .note(own.span, "it is the element's own")
             .help("write the edges into its own braces"),
             None => {
-                let message = format!("the plan has no supervisor '{}'", name.text);
+                let message = message!("the plan has no supervisor '{}'", name.text);
                 let known = names.flatten().map(|known| known.text.as_str());
                 let none = "add one to the plan: 'supervise ...'";
-                unknown(Code::E0248, name.span, message, &name.text, known, none)
+                let error = unknown(Code::E0248, name.span, message, &name.text, known, none);
+                error.unknown(Sought::Supervisor, &name.text)
             }
         });
         None
     }
 }
 
-fn twice(node: &ast::Reactions) -> String {
+fn twice(node: &ast::Reactions) -> Message {
     let name = node.name().map(|name| name.text).unwrap_or_default();
-    format!("the element has two 'on {name}'")
+    message!("the element has two 'on {}'", name)
 }
 
 /// Reports edges that lead to the element itself, which is active already.
@@ -138,7 +141,7 @@ fn to_itself(
     for edge in edges.iter().filter(|edge| watcher.has(&edge.name)) {
         let Some(target) = edge.target.as_ref().filter(|to| to.text == own.text) else { continue };
         let (event, own) = (&edge.name.text, &own.text);
-        let message = format!("'{event}' is never taken: '{own}' is active already");
+        let message = message!("'{}' is never taken: '{}' is active already", event, own);
         diags.push(
             Diagnostic::new(Code::E0249, target.span, message)
                 .help("write 'ignore', or lead it to another element")

@@ -4,7 +4,8 @@
 use crate::check::scope::FileScope;
 use crate::check::{PlanHead, Program};
 use afp_syntax::ast::ElementKind;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Reports each cycle once and gives the plans in an order in which sub-plans come before the plans
@@ -90,14 +91,14 @@ impl Search<'_> {
         };
         let mut cycle: Vec<_> = path[from..].iter().map(|(plan, _)| name(*plan)).collect();
         cycle.push(name(used));
-        let message = format!("'{}' contains itself: {}", name(used), cycle.join(" -> "));
+        let message = message!("'{}' contains itself: {}", name(used), Words(cycle.join(" -> ")));
         let mut error = Diagnostic::new(Code::E0222, span, message)
             .help("lead back with an edge to an element instead of a sub-plan");
         let steps = path[from..].windows(2);
         for step in steps.take(MAX_NOTES) {
             let ((plan, next), (inner, _)) = (step[0], step[1]);
             if let Some((_, place)) = self.uses[plan].get(next.saturating_sub(1)) {
-                error = error.note(*place, format!("'{}' contains '{}'", name(plan), name(inner)));
+                error = error.note(*place, message!("'{}' contains '{}'", name(plan), name(inner)));
             }
         }
         self.diags.push(error);

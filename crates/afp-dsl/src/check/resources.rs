@@ -5,6 +5,7 @@
 
 use crate::check::PlanHead;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// A component and what it commands.
@@ -87,17 +88,18 @@ fn report<'a>(
         if places.is_empty() {
             continue;
         }
-        let message = format!(
-            "'{}' commands '{resource}', which is in use while it watches",
-            supervisor.name
+        let message = message!(
+            "'{}' commands '{}', which is in use while it watches",
+            supervisor.name,
+            resource
         );
         let conflict = Diagnostic::new(Code::E0223, supervisor.span, message);
         let shown = places.iter().take(MAX_NOTES).fold(conflict, |conflict, place| {
-            conflict.note(*place, format!("this commands '{resource}' at the same time"))
+            conflict.note(*place, message!("this commands '{}' at the same time", resource))
         });
-        diags.push(
-            shown
-                .help(format!("watch with a supervisor that does not command '{resource}', or only elements that do not")),
-        );
+        diags.push(shown.help(message!(
+            "watch with a supervisor that does not command '{}', or only elements that do not",
+            resource
+        )));
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::graph::{Component, Element, ElementId, Target, resuming};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// An edge to `resume` of what ends by it.
@@ -23,7 +24,7 @@ pub(super) fn check(
         let Some(element) = elements.get(id.index()).and_then(Option::as_ref) else { return };
         if resuming[id.index()] {
             let message =
-                format!("'{}' can lead to 'resume', but nothing is active here", element.name);
+                message!("'{}' can lead to 'resume', but nothing is active here", element.name);
             diags.push(
                 Diagnostic::new(Code::E0247, span, message)
                     .note(element.span, "only events may lead to this computation")

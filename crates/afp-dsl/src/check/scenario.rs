@@ -30,8 +30,8 @@ use crate::graph::{self, EntryKind, Formula};
 use crate::scenario::{Scenario, Start};
 use crate::types::{Constant, Dimension, Type};
 use afp_syntax::ast::{self, Item, Name};
-use afp_syntax::diagnostics::words;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words, list};
+use afp_syntax::message;
 use afp_syntax::unquote;
 
 pub use actions::VERBS;
@@ -197,11 +197,12 @@ fn plan(context: Context<'_>, reference: &ast::Ref, diags: &mut Diagnostics) -> 
         }
         _ if context.file.incomplete => None,
         _ => {
-            let message = format!("there is no plan '{}'", name.text);
+            let message = message!("there is no plan '{}'", name.text);
             let mut names: Vec<_> = known.keys().map(String::as_str).collect();
             names.sort_unstable();
             let none = "declare it in this file, or use its file: 'use \"plans/patrol.afp\"'";
-            diags.push(unknown(Code::E0201, reference.span(), message, &name.text, names, none));
+            let error = unknown(Code::E0201, reference.span(), message, &name.text, names, none);
+            diags.push(error.unknown(Sought::Template, &name.text));
             None
         }
     }
@@ -276,7 +277,7 @@ impl Checker<'_> {
         let entry = &self.paths.graph.plan(plan).entries[id.index()];
         let outermost = plan == self.paths.graph.main && path.names().len() == 1;
         if !outermost || !kinds.contains(&entry.kind) {
-            let message = format!("'{}' cannot be set here", path.text());
+            let message = message!("'{}' cannot be set here", path.text());
             let help = match (outermost, kinds.len()) {
                 (false, _) => "set an entry of the scenario's own plan, not one of a sub-plan",
                 (true, 1) => {
@@ -292,7 +293,7 @@ impl Checker<'_> {
             return None;
         }
         if let Type::Object(_) = entry.ty {
-            let message = format!("'{}' is an object, which only components can make", entry.name);
+            let message = message!("'{}' is an object, which only components can make", entry.name);
             diags.push(
                 Diagnostic::new(Code::E0607, path.span(), message)
                     .note(entry.span, "declared here")
@@ -301,7 +302,8 @@ impl Checker<'_> {
             return None;
         }
         let (formula, value) = self.constant(value, &entry.ty, diags)?;
-        let message = |value| format!("'{value}' is out of the range of '{}'", entry.name);
+        let message =
+            |value: String| message!("'{}' is out of the range of '{}'", value, entry.name);
         let outside = |range| range::outside(&value, range, &entry.ty, formula.span, message);
         if let Some(error) = entry.range.and_then(outside) {
             diags.push(error.note(entry.span, "the range is declared here"));
@@ -332,14 +334,14 @@ impl Checker<'_> {
         if missing.is_empty() || diags.error_within(node.span()) {
             return;
         }
-        let names = words::list(missing.iter().map(|entry| entry.name.as_str()), "and");
+        let names = list(missing.iter().map(|entry| entry.name.as_str()), "and");
         let verb = if missing.len() == 1 { "has" } else { "have" };
-        let message = format!("{names} of '{}' {verb} no value", plan.name);
+        let message = message!("{} of '{}' {} no value", names, plan.name, Words(verb));
         let first = &missing[0];
         diags.push(
             Diagnostic::new(Code::E0225, name.span, message)
                 .note(first.span, "declared here without a default")
-                .help(format!("add 'set {} = ...'", first.name)),
+                .help(message!("add 'set {} = ...'", first.name)),
         );
     }
 }

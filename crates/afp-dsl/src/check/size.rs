@@ -8,7 +8,8 @@ use crate::check::Program;
 use crate::graph::{Component, Plan};
 use crate::rows::{MAX_ROWS, Table, tables};
 use afp_syntax::ast::Name;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Greatest number of elements and supervisors of a running plan.
@@ -48,7 +49,7 @@ pub(super) fn check(
         let name = program.plans[*place].name.as_ref();
         match too_large(&size).zip(name) {
             Some((why, name)) => diags.push(
-                Diagnostic::new(Code::E0231, name.span, format!("'{}' {why}", name.text))
+                Diagnostic::new(Code::E0231, name.span, message!("'{}' {}", name.text, why))
                     .help("use its sub-plans less often, or nest them less deeply"),
             ),
             None => sizes[*place] = Some(size),
@@ -61,11 +62,11 @@ pub(crate) fn at_most(
     limit: usize,
     (owner, what): (&str, &str),
     items: impl IntoIterator<Item = Span>,
-    help: &str,
+    help: &'static str,
     diags: &mut Diagnostics,
 ) {
     if let Some(span) = items.into_iter().nth(limit) {
-        let message = format!("{owner} has at most {limit} {what}");
+        let message = message!("{} has at most {} {}", Words(owner), limit, Words(what));
         diags.push(Diagnostic::new(Code::E0231, span, message).help(help));
     }
 }
@@ -78,8 +79,13 @@ pub(super) fn too_many_rows(
 ) {
     let Some(name) = name else { return };
     for (table, count) in rows.into_iter().filter(|(_, count)| *count > MAX_ROWS) {
-        let message =
-            format!("'{}' has {count} {}; at most {MAX_ROWS} fit", name.text, what(table));
+        let message = message!(
+            "'{}' has {} {}; at most {} fit",
+            name.text,
+            count,
+            Words(what(table)),
+            MAX_ROWS
+        );
         diags.push(
             Diagnostic::new(Code::E0231, name.span, message)
                 .help("move some of them to a sub-plan"),
@@ -123,19 +129,27 @@ fn size(plan: &Plan, sizes: &[Option<Size>]) -> Option<Size> {
     Some(size)
 }
 
-fn too_large(size: &Size) -> Option<String> {
+fn too_large(size: &Size) -> Option<Message> {
     let counted = "with its sub-plans counted at each use";
     if size.components > MAX_COMPONENTS {
         let count = size.components;
-        return Some(format!(
-            "has {count} elements and supervisors {counted}; at most {MAX_COMPONENTS} can run"
+        return Some(message!(
+            "has {} elements and supervisors {}; at most {} can run",
+            count,
+            Words(counted),
+            MAX_COMPONENTS
         ));
     }
     if size.entries > MAX_COMPONENTS {
         let count = size.entries;
-        return Some(format!("has {count} entries {counted}; at most {MAX_COMPONENTS} can run"));
+        return Some(message!(
+            "has {} entries {}; at most {} can run",
+            count,
+            Words(counted),
+            MAX_COMPONENTS
+        ));
     }
     (size.depth > MAX_DEPTH).then(|| {
-        format!("has sub-plans in sub-plans {} deep; at most {MAX_DEPTH} can run", size.depth)
+        message!("has sub-plans in sub-plans {} deep; at most {} can run", size.depth, MAX_DEPTH)
     })
 }

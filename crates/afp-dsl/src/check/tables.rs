@@ -20,7 +20,8 @@ use crate::table::{Cell, Column, Table};
 use crate::toolbox::{OutPort, ReadsTable, Template, Toolbox};
 use crate::types::{Type, is_built_in};
 use afp_syntax::ast::{self, Item, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
+use afp_syntax::message;
 use afp_types::Meaning;
 
 pub(super) use bound::{fits, read_by};
@@ -86,11 +87,11 @@ fn read(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Option
     let name = node.name()?;
     if !diags.error_within(node.span()) {
         if columns.is_empty() {
-            let message = format!("the table '{}' has no columns", name.text);
+            let message = message!("the table '{}' has no columns", name.text);
             let help = "name at least one in its brackets, such as '(x: length)'";
             diags.push(Diagnostic::new(Code::E0250, name.span, message).help(help));
         } else if written.is_empty() {
-            let message = format!("the table '{}' has no rows", name.text);
+            let message = message!("the table '{}' has no rows", name.text);
             let help = "write rows in its braces; without any, 'Row' goes to 'End' at once";
             diags.push(Diagnostic::new(Code::E0252, name.span, message).help(help));
         }
@@ -105,7 +106,7 @@ fn columns(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Vec
         let ty = column.ty().and_then(|ty| {
             let resolved = scope.types.resolve(&ty, scope.record, diags)?;
             let Type::Object(object) = &resolved else { return Some(resolved) };
-            let message = format!("a table holds no objects such as '{}'", object.name);
+            let message = message!("a table holds no objects such as '{}'", object.name);
             let help = "only the templates of its toolbox make one: keep it in an entry";
             diags.push(Diagnostic::new(Code::E0250, ty.span(), message).help(help));
             None
@@ -113,7 +114,7 @@ fn columns(node: &ast::Table, scope: &Scope<'_>, diags: &mut Diagnostics) -> Vec
         let Some(name) = column.name() else { continue };
         names.declare(&name, diags);
         if PORTS.contains(&name.text.as_str()) {
-            let message = format!("no column is called '{}': 'Row' has such a port", name.text);
+            let message = message!("no column is called '{}': 'Row' has such a port", name.text);
             let help = "give the column another name";
             diags.push(Diagnostic::new(Code::E0250, name.span, message).help(help));
         }
@@ -164,21 +165,21 @@ fn misfit(
     row: &ast::Row,
     cells: &[Option<ast::Formula>],
     columns: &[Column],
-    comma: Option<String>,
+    comma: Option<Message>,
 ) -> Diagnostic {
     let count = |count: usize, what: &str| match count {
         1 => format!("1 {what}"),
         _ => format!("{count} {what}s"),
     };
-    let message = format!(
+    let message = message!(
         "the row has {}, the table {}",
-        count(cells.len(), "value"),
-        count(columns.len(), "column")
+        Words(count(cells.len(), "value")),
+        Words(count(columns.len(), "column"))
     );
     let much = cells.get(columns.len()).and_then(Option::as_ref).map(ast::Formula::span);
     let help = match (much, columns.get(cells.len())) {
-        (None, Some(column)) => format!("write a value for '{}', too", column.name),
-        _ => format!("remove what has no column, or add a column{}", comma.unwrap_or_default()),
+        (None, Some(column)) => message!("write a value for '{}', too", column.name),
+        _ => message!("remove what has no column, or add a column{}", comma.unwrap_or_default()),
     };
     let error = Diagnostic::new(Code::E0251, much.unwrap_or_else(|| row.span()), message);
     match columns.last() {

@@ -6,8 +6,9 @@ use crate::types::text::a_dimension;
 use crate::types::text::duration;
 use crate::types::{Constant, Dimension, Type};
 use afp_syntax::ast::{Formula, FormulaKind, Name, Timing};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
 use afp_syntax::literal::Literal;
+use afp_syntax::message;
 
 /// Poll period where none is written, in nanoseconds.
 pub(crate) const DEFAULT_EVERY: u64 = 10_000_000;
@@ -99,7 +100,7 @@ fn time_of(
 /// A quantity that is no duration. Of a rate the period is known.
 fn no_duration(value: &Formula, unit: &Name, literal: &Literal) -> Diagnostic {
     let dimension = literal.dimension();
-    let message = format!("expected a duration, found {}", a_dimension(dimension));
+    let message = message!("expected a duration, found {}", Words(a_dimension(dimension)));
     let error = Diagnostic::new(Code::E0204, unit.span, message);
     let rate =
         literal.value().filter(|_| dimension.times(Dimension::DURATION) == Some(Dimension::NONE));
@@ -110,12 +111,12 @@ fn no_duration(value: &Formula, unit: &Name, literal: &Literal) -> Diagnostic {
     }
     let period = duration(nanos as u64);
     match nanos * rate == 1e9 {
-        true => error.help(format!("write its period: '{period}'")).fix(value.span(), period),
-        false => error.help(format!("write its period, which is about '{period}'")),
+        true => error.help(message!("write its period: '{}'", period)).fix(value.span(), period),
+        false => error.help(message!("write its period, which is about '{}'", period)),
     }
 }
 
-fn refuse(value: &Formula, message: &str, diags: &mut Diagnostics) -> Option<u64> {
+fn refuse(value: &Formula, message: &'static str, diags: &mut Diagnostics) -> Option<u64> {
     diags.push(
         Diagnostic::new(Code::E0401, value.span(), message)
             .help("write a time from '1 ns' to '1 h', such as '10 ms'"),
@@ -134,7 +135,7 @@ pub(crate) fn deadline_fits(
         let message = "the deadline is longer than the period";
         diags.push(
             Diagnostic::new(Code::E0402, span, message)
-                .help(format!("write at most '{}'", duration(every))),
+                .help(message!("write at most '{}'", duration(every))),
         );
     }
 }

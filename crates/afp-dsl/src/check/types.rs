@@ -3,12 +3,13 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use crate::check::names::{ambiguous, unknown};
+use crate::check::names::{ambiguous, offer};
 use crate::check::synonyms;
 use crate::index::{Recorder, Word};
 use crate::types::{Dimension, Enum, GENERIC, Object, PLAIN, Type, is_built_in};
 use afp_syntax::ast::{self, Factor};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
@@ -116,7 +117,7 @@ impl Types {
                 "number" if self.generic => return Some(Type::Number),
                 "discrete" if self.generic => return Some(Type::Discrete),
                 generic if GENERIC.contains(&generic) => {
-                    let message = format!("'{}' is a type of ports of toolboxes only", name.text);
+                    let message = message!("'{}' is a type of ports of toolboxes only", name.text);
                     diags.push(
                         Diagnostic::new(Code::E0232, name.span, message)
                             .help("write the type that the values have, such as 'float'"),
@@ -189,13 +190,14 @@ impl Types {
 
     /// Reports a name that no type has; `qualified` tells whether something stands before it.
     fn unknown(&self, reference: &ast::Ref, name: &ast::Name, qualified: bool) -> Diagnostic {
-        let message = format!("there is no type '{}'", name.text);
-        let error = || Diagnostic::new(Code::E0232, reference.span(), &*message);
-        if let (false, Some(error)) = (qualified, self.hidden(&name.text, error)) {
+        let message = message!("there is no type '{}'", name.text);
+        let error = Diagnostic::new(Code::E0232, reference.span(), message);
+        if let (false, Some(error)) = (qualified, self.hidden(&name.text, &error)) {
             return error;
         }
+        // The name that other languages have for a type.
         if let Some(ty) = synonyms::ty(&name.text) {
-            return elsewhere(reference.span(), message, ty);
+            return error.write(ty);
         }
         if let Some(unit) = Unit::parse(&name.text).filter(|_| !qualified) {
             return of_unit(reference.span(), &name.text, unit.dimension);
@@ -210,14 +212,14 @@ impl Types {
         known.extend(objects);
         let mut seen = HashSet::new();
         known.retain(|name| seen.insert(*name));
-        unknown(Code::E0232, reference.span(), message, &name.text, known, "")
+        offer(error, &name.text, known, "")
     }
 
     /// What is said of the name of an enum that only a file has which is used by a used one.
-    pub fn hidden(&self, name: &str, error: impl Fn() -> Diagnostic) -> Option<Diagnostic> {
+    pub fn hidden(&self, name: &str, error: &Diagnostic) -> Option<Diagnostic> {
         let (_, line, top) = self.hidden.iter().find(|(known, ..)| known == name)?;
-        let help = format!("add '{line}' at the top of the file");
-        Some(error().help(help).fix(*top, format!("{line}\n")))
+        let help = message!("add '{}' at the top of the file", line);
+        Some(error.bare().help(help).fix(*top, format!("{line}\n")))
     }
 
     /// A factor of a product: a dimension, or a number without one.
@@ -276,14 +278,9 @@ fn too_high(factor: &Factor, diags: &mut Diagnostics) {
     );
 }
 
-/// Reports a type by the name that other languages have for it.
-fn elsewhere(span: Span, message: String, ours: &str) -> Diagnostic {
-    Diagnostic::new(Code::E0232, span, message).help(format!("write '{ours}'")).replace(ours)
-}
-
 /// Reports a unit in the place of a type.
 fn of_unit(span: Span, unit: &str, dimension: Dimension) -> Diagnostic {
     let ours = dimension.name();
-    let message = format!("there is no type '{unit}', which is a unit");
-    Diagnostic::new(Code::E0232, span, message).help(format!("write '{ours}'")).replace(ours)
+    let message = message!("there is no type '{}', which is a unit", unit);
+    Diagnostic::new(Code::E0232, span, message).write(ours)
 }

@@ -16,7 +16,7 @@ use crate::index::Recorder;
 use crate::scenario::Comparison;
 use crate::types::{Constant, Enum, Type};
 use afp_syntax::ast::{self, Item, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Aim, Code, Diagnostic, Diagnostics};
 
 /// What comes before a formula so that it can be read like any other.
 const BEFORE: &str = "plan Watched { var watched: float = ";
@@ -182,10 +182,9 @@ fn refused(text: &str, ends: Option<usize>, diags: &Diagnostics) -> WatchError {
             help: WATCHED.to_owned(),
         },
         // The bracket that ends the text is not the reader's.
-        Some(first) => WatchError {
-            message: first.message.replace(", found '}'", ""),
-            help: help(text, first),
-        },
+        Some(first) => {
+            WatchError { message: first.message_without(BEHIND.trim()), help: help(text, first) }
+        }
         None => WatchError {
             message: format!("'{}' is no formula", text.trim()),
             help: WATCHED.to_owned(),
@@ -201,10 +200,10 @@ fn help(text: &str, mistake: &Diagnostic) -> String {
     let behind = (mistake.span.end as usize).saturating_sub(BEFORE.len());
     // Of 'Plan.entry' the first name is no enum that is written wrong.
     let is_home = text.get(behind..).is_some_and(|behind| behind.starts_with('.'));
-    let of_formula = mistake.fix.is_some() || mistake.help.starts_with("write ") && !is_home;
+    let of_formula = mistake.fix.is_some() || mistake.aim == Aim::Write && !is_home;
     match of_names && !of_formula {
         true => WATCHED.to_owned(),
-        false => mistake.help.clone(),
+        false => mistake.help_text(),
     }
 }
 

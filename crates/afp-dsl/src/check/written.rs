@@ -12,7 +12,8 @@ use crate::graph::{Formula, Output};
 use crate::table::Table;
 use crate::toolbox::Template;
 use crate::types::{Constant, Type};
-use afp_syntax::diagnostics::{Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Message};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Reports the first value of each output that its entry does not take.
@@ -46,7 +47,8 @@ fn cell(entry: &EntryDraft, output: &Output, table: &Table) -> Option<Diagnostic
     let mut cells = table.rows.iter().filter_map(|row| row.get(column));
     cells.find_map(|cell| {
         let name = &entry.name.text;
-        let message = |value| format!("the table has '{value}', out of the range of '{name}'");
+        let message =
+            |value: String| message!("the table has '{}', out of the range of '{}'", value, name);
         let error = outside(entry, output, (&cell.value, ty), output.span, message)?;
         Some(error.note(cell.span, "the value stands here"))
     })
@@ -63,7 +65,8 @@ fn assigned(
     if let Err(fault) = converted(output, &value) {
         return Some(fault_diagnostic(fault, formula.span));
     }
-    let message = |value| format!("'{value}' is out of the range of '{}'", entry.name.text);
+    let message =
+        |value: String| message!("'{}' is out of the range of '{}'", value, entry.name.text);
     outside(entry, output, (&value, &formula.ty), formula.span, message)
 }
 
@@ -73,7 +76,7 @@ fn outside(
     output: &Output,
     (value, ty): (&Constant, &Type),
     place: Span,
-    message: impl FnOnce(String) -> String,
+    message: impl FnOnce(String) -> Message,
 ) -> Option<Diagnostic> {
     let (range, entry_ty) = (entry.range?, entry.ty.as_ref()?);
     let written = converted(output, value).ok()?;

@@ -18,7 +18,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::flow::{INTERRUPTED, OK};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words, list};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 pub(crate) use counters::{components, open_to_writes, unwind};
@@ -230,7 +231,7 @@ impl<'a, 'b> Quick<'a, 'b> {
     fn report_endless(&self, inner: &[&Edge], diags: &mut Diagnostics) {
         let Some(closing) = inner.iter().max_by_key(|edge| self.place(edge)) else { return };
         let Some(cycle) = self.cycle(closing, &mut room(inner)) else { return };
-        let message = format!("computations without a way out: {}", self.names(&cycle));
+        let message = message!("computations without a way out: {}", Words(self.names(&cycle)));
         diags.push(
             Diagnostic::new(Code::E0305, self.view.span(closing.cause), message)
                 .help("lead one of their states to an element outside of the cycle"),
@@ -286,32 +287,31 @@ impl<'a, 'b> Quick<'a, 'b> {
         let conditions: Vec<_> = cycle.iter().filter(|edge| self.is_condition(edge)).collect();
         let labels: Vec<_> =
             conditions.iter().take(MAX_NAMES).map(|edge| self.view.label(edge.cause)).collect();
-        let all = afp_syntax::diagnostics::words::list(labels.iter().map(String::as_str), "and");
+        let all = list(labels.iter().map(String::as_str), "and");
         let more = if conditions.len() > MAX_NAMES { " and others" } else { "" };
         let message = match labels.len() {
-            1 => format!("{all} holding on ends the run in a livelock"),
-            _ => format!("{all}{more} together end the run in a livelock"),
+            1 => message!("{} holding on ends the run in a livelock", all),
+            _ => message!("{}{} together end the run in a livelock", all, Words(more)),
         };
         let mut found = Diagnostic::new(Code::E0306, self.view.span(closing.cause), message);
         for edge in
             conditions.iter().filter(|edge| edge.cause != closing.cause).take(MAX_CONDITIONS)
         {
-            let text = format!("this leads on to '{}'", self.view.node_name(edge.to));
+            let text = message!("this leads on to '{}'", self.view.node_name(edge.to));
             found = found.note(self.view.span(edge.cause), text);
         }
         let counting = cycle.iter().find_map(|edge| counters::forgotten(self.view, edge.cause));
         let help = match (counting, conditions.len()) {
-            (Some((count, entry)), _) => format!("let '{count}' count: 'next => {entry}'"),
+            (Some((count, entry)), _) => message!("let '{}' count: 'next => {}'", count, entry),
             (None, 1) => {
-                "lead it to an element that takes time, such as an actor that waits".to_owned()
+                "lead it to an element that takes time, such as an actor that waits".into()
             }
             (None, _) if cycle.iter().all(|edge| is_sure(self.view, edge.cause)) => {
-                "lead one of them to an element that takes time, such as an actor that waits"
-                    .to_owned()
+                "lead one of them to an element that takes time, such as an actor that waits".into()
             }
             (None, _) => "lead one of them to an element that is not left at once, such as one \
                           without that supervisor"
-                .to_owned(),
+                .into(),
         };
         diags.push(found.help(help));
     }

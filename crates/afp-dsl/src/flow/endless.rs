@@ -3,6 +3,7 @@
 use crate::flow::view::{Cause, Node, View};
 use crate::flow::{FAILED, INTERRUPTED, OK, lasting};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// Warns of a plan that cannot end, notes elements from which it cannot; tells which endings can
 /// come.
@@ -14,8 +15,8 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
         return ends;
     }
     if ends == [false; 3] {
-        let message = format!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
-        let help = format!(
+        let message = message!("'{}' can never end: nothing leads to 'terminate'", view.plan.name);
+        let help = message!(
             "lead a state or an event to 'terminate', or write 'plan {} forever' where it is meant to run on",
             view.plan.name
         );
@@ -26,7 +27,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> [bool; 3] {
     for (node, element) in view.elements() {
         // Of one that lasts it is said that nothing can end it.
         if !back[node] && forth[node] && !lasting::lasts(view, node, element) {
-            let message = format!("once '{}' is reached, the plan cannot end", element.name);
+            let message = message!("once '{}' is reached, the plan cannot end", element.name);
             diags.push(
                 Diagnostic::new(Code::E0311, element.span, message)
                     .help("lead one of its states, or one of those behind it, to 'terminate'"),
@@ -43,7 +44,7 @@ fn by_itself(view: &View<'_>, forth: &[bool], diags: &mut Diagnostics) {
         let Cause::State(id, state) = edge.cause else { continue };
         let element = &view.plan.elements[id.index()];
         let place = element.edges.outcomes.get(usize::from(state)).copied().flatten();
-        let message = format!("'{}' ends the plan, which is to run forever", element.name);
+        let message = message!("'{}' ends the plan, which is to run forever", element.name);
         diags.push(
             Diagnostic::new(Code::E0320, place.unwrap_or(element.span), message)
                 .help("lead the state to an element, or remove 'forever' behind the plan's name"),

@@ -3,6 +3,7 @@
 use crate::flow::FAILED;
 use crate::flow::view::View;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Warns of each sub-plan without an `Error` edge whose plan leads to `fail` itself; gives an edge
@@ -12,7 +13,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> Option<Span> {
         let fails = view.summary(element).and_then(|inner| inner.fails);
         let Some(edge) = fails.filter(|_| element.on_error.is_none()) else { continue };
         let (name, plan) = (&element.name, &view.plan.name);
-        let message = format!("when '{name}' fails, '{plan}' ends with it");
+        let message = message!("when '{}' fails, '{}' ends with it", name, plan);
         diags.push(
             Diagnostic::new(Code::E0313, element.span, message)
                 .note(edge, "it fails here")

@@ -3,6 +3,7 @@
 
 use crate::flow::view::View;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// Warns of every such input, at the entry that it reads.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
@@ -25,7 +26,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
                 if !written[entry.index()] {
                     return;
                 }
-                let message = format!(
+                let message = message!(
                     "'{}' is read once, when the plan starts, but the entry changes",
                     port.name
                 );

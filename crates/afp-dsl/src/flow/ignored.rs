@@ -3,6 +3,7 @@
 use crate::flow::view::View;
 use crate::graph::Target;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
@@ -10,7 +11,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         if view.plan.targets(id).any(|target| target != Target::Ignore) {
             continue;
         }
-        let message = format!("'{}' watches for nothing: every event is ignored", supervisor.name);
+        let message = message!("'{}' watches for nothing: every event is ignored", supervisor.name);
         diags.push(
             Diagnostic::new(Code::E0308, supervisor.span, message)
                 .help("lead one of its events to an element or to 'terminate', or remove it"),

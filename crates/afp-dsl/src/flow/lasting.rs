@@ -3,6 +3,7 @@
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// Warns of each, at its name, unless the plan is to run for ever. What the plans around it watch for does not count.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
@@ -14,7 +15,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         if !lasts(view, node, element) {
             continue;
         }
-        let message = format!("nothing can end '{}'", element.name);
+        let message = message!("nothing can end '{}'", element.name);
         diags.push(
             Diagnostic::new(Code::E0315, element.span, message)
                 .note(

@@ -17,6 +17,7 @@ use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, SupervisorId};
 use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_types::Meaning;
 
 /// An event of a global supervisor, and where it leads.
@@ -76,7 +77,7 @@ fn start_over(view: &View<'_>, diags: &mut Diagnostics) {
         }
         let (label, name) = (view.label(edge.cause), &element.name);
         let message =
-            format!("'{label}' starts '{name}' again at every poll for as long as it lasts");
+            message!("'{}' starts '{}' again at every poll for as long as it lasts", label, name);
         let error = Diagnostic::new(Code::E0309, view.span(edge.cause), message);
         diags.push(error.help("write 'ignore', or lead it to another element"));
     }
@@ -127,7 +128,7 @@ fn alternate(view: &View<'_>, all: &[(Recovery, Vec<usize>)], diags: &mut Diagno
         let (Some(one), Some(other)) = (cause(edges), cause(others)) else { continue };
         let (first, next) = (view.label(other), view.label(one));
         let message =
-            format!("once '{first}' and '{next}' hold, each ends what the other has started");
+            message!("once '{}' and '{}' hold, each ends what the other has started", first, next);
         diags.push(
             Diagnostic::new(Code::E0309, view.span(one), message)
                 .note(view.span(other), "both hold for ever")
@@ -154,11 +155,15 @@ fn report(
     let Some((_, other)) = recovery.next() else { return };
     let label = view.label(edge.cause);
     let (first, next) = (&target.name, &other.name);
-    let message =
-        format!("'{label}' leads to '{first}', and starts it again while '{next}' runs after it");
+    let message = message!(
+        "'{}' leads to '{}', and starts it again while '{}' runs after it",
+        label,
+        first,
+        next
+    );
     diags.push(
         Diagnostic::new(Code::E0309, view.span(edge.cause), message)
             .note(other.span, "only this event leads here, and it may still hold")
-            .help(format!("put '{first}' and '{next}' into one sub-plan and lead the event to it, or ignore the event in '{next}' with 'on'")),
+            .help(message!("put '{}' and '{}' into one sub-plan and lead the event to it, or ignore the event in '{}' with 'on'", first, next, next)),
     );
 }

@@ -11,6 +11,7 @@ use crate::graph::{
     chain,
 };
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Warns of events that resume with nothing written, and of inputs read once from entries that are
@@ -93,7 +94,7 @@ fn written(
         let nothing = own.is_empty() && run.is_empty();
         written.extend(own.into_iter().chain(computed.map(|output| output.entry)));
         if nothing && written.len() == before {
-            let message = format!("'{}' resumes with nothing written", view.label(cause));
+            let message = message!("'{}' resumes with nothing written", view.label(cause));
             diags.push(
                 Diagnostic::new(Code::E0316, view.span(cause), message)
                     .help("write 'ignore', which says the same, or lead the event to a computation that writes"),
@@ -137,8 +138,10 @@ fn frozen(
     formula.each_entry(&mut |entry, span| {
         if changed.contains(&entry) {
             let entry = &view.plan.entries[entry.index()].name;
-            let message = format!(
-                "'{entry}' is read once, when '{name}' starts, but changes while it goes on"
+            let message = message!(
+                "'{}' is read once, when '{}' starts, but changes while it goes on",
+                entry,
+                name
             );
             diags.push(
                 Diagnostic::new(Code::E0301, span, message)

@@ -2,6 +2,7 @@
 
 use crate::flow::view::View;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
@@ -9,7 +10,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         if view.reached[node] {
             continue;
         }
-        let message = format!("'{}' can never be reached", element.name);
+        let message = message!("'{}' can never be reached", element.name);
         diags.push(
             Diagnostic::new(Code::E0302, element.span, message)
                 .note(view.plan.start_span, "no way from here leads to it")

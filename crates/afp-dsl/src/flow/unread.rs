@@ -5,6 +5,7 @@ use std::cell::OnceCell;
 use crate::flow::view::View;
 use crate::graph::{Element, EntryId, EntryKind, Supervisor};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 
 /// Warns of each, at its name.
 pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
@@ -16,8 +17,8 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         }
         let all = all.get_or_init(|| read(view, &view.plan.elements, &view.plan.supervisors));
         let message = match all[index] {
-            true => format!("nothing that can be reached reads '{}'", entry.name),
-            false => format!("nothing reads '{}'", entry.name),
+            true => message!("nothing that can be reached reads '{}'", entry.name),
+            false => message!("nothing reads '{}'", entry.name),
         };
         let help = match entry.kind {
             EntryKind::Var => "use it in a formula, make it an 'out' of the plan, or remove it",

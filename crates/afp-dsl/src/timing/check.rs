@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use crate::flow::view::View;
 use crate::graph::{Component, Graph};
 use crate::types::text::duration;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
+use afp_syntax::message;
 
 use super::contribution::Outside;
 use super::level::Levels;
@@ -26,11 +27,11 @@ pub(crate) fn check_everywhere(graph: &Graph, diags: &mut Diagnostics) {
 fn late_responses(known: Timing, diags: &mut Diagnostics) {
     for row in known.supervisors {
         if let Some(response) = late(&row) {
-            let message = format!(
+            let message = message!(
                 "'{}' may take {} from its release to the end of its poll, longer than its deadline of {}",
                 row.path,
-                duration(response.total()),
-                duration(row.deadline)
+                Words(duration(response.total())),
+                Words(duration(row.deadline))
             );
             diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
         }
@@ -52,9 +53,9 @@ fn parts(diagnostic: Diagnostic, response: &Response) -> Diagnostic {
     ];
     let parts = parts.into_iter().filter(|(time, _)| *time > 0);
     let sum: Vec<_> = parts.map(|(time, text)| format!("{} {text}", duration(time))).collect();
-    diagnostic.help(format!(
+    diagnostic.help(message!(
         "give it a longer period and deadline, or use templates with smaller budgets: it is {}",
-        sum.join(", ")
+        Words(sum.join(", "))
     ))
 }
 
@@ -83,12 +84,13 @@ fn used<R>(graph: &Graph, look: impl FnOnce(&mut dyn Iterator<Item = &View<'_>>)
 }
 
 fn ticks(graph: &Graph, target: &Target, tick: u64, diags: &mut Diagnostics) {
-    let mut report = |span, name: &str, every: u64, help: &str| {
-        let message = format!(
-            "'{name}' is polled every {}, but '{}' ticks every {}",
-            duration(every),
+    let mut report = |span, name: &str, every: u64, help: Message| {
+        let message = message!(
+            "'{}' is polled every {}, but '{}' ticks every {}",
+            name,
+            Words(duration(every)),
             target.name,
-            duration(tick)
+            Words(duration(tick))
         );
         diags.push(Diagnostic::new(Code::E0403, span, message).help(help));
     };
@@ -96,15 +98,15 @@ fn ticks(graph: &Graph, target: &Target, tick: u64, diags: &mut Diagnostics) {
         for view in views {
             for supervisor in view.supervisors().filter(|supervisor| supervisor.every < tick) {
                 let span = supervisor.every_span.unwrap_or(supervisor.span);
-                let help = format!("write at least 'every {}'", duration(tick));
-                report(span, &supervisor.name, supervisor.every, &help);
+                let help = message!("write at least 'every {}'", duration(tick));
+                report(span, &supervisor.name, supervisor.every, help);
             }
             for (_, element) in view.elements() {
                 let Component::Actor(id) = element.component else { continue };
                 let every = view.model.template(id).every;
                 if every < tick {
                     let help = "use a template with a longer period, or a target with a finer tick";
-                    report(element.span, &element.name, every, help);
+                    report(element.span, &element.name, every, help.into());
                 }
             }
         }
@@ -119,12 +121,12 @@ fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
     };
     for row in timing(graph, Some(target)).supervisors {
         let Some(response) = late(&row).filter(|_| !known.contains(&row.span)) else { continue };
-        let message = format!(
+        let message = message!(
             "'{}' may take {} on '{}' from its release to the end of its poll, longer than its deadline of {}",
             row.path,
-            duration(response.total()),
+            Words(duration(response.total())),
             target.name,
-            duration(row.deadline)
+            Words(duration(row.deadline))
         );
         diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
     }
@@ -135,8 +137,8 @@ fn demand(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
     let Ok((share, path)) = timing(graph, Some(target)).demand else { return };
     // More than all of it is an error on every target.
     if share > target.capacity && !declared.is_ok_and(|(share, _)| share > 1.0) {
-        let gives = format!("'{}' gives {}", target.name, percent(target.capacity));
-        diags.push(too_much(graph, share, &path, &gives));
+        let gives = message!("'{}' gives {}", target.name, Words(percent(target.capacity)));
+        diags.push(too_much(graph, share, &path, gives));
     }
 }
 
@@ -145,10 +147,12 @@ fn percent(share: f64) -> String {
 }
 
 /// Says that a plan asks for more of the processor than it gets.
-fn too_much(graph: &Graph, share: f64, path: &str, gives: &str) -> Diagnostic {
-    let message = format!(
-        "while '{path}' is active, the plan asks for {} of the processor; {gives}",
-        percent(share)
+fn too_much(graph: &Graph, share: f64, path: &str, gives: impl Into<Message>) -> Diagnostic {
+    let message = message!(
+        "while '{}' is active, the plan asks for {} of the processor; {}",
+        path,
+        Words(percent(share)),
+        gives.into()
     );
     let first = path.split('.').next().unwrap_or("");
     let main = graph.main();

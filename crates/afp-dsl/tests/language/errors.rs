@@ -13,7 +13,7 @@ use afp_syntax::source::Span;
 const MARK: &str = "//~ ";
 
 /// The case without its expectations.
-fn stripped(case: &str) -> String {
+pub fn stripped(case: &str) -> String {
     let lines = case.split_inclusive('\n').filter(|line| !line.trim_start().starts_with("//~"));
     lines.collect()
 }
@@ -35,12 +35,12 @@ fn place(compiled: &Compiled, span: Span, here: (&str, usize)) -> String {
 }
 
 fn expectation(compiled: &Compiled, diagnostic: &Diagnostic, here: (&str, usize)) -> String {
-    let Diagnostic { code, severity, message, span, notes, help, fix } = diagnostic;
+    let Diagnostic { code, severity, span, fix, .. } = diagnostic;
+    let (message, help) = (diagnostic.message_text(), diagnostic.help_text());
     let shown = place(compiled, *span, here);
     let mut text = format!("{MARK}{}[{}] {shown}: {message}\n", severity.as_str(), code.as_str());
-    for note in notes {
-        let shown = place(compiled, note.span, here);
-        text += &format!("{MARK}  note {shown}: {}\n", note.text);
+    for (span, note) in diagnostic.note_texts() {
+        text += &format!("{MARK}  note {}: {note}\n", place(compiled, span, here));
     }
     text += &format!("{MARK}  help: {help}\n");
     if let Some(fix) = fix {
@@ -108,8 +108,8 @@ fn a_fix_mends_what_it_is_for() {
         let compiled = support::compile(&text, &toolboxes);
         let has = |compiled: &Compiled, wanted: &Diagnostic| {
             compiled.diags.iter().any(|each| {
-                (each.code, &each.message, each.span.file, each.span.start)
-                    == (wanted.code, &wanted.message, wanted.span.file, wanted.span.start)
+                (each.code, each.message(), each.span.file, each.span.start)
+                    == (wanted.code, wanted.message(), wanted.span.file, wanted.span.start)
             })
         };
         for diagnostic in compiled.diags.iter() {
@@ -124,7 +124,7 @@ fn a_fix_mends_what_it_is_for() {
                 !has(&after, diagnostic),
                 "{}: the fix of '{}' does not mend it:\n{mended}",
                 path.display(),
-                diagnostic.message,
+                diagnostic.message_text(),
             );
         }
     }
@@ -136,7 +136,7 @@ fn diagnostics_are_worded_like_the_others() {
     for path in support::files("tests/errors") {
         let compiled = support::compile(&stripped(&support::read(&path)), &toolboxes);
         for diagnostic in compiled.diags.iter() {
-            for text in [&diagnostic.message, &diagnostic.help] {
+            for text in [diagnostic.message_text(), diagnostic.help_text()] {
                 let at = format!("{}: {text}", path.display());
                 assert!(!text.is_empty(), "{at}");
                 assert!(!text.starts_with(|first: char| first.is_uppercase()), "{at}");

@@ -35,7 +35,7 @@ fn errors(compiled: &Compiled) -> Vec<String> {
     let errors = compiled.diags.iter().filter(|each| each.code.as_str().starts_with("E02"));
     let shown = errors.map(|each| {
         let line = compiled.sources.get(each.span.file).unwrap().line_column(each.span.start).0;
-        format!("{line}:{}: {}", compiled.sources.text(each.span), each.message)
+        format!("{line}:{}: {}", compiled.sources.text(each.span), each.message_text())
     });
     shown.collect()
 }

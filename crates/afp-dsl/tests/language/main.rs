@@ -13,3 +13,4 @@ mod texts;
 mod timing;
 mod totality;
 mod watch;
+mod wording;

@@ -26,7 +26,7 @@ fn examine(text: &str) {
     let toolbox = text.lines().any(|line| line.starts_with("toolbox "));
     assert!(toolbox || compiled.graph.is_none() == errors, "{}", compiled.render(false));
     for diagnostic in compiled.diags.iter() {
-        assert!(!diagnostic.help.is_empty(), "{diagnostic:?}");
+        assert!(!diagnostic.help_text().is_empty(), "{diagnostic:?}");
         assert!(compiled.sources.get(diagnostic.span.file).is_some(), "{diagnostic:?}");
         if let Some(fix) = &diagnostic.fix {
             let source = compiled.sources.get(fix.span.file).unwrap();

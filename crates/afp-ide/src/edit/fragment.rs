@@ -5,7 +5,7 @@ use super::Refused;
 use super::list::dedented;
 use super::tree::{children, is_comment, solid_range};
 use afp_format::format;
-use afp_syntax::diagnostics::{Diagnostics, Severity};
+use afp_syntax::diagnostics::{Diagnostic, Diagnostics, Severity};
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, parse};
 
@@ -120,7 +120,7 @@ fn without_errors(text: &str) -> Result<Node, Refused> {
 
 fn unreadable(diags: &Diagnostics) -> Refused {
     let first = diags.iter().find(|each| each.severity == Severity::Error);
-    let message = first.map(|first| first.message.as_str()).unwrap_or("nothing");
+    let message = first.map_or_else(|| "nothing".to_owned(), Diagnostic::message_text);
     Refused::new(format!("the text cannot be read: {message}"))
 }
 

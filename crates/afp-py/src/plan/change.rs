@@ -178,11 +178,11 @@ pub fn misfit(wrong: &Diagnostic) -> PyErr {
     // The unit that would be written in a plan is not the one that is meant here.
     let help = match wrong.code {
         Code::E0203 => "give it its unit, as in afp.cm(30) or afp.deg(90)",
-        _ => &wrong.help,
+        _ => &wrong.help_text(),
     };
     let text = match help {
-        "" => wrong.message.clone(),
-        help => format!("{}; {help}", wrong.message),
+        "" => wrong.message_text(),
+        help => format!("{}; {help}", wrong.message_text()),
     };
     match wrong.code {
         Code::E0203 | Code::E0204 | Code::E0205 | Code::E0206 => PyTypeError::new_err(text),

@@ -70,8 +70,8 @@ pub fn diagnostics(compiled: &Compiled) -> Vec<Diagnostic> {
         Diagnostic {
             code: each.code.as_str().to_owned(),
             severity: each.severity.as_str(),
-            message: each.message.clone(),
-            help: each.help.clone(),
+            message: each.message_text(),
+            help: each.help_text(),
             file: source.map_or(String::new(), |source| source.name.clone()),
             line,
             column,

@@ -25,7 +25,7 @@ impl Diagnostic {
     }
 
     fn json_by(&self, tables: &Tables<'_>) -> String {
-        let mut object = self.report(tables).json();
+        let mut object = self.report(tables, |report| report.json());
         if let Some(fix) = &self.fix
             && let Some(source) = tables.sources.get(fix.span.file)
         {

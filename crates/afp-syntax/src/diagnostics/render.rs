@@ -18,12 +18,12 @@ impl Diagnostics {
         let mut rest = self.iter().peekable();
         while let Some(first) = rest.next() {
             let first_line = line(first.span);
-            texts.push(first.report(&tables).render(colour));
+            texts.push(first.render_by(&tables, colour));
             for shown in 1.. {
                 let here = |each: &&Diagnostic| line(each.span) == first_line;
                 let Some(next) = rest.next_if(here) else { break };
                 if shown < MOST_OF_A_LINE {
-                    texts.push(next.report(&tables).render(colour));
+                    texts.push(next.render_by(&tables, colour));
                     continue;
                 }
                 let mut left = 1;
@@ -46,11 +46,15 @@ const MOST_OF_A_LINE: usize = 20;
 impl Diagnostic {
     /// The diagnostic as text without a final line break, with terminal colours when asked.
     pub fn render(&self, sources: &Sources, colour: bool) -> String {
-        self.report(&Tables::new(sources)).render(colour)
+        self.render_by(&Tables::new(sources), colour)
     }
 
-    /// The diagnostic with the texts that it is about.
-    pub(super) fn report<'a>(&'a self, tables: &'a Tables<'_>) -> Report<'a> {
+    fn render_by(&self, tables: &Tables<'_>, colour: bool) -> String {
+        self.report(tables, |report| report.render(colour))
+    }
+
+    /// What is made of the diagnostic with the texts that it is about.
+    pub(super) fn report<T>(&self, tables: &Tables<'_>, show: impl FnOnce(Report<'_>) -> T) -> T {
         let mark = |span: Span, label: String| {
             let source = tables.sources.get(span.file)?;
             let lines = tables.lines(span.file);
@@ -58,9 +62,10 @@ impl Diagnostic {
             Some(Mark { path: &source.name, text: &source.text, lines, span: Some(bytes), label })
         };
         let primary = mark(self.span, String::new());
-        let notes = self.notes.iter().map(|note| mark(note.span, note.text.clone()));
+        let notes = self.note_texts().map(|(place, text)| mark(place, text));
         let (severity, code) = (self.severity, self.code.as_str());
         let marks = [primary].into_iter().chain(notes).flatten().collect();
-        Report { severity, code, message: &self.message, help: &self.help, marks }
+        let (message, help) = (self.message_text(), self.help_text());
+        show(Report { severity, code, message: &message, help: &help, marks })
     }
 }

@@ -3,8 +3,9 @@
 //! Each is read as what was meant, so that nothing else is said about its line.
 
 use super::{Lexer, is_blank, is_word, line_length, sign};
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Message};
 use crate::kind::Kind;
+use crate::message;
 
 /// Signs that look like ours, longer ones first: each with what it is and what to write instead.
 const SIGNS: &[(&str, Kind, &str)] = &[
@@ -53,7 +54,7 @@ impl Lexer<'_, '_> {
         }
         if let Some((foreign, kind, ours)) = SIGNS.iter().find(|(sign, ..)| rest.starts_with(sign))
         {
-            return self.instead(*kind, foreign.len(), &format!("write '{ours}'"), ours);
+            return self.instead(*kind, foreign.len(), message!("write '{}'", ours), ours);
         }
         let behind = rest.strip_prefix("#include").map(|behind| behind.chars().next());
         if behind.is_some_and(|next| next.is_none_or(|next| !is_word(next))) {
@@ -89,7 +90,7 @@ impl Lexer<'_, '_> {
             }
             "&&" | "&" | "!" | "?" => {
                 let error = self.error(Kind::Unknown, length, CHOICE);
-                self.diags.push(error);
+                self.diags.push(error.elsewhere(CHOICE));
             }
             "#" => {
                 self.instead(Kind::Unknown, length, "remove it, or start a comment with '//'", "")
@@ -145,7 +146,7 @@ impl Lexer<'_, '_> {
         };
         let better = format!("//{text}");
         let help = "start the comment with '//'";
-        let message = format!("comments do not begin with '{sign}'");
+        let message = message!("comments do not begin with '{}'", sign);
         let span = self.push(Kind::Comment, length);
         self.diags.push(Diagnostic::new(Code::E0101, span, message).help(help).replace(better));
     }
@@ -168,7 +169,7 @@ impl Lexer<'_, '_> {
             "this line is a mark between two versions of the text",
         );
         let help = "keep one of the versions between '<<<<<<<' and '>>>>>>>', and remove the other one and the marks";
-        self.diags.push(error.help(help));
+        self.diags.push(error.elsewhere(help));
     }
 
     /// `#include "walls.afp"`, `#include <carbot>`
@@ -185,25 +186,25 @@ impl Lexer<'_, '_> {
         let span = self.push(Kind::Comment, length);
         let error = Diagnostic::new(Code::E0101, span, "'#include' has no meaning here");
         self.diags.push(match better {
-            Some(better) => error.help(format!("write '{better}'")).replace(better),
+            Some(better) => error.write(better),
             None => error.help("write 'use' and a toolbox, such as 'use carbot'"),
         });
     }
 
     /// Reports characters that something else should be written for.
-    fn instead(&mut self, kind: Kind, length: usize, help: &str, ours: &str) {
+    fn instead(&mut self, kind: Kind, length: usize, help: impl Into<Message>, ours: &str) {
         let error = self.error(kind, length, help).replace(ours);
         self.diags.push(error);
     }
 
-    fn error(&mut self, kind: Kind, length: usize, help: &str) -> Diagnostic {
+    fn error(&mut self, kind: Kind, length: usize, help: impl Into<Message>) -> Diagnostic {
         let shown: String = self.text[self.at..self.at + length].chars().take(20).collect();
         let message = match kind {
-            Kind::Text => "a text stands in double quotes".to_owned(),
+            Kind::Text => "a text stands in double quotes".into(),
             _ if shown.chars().all(is_invisible) => {
-                format!("'{}' cannot be seen", shown.escape_debug())
+                message!("'{}' cannot be seen", shown.escape_debug().to_string())
             }
-            _ => format!("'{}' has no meaning here", shown.escape_debug()),
+            _ => message!("'{}' has no meaning here", shown.escape_debug().to_string()),
         };
         let span = self.push(kind, length);
         Diagnostic::new(Code::E0101, span, message).help(help)
@@ -217,7 +218,7 @@ impl Lexer<'_, '_> {
         }
         for (index, each) in text.char_indices().filter(|(_, each)| is_invisible(*each)) {
             let at = start + index;
-            let message = format!("'{}' cannot be seen", each.escape_unicode());
+            let message = message!("'{}' cannot be seen", each.escape_unicode().to_string());
             self.diags.push(
                 Diagnostic::new(Code::E0101, self.span(at, at + each.len_utf8()), message)
                     .help("remove it")

@@ -3,6 +3,7 @@
 use super::{Lexer, is_blank, is_word, run};
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
+use crate::message;
 use crate::units::{FOREIGN, Unit};
 
 impl Lexer<'_, '_> {
@@ -40,9 +41,12 @@ impl Lexer<'_, '_> {
         let sign = self.span(self.at, self.at + foreign.len());
         self.push(Kind::Unit, foreign.len() + more);
         self.diags.push(
-            Diagnostic::new(Code::E0107, sign, format!("the unit '{foreign}' is written '{ours}'"))
-                .help(format!("write '{ours}'"))
-                .replace(ours),
+            Diagnostic::new(
+                Code::E0107,
+                sign,
+                message!("the unit '{}' is written '{}'", foreign, ours),
+            )
+            .write(ours),
         );
     }
 }

@@ -1,8 +1,9 @@
 //! Bindings: what goes into and out of a component.
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Message};
 use crate::kind::Kind;
+use crate::message;
 
 impl Parser<'_, '_> {
     /// `"(" {bind [","]} ")"`; in a scenario, whose values are written out, no binding is a name alone.
@@ -83,8 +84,8 @@ impl Parser<'_, '_> {
                 self.bump();
             } else if changes {
                 let sign = self.token(0).map_or("", |token| token.text);
-                let message = format!("no '{sign}=' between a port and its value");
-                let help = format!("write '=' and a formula, such as 'x {sign} 1'");
+                let message = message!("no '{}=' between a port and its value", sign);
+                let help = message!("write '=' and a formula, such as 'x {} 1'", sign);
                 self.error(Diagnostic::new(Code::E0108, self.ahead(2), message).help(help));
                 self.pass(2);
             } else {
@@ -119,8 +120,8 @@ impl Parser<'_, '_> {
     fn no_type_before_value(&mut self) {
         let is_type = self.at(Kind::Colon) && self.nth(1) == Kind::Name;
         if is_type && self.nth(2) == Kind::Equal && self.on_same_line() && !self.begins_line(1) {
-            let message = "a port has its type already".to_owned();
-            self.instead(2, message, "remove the ':' and the type".to_owned(), "");
+            let message = "a port has its type already";
+            self.instead(2, message, "remove the ':' and the type", "");
         }
     }
 
@@ -133,30 +134,30 @@ impl Parser<'_, '_> {
     }
 
     /// What is missing of a binding.
-    fn bind_help(&self) -> (&'static str, String) {
+    fn bind_help(&self) -> (&'static str, Message) {
         let is_value =
             matches!(self.nth(1), Kind::Int | Kind::Float | Kind::Text | Kind::OpenParen)
                 || self.nth(1).is_comparison();
         let is_arrow = matches!(self.nth(0), Kind::FatArrow | Kind::Arrow);
         match self.word(0) {
             _ if self.follows_value() && is_arrow && self.nth(1) != Kind::Name => {
-                ("',' or ')' behind a value", "remove it".to_owned())
+                ("',' or ')' behind a value", "remove it".into())
             }
             _ if self.follows_value() => {
                 let help = "write ',' and a port before it, or a sign such as '*'";
-                ("',' or ')' behind a value", help.to_owned())
+                ("',' or ')' behind a value", help.into())
             }
             port if !port.is_empty() && is_value => {
-                ("a port and '='", format!("write '{port} = ' and the value"))
+                ("a port and '='", message!("write '{} = ' and the value", port))
             }
-            _ => ("a port", "write the port's name and '=' before the value".to_owned()),
+            _ => ("a port", "write the port's name and '=' before the value".into()),
         }
     }
 
     /// A value without a port, or text that is no binding at all.
     fn unnamed_bind(&mut self) {
         let (what, help) = self.bind_help();
-        self.skip(what, &help, |p| {
+        self.skip(what, help, |p| {
             p.ends_args()
                 || p.at(Kind::Comma)
                 || (p.at(Kind::Name)

@@ -5,10 +5,12 @@
 //! mistake of its own. The tokens are mended and read on as if nothing had been wrong. Where the indentation says
 //! nothing, the grammar reports what it misses.
 
+use super::found;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Severity};
 use crate::keywords::{self, BODY, HEAD, TOOL, TOP};
 use crate::kind::Kind;
 use crate::lexer::Token;
+use crate::message;
 use crate::source::Span;
 
 /// So many braces of a file are mended.
@@ -92,20 +94,20 @@ pub(super) fn mend(tokens: &mut Vec<Token<'_>>, file: u16, diags: &mut Diagnosti
                 continue;
             }
             Wrong::Missing(behind, opener) => {
-                let message = match found(tokens, behind) {
-                    // That of something around it.
-                    brace if brace == "'}'" => "missing '}'".to_owned(),
-                    other => format!("missing '}}', found {other}"),
-                };
                 let here = tokens[behind].span(file).after();
-                let error =
-                    Diagnostic::new(Code::E0103, here, message).help("add '}'").fix(here, "}");
+                let error = Diagnostic::new(Code::E0103, here, "missing '}'");
+                let error = match next(tokens, behind) {
+                    // That of something around it.
+                    Some(brace) if brace.text == "}" => error,
+                    other => error.found(found(other)),
+                };
+                let error = error.help("add '}'").fix(here, "}");
                 (behind, error.note(tokens[opener].span(file), "opened here"), Kind::CloseBrace)
             }
             Wrong::Unopened(behind) => {
-                let message = format!("expected '{{', found {}", found(tokens, behind));
                 let here = tokens[behind].span(file).after();
-                let error = Diagnostic::new(Code::E0102, here, message);
+                let error = Diagnostic::new(Code::E0102, here, "expected '{'");
+                let error = error.found(found(next(tokens, behind)));
                 (behind, error.help("add '{'").fix(here, " {"), Kind::OpenBrace)
             }
         };
@@ -133,8 +135,8 @@ fn report_strays(mut strays: Vec<(Span, &str)>, diags: &mut Diagnostics) {
         let [(first, brace), ..] = *group else { continue };
         let place = group.last().map_or(first, |(last, _)| first.to(*last));
         let (message, help) = match group.len() {
-            1 => (format!("this '{brace}' is too much"), "remove it"),
-            many => (format!("these {many} '{brace}' are too much"), "remove them"),
+            1 => (message!("this '{}' is too much", brace), "remove it"),
+            many => (message!("these {} '{}' are too much", many, brace), "remove them"),
         };
         diags.push(Diagnostic::new(Code::E0102, place, message).help(help).replace(""));
     }
@@ -156,10 +158,9 @@ fn doubled(tokens: &[Token<'_>]) -> Vec<usize> {
     found
 }
 
-/// What stands behind a token.
-fn found(tokens: &[Token<'_>], behind: usize) -> String {
-    let next = tokens[behind + 1..].iter().find(|token| !token.kind.is_trivia());
-    next.map_or_else(|| "the end of the file".to_owned(), Token::shown)
+/// The token of the grammar behind another one.
+fn next<'t>(tokens: &[Token<'t>], behind: usize) -> Option<Token<'t>> {
+    tokens[behind + 1..].iter().copied().find(|token| !token.kind.is_trivia())
 }
 
 /// How many braces open something, and how many close something.

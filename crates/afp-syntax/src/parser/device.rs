@@ -92,7 +92,7 @@ impl Parser<'_, '_> {
                 named = self.at(Kind::Name) && !self.ends_controls() && !self.at_tool();
             }
         } else {
-            self.expected("a name", "name what can be pressed, such as 'press left right'");
+            self.expected_name("name what can be pressed, such as 'press left right'");
         }
         self.close_item();
     }

@@ -3,9 +3,10 @@
 use rowan::Language;
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic, words};
+use crate::diagnostics::{Code, Diagnostic, list};
 use crate::keywords::{self, PLAN, TOOL, TOP};
 use crate::kind::{Afp, Kind};
+use crate::message;
 
 impl Parser<'_, '_> {
     pub(super) fn file(&mut self) {
@@ -51,14 +52,14 @@ impl Parser<'_, '_> {
                     None if self.item_meant(what, &self.possible_items()) => {
                         return self.top_item();
                     }
-                    None if self.is_toolbox => format!(
-                        "write {}",
-                        words::list(keywords::with(TOOL).into_iter().chain(["enum"]), "or")
-                    ),
-                    None => "remove it, or put it into a plan".to_owned(),
+                    None if self.is_toolbox => {
+                        let known = keywords::with(TOOL).into_iter().chain(["enum"]);
+                        message!("write {}", list(known, "or"))
+                    }
+                    None => "remove it, or put it into a plan".into(),
                 };
                 let first = self.at;
-                self.skip(what, &help, |p| {
+                self.skip(what, help, |p| {
                     let is_next = p.at > first && !p.on_same_line();
                     p.leaves_body()
                         || p.at_tool()
@@ -89,7 +90,7 @@ impl Parser<'_, '_> {
         // Behind a brace too much everything is outside; that is one mistake.
         if !std::mem::replace(&mut self.misplaced, true) {
             self.error(
-                Diagnostic::new(Code::E0114, here, format!("'{word}' stands outside of a plan"))
+                Diagnostic::new(Code::E0114, here, message!("'{}' stands outside of a plan", word))
                     .help("move it between the braces of a plan; perhaps a '}' above is too much"),
             );
         }
@@ -144,8 +145,8 @@ impl Parser<'_, '_> {
         self.keyword();
         let is_named = self.nth(1) == Kind::Name && !self.begins_line(1);
         if matches!(self.word(0), "class" | "struct") && is_named {
-            let message = format!("no {} behind 'enum'", self.found());
-            self.instead(1, message, "remove it".to_owned(), "");
+            let message = message!("no {} behind 'enum'", self.found());
+            self.instead(1, message, "remove it", "");
         }
         self.name("give the enum a name");
         let opened = self.here();
@@ -156,8 +157,7 @@ impl Parser<'_, '_> {
             _ => Kind::CloseBrace,
         };
         if closing != Kind::CloseBrace {
-            let message = format!("expected '{{', found {}", self.found());
-            let error = Diagnostic::new(Code::E0102, self.next_span(), message);
+            let error = self.instead_of(self.next_span(), "'{'");
             self.error(error.help("write '{' and '}' around the values"));
             self.pass(1);
             self.variants(closing);

@@ -4,10 +4,11 @@
 
 use super::habits::is_operator;
 use super::{MAX_DEPTH, Parser};
-use crate::diagnostics::{Code, Diagnostic, words};
+use crate::diagnostics::{Code, Diagnostic, Message, Words, words};
 use crate::dimension::Dimension;
 use crate::keywords::{self, BEHIND_NUMBER};
 use crate::kind::Kind;
+use crate::message;
 use crate::source::Span;
 use crate::units::Unit;
 
@@ -62,8 +63,8 @@ impl Parser<'_, '_> {
             }
             Kind::Name if self.at_function_of_a_library() => {
                 let function = self.word(2);
-                let message = "functions belong to no library".to_owned();
-                self.instead(2, message, format!("write '{function}'"), "");
+                let message = "functions belong to no library";
+                self.instead(2, message, message!("write '{}'", function), "");
                 self.call();
             }
             Kind::Name if self.nth(1) == Kind::OpenParen => self.call(),
@@ -165,14 +166,14 @@ impl Parser<'_, '_> {
         if Unit::meant(word).is_some_and(|unit| unit == word) {
             return self.bump_as(Kind::Unit);
         }
-        let error = Diagnostic::new(Code::E0236, self.here(), format!("'{word}' is not a unit"));
+        let error = Diagnostic::new(Code::E0236, self.here(), message!("'{}' is not a unit", word));
         if let Some((prefixed, better)) = self.strange_prefix() {
-            self.error(error.help(format!("there is no {prefixed}: write '{better}'")));
+            self.error(error.help(message!("there is no {}: write '{}'", Words(prefixed), better)));
             return self.pass(1);
         }
         let meant = Unit::meant(word).map(str::to_owned);
         self.error(match meant.or_else(|| Unit::power_meant(word)) {
-            Some(unit) => error.help(format!("write '{unit}'")).replace(unit),
+            Some(unit) => error.write(unit),
             None => error.help(
                 "use one of the units m cm mm km, deg rad, s ms min h, kg, N, V, K, Hz or a product such as 'cm/s'",
             ),
@@ -219,7 +220,7 @@ impl Parser<'_, '_> {
             Diagnostic::new(
                 Code::E0111,
                 here,
-                format!("more than {MAX_DEPTH} brackets or signs around this"),
+                message!("more than {} brackets or signs around this", Words(MAX_DEPTH)),
             )
             .help("compute a part of it in an entry of its own"),
         );
@@ -253,7 +254,7 @@ impl Parser<'_, '_> {
             if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {
                 self.bump();
             } else {
-                self.expected("a name", "write a name behind the '.'");
+                self.expected_name("write a name behind the '.'");
             }
         }
         self.close();
@@ -269,13 +270,13 @@ impl Parser<'_, '_> {
     pub(super) fn path(&mut self) {
         self.open(Kind::Path);
         if !self.on_same_line() && self.at_line() && !self.at_path() {
-            self.expected("a name", "write the name of an element or entry");
+            self.expected_name("write the name of an element or entry");
             return self.close();
         }
         self.name("write the name of an element or entry");
         while self.eat(Kind::Dot) {
             if !self.on_same_line() && self.at_line() {
-                self.expected("a name", "write a name behind the '.'");
+                self.expected_name("write a name behind the '.'");
                 break;
             }
             self.name("write a name behind the '.'");
@@ -328,14 +329,14 @@ impl Parser<'_, '_> {
         }
         let both = Span { end: self.next_span().end, ..first };
         let error = Diagnostic::new(Code::E0102, both, "the name of a dimension is one word");
-        self.error(error.help(format!("write '{name}'")).replace(name));
+        self.error(error.write(name));
         self.open(Kind::Error);
         self.bump();
         self.close();
     }
 
     /// A number with a unit, where the grammar wants a time.
-    pub(super) fn quantity(&mut self, help: &str) {
+    pub(super) fn quantity(&mut self, help: impl Into<Message>) {
         match self.nth(0) {
             Kind::Int | Kind::Float => self.number(),
             Kind::Minus => {

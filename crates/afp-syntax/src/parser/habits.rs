@@ -10,10 +10,11 @@ mod names;
 mod numbers;
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Message, Words};
 use crate::dimension::Dimension;
 use crate::kind::Kind;
 use crate::lexer::{CHOICE, Token};
+use crate::message;
 use crate::source::Span;
 use numbers::hundredth;
 
@@ -25,14 +26,14 @@ pub(super) const LOOP: &str =
 const ARROW_WORDS: &[&str] = &["goto", "to", "then", "next"];
 
 /// Words of formulas elsewhere, each with what to write instead.
-const OPERATORS: &[(&str, &str)] = &[
-    ("and", CHOICE),
-    ("or", CHOICE),
-    ("xor", CHOICE),
-    ("is", CHOICE),
-    ("if", CHOICE),
-    ("mod", "write '%'"),
-    ("div", "write '/'"),
+const OPERATORS: &[(&str, Option<&str>)] = &[
+    ("and", None),
+    ("or", None),
+    ("xor", None),
+    ("is", None),
+    ("if", None),
+    ("mod", Some("write '%'")),
+    ("div", Some("write '/'")),
 ];
 
 /// Whether formulas elsewhere have the word between operands.
@@ -49,9 +50,9 @@ impl Parser<'_, '_> {
     /// `start -> go`, `start: go`
     pub(super) fn no_sign_behind_start(&mut self) {
         if matches!(self.nth(0), Kind::Arrow | Kind::FatArrow | Kind::Equal | Kind::Colon) {
-            let message = format!("no {} behind 'start'", self.found());
+            let message = message!("no {} behind 'start'", self.found());
             let element = Some(self.word(1)).filter(|word| !word.is_empty()).unwrap_or("NAME");
-            self.instead(1, message, format!("write 'start {element}'"), "");
+            self.instead(1, message, message!("write 'start {}'", element), "");
         }
     }
 
@@ -66,12 +67,12 @@ impl Parser<'_, '_> {
             })
         };
         if self.at(Kind::Equal) && self.nth(1) == Kind::Name {
-            self.instead(1, "no '=' before a template".to_owned(), "write ':'".to_owned(), ":");
+            self.instead(1, "no '=' before a template", "write ':'", ":");
             return true;
         }
         if swapped && looks(template, true) && looks(name, false) {
-            let help = format!("write the name first: '{name}: {template}'");
-            self.expected("':'", &help);
+            let help = message!("write the name first: '{}: {}'", name, template);
+            self.expected("':'", help);
             return false;
         }
         self.expect(Kind::Colon, "write ':' and the template")
@@ -90,7 +91,7 @@ impl Parser<'_, '_> {
             let here = self.here().before();
             let error = Diagnostic::new(Code::E0102, here, message);
             match is_swapped {
-                true => self.error(error.help(format!("write '{word}: {before}'"))),
+                true => self.error(error.help(message!("write '{}: {}'", word, before))),
                 false => self.error(error.help("write ':'").fix(here, ": ")),
             }
             self.ty();
@@ -101,7 +102,7 @@ impl Parser<'_, '_> {
     pub(super) fn no_timing(&mut self) {
         while self.at_timing() {
             let (here, word) = (self.next_span(), self.word(0));
-            let message = format!("only supervisors have '{word}'");
+            let message = message!("only supervisors have '{}'", word);
             let help = "remove it, or write it behind the template of a supervisor";
             self.error(Diagnostic::new(Code::E0102, here, message).help(help));
             self.open(Kind::Error);
@@ -117,7 +118,7 @@ impl Parser<'_, '_> {
         if is_target && !self.at_word("supervise") {
             let (here, target) = (self.behind(), self.word(0));
             let message = "no target on the line of its '->'";
-            let help = format!("write '{target}' behind the '->'");
+            let help = message!("write '{}' behind the '->'", target);
             self.error(Diagnostic::new(Code::E0109, here, message).help(help));
             // What follows on that line is its own.
             return true;
@@ -155,7 +156,7 @@ impl Parser<'_, '_> {
         let stands = self.at(Kind::Colon) && self.nth(1) == Kind::Colon && self.is_adjacent();
         let named = self.nth(2) == Kind::Name && !self.begins_line(2);
         if stands && named {
-            self.instead(2, "no '::' between two names".to_owned(), "write '.'".to_owned(), ".");
+            self.instead(2, "no '::' between two names", "write '.'", ".");
         }
         stands && named
     }
@@ -168,8 +169,12 @@ impl Parser<'_, '_> {
     /// Reports what formulas elsewhere have behind their operands, and reads past it.
     pub(super) fn no_operators(&mut self) {
         while let Some(help) = self.operator_help() {
-            let (here, message) = (self.next_span(), format!("formulas have no {}", self.found()));
-            self.error(Diagnostic::new(Code::E0102, here, message).help(help));
+            let (here, message) = (self.next_span(), message!("formulas have no {}", self.found()));
+            let error = Diagnostic::new(Code::E0102, here, message);
+            self.error(match help {
+                Some(help) => error.help(help),
+                None => error.elsewhere(CHOICE),
+            });
             self.open(Kind::Error);
             self.bump();
             self.formula();
@@ -177,10 +182,11 @@ impl Parser<'_, '_> {
         }
     }
 
-    fn operator_help(&self) -> Option<&'static str> {
+    /// What to write for an operator that formulas do not have; nothing for one that chooses.
+    fn operator_help(&self) -> Option<Option<&'static str>> {
         match self.nth(0) {
-            Kind::Caret => Some("write a product, such as 'x * x'"),
-            kind if kind.is_comparison() || kind == Kind::Pipe => Some(CHOICE),
+            Kind::Caret => Some(Some("write a product, such as 'x * x'")),
+            kind if kind.is_comparison() || kind == Kind::Pipe => Some(None),
             Kind::Name if self.on_same_line() && !self.names_something(0) => {
                 let word = OPERATORS.iter().find(|(word, _)| *word == self.word(0));
                 word.map(|(_, help)| *help)
@@ -202,7 +208,7 @@ impl Parser<'_, '_> {
                 }
                 let here = self.next_span();
                 let message = "formulas have no 'not'";
-                self.error(Diagnostic::new(Code::E0102, here, message).help(CHOICE));
+                self.error(Diagnostic::new(Code::E0102, here, message).elsewhere(CHOICE));
                 self.pass(1);
                 Some(true)
             }
@@ -220,8 +226,7 @@ impl Parser<'_, '_> {
                         Kind::Comma | Kind::CloseParen | Kind::CloseBrace | Kind::End
                     ) =>
             {
-                let message = "formulas have no '++'".to_owned();
-                self.instead(1, message, "write '+ 1'".to_owned(), " 1");
+                self.instead(1, "formulas have no '++'", "write '+ 1'", " 1");
                 Some(false)
             }
             _ => None,
@@ -263,7 +268,7 @@ impl Parser<'_, '_> {
         let better = hundredth(number.text);
         let place = self.span_of(number).to(self.next_span());
         let error = Diagnostic::new(Code::E0102, place, "formulas have no percent");
-        self.error(error.help(format!("write '{better}'")).replace(better));
+        self.error(error.write(better));
         self.pass(1);
         true
     }
@@ -294,7 +299,7 @@ impl Parser<'_, '_> {
             return false;
         }
         let message = "a number has a decimal point, not a comma";
-        let help = format!("write '{}.{}'", whole.text, fraction.text);
+        let help = message!("write '{}.{}'", whole.text, fraction.text);
         let error = Diagnostic::new(Code::E0106, self.span_of(comma), message);
         self.error(error.help(help).replace("."));
         self.bump_together(3, Kind::Float);
@@ -302,15 +307,16 @@ impl Parser<'_, '_> {
     }
 
     /// Takes a whole number, or reports that one is missing.
-    pub(super) fn whole_number(&mut self, help: &str) -> bool {
+    pub(super) fn whole_number(&mut self, help: impl Into<Message>) -> bool {
         let tokens = self.tokens_of_number();
         if tokens == 1 {
             return self.expect(Kind::Int, help);
         }
         let place = self.ahead(tokens);
         let found: String = (0..tokens).filter_map(|at| self.token(at)).map(|it| it.text).collect();
-        let message = format!("expected {}, found '{found}'", Kind::Int.describe());
-        self.error(Diagnostic::new(Code::E0102, place, message).help(help));
+        let message = message!("expected {}", Words(Kind::Int.describe()));
+        let error = Diagnostic::new(Code::E0102, place, message);
+        self.error(error.found(message!("'{}'", found)).help(help));
         self.bump_together(tokens, Kind::Int);
         true
     }
@@ -333,9 +339,7 @@ impl Parser<'_, '_> {
         let Some(better) = better.filter(|_| self.is_adjacent()) else { return false };
         let place = self.span_of(before).to(self.next_span());
         self.error(
-            Diagnostic::new(Code::E0115, place, "a number has decimal digits alone")
-                .help(format!("write '{better}'"))
-                .replace(better),
+            Diagnostic::new(Code::E0115, place, "a number has decimal digits alone").write(better),
         );
         self.pass(1);
         true
@@ -346,12 +350,7 @@ impl Parser<'_, '_> {
         if self.at(Kind::Dot) && self.is_adjacent() && !matches!(self.nth(1), Kind::Dot | Kind::Int)
         {
             if self.nth(1) == Kind::Name && self.names_something(1) {
-                return self.instead(
-                    1,
-                    "no ',' between two values".into(),
-                    "write ','".into(),
-                    ",",
-                );
+                return self.instead(1, "no ',' between two values", "write ','", ",");
             }
             let here = self.next_span();
             self.error(
@@ -364,7 +363,13 @@ impl Parser<'_, '_> {
     }
 
     /// Reports tokens in place of which something else should stand, and passes over them.
-    pub(super) fn instead(&mut self, tokens: usize, message: String, help: String, ours: &str) {
+    pub(super) fn instead(
+        &mut self,
+        tokens: usize,
+        message: impl Into<Message>,
+        help: impl Into<Message>,
+        ours: &str,
+    ) {
         let here = self.ahead(tokens);
         self.error(Diagnostic::new(Code::E0102, here, message).help(help).replace(ours));
         self.pass(tokens);

@@ -5,6 +5,7 @@ use super::recovery::Body;
 use crate::diagnostics::{Code, Diagnostic};
 use crate::keywords::{self, ENTRY, NAMED, PLAN};
 use crate::kind::Kind;
+use crate::message;
 
 /// What to do with a time that stands behind the braces of a supervisor.
 const TIME_BEHIND_BODY: &str = "write it behind the supervisor's template, before its '{'";
@@ -56,16 +57,16 @@ impl Parser<'_, '_> {
         }
         let help = match self.item_help() {
             _ if self.at_reactions() => {
-                "put it into the braces of the element that reacts so".to_owned()
+                "put it into the braces of the element that reacts so".into()
             }
             Some(help) => help,
             None if self.item_meant(ITEMS, &self.possible_items_of_plan()) => {
                 return self.plan_item();
             }
-            None => ITEM_HELP.to_owned(),
+            None => ITEM_HELP.into(),
         };
         let is_body = self.begins_body();
-        self.report_skipped(ITEMS, &help, None);
+        self.report_skipped(ITEMS, help, None);
         let first = self.at;
         self.pass_to(|p| {
             let next = p.at > first && !p.on_same_line() && p.at_strange_item();
@@ -108,7 +109,7 @@ impl Parser<'_, '_> {
                 if self.on_same_line() || !self.names_something(0) {
                     self.name("name the first element");
                 } else {
-                    self.expected("a name", "name the first element");
+                    self.expected_name("name the first element");
                 }
                 self.close_item();
             }
@@ -183,7 +184,7 @@ impl Parser<'_, '_> {
     }
 
     /// `NAME ":" ref [args]`
-    fn head(&mut self, what: &str, watches: bool) {
+    fn head(&mut self, what: &'static str, watches: bool) {
         self.times_before_template(watches);
         self.name("give it a name");
         self.times_before_template(watches);
@@ -227,8 +228,8 @@ impl Parser<'_, '_> {
         self.open(Kind::Timing);
         self.keyword();
         if matches!(self.nth(0), Kind::Colon | Kind::Equal) {
-            let message = format!("no {} before a time", self.found());
-            self.instead(1, message, "remove it".to_owned(), "");
+            let message = message!("no {} before a time", self.found());
+            self.instead(1, message, "remove it", "");
         }
         // A time that is missing has the other word behind it.
         let other = matches!(self.word(0), "every" | "deadline")
@@ -264,10 +265,10 @@ impl Parser<'_, '_> {
         element || entry || self.at_top_item()
     }
 
-    pub(super) fn edge_or_skip(&mut self, what: &str) {
+    pub(super) fn edge_or_skip(&mut self, what: &'static str) {
         if self.at_word_before_edge() {
-            let message = format!("no {} before an edge", self.found());
-            return self.instead(1, message, "remove it".to_owned(), "");
+            let message = message!("no {} before an edge", self.found());
+            return self.instead(1, message, "remove it", "");
         }
         if self.port_in_braces() {
             return;
@@ -284,8 +285,8 @@ impl Parser<'_, '_> {
             return self.edge();
         }
         if self.nth(1) == Kind::Dot && self.nth(2) == Kind::Name && self.arrow_at(3).is_some() {
-            let message = "an edge begins with the name of its state or event alone".to_owned();
-            return self.instead(2, message, format!("write '{}'", self.word(2)), "");
+            let message = "an edge begins with the name of its state or event alone";
+            return self.instead(2, message, message!("write '{}'", self.word(2)), "");
         }
         let help = match self.word(0) {
             "every" | "deadline" if self.at_timing() => TIME_BEHIND_BODY,
@@ -420,13 +421,9 @@ impl Parser<'_, '_> {
         }
     }
 
-    pub(super) fn wrong_arrow(&mut self, tokens: usize, message: &str, right: &str) {
+    pub(super) fn wrong_arrow(&mut self, tokens: usize, message: &'static str, right: &str) {
         let here = self.ahead(tokens);
-        self.error(
-            Diagnostic::new(Code::E0108, here, message)
-                .help(format!("write '{right}'"))
-                .replace(right),
-        );
+        self.error(Diagnostic::new(Code::E0108, here, message).write(right));
         // A word is no name of the edge.
         match self.at(Kind::Name) {
             true => self.pass(tokens),

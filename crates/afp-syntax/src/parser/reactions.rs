@@ -1,8 +1,9 @@
 //! `on`: what an element does instead where a supervisor of its plan reports something.
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Message};
 use crate::kind::Kind;
+use crate::message;
 
 impl Parser<'_, '_> {
     /// Whether `on` begins here; a state may be called so, too.
@@ -25,9 +26,9 @@ impl Parser<'_, '_> {
         self.keyword();
         self.path_of_supervisor();
         let name = Some(self.word(0)).filter(|name| !name.is_empty()).unwrap_or("NAME");
-        let help = format!("write 'on {name} {{ Event -> target }}'");
+        let help = message!("write 'on {} {{ Event -> target }}'", name);
         self.name("name a supervisor of the plan");
-        self.events(&help);
+        self.events(help);
         self.close_item();
     }
 
@@ -36,8 +37,8 @@ impl Parser<'_, '_> {
         let is_path = self.nth(1) == Kind::Dot && self.nth(3) == Kind::OpenBrace;
         let name = self.word(2);
         if is_path && self.at(Kind::Name) && !name.is_empty() {
-            let message = "a supervisor of the plan has its name alone".to_owned();
-            self.instead(2, message, format!("write 'on {name}'"), "");
+            let message = "a supervisor of the plan has its name alone";
+            self.instead(2, message, message!("write 'on {}'", name), "");
         }
     }
 
@@ -58,7 +59,7 @@ impl Parser<'_, '_> {
             self.ahead(arrow + 2),
             "the edges of 'on' stand in braces",
         );
-        let error = error.help(format!("write '{better}'"));
+        let error = error.help(message!("write '{}'", better));
         self.error(if arrow == 4 { error.replace(better) } else { error });
         self.pass(arrow + 2);
         true
@@ -76,7 +77,7 @@ impl Parser<'_, '_> {
         let better = format!("on {supervisor} {{ {event} -> {target} }}");
         let message = "what events of the plan's supervisors do here stands in 'on'";
         let error = Diagnostic::new(Code::E0102, self.ahead(5), message);
-        let error = error.help(format!("write '{better}'"));
+        let error = error.help(message!("write '{}'", better));
         // Several of one supervisor stand in one.
         let is_other = |first: Option<usize>| {
             let text = |at: usize| self.solid.get(at).map(|at| self.tokens[*at as usize].text);
@@ -89,7 +90,7 @@ impl Parser<'_, '_> {
     }
 
     /// The edges of events, in braces; `help` tells who has left them out.
-    pub(super) fn events(&mut self, help: &str) {
+    pub(super) fn events(&mut self, help: impl Into<Message>) {
         let body = self.open_body(help, Self::begins_body);
         if let Some(body) = body {
             while !self.ends_body(&body) && (!self.at_watch() || self.is_nested()) {

@@ -4,8 +4,9 @@
 
 use super::Parser;
 use super::habits::LOOP;
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Message, Subject, Words};
 use crate::kind::Kind;
+use crate::message;
 use crate::source::Span;
 
 /// Braces with something in them.
@@ -87,22 +88,41 @@ impl Parser<'_, '_> {
     }
 
     /// Reports that something is missing here.
-    pub(super) fn expected(&mut self, what: &str, help: &str) {
-        let here = self.here();
-        self.expected_at(here, what, help);
+    pub(super) fn expected(&mut self, what: impl Into<Message>, help: impl Into<Message>) {
+        self.missing(self.here(), what, help, Subject::Other);
     }
 
-    pub(super) fn expected_at(&mut self, here: Span, what: &str, help: &str) {
+    /// Reports that a name is missing here.
+    pub(super) fn expected_name(&mut self, help: impl Into<Message>) {
+        self.missing(self.here(), "a name", help, Subject::MissingName);
+    }
+
+    pub(super) fn missing(
+        &mut self,
+        here: Span,
+        what: impl Into<Message>,
+        help: impl Into<Message>,
+        subject: Subject,
+    ) {
         if matches!(self.nth(0), Kind::OpenBracket | Kind::CloseBracket | Kind::At) {
             return self.reserved("remove it");
         }
-        let message = format!("expected {what}, found {}", self.found());
-        self.error(Diagnostic::new(Code::E0102, here, message).help(help));
+        self.error(self.instead_of(here, what).help(help).about(subject));
+    }
+
+    /// What is said of the next token in the place of something else.
+    pub(super) fn instead_of(&self, here: Span, what: impl Into<Message>) -> Diagnostic {
+        let message = message!("expected {}", what.into());
+        Diagnostic::new(Code::E0102, here, message).found(self.found())
     }
 
     /// Opens a body, or reports that its brace is missing. What else stands before the brace on this line belongs to the
     /// same mistake; without a brace there may be a body all the same.
-    pub(super) fn open_body(&mut self, help: &str, begins: impl Fn(&Self) -> bool) -> Option<Body> {
+    pub(super) fn open_body(
+        &mut self,
+        help: impl Into<Message>,
+        begins: impl Fn(&Self) -> bool,
+    ) -> Option<Body> {
         let opened = Body { opened: Some(self.here()) };
         if self.eat(Kind::OpenBrace) {
             return Some(opened);
@@ -150,18 +170,20 @@ impl Parser<'_, '_> {
         self.at(Kind::CloseBrace) && self.nth(1) != Kind::End && !ends
     }
 
-    pub(super) fn expect(&mut self, kind: Kind, help: &str) -> bool {
+    pub(super) fn expect(&mut self, kind: Kind, help: impl Into<Message>) -> bool {
         let fits = self.eat(kind);
-        if !fits {
-            self.expected(kind.describe(), help);
+        match kind {
+            _ if fits => {}
+            Kind::Name => self.expected_name(help),
+            _ => self.expected(kind.describe(), help),
         }
         fits
     }
 
     /// Takes a name, or reports that one is missing.
-    pub(super) fn name(&mut self, help: &str) -> bool {
+    pub(super) fn name(&mut self, help: impl Into<Message>) -> bool {
         if !self.on_same_line() && self.begins_item() {
-            self.expected("a name", help);
+            self.expected_name(help);
             return false;
         }
         if self.at(Kind::Name) {
@@ -192,8 +214,8 @@ impl Parser<'_, '_> {
         (first && !self.names_something(0)) || self.leaves_body() || self.at_tool()
     }
 
-    fn reserved(&mut self, help: &str) {
-        let message = format!("{} is reserved for a later version", self.found());
+    fn reserved(&mut self, help: impl Into<Message>) {
+        let message = message!("{} is reserved for a later version", self.found());
         let here = self.next_span();
         self.error(Diagnostic::new(Code::E0112, here, message).help(help));
     }
@@ -206,7 +228,7 @@ impl Parser<'_, '_> {
         let sign = kind.describe();
         let here = self.behind();
         if let Some(slashes) = self.divided_by_a_comment() {
-            let message = format!("missing {sign}: '//' begins a comment");
+            let message = message!("missing {}: '//' begins a comment", Words(sign));
             return self.error(
                 Diagnostic::new(Code::E0103, here, message)
                     .note(opened, "opened here")
@@ -215,9 +237,10 @@ impl Parser<'_, '_> {
             );
         }
         self.error(
-            Diagnostic::new(Code::E0103, here, format!("missing {sign}, found {}", self.found()))
+            Diagnostic::new(Code::E0103, here, message!("missing {}", Words(sign)))
+                .found(self.found())
                 .note(opened, "opened here")
-                .help(format!("add {sign}"))
+                .help(message!("add {}", Words(sign)))
                 .fix(here, sign.trim_matches('\'')),
         );
     }
@@ -249,13 +272,23 @@ impl Parser<'_, '_> {
 
     /// Reports the next token as unexpected and skips to where `stop` holds, brackets and braces
     /// as a whole.
-    pub(super) fn skip(&mut self, what: &str, help: &str, stop: impl Fn(&Self) -> bool) {
+    pub(super) fn skip(
+        &mut self,
+        what: &'static str,
+        help: impl Into<Message>,
+        stop: impl Fn(&Self) -> bool,
+    ) {
         self.report_skipped(what, help, None);
         self.pass_to(stop);
     }
 
     /// Reports the next token as unexpected; another word may have been meant.
-    pub(super) fn report_skipped(&mut self, what: &str, help: &str, meant: Option<&str>) {
+    pub(super) fn report_skipped(
+        &mut self,
+        what: impl Into<Message>,
+        help: impl Into<Message>,
+        meant: Option<&str>,
+    ) {
         let here = self.next_span();
         match (self.nth(0), meant) {
             (Kind::Name, _) if self.word(0) == "repeat" => self.reserved(LOOP),
@@ -264,10 +297,9 @@ impl Parser<'_, '_> {
                 self.error(error.help("remove it").replace(""));
             }
             (_, Some(meant)) => {
-                let message = format!("expected {what}, found {}", self.found());
-                self.error(Diagnostic::new(Code::E0102, here, message).help(help).replace(meant));
+                self.error(self.instead_of(here, what).help(help).replace(meant));
             }
-            _ => self.expected_at(here, what, help),
+            _ => self.missing(here, what, help, Subject::Other),
         }
     }
 

@@ -1,9 +1,10 @@
 //! Scenarios: world, stimuli and expectations.
 
 use super::{MAX_DEPTH, Parser};
-use crate::diagnostics::{Code, Diagnostic, words};
+use crate::diagnostics::{Subject, list};
 use crate::keywords::{self, LINE};
 use crate::kind::Kind;
+use crate::message;
 
 const LINE_HELP: &str =
     "write 'world', 'seed', 'over', 'set', 'robot', 'at', 'from', 'expect', 'never' or 'until'";
@@ -232,13 +233,13 @@ impl Parser<'_, '_> {
     /// `befor 3 s`: reports the word, and reads it as the one that is meant. Returns whether one stands there.
     fn bound_meant(&mut self) -> bool {
         let before_time = matches!(self.nth(1), Kind::Int | Kind::Float) && !self.begins_line(1);
-        let list: &[&'static str] = match before_time {
+        let known: &[&'static str] = match before_time {
             true => &["within", "before", "after"],
             false => &["always", "once"],
         };
-        let meant = list.iter().copied().find(|word| self.at_slip(word));
+        let meant = known.iter().copied().find(|word| self.at_slip(word));
         let Some(meant) = meant.filter(|_| !self.at_line()) else { return false };
-        self.read_as(meant, &words::list(list.iter().copied(), "or"));
+        self.read_as(meant, message!("{}", list(known.iter().copied(), "or")));
         true
     }
 
@@ -256,8 +257,7 @@ impl Parser<'_, '_> {
             match self.word(0) {
                 "never" | "not" => {
                     let place = self.place_between(self.at.saturating_sub(1), self.at + 1);
-                    let message = format!("expected a claim, found {}", self.found());
-                    let error = Diagnostic::new(Code::E0102, self.next_span(), message);
+                    let error = self.instead_of(self.next_span(), "a claim");
                     self.error(error.help(help).fix(place, "never"));
                 }
                 _ => self.expected("a claim", help),
@@ -275,7 +275,7 @@ impl Parser<'_, '_> {
     fn always_first(&mut self) {
         self.open_item(Kind::Expect);
         let help = "write 'expect' in place of it, and 'always' behind the claim";
-        self.expected_at(self.next_span(), "'expect'", help);
+        self.missing(self.next_span(), "'expect'", help, Subject::Other);
         self.keyword();
         self.claim_with_bounds();
         self.close_item();

@@ -2,9 +2,10 @@
 //! what they were meant for.
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic, words};
+use crate::diagnostics::{Code, Diagnostic, Message, words};
 use crate::keywords;
 use crate::kind::Kind;
+use crate::message;
 
 impl Parser<'_, '_> {
     /// The word of a list that was meant where an item begins: on the line of the next word stands what such items have.
@@ -17,7 +18,7 @@ impl Parser<'_, '_> {
     }
 
     /// Reads the next word as that of a list which it was meant for, after having said so. Returns whether it was.
-    pub(super) fn item_meant(&mut self, what: &str, list: &[&'static str]) -> bool {
+    pub(super) fn item_meant(&mut self, what: &'static str, list: &[&'static str]) -> bool {
         let meant = self.meant(list);
         if let Some(meant) = meant {
             self.read_as(meant, what);
@@ -26,8 +27,8 @@ impl Parser<'_, '_> {
     }
 
     /// Says that another word stands in the place of one, and reads it as that one.
-    pub(super) fn read_as(&mut self, meant: &'static str, what: &str) {
-        self.report_skipped(what, &format!("write '{meant}'"), Some(meant));
+    pub(super) fn read_as(&mut self, meant: &'static str, what: impl Into<Message>) {
+        self.report_skipped(what, message!("write '{}'", meant), Some(meant));
         self.slip = Some((self.at, meant));
     }
 
@@ -45,7 +46,7 @@ impl Parser<'_, '_> {
     pub(super) fn eat_meant(&mut self, word: &'static str, follows: impl Fn(Kind) -> bool) -> bool {
         let is_slip = !self.at_word(word) && self.at_slip(word) && follows(self.nth(1));
         if is_slip {
-            self.read_as(word, &format!("'{word}'"));
+            self.read_as(word, message!("'{}'", word));
         }
         self.eat_word(word)
     }

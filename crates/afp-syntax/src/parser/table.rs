@@ -112,8 +112,7 @@ impl Parser<'_, '_> {
 
     fn no_comma(&mut self) {
         let behind = self.behind();
-        let message = format!("expected ',', found {}", self.found());
-        let error = Diagnostic::new(Code::E0102, behind, message);
+        let error = self.instead_of(behind, "','");
         self.error(error.help("write ',' between the values of a row").fix(behind, ","));
     }
 

@@ -1,8 +1,10 @@
 //! Toolboxes: templates and their parts, object types.
 
 use super::Parser;
+use crate::diagnostics::Message;
 use crate::keywords::{self, PART};
 use crate::kind::Kind;
+use crate::message;
 use crate::units::Unit;
 
 const PART_HELP: &str = "write 'icon', 'uses', 'in', 'out', 'every', 'deadline', 'budget', 'stop', 'state', 'states of' or 'event'";
@@ -134,9 +136,9 @@ impl Parser<'_, '_> {
             && self.nth(1) == Kind::Name
             && !keywords::has(self.word(1), PART)
         {
-            let message = "'uses' names one device".to_owned();
+            let message = "'uses' names one device";
             let ours = format!(" uses {}", self.word(1));
-            self.instead(2, message, format!("write '{}'", ours.trim_start()), &ours);
+            self.instead(2, message, message!("write '{}'", ours.trim_start()), &ours);
         }
         self.close_item();
     }
@@ -153,7 +155,7 @@ impl Parser<'_, '_> {
     /// A value and its bounds, each of which may be missing.
     pub(super) fn value_and_range(&mut self) {
         if self.at(Kind::Colon) && self.nth(1) == Kind::Equal && self.on_same_line() {
-            self.instead(1, "no ':' before '='".to_owned(), "write '='".to_owned(), "");
+            self.instead(1, "no ':' before '='", "write '='", "");
         }
         let has_value = self.eat(Kind::Equal);
         if has_value {
@@ -182,8 +184,8 @@ impl Parser<'_, '_> {
         self.formula();
         if self.word(0) == "to" && self.nth(1) == Kind::Colon && self.nth(2).begins_formula() {
             self.keyword();
-            let message = "no ':' behind 'to'".to_owned();
-            self.instead(1, message, "remove it".to_owned(), "");
+            let message = "no ':' behind 'to'";
+            self.instead(1, message, "remove it", "");
             self.formula();
             self.close();
             return true;
@@ -241,15 +243,15 @@ impl Parser<'_, '_> {
         let stands =
             is_sign && self.on_same_line() && is_name && !keywords::has(self.word(1), PART);
         if stands {
-            let message = format!("expected '|', found {}", self.found());
+            let message = message!("expected '|', found {}", self.found());
             let sign = if self.at(Kind::Comma) { " |" } else { "|" };
-            self.instead(1, message, "write '|'".to_owned(), sign);
+            self.instead(1, message, "write '|'", sign);
         }
         stands
     }
 
     /// A name and its type.
-    pub(super) fn port(&mut self, help: &str) {
+    pub(super) fn port(&mut self, help: impl Into<Message>) {
         self.name(help);
         if self.expect(Kind::Colon, "write ':' and a type") {
             self.ty();

@@ -10,7 +10,7 @@ fn errors(text: &str) -> Vec<(Code, String)> {
     let mut diags = Diagnostics::default();
     let parse = parse(text, 0, &mut diags);
     assert_eq!(parse.text(), text);
-    diags.iter().map(|each| (each.code, each.message.clone())).collect()
+    diags.iter().map(|each| (each.code, each.message_text())).collect()
 }
 
 const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");

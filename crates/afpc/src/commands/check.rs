@@ -9,7 +9,7 @@ use afp_dsl::Compiled;
 use afp_dsl::files::normalised;
 use afp_dsl::timing::{Target, timing};
 use afp_run::{EXIT_FAILED, EXIT_OK, EXIT_USAGE};
-use afp_syntax::diagnostics::Code;
+use afp_syntax::diagnostics::{Code, Message};
 use afp_syntax::source::Span;
 use clap::Args;
 use serde_json::json;
@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
 }
 
 /// What has been told already, since files may be used by several others: file, place, message.
-type Told = HashSet<(PathBuf, Span, Code, String)>;
+type Told = HashSet<(PathBuf, Span, Code, Message)>;
 
 fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPlan> {
     let reader = Reader::of(arguments.json);
@@ -123,7 +123,7 @@ fn leave_out_told(compiled: &mut Compiled, told: &mut Told) {
         let name = sources.get(diagnostic.span.file).map_or("", |source| &source.name);
         let path = std::path::absolute(normalised(name)).unwrap_or_else(|_| name.into());
         let place = Span { file: 0, ..diagnostic.span };
-        told.insert((path, place, diagnostic.code, diagnostic.message.clone()))
+        told.insert((path, place, diagnostic.code, diagnostic.message().clone()))
     });
 }
 

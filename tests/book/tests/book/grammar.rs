@@ -31,7 +31,7 @@ fn the_parser_takes_every_sentence_of_the_grammar() {
         let text = grammar.sentence("file", seed);
         let mut diags = Diagnostics::default();
         parse(&text, 0, &mut diags);
-        let found: Vec<_> = diags.iter().map(|each| (each.code, &each.message)).collect();
+        let found: Vec<_> = diags.iter().map(|each| (each.code, each.message_text())).collect();
         assert!(found.is_empty(), "seed {seed}: {found:?} in\n{text}");
     }
 }

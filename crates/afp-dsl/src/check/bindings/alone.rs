@@ -6,7 +6,8 @@ use super::unknown_port;
 use crate::check::formula::Scope;
 use crate::check::signature::{Input, Signature};
 use afp_syntax::ast::{Bind, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Message, Sought, list, words};
+use afp_syntax::message;
 
 /// The bindings, those alone for outputs as outputs.
 pub(crate) fn meant<'b>(signature: &Signature, binds: &'b [Bind]) -> Cow<'b, [Bind]> {
@@ -30,19 +31,18 @@ pub(super) fn without_port(
     binds: &[Bind],
     name: &Name,
 ) -> Diagnostic {
-    let message = format!("'{}' has no port '{}'", signature.name, name.text);
-    let error = || Diagnostic::new(Code::E0202, name.span, &*message);
-    if let Some(error) = unknown_port::of_inside(signature, &name.text, "in", error) {
+    let message = message!("'{}' has no port '{}'", signature.name, name.text);
+    let error = Diagnostic::new(Code::E0202, name.span, message);
+    if let Some(error) = unknown_port::of_inside(signature, &name.text, "in", &error) {
         return error;
     }
-    let error = error();
     let Some(entry) = scope.indices.find(&name.text).map(|index| &scope.entries[index]) else {
         let inputs = signature.inputs.iter().map(|input| &*input.name);
         let outputs = signature.outputs.iter().map(|output| &*output.name);
         let near = words::nearest(&name.text, inputs.clone().chain(outputs));
         return error.help(match near {
             Some(port) => to_write(port, !inputs.clone().any(|input| input == port)),
-            None => "write the port's name and '=' before the value".to_owned(),
+            None => "write the port's name and '=' before the value".into(),
         });
     };
     let is_open = |input: &&Input| !binds.iter().any(|bind| *bind.port().text == *input.name);
@@ -51,12 +51,12 @@ pub(super) fn without_port(
     match (fitting.next(), fitting.next()) {
         (Some(input), None) => {
             let better = format!("{} = {}", input.name, name.text);
-            error.help(format!("write '{better}'")).replace(better)
+            error.write(better)
         }
         _ if open.is_empty() => error.help("remove it"),
         _ => {
-            let open = words::list(open.iter().map(|input| &*input.name), "or");
-            error.help(format!("write {open} and '=' before it"))
+            let open = list(open.iter().map(|input| &*input.name), "or");
+            error.help(message!("write {} and '=' before it", open))
         }
     }
 }
@@ -64,15 +64,16 @@ pub(super) fn without_port(
 /// Reports a port that is bound to an entry of its own name, which is not there.
 pub(super) fn without_entry(bind: &Bind) -> Diagnostic {
     let Name { text: name, span } = bind.port();
-    let message = format!("there is no entry '{name}' for the port of that name");
+    let message = message!("there is no entry '{}' for the port of that name", name);
     Diagnostic::new(Code::E0209, *span, message)
+        .unknown(Sought::Entry, name)
         .help(to_write(name, matches!(bind, Bind::Out { .. })))
 }
 
 /// What a port needs behind its name.
-fn to_write(port: &str, is_output: bool) -> String {
+fn to_write(port: &str, is_output: bool) -> Message {
     match is_output {
-        false => format!("write '{port} = ' and the value"),
-        true => format!("write '{port} => ' and an entry"),
+        false => message!("write '{} = ' and the value", port),
+        true => message!("write '{} => ' and an entry", port),
     }
 }

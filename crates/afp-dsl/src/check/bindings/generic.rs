@@ -7,7 +7,8 @@ use crate::graph::Formula;
 use crate::toolbox::TemplateKind;
 use crate::types::Type;
 use crate::types::text::a_type;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// What stands for `any` or `number` in one instance.
@@ -67,7 +68,7 @@ pub(super) fn decide(
         (_, Type::Object(_)) => "only the templates of its toolbox look into an object",
         _ => return Generic::Is(ty),
     };
-    let message = format!("expected {}, found {}", a_type(wanted), a_type(&ty));
+    let message = message!("expected {}, found {}", Words(a_type(wanted)), Words(a_type(&ty)));
     diags.push(Diagnostic::new(Code::E0206, span, message).help(help));
     Generic::Unknown
 }

@@ -10,7 +10,8 @@ use crate::graph::{EntryId, EntryKind, Output};
 use crate::types::Type;
 use crate::types::text::a_type;
 use afp_syntax::ast::Name;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words};
+use afp_syntax::message;
 
 /// The outputs that are bound; `None` when something is wrong with one of them.
 pub(super) fn check(
@@ -33,7 +34,7 @@ pub(super) fn check(
                     formula.span(),
                     "an output goes to an entry, not into a formula",
                 )
-                .help(format!("name an entry, and use it in the formulas that read '{name}'")),
+                .help(message!("name an entry, and use it in the formulas that read '{}'", name)),
             );
         }
         let Some(entry) = entry else {
@@ -41,7 +42,7 @@ pub(super) fn check(
             continue;
         };
         if let Some(first) = written.iter().find(|known| known.text == entry.text) {
-            let message = format!("two outputs go to '{}'", entry.text);
+            let message = message!("two outputs go to '{}'", entry.text);
             diags.push(
                 Diagnostic::new(Code::E0220, entry.span, message)
                     .note(first.span, "the other one")
@@ -71,18 +72,19 @@ fn output(
         let writable =
             scope.entries.iter().filter(|e| matches!(e.kind, EntryKind::Var | EntryKind::Out));
         let known = writable.map(|known| known.name.text.as_str());
-        let message = format!("there is no entry '{}'", entry.text);
-        let none = format!("declare it in the plan, such as 'var {}: float'", entry.text);
-        diags.push(unknown(Code::E0209, entry.span, message, &entry.text, known, &none));
+        let message = message!("there is no entry '{}'", entry.text);
+        let none = message!("declare it in the plan, such as 'var {}: float'", entry.text);
+        let error = unknown(Code::E0209, entry.span, message, &entry.text, known, none);
+        diags.push(error.unknown(Sought::Entry, &entry.text));
         return None;
     };
     let target = &scope.entries[index];
     if matches!(target.kind, EntryKind::In | EntryKind::Const) {
         let word = target.kind.word();
-        let message = format!("'{}' is an entry that the plan does not write", entry.text);
+        let message = message!("'{}' is an entry that the plan does not write", entry.text);
         diags.push(
             Diagnostic::new(Code::E0219, entry.span, message)
-                .note(target.name.span, format!("declared as '{word}' here"))
+                .note(target.name.span, message!("declared as '{}' here", word))
                 .help("use an entry declared with 'var' or 'out'"),
         );
         return None;
@@ -91,11 +93,15 @@ fn output(
     let Ok(conversion) = conversion(ty, entry_ty) else {
         let numeric = ty.is_numeric() && entry_ty.is_numeric();
         let code = if numeric { Code::E0204 } else { Code::E0206 };
-        let message = format!("the output is {}, the entry is {}", a_type(ty), a_type(entry_ty));
+        let message = message!(
+            "the output is {}, the entry is {}",
+            Words(a_type(ty)),
+            Words(a_type(entry_ty))
+        );
         diags.push(
             Diagnostic::new(code, entry.span, message)
                 .note(target.name.span, "the entry is declared here")
-                .help(format!("use an entry that is {}", a_type(ty))),
+                .help(message!("use an entry that is {}", Words(a_type(ty)))),
         );
         return None;
     };

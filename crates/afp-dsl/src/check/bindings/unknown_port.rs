@@ -1,12 +1,13 @@
 //! Bindings of what is no port, and what they were meant for.
 
 use crate::check::formula::Scope;
-use crate::check::names::unknown;
+use crate::check::names::offer;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::graph::EntryKind;
 use crate::toolbox::TemplateKind;
 use afp_syntax::ast::Bind;
 use afp_syntax::diagnostics::{Code, Diagnostic, words};
+use afp_syntax::message;
 
 /// What is said of a binding, one of several, whose name is no port.
 pub(super) fn report(
@@ -16,10 +17,10 @@ pub(super) fn report(
     bind: &Bind,
 ) -> Diagnostic {
     let port = bind.port();
-    let message = format!("'{}' has no port '{}'", signature.name, port.text);
+    let message = message!("'{}' has no port '{}'", signature.name, port.text);
     let word = if matches!(bind, Bind::In { .. }) { "in" } else { "out" };
-    let error = || Diagnostic::new(Code::E0202, port.span, &*message);
-    if let Some(error) = of_inside(signature, &port.text, word, error) {
+    let error = Diagnostic::new(Code::E0202, port.span, message);
+    if let Some(error) = of_inside(signature, &port.text, word, &error) {
         return error;
     }
     let inputs = signature.inputs.iter().map(|input| &*input.name);
@@ -32,20 +33,20 @@ pub(super) fn report(
         && let Bind::In { formula: Some(formula), .. } = bind
     {
         let value = scope.text_of(formula.span());
-        let error = Diagnostic::new(Code::E0202, port.span, &*message);
         if let Some(better) = assignment(scope, signature, binds, bind, value) {
             let place = port.span.to(formula.span());
-            return error.help(format!("write '{better}'")).fix(place, better);
+            return error.write_at(place, better);
         }
         let is_time = matches!(port.text.as_str(), "every" | "deadline");
         let watches = signature.kind == SignatureKind::Template(TemplateKind::Supervisor);
         if is_time && watches {
             let name = &signature.name;
-            let help = format!("write '{} {value}' behind '{name}' and its brackets", port.text);
+            let help =
+                message!("write '{} {}' behind '{}' and its brackets", port.text, value, name);
             return error.help(help);
         }
     }
-    unknown(Code::E0202, port.span, message, &port.text, known, "remove the binding")
+    offer(error, &port.text, known, "remove the binding")
 }
 
 /// What is said of an entry of a sub-plan that is no port, in addition to an error.
@@ -53,13 +54,13 @@ pub(super) fn of_inside(
     signature: &Signature,
     name: &str,
     word: &str,
-    error: impl Fn() -> Diagnostic,
+    error: &Diagnostic,
 ) -> Option<Diagnostic> {
     let (_, kind, place) = signature.inner.iter().find(|(inner, ..)| inner == name)?;
     let kind = kind.word();
-    let note = format!("a '{kind}' of '{}', which others do not see", signature.name);
-    let help = format!("declare '{name}' with '{word}' in place of '{kind}' there");
-    Some(error().note(*place, note).help(help))
+    let note = message!("a '{}' of '{}', which others do not see", kind, signature.name);
+    let help = message!("declare '{}' with '{}' in place of '{}' there", name, word, kind);
+    Some(error.bare().note(*place, note).help(help))
 }
 
 /// `Assign(a = 7)`, where `a` is an entry: what writes it.

@@ -7,8 +7,9 @@ use super::bracketed;
 use crate::graph::{Formula, FormulaKind};
 use crate::types::Dimension;
 use crate::types::text::a_dimension;
-use afp_syntax::diagnostics::{Code, Diagnostic, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Words, words};
 use afp_syntax::literal::Literal;
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::units::Unit;
 
@@ -61,9 +62,10 @@ pub(crate) fn likely(number: &str, dimension: Dimension, range: Option<(f64, f64
 
 /// A number without a unit at a place, with what may be written there: the only one as an edit.
 pub(crate) fn bare(span: Span, dimension: Dimension, better: &[String]) -> Diagnostic {
-    let message = format!("expected {}, found a bare number", a_dimension(dimension));
+    let message = message!("expected {}, found a bare number", Words(a_dimension(dimension)));
     let list = words::list(better.iter().map(String::as_str), "or");
-    let error = Diagnostic::new(Code::E0203, span, message).help(format!("write {list}"));
+    let error =
+        Diagnostic::new(Code::E0203, span, message).help(message!("write {}", Words(&list)));
     match better {
         [better] => error.replace(better.as_str()),
         _ => error,

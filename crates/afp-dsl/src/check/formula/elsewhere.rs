@@ -1,26 +1,27 @@
 //! Names in formulas that nothing is called, and what other languages mean by them.
 
 use super::Scope;
-use crate::check::names::unknown;
+use crate::check::names::offer;
 use afp_syntax::ast;
-use afp_syntax::diagnostics::{Code, Diagnostic, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Sought, words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// What objects call themselves elsewhere.
 const OWN: &[&str] = &["self", "this"];
 
 /// What is said of a name that other languages have for a value.
-fn elsewhere(name: &str) -> Option<String> {
-    let help = match name {
+fn elsewhere(error: &Diagnostic, name: &str) -> Option<Diagnostic> {
+    let error = error.clone();
+    Some(match name {
         "pi" | "PI" | "Pi" | "M_PI" => {
-            "write '180 deg' for the angle, '3.141592653589793' for the number"
+            error.help("write '180 deg' for the angle, '3.141592653589793' for the number")
         }
-        "None" | "none" | "null" | "NULL" | "nil" | "nullptr" | "undefined" => {
-            "there is none: a 'var' without '=' and a value has no value until one is written"
-        }
+        "None" | "none" | "null" | "NULL" | "nil" | "nullptr" | "undefined" => error.elsewhere(
+            "there is none: a 'var' without '=' and a value has no value until one is written",
+        ),
         _ => return None,
-    };
-    Some(help.to_owned())
+    })
 }
 
 /// Reports a name before a point that no enum has.
@@ -31,52 +32,49 @@ pub(super) fn unknown_enum(
     span: Span,
 ) -> Diagnostic {
     let known = scope.types.enums.iter().map(|(_, each)| each.name.as_str());
-    let message = format!("there is no enum '{}'", home.text);
-    let error = || Diagnostic::new(Code::E0239, home.span, &*message);
-    if let Some(error) = scope.types.hidden(&home.text, error) {
+    let message = message!("there is no enum '{}'", home.text);
+    let error = Diagnostic::new(Code::E0239, home.span, message);
+    if let Some(error) = scope.types.hidden(&home.text, &error) {
         return error;
     }
-    let error = error();
     if OWN.contains(&home.text.as_str()) && scope.indices.find(&name.text).is_some() {
-        return error.help(format!("write '{}'", name.text)).fix(span, &*name.text);
+        return error.help(message!("write '{}'", name.text)).fix(span, &*name.text);
     }
     if words::nearest(&home.text, known.clone()).is_none()
-        && let Some(help) = elsewhere(&name.text)
+        && let Some(error) = elsewhere(&error, &name.text)
     {
-        return error.help(help);
+        return error;
     }
     let none = "declare it in the file, or write the name of an entry";
-    unknown(Code::E0239, home.span, message, &home.text, known, none)
+    offer(error, &home.text, known, none)
 }
 
 /// Reports a name that no entry has.
 pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
     if let Some(table) = scope.table(name) {
-        let message = format!("'{}' is a table, not a value", name.text);
+        let message = message!("'{}' is a table, not a value", name.text);
         return Diagnostic::new(Code::E0209, name.span, message)
             .note(table.span, "declared here")
-            .help("read its rows with 'Row' of 'std', and use what comes out");
+            .elsewhere("read its rows with 'Row' of 'std', and use what comes out");
     }
-    let message = format!("there is no entry '{}'", name.text);
+    let message = message!("there is no entry '{}'", name.text);
+    let error = Diagnostic::new(Code::E0209, name.span, message);
+    let error = error.unknown(Sought::Entry, &name.text);
     let home = scope.types.enums.iter().find(|(_, home)| home.variants.contains(&name.text));
     if let Some((_, home)) = home {
         let better = format!("{}.{}", home.name, name.text);
-        return Diagnostic::new(Code::E0209, name.span, message)
-            .help(format!("write '{better}'"))
-            .replace(better);
+        return error.write(better);
     }
     let constant = ["true", "false"].into_iter().find(|it| it.eq_ignore_ascii_case(&name.text));
     if let Some(constant) = constant {
-        return Diagnostic::new(Code::E0209, name.span, message)
-            .help(format!("write '{constant}'"))
-            .replace(constant);
+        return error.write(constant);
     }
     let readable = scope.entries.iter().enumerate().filter(|(at, _)| (scope.readable)(*at));
     let known = readable.map(|(_, entry)| entry.name.text.as_str());
     if !known.clone().any(|entry| entry.eq_ignore_ascii_case(&name.text))
-        && let Some(help) = elsewhere(&name.text)
+        && let Some(error) = elsewhere(&error, &name.text)
     {
-        return Diagnostic::new(Code::E0209, name.span, message).help(help);
+        return error;
     }
     // Toolboxes have no entries; only there are generic types.
     let none = match scope.entries {
@@ -84,5 +82,5 @@ pub(super) fn unknown_entry(scope: &Scope<'_>, name: &ast::Name) -> Diagnostic {
         [] if !scope.unreadable.is_empty() => scope.unreadable,
         _ => "declare it in the plan",
     };
-    unknown(Code::E0209, name.span, message, &name.text, known, none)
+    offer(error, &name.text, known, none)
 }

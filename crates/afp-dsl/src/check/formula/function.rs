@@ -12,7 +12,8 @@ use crate::index::Word;
 use crate::types::text::{a_dimension, a_type};
 use crate::types::{Dimension, Type};
 use afp_syntax::ast::{self, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// The function of a name; reports one that formulas do not have.
@@ -28,10 +29,10 @@ pub(super) fn named(
         None => {
             scope.record.unknown(name.span);
             let known = Function::ALL.iter().map(|function| function.name());
-            let message = format!("formulas have no function '{}'", name.text);
+            let message = message!("formulas have no function '{}'", name.text);
             if let Some(better) = in_terms_of_ours(scope, &name.text, operands) {
                 let error = Diagnostic::new(Code::E0243, name.span, message);
-                diags.push(error.help(format!("write '{better}'")).fix(span, better));
+                diags.push(error.write_at(span, better));
                 return None;
             }
             diags.push(unknown(Code::E0243, name.span, message, &name.text, known, ""));
@@ -125,13 +126,13 @@ fn root(dimension: Dimension, span: Span, diags: &mut Diagnostics) -> Option<Typ
     if let Some(root) = dimension.root() {
         return Some(Type::Quantity(root));
     }
-    let message = format!("{} has no square root", a_dimension(dimension));
-    let square = dimension
-        .power(2)
-        .map_or_else(String::new, |square| format!(", or of {}", a_type(&Type::Quantity(square))));
+    let message = message!("{} has no square root", Words(a_dimension(dimension)));
+    let square = dimension.power(2).map_or_else(Message::default, |square| {
+        message!(", or of {}", Words(a_type(&Type::Quantity(square))))
+    });
     diags.push(
         Diagnostic::new(Code::E0242, span, message)
-            .help(format!("take the root of a number{square}")),
+            .help(message!("take the root of a number{}", square)),
     );
     None
 }
@@ -150,7 +151,7 @@ pub(super) fn takes(
         return Some(());
     }
     let comma = if is_too_much { decimal_comma(operands.iter()) } else { None };
-    let help = format!("write '{}'{}", with_operands(function), comma.unwrap_or_default());
+    let help = message!("write '{}'{}", with_operands(function), comma.unwrap_or_default());
     diags.push(wrong_number(function, operands.len(), span).help(help));
     None
 }
@@ -159,7 +160,14 @@ fn wrong_number(function: Function, given: usize, span: Span) -> Diagnostic {
     let (least, most) = function.operands();
     let more = if most.is_none() { " or more" } else { "" };
     let plural = if least == 1 { "" } else { "s" };
-    let message = format!("'{}' takes {least}{more} operand{plural}, not {given}", function.name());
+    let message = message!(
+        "'{}' takes {}{} operand{}, not {}",
+        function.name(),
+        least,
+        Words(more),
+        Words(plural),
+        given
+    );
     Diagnostic::new(Code::E0243, span, message)
 }
 

@@ -6,7 +6,8 @@ use crate::graph::{Formula, FormulaKind, Operator};
 use crate::types::text::{a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
 use afp_syntax::ast::Sign;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// `left operator right`
@@ -86,7 +87,7 @@ pub(super) fn to_number(formula: Formula, diags: &mut Diagnostics) -> Option<For
             Some(convert(formula, Conversion::BoolToInt, Type::Int))
         }
         _ => {
-            let message = format!("{} cannot be computed with", a_type(&formula.ty));
+            let message = message!("{} cannot be computed with", Words(a_type(&formula.ty)));
             diags.push(
                 Diagnostic::new(Code::E0242, formula.span, message)
                     .help("use numbers or quantities; texts can be joined with '+'"),
@@ -100,7 +101,7 @@ fn to_text(formula: Formula, diags: &mut Diagnostics) -> Option<Formula> {
     match &formula.ty {
         Type::Text => Some(formula),
         Type::Object(_) | Type::Any | Type::Number | Type::Discrete => {
-            let message = format!("{} has no text", a_type(&formula.ty));
+            let message = message!("{} has no text", Words(a_type(&formula.ty)));
             diags.push(
                 Diagnostic::new(Code::E0242, formula.span, message)
                     .help("join texts, numbers, quantities, bools or values of enums"),
@@ -122,11 +123,12 @@ pub(super) fn different(scope: &Scope<'_>, left: &Formula, right: &Formula) -> D
     } else if a == Dimension::NONE {
         (left, right)
     } else {
-        let message = format!("expected {}, found {}", a_dimension(a), a_dimension(b));
+        let message =
+            message!("expected {}, found {}", Words(a_dimension(a)), Words(a_dimension(b)));
         return Diagnostic::new(Code::E0205, right.span, message)
-            .note(left.span, format!("this is {}", a_dimension(a)))
+            .note(left.span, message!("this is {}", Words(a_dimension(a))))
             .help("compute only with quantities of one dimension here");
     };
     unit_missing(bare, dimension(other), None, scope.text_of(bare.span))
-        .note(other.span, format!("this is {}", a_dimension(dimension(other))))
+        .note(other.span, message!("this is {}", Words(a_dimension(dimension(other)))))
 }

@@ -17,6 +17,7 @@ use crate::outline::{Component, ComponentKind, Times};
 use crate::toolbox::Template;
 use afp_syntax::ast::{self, ElementKind, Frame};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 use super::faults::{Faults, Owner, add_remarks};
@@ -268,7 +269,7 @@ impl Components<'_> {
                     Diagnostic::new(
                         Code::E0511,
                         keyword.span,
-                        format!("'{}' is given twice", keyword.text),
+                        message!("'{}' is given twice", keyword.text),
                     )
                     .note(first, "first given here")
                     .help("remove one of them"),

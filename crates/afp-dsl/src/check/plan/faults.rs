@@ -43,7 +43,7 @@ pub(super) fn add_remarks(mut remarks: Diagnostics, faults: Faults, diags: &mut 
         Faults::Unconnected => {}
         Faults::EndPlan => remarks.change(|remark| {
             if remark.code == Code::E0208 {
-                remark.help = "use an entry of that type: what fails here ends the plan".to_owned();
+                remark.set_help("use an entry of that type: what fails here ends the plan");
             }
         }),
     }

@@ -12,8 +12,8 @@ use crate::graph::{Component, EntryKind, Target};
 use crate::scenario::{Action, Injection, Outcome};
 use crate::types::{Constant, Type};
 use afp_syntax::ast::{self, Bind, Name};
-use afp_syntax::diagnostics::words;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Subject, Words, list};
+use afp_syntax::message;
 
 /// Everything that can happen.
 pub const VERBS: &[&str] = &["press", "release", "fail", "fire", "finish", "idle", "set"];
@@ -42,7 +42,7 @@ impl Checker<'_> {
             "finish" => self.finish(&path, &node.binds(), diags),
             "idle" => self.idle(&path, diags),
             _ => {
-                let message = format!("there is no action '{}'", verb.text);
+                let message = message!("there is no action '{}'", verb.text);
                 // Nothing but that is followed by a value.
                 let sets = node.value().is_some();
                 let known = VERBS.iter().copied().filter(|verb| sets == (*verb == "set"));
@@ -59,7 +59,7 @@ impl Checker<'_> {
             && VERBS.contains(&verb.text.as_str())
             && verb.text != "set"
         {
-            let message = format!("'{}' takes no time", verb.text);
+            let message = message!("'{}' takes no time", verb.text);
             diags.push(
                 Diagnostic::new(Code::E0606, time.span(), message)
                     .help("remove 'for' and the time"),
@@ -70,7 +70,7 @@ impl Checker<'_> {
             && let Some(bind) = node.binds().first()
         {
             let port = bind.port();
-            let message = format!("'{}' has nothing that is called '{}'", verb.text, port.text);
+            let message = message!("'{}' has nothing that is called '{}'", verb.text, port.text);
             diags
                 .push(Diagnostic::new(Code::E0606, port.span, message).help("remove the brackets"));
             return None;
@@ -87,19 +87,19 @@ impl Checker<'_> {
                 return self.injection(path, found, &name, binds, diags);
             }
             Some(Component::SubPlan(_)) if fails => {
-                "fire the 'Error' of the actor that is active inside".to_owned()
+                "fire the 'Error' of the actor that is active inside".into()
             }
-            Some(Component::Computation(_)) => COMPUTES.to_owned(),
-            Some(Component::SubPlan(_)) => "finish the actor that is active inside".to_owned(),
+            Some(Component::Computation(_)) => COMPUTES.into(),
+            Some(Component::SubPlan(_)) => "finish the actor that is active inside".into(),
             Some(Component::Actor(_)) if self.paths.outcome(found, &name.text).is_none() => {
                 diags.push(self.event_meant(path, found, &name));
                 return None;
             }
-            Some(Component::Actor(_)) => format!("write 'finish {}' for a state", path.text()),
+            Some(Component::Actor(_)) => message!("write 'finish {}' for a state", path.text()),
         };
         let what = match fails {
-            true => "'fire' is for errors of actors, not of other elements",
-            false => "'fire' is for events of supervisors",
+            true => message!("'{}' is for errors of actors, not of other elements", "fire"),
+            false => message!("'{}' is for events of supervisors", "fire"),
         };
         diags.push(Diagnostic::new(Code::E0602, path.span(), what).help(help));
         None
@@ -112,14 +112,18 @@ impl Checker<'_> {
             Some(Component::Actor(_)) if !fails => {
                 return self.injection(path, found, &name, binds, diags);
             }
-            Some(Component::Actor(_)) => format!("write 'fire {}' for an error", path.text()),
-            None => format!("write 'fire {}' for an event", path.text()),
-            Some(Component::Computation(_)) => COMPUTES.to_owned(),
-            Some(Component::SubPlan(_)) => "finish the actor that is active inside".to_owned(),
+            Some(Component::Actor(_)) => message!("write 'fire {}' for an error", path.text()),
+            None => message!("write 'fire {}' for an event", path.text()),
+            Some(Component::Computation(_)) => COMPUTES.into(),
+            Some(Component::SubPlan(_)) => "finish the actor that is active inside".into(),
         };
         diags.push(
-            Diagnostic::new(Code::E0602, path.span(), "'finish' is for states of actors")
-                .help(help),
+            Diagnostic::new(
+                Code::E0602,
+                path.span(),
+                message!("'{}' is for states of actors", "finish"),
+            )
+            .help(help),
         );
         None
     }
@@ -130,8 +134,9 @@ impl Checker<'_> {
         let found = match self.paths.find(self.paths.main(), &names) {
             Ok((found, [])) => found,
             Ok((_, [more, ..])) => {
-                let error = Diagnostic::new(Code::E0602, more.span, "'idle' is for actors");
-                diags.push(error.help(format!("remove '.{}'", more.text)));
+                let error =
+                    Diagnostic::new(Code::E0602, more.span, message!("'{}' is for actors", "idle"));
+                diags.push(error.help(message!("remove '.{}'", more.text)));
                 return None;
             }
             Err(_) if path.text() == "all" => return Some(Action::Idle(None)),
@@ -147,7 +152,8 @@ impl Checker<'_> {
             Some(Component::Computation(_)) => "a computation does nothing to the robot anyway",
             None => "a supervisor does nothing to the robot; name the actor that it watches over",
         };
-        let error = Diagnostic::new(Code::E0602, path.span(), "'idle' is for actors and sub-plans");
+        let message = message!("'{}' is for actors and sub-plans", "idle");
+        let error = Diagnostic::new(Code::E0602, path.span(), message);
         diags.push(error.help(help));
         None
     }
@@ -172,9 +178,10 @@ impl Checker<'_> {
                 true => ("leads nowhere, so that nothing would follow", "this has no such edge"),
                 false => ("is ignored, so it is never reported", "ignored here"),
             };
-            let message = format!("'{}' {message}", path.text());
+            let message = message!("'{}' {}", path.text(), Words(message));
             diags.push(
                 Diagnostic::new(Code::E0603, path.span(), message)
+                    .about(Subject::Path(path.text()))
                     .note(self.paths.edge(found, outcome), note)
                     .help("fire an event that leads somewhere"),
             );
@@ -188,7 +195,7 @@ impl Checker<'_> {
     pub(super) fn no_outcome(&self, found: Found, name: &Name) -> Diagnostic {
         let owner = self.paths.name(found);
         let what = if matches!(found.part, Part::Supervisor(_)) { "event" } else { "state" };
-        let message = format!("'{owner}' has no {what} '{}'", name.text);
+        let message = message!("'{}' has no {} '{}'", owner, Words(what), name.text);
         let known = self.paths.outcomes(found);
         unknown(Code::E0210, name.span, message, &name.text, known, "write another name")
     }
@@ -214,7 +221,7 @@ impl Checker<'_> {
             let index = wanted.iter().position(|(_, known, _)| known.name == port.text);
             let Some(index) = index else {
                 let message =
-                    format!("'{}' brings no connected output '{}'", path.text(), port.text);
+                    message!("'{}' brings no connected output '{}'", path.text(), port.text);
                 let known = wanted.iter().map(|(_, port, _)| port.name.as_str());
                 let none = "remove the value";
                 diags.push(unknown(Code::E0608, port.span, message, &port.text, known, none));
@@ -224,7 +231,7 @@ impl Checker<'_> {
             let Bind::In { formula: Some(formula), .. } = bind else {
                 diags.push(
                     Diagnostic::new(Code::E0608, port.span, "an output needs a value here")
-                        .help(format!("write '{} = ...'", port.text)),
+                        .help(message!("write '{} = ...'", port.text)),
                 );
                 valid = false;
                 continue;
@@ -235,13 +242,15 @@ impl Checker<'_> {
         let missing = wanted.iter().zip(&values).filter(|(_, value)| value.is_none());
         let missing: Vec<_> = missing.map(|((_, port, ty), _)| (port, ty)).collect();
         if valid && !missing.is_empty() {
-            let names = words::list(missing.iter().map(|(port, _)| port.name.as_str()), "and");
-            let message = format!("'{}' also brings {names}, which has no value here", path.text());
+            let names = list(missing.iter().map(|(port, _)| port.name.as_str()), "and");
+            let message =
+                message!("'{}' also brings {}, which has no value here", path.text(), names);
             let object = missing.iter().any(|(_, ty)| matches!(ty, Type::Object(_)));
             let help = match object {
-                true => "choose another outcome: an object can be made by its component alone"
-                    .to_owned(),
-                false => format!("write '({} = ...)' behind it", missing[0].0.name),
+                true => {
+                    "choose another outcome: an object can be made by its component alone".into()
+                }
+                false => message!("write '({} = ...)' behind it", missing[0].0.name),
             };
             diags.push(
                 Diagnostic::new(Code::E0608, path.span(), message)

@@ -7,11 +7,12 @@ use super::often::wanted;
 use super::paths::{Found, Part};
 use super::resolve;
 use super::{Checker, Stretch};
-use crate::check::names::unknown;
+use crate::check::names::{offer, unknown};
 use crate::graph::{Component, Target};
 use crate::scenario::{Cause, Claim, Destination, Expectation, Outcome};
 use afp_syntax::ast::{self, Bound, ClaimKind, ClaimTarget, Line, Name, Path};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Subject, list, words};
+use afp_syntax::message;
 
 impl Checker<'_> {
     pub(super) fn expectation(
@@ -53,17 +54,17 @@ impl Checker<'_> {
         if rest.is_empty() && matches!(found.part, Part::Element(_)) {
             return Some(found);
         }
-        let message = format!("'{}' is no element", path.text());
+        let message = message!("'{}' is no element", path.text());
         let events = self.paths.outcomes(found);
         let named = rest.first().and_then(|name| events.iter().find(|event| **event == name.text));
         let help = match (rest, named.or(events.first())) {
             (_, Some(event)) if !matches!(found.part, Part::Element(_)) => {
                 let own = names.iter().take(names.len() - rest.len());
                 let supervisor: Vec<_> = own.map(|name| name.text.as_str()).collect();
-                format!("expect its event alone: 'expect {}.{event}'", supervisor.join("."))
+                message!("expect its event alone: 'expect {}.{}'", supervisor.join("."), event)
             }
-            ([more, ..], _) => format!("remove '.{}'", more.text),
-            ([], _) => "write the name of an element".to_owned(),
+            ([more, ..], _) => message!("remove '.{}'", more.text),
+            ([], _) => "write the name of an element".into(),
         };
         diags.push(Diagnostic::new(Code::E0602, path.span(), message).help(help));
         None
@@ -81,12 +82,13 @@ impl Checker<'_> {
     fn lasting(&self, path: &Path, diags: &mut Diagnostics) -> Option<u32> {
         let found = self.element(path, diags)?;
         if let Some(Component::Computation(_)) = self.paths.component(found) {
-            let message = format!("'{}' is a computation and takes no time", path.text());
+            let message = message!("'{}' is a computation and takes no time", path.text());
             let state = self.paths.outcomes(found).first().copied().unwrap_or("Error");
-            diags.push(
-                Diagnostic::new(Code::E0604, path.span(), message)
-                    .help(format!("expect one of its states, such as '{}.{state}'", path.text())),
-            );
+            diags.push(Diagnostic::new(Code::E0604, path.span(), message).help(message!(
+                "expect one of its states, such as '{}.{}'",
+                path.text(),
+                state
+            )));
             return None;
         }
         Some(self.paths.number(found))
@@ -114,13 +116,14 @@ impl Checker<'_> {
         if let (Some(to), Some(path)) = (found, to.path())
             && to.instance != from.instance
         {
-            let message = format!(
+            let message = message!(
                 "'{}' and '{}' belong to different plans, so no edge joins them",
                 from_path.text(),
                 path.text()
             );
             diags.push(
                 Diagnostic::new(Code::E0603, path.span(), message)
+                    .about(Subject::Path(from_path.text()))
                     .help("name two elements of one plan, or expect the other one 'active'"),
             );
             return None;
@@ -185,26 +188,31 @@ impl Checker<'_> {
         let (span, message) = match by {
             Some((_, path)) => (
                 path.span(),
-                format!("'{}' does not lead from '{}' to '{name}'", path.text(), from_path.text()),
+                message!(
+                    "'{}' does not lead from '{}' to '{}'",
+                    path.text(),
+                    from_path.text(),
+                    name
+                ),
             ),
             None => (
                 target.path().map_or(from_path.span(), Path::span),
-                format!("no edge leads from '{}' to '{name}'", from_path.text()),
+                message!("no edge leads from '{}' to '{}'", from_path.text(), name),
             ),
         };
         let help = match others.as_slice() {
             [] => self.goals(from, from_path, &causes),
             others => {
-                let list = words::list(others.iter().map(String::as_str), "or");
-                format!("what leads there is {list}")
+                message!("what leads there is {}", list(others.iter().map(String::as_str), "or"))
             }
         };
-        diags.push(Diagnostic::new(Code::E0603, span, message).help(help));
+        let subject = Subject::Path(by.map_or(from_path, |(_, path)| path).text());
+        diags.push(Diagnostic::new(Code::E0603, span, message).about(subject).help(help));
         None
     }
 
     /// Where the edges out of an element lead, for a help.
-    fn goals(&self, from: Found, path: &Path, causes: &[(Found, Outcome)]) -> String {
+    fn goals(&self, from: Found, path: &Path, causes: &[(Found, Outcome)]) -> Message {
         let home = path.text();
         let home = home.rsplit_once('.').map_or(String::new(), |(home, _)| format!("{home}."));
         let name = |target| match target {
@@ -221,8 +229,8 @@ impl Checker<'_> {
             causes.iter().filter_map(|(each, outcome)| self.paths.target_at(*each, *outcome, from));
         let goals: std::collections::BTreeSet<_> = goals.filter_map(name).collect();
         match goals.is_empty() {
-            true => format!("no edge leads out of '{}'; expect another element", path.text()),
-            false => format!("it leads to {}", words::list(goals.iter().map(String::as_str), "or")),
+            true => message!("no edge leads out of '{}'; expect another element", path.text()),
+            false => message!("it leads to {}", list(goals.iter().map(String::as_str), "or")),
         }
     }
 
@@ -266,7 +274,7 @@ impl Checker<'_> {
 
     fn unknown_cause(&self, from: Found, name: &Name) -> Diagnostic {
         let owner = self.paths.name(from);
-        let message = format!("nothing that can end '{owner}' is called '{}'", name.text);
+        let message = message!("nothing that can end '{}' is called '{}'", owner, name.text);
         let causes = self.paths.causes(from);
         let known = causes.iter().filter(|(_, outcome)| *outcome != Outcome::Special);
         let known = known.map(|(found, outcome)| match *found == from {
@@ -278,7 +286,9 @@ impl Checker<'_> {
         let known = known.iter().map(String::as_str);
         let error = unknown(Code::E0602, name.span, message, &name.text, known, "remove 'by'");
         match self.paths.of_another(from, &name.text) {
-            Some((place, other)) => error.note(place, format!("this one is about '{other}' alone")),
+            Some((place, other)) => {
+                error.note(place, message!("this one is about '{}' alone", other))
+            }
             None => error,
         }
     }
@@ -301,7 +311,7 @@ impl Checker<'_> {
             },
             [first, _, ..] if self.paths.outcome(found, &first.text).is_none() => {
                 let owner = self.paths.name(found);
-                let message = format!("'{owner}' has no supervisor '{}'", first.text);
+                let message = message!("'{}' has no supervisor '{}'", owner, first.text);
                 let known = self.paths.supervisors(found);
                 let none = "name one of its states alone";
                 diags.push(match found.part {
@@ -330,12 +340,11 @@ impl Checker<'_> {
             && let Some(better) = ends::meant(&written)
         {
             let better = format!("end by {better}");
-            let error = Diagnostic::new(error.code, error.span, error.message);
-            return error.help(format!("write '{better}'")).replace(better);
+            return error.bare().write(better);
         }
         let error = self.owner_meant(&path.names(), None, error);
         match error.fix.is_none() && words::nearest(&written, facts()).is_some() {
-            true => unknown(Code::E0602, error.span, error.message, &written, facts(), ""),
+            true => offer(error.bare(), &written, facts(), ""),
             false => error,
         }
     }
@@ -352,12 +361,12 @@ impl Checker<'_> {
         };
         if rest.is_empty() {
             let name = path.text();
-            let message = format!("what is expected of '{name}' is not said");
+            let message = message!("what is expected of '{}' is not said", name);
             let outcome = self.paths.outcomes(found).first().map(|first| format!("{name}.{first}"));
             let help = match (found.part, outcome) {
-                (Part::Element(_), _) => format!("write '{name} active'"),
-                (_, Some(outcome)) => format!("write '{outcome}'"),
-                (_, None) => "name one of its events".to_owned(),
+                (Part::Element(_), _) => message!("write '{} active'", name),
+                (_, Some(outcome)) => message!("write '{}'", outcome),
+                (_, None) => "name one of its events".into(),
             };
             diags.push(Diagnostic::new(Code::E0604, path.span(), message).help(help));
             return None;
@@ -368,9 +377,10 @@ impl Checker<'_> {
             && !targets.is_empty()
             && targets.iter().all(|target| *target == Target::Ignore)
         {
-            let message = format!("'{}' is ignored, so it is never taken", path.text());
+            let message = message!("'{}' is ignored, so it is never taken", path.text());
             diags.push(
                 Diagnostic::new(Code::E0603, path.span(), message)
+                    .about(Subject::Path(path.text()))
                     .note(self.paths.edge(found, outcome), "ignored here")
                     .help("expect an event that leads somewhere"),
             );

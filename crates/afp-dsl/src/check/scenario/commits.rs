@@ -5,7 +5,8 @@ use super::paths::Part;
 use crate::graph::{Component, EntryKind};
 use crate::scenario::Claim;
 use afp_syntax::ast::Path;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Subject};
+use afp_syntax::message;
 
 impl Checker<'_> {
     pub(super) fn commit(
@@ -31,9 +32,10 @@ impl Checker<'_> {
             self.paths.entry(&path.names()).map_err(|error| diags.push(*error)).ok()?;
         let entry = &self.paths.graph.plan(plan).entries[id.index()];
         if entry.kind == EntryKind::Const {
-            let message = format!("'{}' never changes", path.text());
+            let message = message!("'{}' never changes", path.text());
             diags.push(
                 Diagnostic::new(Code::E0603, path.span(), message)
+                    .about(Subject::Path(path.text()))
                     .note(entry.span, "declared here")
                     .help("name an entry that is no 'const'"),
             );
@@ -54,7 +56,7 @@ impl Checker<'_> {
             self.paths.find(self.paths.main(), &names).map_err(|error| diags.push(*error)).ok()?;
         if let Some(more) = rest.first() {
             let message = "components write entries, not their states or events";
-            let help = format!("remove '.{}'", more.text);
+            let help = message!("remove '.{}'", more.text);
             diags.push(Diagnostic::new(Code::E0604, more.span, message).help(help));
             return None;
         }
@@ -68,8 +70,8 @@ impl Checker<'_> {
         if writes || anything {
             return Some(self.paths.number(found));
         }
-        let what = entry.map_or("any entry".to_owned(), |(_, path)| format!("'{}'", path.text()));
-        let message = format!("'{}' does not write {what}", path.text());
+        let what = entry.map_or("any entry".into(), |(_, path)| message!("'{}'", path.text()));
+        let message = message!("'{}' does not write {}", path.text(), what);
         let plan = self.paths.graph.plan(found.instance.plan());
         let span = match found.part {
             Part::Element(id) => plan.elements[id.index()].span,
@@ -77,6 +79,7 @@ impl Checker<'_> {
         };
         diags.push(
             Diagnostic::new(Code::E0603, path.span(), message)
+                .about(Subject::Path(path.text()))
                 .note(span, "declared here")
                 .help("name a component with an output ('=>') that leads there"),
         );

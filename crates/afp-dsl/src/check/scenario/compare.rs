@@ -7,6 +7,7 @@ use crate::scenario::{Claim, Comparison, Operand, Subject};
 use crate::types::Type;
 use afp_syntax::ast::{Formula, FormulaKind, Name, Path, Ref};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// Names that stand together.
@@ -60,13 +61,13 @@ impl Checker<'_> {
             None => error,
         };
         if let Type::Object(_) = left.ty {
-            let message = format!("'{}' is an object, which only components can read", named.text);
+            let message = message!("'{}' is an object, which only components can read", named.text);
             let error = Diagnostic::new(Code::E0604, named.span, message);
             diags.push(at(error).help("expect what the plan makes of it"));
             return None;
         }
         if comparison.is_order() && !left.ty.is_numeric() {
-            let message = format!("values of '{}' have no order", left.ty);
+            let message = message!("values of '{}' have no order", left.ty);
             let error = Diagnostic::new(Code::E0604, sign.span, message);
             diags.push(at(error).help("write '==' or '!='"));
             return None;
@@ -92,8 +93,8 @@ impl Checker<'_> {
         let place = left.span.to(right.span);
         let error = Diagnostic::new(Code::E0604, place, message);
         match sign.text.as_str() {
-            "==" => error.help(format!("write '{better}'")).replace(better),
-            _ => error.help(format!("write 'never {better}'")),
+            "==" => error.write(better),
+            _ => error.help(message!("write 'never {}'", better)),
         }
     }
 
@@ -124,13 +125,14 @@ impl Checker<'_> {
         if other.ty == *ty || numbers == [true, true] {
             return Some(Operand::Subject(other.subject));
         }
-        let message = format!("'{}' is of type '{ty}', and this of type '{}'", left.text, other.ty);
+        let message =
+            message!("'{}' is of type '{}', and this of type '{}'", left.text, ty, other.ty);
         let error = Diagnostic::new(Code::E0604, formula.span(), message);
         let error = match other.declared {
             Some(declared) => error.note(declared, "declared here"),
             None => error,
         };
-        diags.push(error.help(format!("compare it with something of type '{ty}'")));
+        diags.push(error.help(message!("compare it with something of type '{}'", ty)));
         None
     }
 

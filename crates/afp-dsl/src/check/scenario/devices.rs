@@ -8,7 +8,8 @@ use crate::scenario::{Failure, Part};
 use crate::toolbox::{Control, Device, Fault};
 use crate::types::Type;
 use afp_syntax::ast::{Bind, Path};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words, list};
+use afp_syntax::message;
 
 impl Checker<'_> {
     /// What is pressed.
@@ -20,19 +21,19 @@ impl Checker<'_> {
                 return Some(Part::new(&device.name, &control.name));
             }
             Found::Several(devices) => {
-                let message = format!("several devices have a control '{written}'");
-                let help = format!("write {}", with_devices(&devices, &written));
+                let message = message!("several devices have a control '{}'", written);
+                let help = message!("write {}", with_devices(&devices, &written));
                 Diagnostic::new(Code::E0606, path.span(), message).help(help)
             }
             Found::Device(device) if names.len() == 1 && !device.controls.is_empty() => {
-                let message = format!("what of '{written}' is pressed is not said");
+                let message = message!("what of '{}' is pressed is not said", written);
                 let named = device.controls.iter().map(|it| format!("{written}.{}", it.name));
                 let named: Vec<_> = named.collect();
-                let help = format!("write {}", words::list(named.iter().map(String::as_str), "or"));
+                let help = message!("write {}", list(named.iter().map(String::as_str), "or"));
                 Diagnostic::new(Code::E0606, path.span(), message).help(help)
             }
             _ => {
-                let message = format!("the robot has no '{written}' that can be pressed");
+                let message = message!("the robot has no '{}' that can be pressed", written);
                 let known = self.robot.words::<Control>();
                 let known = known.iter().map(String::as_str);
                 unknown(Code::E0606, path.span(), message, &written, known, NOTHING)
@@ -72,7 +73,8 @@ impl Checker<'_> {
             let port = bind.port();
             let known = fault.amount.as_ref().filter(|known| known.name == port.text);
             let (Some(known), Bind::In { formula: Some(formula), .. }) = (known, bind) else {
-                let message = format!("'{}' says nothing of the fault '{}'", port.text, fault.name);
+                let message =
+                    message!("'{}' says nothing of the fault '{}'", port.text, fault.name);
                 let known = fault.amount.iter().map(|known| known.name.as_str());
                 let none = "remove the brackets";
                 diags.push(unknown(Code::E0606, port.span, message, &port.text, known, none));
@@ -80,7 +82,7 @@ impl Checker<'_> {
             };
             let ty = Type::Quantity(known.dimension);
             let (_, value) = self.constant(formula, &ty, diags)?;
-            let message = |_| format!("the {} is out of its range", known.name);
+            let message = |_| message!("the {} is out of its range", Words(&known.name));
             let range = (known.from, known.to);
             if let Some(error) = range::outside(&value, range, &ty, formula.span(), message) {
                 diags.push(error);
@@ -102,35 +104,35 @@ fn broken<'a>(robot: &Robot<'a>, path: &Path) -> Result<(&'a Device, &'a Fault),
         (Found::Row(device, fault, 2), [_, _]) => return Ok((device, fault)),
         (Found::Row(device, fault, 2), [_, _, more, ..]) => {
             let whole = format!("{}.{}", device.name, fault.name);
-            let message = format!("'{whole}' has no part '{}'", more.text);
-            Diagnostic::new(Code::E0606, more.span, message).help(format!("write '{whole}'"))
+            let message = message!("'{}' has no part '{}'", whole, more.text);
+            Diagnostic::new(Code::E0606, more.span, message).help(message!("write '{}'", whole))
         }
         // Which device it is of is always said, as on the command line.
         (Found::Row(device, ..), [name]) => {
-            let message = format!("what fails as '{written}' is not said");
-            let help = format!("write '{}.{}'", device.name, name.text);
+            let message = message!("what fails as '{}' is not said", written);
+            let help = message!("write '{}.{}'", device.name, name.text);
             Diagnostic::new(Code::E0606, path.span(), message).help(help)
         }
         (Found::Several(devices), _) => {
-            let message = format!("several devices can fail as '{written}'");
-            let help = format!("write {}", with_devices(&devices, &written));
+            let message = message!("several devices can fail as '{}'", written);
+            let help = message!("write {}", with_devices(&devices, &written));
             Diagnostic::new(Code::E0606, path.span(), message).help(help)
         }
         (Found::Device(device), [_]) if !device.faults.is_empty() => {
-            let message = format!("how '{written}' fails is not said");
+            let message = message!("how '{}' fails is not said", written);
             let named = device.faults.iter().map(|it| format!("{written}.{}", it.name));
             let named: Vec<_> = named.collect();
-            let help = format!("write {}", words::list(named.iter().map(String::as_str), "or"));
+            let help = message!("write {}", list(named.iter().map(String::as_str), "or"));
             Diagnostic::new(Code::E0606, path.span(), message).help(help)
         }
         (Found::Device(device), [_, name, ..]) if !device.faults.is_empty() => {
-            let message = format!("'{}' cannot fail as '{}'", device.name, name.text);
+            let message = message!("'{}' cannot fail as '{}'", device.name, name.text);
             let known = device.faults.iter().map(|it| it.name.as_str());
             unknown(Code::E0606, name.span, message, &name.text, known, "")
         }
         _ => {
             let first = names.first().map_or(written.as_str(), |name| &name.text);
-            let message = format!("the robot has no device '{first}' that can fail");
+            let message = message!("the robot has no device '{}' that can fail", first);
             let fails = robot.devices.iter().filter(|device| !device.faults.is_empty());
             let known = fails.map(|device| device.name.as_str());
             let span = names.first().map_or(path.span(), |name| name.span);

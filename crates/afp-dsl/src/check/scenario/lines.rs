@@ -11,6 +11,7 @@ use crate::scenario::{Moment, MomentId, Scenario, Stimulus};
 use crate::types::Dimension;
 use afp_syntax::ast::{self, FormulaKind, Line, LineKind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
@@ -34,8 +35,8 @@ impl Checker<'_> {
             if let Some(key) = key {
                 if let Some((known, first)) = once.iter().find(|(known, _)| excludes(known, &key)) {
                     let message = match *known == key {
-                        true => format!("'{key}' stands twice"),
-                        false => format!("'{key}' does not go with '{known}'"),
+                        true => message!("'{}' stands twice", key),
+                        false => message!("'{}' does not go with '{}'", key, known),
                     };
                     diags.push(
                         Diagnostic::new(Code::E0601, line.span(), message)
@@ -178,7 +179,7 @@ fn counts(line: &Line) -> bool {
 
 fn not_here(line: &Line) -> Diagnostic {
     let message =
-        format!("'{}' is about the whole run, not about what comes after", line.keyword());
+        message!("'{}' is about the whole run, not about what comes after", line.keyword());
     Diagnostic::new(Code::E0601, line.span(), message)
         .help("write it in the scenario's own braces, outside of those of 'from'")
 }

@@ -2,7 +2,8 @@
 
 use crate::scenario::{Claim, Wanted};
 use afp_syntax::ast::Bound;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 
 /// How often a claim has to hold; reports words that do not fit it.
 pub(super) fn wanted(
@@ -25,8 +26,8 @@ pub(super) fn wanted(
         (false, false, true) => return count(bound, diags).map(Wanted::Times),
     };
     let help = match bound.number() {
-        Some(number) => format!("remove '{} times'", number.text),
-        None => format!("remove '{}'", bound.word()),
+        Some(number) => message!("remove '{} times'", number.text),
+        None => message!("remove '{}'", bound.word()),
     };
     diags.push(Diagnostic::new(Code::E0604, bound.span(), message).help(help));
     None
@@ -40,7 +41,7 @@ fn count(bound: &Bound, diags: &mut Diagnostics) -> Option<u32> {
             Ok(_) => "write 'never' for what must not happen",
             Err(_) => "write a smaller number",
         };
-        let message = format!("nothing can be expected {} times", number.text);
+        let message = message!("nothing can be expected {} times", Words(number.text));
         diags.push(Diagnostic::new(Code::E0604, number.span, message).help(help));
     }
     count

@@ -6,7 +6,8 @@ use std::ops::Range;
 
 use crate::scenario::Scenario;
 use afp_syntax::ast::{Line, LineKind, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
@@ -55,7 +56,7 @@ impl Over {
         let span = seeds.map(|(_, span)| *span).or(worlds.map(|(_, span)| *span));
         let fits = runs <= MOST;
         if let (Some(span), false) = (span, fits) {
-            let message = format!("the scenario would be run more than {MOST} times");
+            let message = message!("the scenario would be run more than {} times", MOST);
             diags.push(
                 Diagnostic::new(Code::E0224, span, message).help(
                     "take fewer seeds or worlds; 'afpc sweep' makes as many runs as you like",
@@ -107,9 +108,11 @@ fn range(first: &Name, behind: &Name, diags: &mut Diagnostics) -> Option<Range<u
 
 /// What is told of a range without numbers; `before` stands before one.
 fn empty(what: &str, range: &Range<u64>, before: &str, place: Span) -> Diagnostic {
-    let message = format!("no {what} lies in '{before}{}..{}'", range.start, range.end);
-    Diagnostic::new(Code::E0224, place, message).help(format!(
-        "write the first {what} and the one behind the last, such as '{before}0..20'"
+    let message = message!("no {} lies in '{}{}..{}'", Words(what), before, range.start, range.end);
+    Diagnostic::new(Code::E0224, place, message).help(message!(
+        "write the first {} and the one behind the last, such as '{}0..20'",
+        Words(what),
+        before
     ))
 }
 

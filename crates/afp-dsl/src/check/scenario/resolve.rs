@@ -3,7 +3,7 @@
 //!
 //! This needs names alone, so it works on plans with errors too.
 
-use crate::check::names::unknown;
+use crate::check::names::offer;
 use crate::check::signature::{Signature, SignatureKind};
 use crate::check::{Members, Program, edges};
 use crate::graph::{ElementId, SupervisorId};
@@ -11,7 +11,8 @@ use crate::index::Recorder;
 use crate::outline::{Component, ComponentKind};
 use crate::scenario::Outcome;
 use afp_syntax::ast::{ClaimTarget, Name};
-use afp_syntax::diagnostics::{Code, Diagnostic, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Sought, list};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// How many paths a help lists at most.
@@ -104,9 +105,9 @@ impl<'a> Resolver<'a> {
             walk.end = match names.get(at + 1) {
                 None => Ok(index),
                 Some(more) => {
-                    let message = format!("'{}' is an entry and has no parts", name.text);
+                    let message = message!("'{}' is an entry and has no parts", name.text);
                     let error = Diagnostic::new(Code::E0209, more.span, message);
-                    Err(Box::new(error.help(format!("write '{}'", name.text))))
+                    Err(Box::new(error.help(message!("write '{}'", name.text))))
                 }
             };
             return walk;
@@ -271,19 +272,20 @@ impl<'a> Resolver<'a> {
         let all = members.elements.iter().chain(&members.globals);
         let known = all.filter_map(|member| Some(member.name.as_ref()?.text.as_str()));
         let home = self.plan_name(plan);
-        let message = format!("'{home}' has no element or supervisor '{}'", name.text);
+        let message = message!("'{}' has no element or supervisor '{}'", home, name.text);
+        let error = Diagnostic::new(Code::E0602, name.span, message);
+        let error = error.unknown_in(home, Sought::Element, &name.text);
         if let Some(path) = self.without_point(plan, &name.text) {
-            let error = Diagnostic::new(Code::E0602, name.span, message);
-            return Box::new(error.help(format!("write '{path}'")).replace(path));
+            return Box::new(error.write(path));
         }
         let inside = self.one_deeper(plan, &name.text, |element, inner| {
             let local = || self.local(plan, Part::Element(element), &name.text).is_some();
             local() || inner.is_some_and(|inner| self.part(inner, &name.text).is_some())
         });
         if !inside.is_empty() {
-            return Box::new(meant(Diagnostic::new(Code::E0602, name.span, message), inside));
+            return Box::new(meant(error, inside));
         }
-        Box::new(unknown(Code::E0602, name.span, message, &name.text, known, "write another name"))
+        Box::new(offer(error, &name.text, known, "write another name"))
     }
 
     /// Two names in one: an element, and something in it.
@@ -314,15 +316,17 @@ impl<'a> Resolver<'a> {
     fn unknown_entry(&self, plan: usize, name: &Name) -> Box<Diagnostic> {
         let entries = self.program.plans[plan].entries.iter();
         let known = entries.map(|entry| entry.name.text.as_str());
-        let message = format!("'{}' has no entry '{}'", self.plan_name(plan), name.text);
+        let home = self.plan_name(plan);
+        let message = message!("'{}' has no entry '{}'", home, name.text);
+        let error = Diagnostic::new(Code::E0209, name.span, message);
+        let error = error.unknown_in(home, Sought::Entry, &name.text);
         let inside = self.one_deeper(plan, &name.text, |_, inner| {
             inner.is_some_and(|inner| self.program.plans[inner].indices.find(&name.text).is_some())
         });
         if !inside.is_empty() {
-            return Box::new(meant(Diagnostic::new(Code::E0209, name.span, message), inside));
+            return Box::new(meant(error, inside));
         }
-        let none = "declare it in the plan";
-        Box::new(unknown(Code::E0209, name.span, message, &name.text, known, none))
+        Box::new(offer(error, &name.text, known, "declare it in the plan"))
     }
 
     fn plan_name(&self, plan: usize) -> &str {
@@ -333,8 +337,7 @@ impl<'a> Resolver<'a> {
 /// Offers paths in the place of a name: the only one as an edit.
 fn meant(error: Diagnostic, mut paths: Vec<String>) -> Diagnostic {
     paths.truncate(MOST_PATHS);
-    let error =
-        error.help(format!("write {}", words::list(paths.iter().map(String::as_str), "or")));
+    let error = error.help(message!("write {}", list(paths.iter().map(String::as_str), "or")));
     match paths.as_slice() {
         [path] => error.replace(path.as_str()),
         _ => error,

@@ -6,7 +6,7 @@ use crate::check::Program;
 use crate::index::{Recorder, Word};
 use crate::toolbox::{Control, Device, Fault, Signal};
 use afp_syntax::ast::Name;
-use afp_syntax::diagnostics::words;
+use afp_syntax::diagnostics::{Arg, list};
 use afp_syntax::source::Span;
 
 /// The devices that a scenario can name.
@@ -116,9 +116,9 @@ impl<'a> Robot<'a> {
 }
 
 /// Names of something that several devices have, each with its device, for people.
-pub(super) fn with_devices(devices: &[&Device], name: &str) -> String {
+pub(super) fn with_devices(devices: &[&Device], name: &str) -> Arg {
     let full: Vec<_> = devices.iter().map(|device| format!("{}.{name}", device.name)).collect();
-    words::list(full.iter().map(String::as_str), "or")
+    list(full.iter().map(String::as_str), "or")
 }
 
 impl Row for Control {

@@ -8,7 +8,8 @@ use crate::scenario::{Claim, Comparison, Field, Operand, Part, Subject};
 use crate::toolbox::{Signal, SignalType};
 use crate::types::{Constant, Dimension, Type};
 use afp_syntax::ast::{Name, Path};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, list};
+use afp_syntax::message;
 
 impl Checker<'_> {
     /// Whether names can only mean something of the robot.
@@ -31,12 +32,13 @@ impl Checker<'_> {
     pub(super) fn fact_of_robot(&self, path: &Path, diags: &mut Diagnostics) -> Option<Claim> {
         let Compared { subject, ty, .. } = self.measured(&Named::of_path(path), diags)?;
         if ty != Type::Bool {
-            let message = format!("'{}' is neither true nor false", path.text());
+            let message = message!("'{}' is neither true nor false", path.text());
             let sign = if ty.is_numeric() { ">" } else { "==" };
-            diags.push(
-                Diagnostic::new(Code::E0604, path.span(), message)
-                    .help(format!("compare it: '{} {sign} ...'", path.text())),
-            );
+            diags.push(Diagnostic::new(Code::E0604, path.span(), message).help(message!(
+                "compare it: '{} {} ...'",
+                path.text(),
+                sign
+            )));
             return None;
         }
         let (comparison, right) = (Comparison::Equal, Operand::Value(Constant::Bool(true)));
@@ -63,8 +65,8 @@ impl Checker<'_> {
             }
             Found::Several(devices) => {
                 let first = names.first().map_or(written.as_str(), |name| &name.text);
-                let message = format!("several devices have a signal '{first}'");
-                let help = format!("write {}", with_devices(&devices, first));
+                let message = message!("several devices have a signal '{}'", first);
+                let help = message!("write {}", with_devices(&devices, first));
                 Diagnostic::new(Code::E0604, *span, message).help(help)
             }
             Found::Device(device) => {
@@ -73,11 +75,11 @@ impl Checker<'_> {
                 let own = own.iter().map(String::as_str);
                 match names.get(1) {
                     Some(name) => {
-                        let message = format!("'{}' has no signal '{}'", device.name, name.text);
+                        let message = message!("'{}' has no signal '{}'", device.name, name.text);
                         unknown(Code::E0604, name.span, message, &name.text, own, none)
                     }
                     None => {
-                        let message = format!("what is expected of '{written}' is not said");
+                        let message = message!("what is expected of '{}' is not said", written);
                         let full: Vec<_> = own.map(|own| format!("{written}.{own}")).collect();
                         let full = full.iter().map(String::as_str);
                         unknown(Code::E0604, *span, message, written, full, none)
@@ -85,7 +87,7 @@ impl Checker<'_> {
                 }
             }
             Found::Nothing => {
-                let message = format!("the robot has no signal '{written}'");
+                let message = message!("the robot has no signal '{}'", written);
                 let known = self.robot.words::<Signal>();
                 let known = known.iter().map(String::as_str);
                 unknown(Code::E0604, *span, message, written, known, "remove the line")
@@ -128,18 +130,18 @@ fn field(
         _ => {}
     }
     let message = match (names, fields) {
-        ([], []) => format!("'{}' is for logs and pictures and cannot be compared", named.text),
-        ([], _) => format!("what of '{}' is expected is not said", named.text),
-        ([name, ..], _) => format!("'{}' has no part '{}'", signal.name, name.text),
+        ([], []) => message!("'{}' is for logs and pictures and cannot be compared", named.text),
+        ([], _) => message!("what of '{}' is expected is not said", named.text),
+        ([name, ..], _) => message!("'{}' has no part '{}'", signal.name, name.text),
     };
     let own = &named.names;
     let stem: Vec<_> = own[..own.len() - names.len()].iter().map(|it| it.text.as_str()).collect();
     let stem = stem.join(".");
     let known: Vec<_> = fields.iter().map(|field| format!("{stem}.{}", field.word())).collect();
     let help = match (known.as_slice(), names) {
-        ([], []) => "expect another signal".to_owned(),
-        ([], _) => format!("write '{stem}'"),
-        (known, _) => format!("write {}", words::list(known.iter().map(String::as_str), "or")),
+        ([], []) => "expect another signal".into(),
+        ([], _) => message!("write '{}'", stem),
+        (known, _) => message!("write {}", list(known.iter().map(String::as_str), "or")),
     };
     Err(Box::new(Diagnostic::new(Code::E0604, named.span, message).help(help)))
 }

@@ -5,6 +5,7 @@ use crate::scenario::{DEFAULT_UNTIL, MomentId, Window};
 use crate::types::text::duration;
 use afp_syntax::ast::{Bound, Formula, FormulaKind, Line, LineKind};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// The whole of a run, or what of it comes after one of its moments: what times in it count from, and when it ends.
@@ -54,7 +55,7 @@ impl Stretch {
     }
 
     fn too_late(&self, span: Span) -> Diagnostic {
-        let message = format!("the scenario has ended by then, at '{}'", duration(self.until));
+        let message = message!("the scenario has ended by then, at '{}'", duration(self.until));
         let error = Diagnostic::new(Code::E0605, span, message);
         match self.until_span {
             Some(until) => error
@@ -77,8 +78,8 @@ impl Stretch {
             };
             if let Some((first, place)) = seen.iter().find(|(known, _)| clash(known)) {
                 let message = match *first == word {
-                    true => format!("'{word}' stands twice"),
-                    false => format!("'{word}' does not go with '{first}'"),
+                    true => message!("'{}' stands twice", word),
+                    false => message!("'{}' does not go with '{}'", word, first),
                 };
                 diags.push(
                     Diagnostic::new(Code::E0605, bound.span(), message)

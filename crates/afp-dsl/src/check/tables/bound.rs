@@ -14,7 +14,8 @@ use crate::table::Table;
 use crate::toolbox::{ReadsTable, Template};
 use crate::types::Constant;
 use afp_syntax::ast::{self, Bind};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// What a component is made from, and its bindings.
@@ -66,7 +67,7 @@ fn again(
     bindings::bound_names(scope, other);
     let other = other.port();
     scope.record.definition(other.span, reads.port.span);
-    let message = format!("'{}' is bound twice", other.text);
+    let message = message!("'{}' is bound twice", other.text);
     let error = Diagnostic::new(Code::E0226, other.span, message).help("remove one of them");
     diags.push(match first {
         Some(first) => error.note(first.port().span, "first bound here"),
@@ -100,7 +101,7 @@ fn named<'c>(
         scope.names_only(formula);
         diags.push(
             Diagnostic::new(Code::E0253, formula.span(), "this is no table")
-                .help(format!("write {}", some_table(context))),
+                .help(message!("write {}", some_table(context))),
         );
         return None;
     };
@@ -114,11 +115,13 @@ fn named<'c>(
         [] => {
             record.unknown(name.span);
             if !context.file.incomplete {
-                let message = format!("there is no table '{}'", name.text);
+                let message = message!("there is no table '{}'", name.text);
                 let known = tables.iter().map(|table| table.name.as_str());
-                let none =
-                    format!("declare it in the file: 'table {}(x: length) {{ (1 m) }}'", name.text);
-                diags.push(unknown(Code::E0253, name.span, message, &name.text, known, &none));
+                let none = message!(
+                    "declare it in the file: 'table {}(x: length) {{ (1 m) }}'",
+                    name.text
+                );
+                diags.push(unknown(Code::E0253, name.span, message, &name.text, known, none));
             }
             None
         }
@@ -132,10 +135,10 @@ fn named<'c>(
 }
 
 /// What to write where a table belongs.
-fn some_table(context: Context<'_>) -> String {
+fn some_table(context: Context<'_>) -> Message {
     match context.file.tables.first() {
-        Some(table) => format!("the name of a table, such as '{}'", table.name),
-        None => "the name of a table, and declare the table in the file".to_owned(),
+        Some(table) => message!("the name of a table, such as '{}'", table.name),
+        None => "the name of a table, and declare the table in the file".into(),
     }
 }
 
@@ -145,12 +148,12 @@ fn without_table(
     reads: &ReadsTable,
     place: Span,
 ) -> Diagnostic {
-    let message = format!("'{}' of '{}' has no value", reads.port.name, signature.name);
+    let message = message!("'{}' of '{}' has no value", reads.port.name, signature.name);
     Diagnostic::new(Code::E0225, place, message)
         .note(reads.port.span, "declared here without a default")
         .help(match context.file.tables.first() {
-            Some(table) => format!("bind it, such as '({} = {})'", reads.port.name, table.name),
-            None => "declare a table in the file, and bind its name".to_owned(),
+            Some(table) => message!("bind it, such as '({} = {})'", reads.port.name, table.name),
+            None => "declare a table in the file, and bind its name".into(),
         })
 }
 
@@ -164,7 +167,7 @@ pub(in crate::check) fn fits(
     let Some((_, table)) = signature.template().and_then(Template::table) else { return };
     for index in inputs {
         if let Some(Constant::Int(number @ ..0)) = scope.value(index) {
-            let message = format!("'{}' has no row '{number}'", table.name);
+            let message = message!("'{}' has no row '{}'", table.name, number);
             let error = Diagnostic::new(Code::E0224, index.span, message);
             diags.push(error.help("the index of the first row is 0"));
         }

@@ -8,6 +8,7 @@ use crate::toolbox::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalT
 use crate::types::{Constant, Type};
 use afp_syntax::ast::{self, DevicePart, Name};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 
 /// The devices of a toolbox so far.
@@ -81,7 +82,7 @@ impl Devices {
                 diags.push(
                     Diagnostic::new(Code::E0511, name.span, message)
                         .note(first, "the first one")
-                        .help(format!("write 'press {}'", name.text)),
+                        .help(message!("write 'press {}'", name.text)),
                 );
             }
             if stops {
@@ -146,7 +147,7 @@ fn fault(
     let inherited =
         device.faults.iter().any(|known| known.span.is_none() && known.name == name.text);
     if inherited {
-        let message = format!("every sensor has the fault '{}'", name.text);
+        let message = message!("every sensor has the fault '{}'", name.text);
         diags.push(
             Diagnostic::new(Code::E0515, name.span, message)
                 .help("remove it, or give it another name"),
@@ -169,7 +170,7 @@ fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Optio
         return None;
     };
     let Type::Quantity(dimension) = ty else {
-        let message = format!("'{}' cannot be of type '{ty}'", name.text);
+        let message = message!("'{}' cannot be of type '{}'", name.text, ty);
         diags.push(
             Diagnostic::new(Code::E0515, name.span, message)
                 .help("write 'float', or a quantity such as 'duration'"),
@@ -179,9 +180,9 @@ fn amount(node: &ast::Amount, site: &Site<'_>, diags: &mut Diagnostics) -> Optio
     let values = Values { site, ty: &ty, of: Declared::Amount };
     let range = values.range(node.range(), node.ends(), diags);
     let Some(written) = node.default() else {
-        let message = format!("'{}' has no default", name.text);
+        let message = message!("'{}' has no default", name.text);
         let help =
-            format!("write '{}: {ty} = ...': what is taken where nothing is said", name.text);
+            message!("write '{}: {} = ...': what is taken where nothing is said", name.text, ty);
         diags.push(Diagnostic::new(Code::E0515, name.span, message).help(help));
         return None;
     };
@@ -225,7 +226,7 @@ fn signal_type(node: &ast::Type, site: &Site<'_>, diags: &mut Diagnostics) -> Op
     let ty = site.types.resolve(node, site.record, &mut own);
     let near = |word: &Name| words::nearest(&word.text, SHOWN.iter().map(|(known, _)| *known));
     if let (None, Some(word), Some(_)) = (&ty, &word, word.as_ref().and_then(near)) {
-        let message = format!("there is no type '{}'", word.text);
+        let message = message!("there is no type '{}'", word.text);
         let known = SHOWN.iter().map(|(known, _)| *known);
         diags.push(unknown(Code::E0232, word.span, message, &word.text, known, ""));
         return None;
@@ -237,7 +238,7 @@ fn signal_type(node: &ast::Type, site: &Site<'_>, diags: &mut Diagnostics) -> Op
         Type::Quantity(dimension) => Some(SignalType::Float(dimension)),
         Type::Text => Some(SignalType::Text),
         ty => {
-            let message = format!("a signal cannot be of type '{ty}'");
+            let message = message!("a signal cannot be of type '{}'", ty);
             diags.push(Diagnostic::new(Code::E0515, node.span(), message).help(
                 "write 'bool', 'int', 'float', 'string', a quantity such as 'length', or 'pose', 'range', 'image' or 'outline'",
             ));

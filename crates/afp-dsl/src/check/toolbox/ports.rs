@@ -9,7 +9,8 @@ use crate::index::Recorder;
 use crate::toolbox::{Device, InPort, OutPort, Outcome, TemplateKind};
 use crate::types::{Constant, Type};
 use afp_syntax::ast::{self, Formula};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 
 /// Reads an input port; `None` when it has no name or no type.
 pub(super) fn input(
@@ -71,7 +72,7 @@ pub(super) fn output(
                 record.definition(state.span, outcomes[index].span);
                 let index = u16::try_from(index).unwrap_or(u16::MAX);
                 if on.contains(&index) {
-                    let message = format!("'{}' is given twice", state.text);
+                    let message = message!("'{}' is given twice", state.text);
                     let error = Diagnostic::new(Code::E0511, state.span, message);
                     diags.push(error.help("remove one of them"));
                 }
@@ -80,7 +81,7 @@ pub(super) fn output(
             None => {
                 record.unknown(state.span);
                 let known = outcomes.iter().map(|outcome| outcome.name.as_str());
-                let message = format!("the template has no state or event '{}'", state.text);
+                let message = message!("the template has no state or event '{}'", state.text);
                 let none = "declare it in the template";
                 diags.push(unknown(Code::E0210, state.span, message, &state.text, known, none));
             }
@@ -179,7 +180,7 @@ impl Values<'_> {
             _ => None,
         };
         if let Some(why) = refused {
-            let message = format!("the port can have no default: {why}");
+            let message = message!("the port can have no default: {}", Words(why));
             diags.push(Diagnostic::new(Code::E0514, span, message).help("remove the default"));
             self.site.formula(formula, None, &mut Diagnostics::default());
             return None;
@@ -189,7 +190,7 @@ impl Values<'_> {
             Declared::Port => "the default is out of the port's range",
             Declared::Amount => "the default is out of the range",
         };
-        let outside = |range| range::outside(&value, range, self.ty, span, |_| message.to_owned());
+        let outside = |range| range::outside(&value, range, self.ty, span, |_| message.into());
         if let Some(error) = range.and_then(outside) {
             diags.push(error);
         }

@@ -9,7 +9,8 @@ use crate::toolbox::{Outcome, StatesOf, Template, TemplateKind};
 use crate::types::Type;
 use crate::types::text::a_type;
 use afp_syntax::ast::{self, Name, Part};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words, words};
+use afp_syntax::message;
 use afp_syntax::source::Span;
 use afp_syntax::unquote;
 
@@ -94,7 +95,7 @@ impl Seen {
     fn once(&mut self, word: &str, span: Span, diags: &mut Diagnostics) {
         if let Some((_, first)) = self.first.iter().find(|(known, _)| known == word) {
             diags.push(
-                Diagnostic::new(Code::E0511, span, format!("'{word}' is given twice"))
+                Diagnostic::new(Code::E0511, span, message!("'{}' is given twice", word))
                     .note(*first, "first given here")
                     .help("remove one of them"),
             );
@@ -114,7 +115,7 @@ fn uses(resource: Option<&Name>, span: Span, template: &mut Template, diags: &mu
             Diagnostic::new(
                 Code::E0511,
                 resource.span,
-                format!("'{}' is given twice", resource.text),
+                message!("'{}' is given twice", resource.text),
             )
             .help("remove one of them"),
         );
@@ -134,14 +135,14 @@ fn names_device(resource: &Name, site: &Site<'_>, diags: &mut Diagnostics) {
         return site.record.word(resource.span, Word::Resource);
     }
     site.record.unknown(resource.span);
-    let message = format!("the toolbox has no device '{}'", resource.text);
+    let message = message!("the toolbox has no device '{}'", resource.text);
     diags.push(unknown(Code::E0516, resource.span, message, &resource.text, names(), ""));
 }
 
 fn misfit(word: &str, why: &str, span: Span, diags: &mut Diagnostics) {
     diags.push(
-        Diagnostic::new(Code::E0510, span, format!("{why}, so it has no '{word}'"))
-            .help(format!("remove '{word}'")),
+        Diagnostic::new(Code::E0510, span, message!("{}, so it has no '{}'", Words(&why), word))
+            .help(message!("remove '{}'", word)),
     );
 }
 
@@ -159,11 +160,7 @@ fn outcomes(parts: &[Part], template: &mut Template, diags: &mut Diagnostics) {
                 TemplateKind::Actor => "an actor has states, no events",
                 TemplateKind::Computation => "a computation has states, no events",
             };
-            diags.push(
-                Diagnostic::new(Code::E0510, keyword.span, message)
-                    .help(format!("write '{right}'"))
-                    .replace(right),
-            );
+            diags.push(Diagnostic::new(Code::E0510, keyword.span, message).write(right));
         }
         let Some(name) = node.name() else { continue };
         names.declare(&name, diags);
@@ -189,7 +186,8 @@ fn reserved(name: &Name, kind: TemplateKind) -> Diagnostic {
         false if own == "Error" => ("is what supervisors report", "choose another name"),
         false => ("is how elements fail", "choose another name"),
     };
-    Diagnostic::new(Code::E0214, name.span, format!("'{}' {message}", name.text)).help(help)
+    Diagnostic::new(Code::E0214, name.span, message!("'{}' {}", name.text, Words(message)))
+        .help(help)
 }
 
 /// States that are the values of whatever enum is bound to a port.
@@ -218,7 +216,7 @@ fn states_of(
     let Some(index) = template.inputs.iter().position(|input| input.name == port.text) else {
         site.record.unknown(port.span);
         let known = template.inputs.iter().map(|input| input.name.as_str());
-        let message = format!("the template has no input '{}'", port.text);
+        let message = message!("the template has no input '{}'", port.text);
         let none = "declare an input of type 'discrete'";
         diags.push(unknown(Code::E0202, port.span, message, &port.text, known, none));
         return None;
@@ -226,7 +224,7 @@ fn states_of(
     let input = &template.inputs[index];
     site.record.definition(port.span, input.span);
     if input.ty != Type::Discrete {
-        let message = format!("'{}' is {}", input.name, a_type(&input.ty));
+        let message = message!("'{}' is {}", input.name, Words(a_type(&input.ty)));
         diags.push(
             Diagnostic::new(Code::E0510, port.span, message)
                 .note(input.span, "declared here")
@@ -306,14 +304,14 @@ fn without_outcomes(node: &ast::Template, template: &Template, diags: &mut Diagn
         TemplateKind::Supervisor => ("event", "add 'event' and a name"),
         TemplateKind::Computation => ("state", "add 'state' and a name"),
     };
-    let message = format!("'{}' has no {what}", template.name);
+    let message = message!("'{}' has no {}", template.name, Words(&what));
     diags.push(Diagnostic::new(Code::E0512, template.span, message).help(help));
 }
 
 /// An actor without a state lasts until an event ends it, so that it never writes anything.
 fn lasting(template: &Template, diags: &mut Diagnostics) {
     for port in &template.outputs {
-        let message = format!("'{}' has no state, so nothing ever writes it", template.name);
+        let message = message!("'{}' has no state, so nothing ever writes it", template.name);
         diags.push(
             Diagnostic::new(Code::E0514, port.span, message)
                 .help("remove it, or add 'state' and a name"),

@@ -6,7 +6,8 @@ use crate::flow::view::{Cause, Node, View};
 use crate::flow::{INTERRUPTED, OK};
 use crate::graph::{Entry, EntryId, EntryKind};
 use crate::types::Type;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
+use afp_syntax::message;
 
 /// Greatest number of other reads that one diagnostic shows.
 const MAX_READS: usize = 3;
@@ -16,10 +17,10 @@ const MAX_STEPS: usize = 12;
 const MAX_WAYS: usize = 64;
 
 /// What mends an entry without a value; what is of an object's type has none that could be written down.
-fn remedy(Entry { name, ty, .. }: &Entry, otherwise: &str) -> String {
+fn remedy(Entry { name, ty, .. }: &Entry, otherwise: &'static str) -> Message {
     match ty {
-        Type::Object(_) => otherwise.to_owned(),
-        _ => format!("give '{name}' an initial value, or {otherwise}"),
+        Type::Object(_) => otherwise.into(),
+        _ => message!("give '{}' an initial value, or {}", name, Words(otherwise)),
     }
 }
 
@@ -58,14 +59,14 @@ impl<'a, 'b> Report<'a, 'b> {
             Some(_) => Diagnostic::new(
                 Code::E0303,
                 first.span,
-                format!("'{name}' may be read before anything has written it"),
+                message!("'{}' may be read before anything has written it", name),
             ),
             None => Diagnostic::new(Code::E0303, first.span, at_start(name, first)),
         };
         found = found.note(declared.span, "it has no value when the plan starts");
         if let Some(node) = first.node {
             let (path, blamed) = self.path(node, writes);
-            found = found.note(self.view.plan.start_span, format!("one way: {path}"));
+            found = found.note(self.view.plan.start_span, message!("one way: {}", Words(&path)));
             found = blamed.into_iter().fold(found, |found, at| self.blame(found, at, entry));
         }
         for other in early.take(MAX_READS) {
@@ -89,7 +90,7 @@ impl<'a, 'b> Report<'a, 'b> {
         match ways.next() {
             Some(path) => found.note(
                 element.span,
-                format!("'{}' may end without a value for it: {path}", element.name),
+                message!("'{}' may end without a value for it: {}", element.name, Words(&path)),
             ),
             None => found,
         }
@@ -111,10 +112,10 @@ impl<'a, 'b> Report<'a, 'b> {
             }
         }
         let Some(path) = &self.unset[OK][port] else { return };
-        let message = format!("'{}' may have no value when the plan ends", declared.name);
+        let message = message!("'{}' may have no value when the plan ends", declared.name);
         self.diags.push(
             Diagnostic::new(Code::E0310, declared.span, message)
-                .note(self.view.plan.start_span, format!("one way: {path}"))
+                .note(self.view.plan.start_span, message!("one way: {}", Words(&path)))
                 .help(remedy(declared, "write it on every way to 'terminate'")),
         );
     }
@@ -153,7 +154,11 @@ impl<'a, 'b> Report<'a, 'b> {
     }
 }
 
-fn at_start(name: &str, read: &Read<'_>) -> String {
+fn at_start(name: &str, read: &Read<'_>) -> Message {
     let supervisor = read.supervisor.map_or("", |supervisor| supervisor.name.as_str());
-    format!("'{supervisor}' reads '{name}' when the plan starts, before anything has written it")
+    message!(
+        "'{}' reads '{}' when the plan starts, before anything has written it",
+        supervisor,
+        name
+    )
 }

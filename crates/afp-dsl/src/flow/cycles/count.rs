@@ -11,7 +11,8 @@ use super::ways::Ways;
 use crate::flow::view::{Counter, Edge, Node, View};
 use crate::graph::{Element, ElementId};
 use crate::types::Constant;
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words, list};
+use afp_syntax::message;
 
 /// Edges that may be taken in one step.
 const MOST: i64 = MAX_TRANSITIONS_PER_STEP as i64;
@@ -57,17 +58,20 @@ impl<'a, 'b> Loops<'a, 'b> {
             let others = others.map(|(other, _)| other).filter(|other| other != id);
             let all: Vec<_> = [*id].into_iter().chain(others).collect();
             let names = all.iter().map(|id| view.plan.elements[id.index()].name.as_str());
-            let (names, go) =
-                (words::list(names, "and"), if all.len() == 1 { "goes" } else { "go" });
-            let message =
-                format!("{names} {go} round more often within one step than {MOST} edges allow");
-            Some((message, "count less far".to_owned()))
+            let (names, go) = (list(names, "and"), if all.len() == 1 { "goes" } else { "go" });
+            let message = message!(
+                "{} {} round more often within one step than {} edges allow",
+                names,
+                Words(go),
+                MOST
+            );
+            Some((message, "count less far".into()))
         } else {
             None
         };
         if let Some((message, better)) = told {
             let span = element.inputs.get(1).map_or(element.span, |limit| limit.span);
-            let help = format!("{better}, or put an actor such as 'Wait' into the loop");
+            let help = message!("{}, or put an actor such as 'Wait' into the loop", better);
             diags.push(Diagnostic::new(Code::E0312, span, message).help(help));
         }
     }
@@ -125,19 +129,28 @@ fn simple(
     (counter, entered): (&Counter, i64),
     edges: usize,
     others: i64,
-) -> Option<(String, String)> {
+) -> Option<(Message, Message)> {
     let length = i64::try_from(edges).unwrap_or(i64::MAX);
     let rounds = counter.limit.saturating_sub(entered);
     let taken = rounds.saturating_mul(length);
     let name = &element.name;
-    let each = if edges > 1 { format!(" with {edges} edges each time") } else { String::new() };
+    let each =
+        if edges > 1 { message!(" with {} edges each time", edges) } else { Message::default() };
     let message = || match taken >= MOST {
-        true => format!(
-            "'{name}' goes round {rounds} times{each} within one step, which may take at most {MOST} edges"
+        true => message!(
+            "'{}' goes round {} times{} within one step, which may take at most {} edges",
+            name,
+            rounds,
+            each,
+            MOST
         ),
-        false => format!(
-            "'{name}' goes round {rounds} times{each} within one step, which may take at most {MOST} edges, and {others} more \
-             lead to the loop and on from it"
+        false => message!(
+            "'{}' goes round {} times{} within one step, which may take at most {} edges, and {} more lead to the loop and on from it",
+            name,
+            rounds,
+            each,
+            MOST,
+            others
         ),
     };
     let is_long = taken > MOST - others;
@@ -145,10 +158,10 @@ fn simple(
 }
 
 /// How a counter goes round so often at most.
-fn better(view: &View<'_>, (counter, entered): (&Counter, i64), rounds: i64) -> String {
+fn better(view: &View<'_>, (counter, entered): (&Counter, i64), rounds: i64) -> Message {
     if entered < 0 && counter.limit <= rounds {
         let name = &view.plan.entries[counter.entry.index()].name;
-        return format!("begin '{name}' with {} or more", counter.limit - rounds);
+        return message!("begin '{}' with {} or more", name, counter.limit - rounds);
     }
-    format!("count at most to {}", entered.saturating_add(rounds))
+    message!("count at most to {}", entered.saturating_add(rounds))
 }

@@ -1,8 +1,9 @@
 //! What stands behind a claim, an action or another line of a scenario and does not belong there.
 
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Message, Words};
 use crate::keywords::ENDS;
 use crate::kind::Kind;
+use crate::message;
 use crate::parser::Parser;
 use crate::source::Span;
 
@@ -19,7 +20,7 @@ fn is_end(word: &str) -> bool {
 }
 
 /// What is to be said of something that stands behind a line: a help, and an edit of a place where it mends all.
-struct Said(String, Option<(Span, String)>);
+struct Said(Message, Option<(Span, String)>);
 
 impl Parser<'_, '_> {
     /// Reports what stands behind a line of a scenario that begins with `first`, and reads past it.
@@ -35,20 +36,21 @@ impl Parser<'_, '_> {
         if ends(self) {
             return;
         }
-        let (found, line) = (self.found(), matches!(first, "expect" | "never"));
         let Said(help, fix) = match first {
             "expect" | "never" => self.behind_claim(),
             "at" => self.behind_action(),
             "robot" if self.word_before() == ")" && self.quantity_ends_line() => {
                 let here = self.next_span().before();
-                Said("write 'heading' before it".to_owned(), Some((here, "heading ".to_owned())))
+                Said("write 'heading' before it".into(), Some((here, "heading ".to_owned())))
             }
-            _ => Said("remove it, or begin a line with it".to_owned(), None),
+            _ => Said("remove it, or begin a line with it".into(), None),
         };
-        let what = if line { "a claim" } else { "a line" };
-        let message = format!("{found} does not belong behind {what}");
-        let message =
-            if first == "at" { message.replace("a line", "what happens") } else { message };
+        let what = match first {
+            "expect" | "never" => "a claim",
+            "at" => "what happens",
+            _ => "a line",
+        };
+        let message = message!("{} does not belong behind {}", self.found(), Words(what));
         let error = Diagnostic::new(Code::E0102, self.next_span(), message).help(help);
         self.error(match fix {
             Some((place, text)) => error.fix(place, text),
@@ -61,43 +63,43 @@ impl Parser<'_, '_> {
     fn behind_claim(&self) -> Said {
         let (word, before, here) = (self.word(0), self.word_before(), self.next_span());
         let write = |text: &str, fits: bool| {
-            Said(format!("write '{text}'"), fits.then(|| (here, text.to_owned())))
+            Said(message!("write '{}'", text), fits.then(|| (here, text.to_owned())))
         };
         let path = self.path_ends(0);
         let add = |text: &str| {
             let whole = format!("{before} {text} {}", self.text_of(0, path));
             let place = (here.before(), format!("{text} "));
-            Said(format!("write '{whole}'"), self.claim_ends(path).then_some(place))
+            Said(message!("write '{}'", whole), self.claim_ends(path).then_some(place))
         };
         let has_time = self.time_behind(1);
         match (word, before) {
             ("in", _) if has_time.is_some_and(|it| self.claim_ends(it)) => write("within", true),
             ("for" | "during", _) if let Some(end) = has_time => {
                 let time = self.text_of(1, end);
-                Said(format!("write 'always within {time}', or 'within {time}' for once"), None)
+                Said(message!("write 'always within {}', or 'within {}' for once", time, time), None)
             }
             ("is" | "equals" | "eq", _) if self.word(1) == "active" => {
                 let place = here.to(self.ahead(2));
-                Said("write 'active'".to_owned(), Some((place, "active".to_owned())))
+                Said("write 'active'".into(), Some((place, "active".to_owned())))
             }
             ("is" | "equals" | "eq", _) => write("==", self.nth(1).begins_formula()),
             _ if self.at(Kind::FatArrow) && matches!(self.nth(1), Kind::Int | Kind::Float) => {
                 write(">=", true)
             }
             _ if matches!(self.nth(0), Kind::FatArrow | Kind::Minus) => {
-                Said("write '->' for what follows an element".to_owned(), None)
+                Said("write '->' for what follows an element".into(), None)
             }
             ("by", _) => Said(
-                "'by' stands behind 'end', 'commit', and an element with its '->'".to_owned(),
+                "'by' stands behind 'end', 'commit', and an element with its '->'".into(),
                 None,
             ),
-            ("between", _) => Said("write 'after' and 'before', each with a time".to_owned(), None),
+            ("between", _) => Said("write 'after' and 'before', each with a time".into(), None),
             ("then" | "to" | "goto" | "becomes" | "reaches", _) => {
                 let end = self.path_ends(1);
                 write("->", end > 1 && (self.claim_ends(end) || self.word(end) == "by"))
             }
             ("and" | "or" | "but", _) => {
-                Said(format!("a line has one claim, without '{word}': write two lines"), None)
+                Said(message!("a line has one claim, without '{}': write two lines", word), None)
             }
             _ if self.at(Kind::Int) => self.times(),
             _ if let Some((_, ours)) = OFTEN.iter().find(|(theirs, _)| *theirs == word) => {
@@ -105,10 +107,10 @@ impl Parser<'_, '_> {
             }
             (_, "end") if self.claim_ends(path) && (path > 1 || is_end(word)) => add("by"),
             (_, "end") if path > 0 => {
-                Said("what ends the plan stands behind 'end by', a time behind 'within', 'before' or 'after'".to_owned(), None)
+                Said("what ends the plan stands behind 'end by', a time behind 'within', 'before' or 'after'".into(), None)
             }
             (_, "commit" | "interrupt") if path > 0 => add("of"),
-            _ => Said(BOUNDS.to_owned(), None),
+            _ => Said(BOUNDS.into(), None),
         }
     }
 
@@ -155,19 +157,19 @@ impl Parser<'_, '_> {
         let tokens = match (self.nth(1), self.word(1)) {
             (Kind::Unit, _) => {
                 let time = self.text_of(0, 2);
-                let help = format!("write 'within', 'before' or 'after' before '{time}'");
+                let help = message!("write 'within', 'before' or 'after' before '{}'", time);
                 return Said(help, None);
             }
             (_, "x" | "time" | "tims") if !self.begins_line(1) => 2,
             _ => {
                 let help =
-                    format!("write '{number} times' for how often, '== {number}' for a value");
+                    message!("write '{} times' for how often, '== {}' for a value", number, number);
                 return Said(help, None);
             }
         };
         let times = format!("{number} times");
         let place = (self.ahead(tokens), times.clone());
-        Said(format!("write '{times}'"), self.claim_ends(tokens).then_some(place))
+        Said(message!("write '{}'", times), self.claim_ends(tokens).then_some(place))
     }
 
     /// What is said of something behind an action.
@@ -177,11 +179,10 @@ impl Parser<'_, '_> {
             "during" | "in" | "within" if let Some(end) = time => {
                 let place = (self.next_span(), "for".to_owned());
                 let ends = self.begins_line(end) || self.nth(end) == Kind::CloseBrace;
-                Said("write 'for'".to_owned(), ends.then_some(place))
+                Said("write 'for'".into(), ends.then_some(place))
             }
             _ => Said(
-                "'for' and a time may stand there; what happens next is a line of its own"
-                    .to_owned(),
+                "'for' and a time may stand there; what happens next is a line of its own".into(),
                 None,
             ),
         }
@@ -200,13 +201,14 @@ impl Parser<'_, '_> {
         let colon = usize::from(self.nth(tokens) == Kind::Colon);
         let place = self.ahead(tokens + colon);
         let goes_on = self.nth(tokens + colon) == Kind::Name && !self.begins_line(tokens + colon);
-        let message = format!("no line of a scenario begins with '{word}'");
+        let message = message!("no line of a scenario begins with '{}'", word);
         let error = Diagnostic::new(Code::E0102, place, message);
         let ours = format!("at {time}:");
         self.error(match goes_on {
-            true => error.help(format!("write '{ours}', counted from the start")).replace(ours),
-            false => error.help(format!(
-                "remove it; what happens has its time in front of it, such as '{ours} press touch'"
+            true => error.help(message!("write '{}', counted from the start", ours)).replace(ours),
+            false => error.help(message!(
+                "remove it; what happens has its time in front of it, such as '{} press touch'",
+                ours
             )),
         });
         self.pass(tokens + colon);
@@ -231,7 +233,7 @@ impl Parser<'_, '_> {
         let better = format!(") heading {heading}");
         let place = comma.to(self.next_span());
         self.error(match alone {
-            true => error.help(format!("write '{better}'")).fix(place, better),
+            true => error.write_at(place, better),
             false => error.help("remove one of the two"),
         });
     }

@@ -2,6 +2,7 @@
 
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
+use crate::message;
 use crate::parser::Parser;
 use crate::parser::plan::BODY;
 
@@ -32,13 +33,18 @@ impl Parser<'_, '_> {
         let (here, name) = (self.next_span(), self.word(0));
         let (message, help) = match self.assignment_help(true) {
             Some(help) => (
-                format!("braces hold no '{name} {} ...'", self.found_at(1).trim_matches('\'')),
+                message!(
+                    "braces hold no '{} {} ...'",
+                    name,
+                    self.token(1).map_or("", |sign| sign.text)
+                ),
                 help,
             ),
             None => {
                 let sign = if self.nth(1) == Kind::FatArrow { "=>" } else { "=" };
-                let help = format!("move it before the '{{', in brackets: '({name} {sign} ...)'");
-                (format!("'{name}' stands in braces where it has no place"), help)
+                let help =
+                    message!("move it before the '{{', in brackets: '({} {} ...)'", name, sign);
+                (message!("'{}' stands in braces where it has no place", name), help)
             }
         };
         self.error(Diagnostic::new(Code::E0114, here, message).help(help));
@@ -71,7 +77,7 @@ impl Parser<'_, '_> {
 
     /// Reads an item with a word before its name that no body has, or a word of other languages: `supervisor hit: ...`,
     /// `if (far) { ... }`. Returns whether one stands here.
-    pub(in crate::parser) fn strange_item(&mut self, what: &str) -> bool {
+    pub(in crate::parser) fn strange_item(&mut self, what: &'static str) -> bool {
         let is_item = self.nth(1) == Kind::Name && self.nth(2) == Kind::Colon;
         if is_item && what == BODY && self.item_meant(what, &["supervise"]) {
             self.guard();
@@ -83,14 +89,14 @@ impl Parser<'_, '_> {
             && matches!(self.nth(1), Kind::Name | Kind::Int | Kind::OpenParen | Kind::OpenBrace);
         let help = match self.meant(&["actor", "computation", "subplan", "supervise"]) {
             _ if chooses => self.item_help().unwrap_or_default(),
-            Some("supervise") => "move it behind the '}' of this supervisor".to_owned(),
-            Some(word) => format!("write '{word}' behind the '}}' of this element"),
-            None => "write 'supervise' before the name of a supervisor".to_owned(),
+            Some("supervise") => "move it behind the '}' of this supervisor".into(),
+            Some(word) => message!("write '{}' behind the '}}' of this element", word),
+            None => "write 'supervise' before the name of a supervisor".into(),
         };
         if !(is_item || chooses) || self.names_something(0) {
             return false;
         }
-        self.skip(what, &help, |p| {
+        self.skip(what, help, |p| {
             p.at(Kind::CloseBrace) || p.at_word("supervise") || p.leaves_body() || p.begins_edge()
         });
         true

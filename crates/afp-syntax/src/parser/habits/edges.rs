@@ -2,6 +2,7 @@
 
 use crate::diagnostics::{Code, Diagnostic};
 use crate::kind::Kind;
+use crate::message;
 use crate::parser::Parser;
 
 impl Parser<'_, '_> {
@@ -24,11 +25,9 @@ impl Parser<'_, '_> {
             None => word.to_owned(),
         };
         let sign =
-            if self.nth(1) == Kind::OpenParen { "brackets".to_owned() } else { self.found_at(1) };
-        let message = format!("no {sign} behind '{word}'");
-        let help = format!("write '{better}'");
-        let place = self.ahead(tokens + 1);
-        self.error(Diagnostic::new(Code::E0102, place, message).help(help).replace(better));
+            if self.nth(1) == Kind::OpenParen { "brackets".into() } else { self.found_at(1) };
+        let message = message!("no {} behind '{}'", sign, word);
+        self.error(Diagnostic::new(Code::E0102, self.ahead(tokens + 1), message).write(better));
         tokens
     }
 
@@ -50,7 +49,7 @@ impl Parser<'_, '_> {
                 true => ("a target has no quotes", name.to_owned()),
                 false => ("a text here belongs to 'fail'", format!("fail {text}")),
             };
-            self.instead(1, message.to_owned(), format!("write '{better}'"), &better);
+            self.instead(1, message, message!("write '{}'", better), &better);
             return true;
         }
         let in_brackets = matches!(
@@ -59,8 +58,8 @@ impl Parser<'_, '_> {
         );
         let name = self.word(1);
         if in_brackets && !name.is_empty() {
-            let help = format!("write '{name}'");
-            self.instead(3, "a target has no brackets".to_owned(), help, name);
+            let help = message!("write '{}'", name);
+            self.instead(3, "a target has no brackets", help, name);
         }
         in_brackets && !name.is_empty()
     }
@@ -102,8 +101,8 @@ impl Parser<'_, '_> {
     /// `terminate "why"`: reports a text behind another target than `fail`, and reads past it.
     pub(in crate::parser) fn no_text_behind_target(&mut self) {
         if self.at(Kind::Text) && self.on_same_line() {
-            let message = "only 'fail' has a text behind it".to_owned();
-            self.instead(1, message, "remove it, or write 'fail' before it".to_owned(), "");
+            let message = "only 'fail' has a text behind it";
+            self.instead(1, message, "remove it, or write 'fail' before it", "");
         }
     }
 
@@ -146,7 +145,7 @@ impl Parser<'_, '_> {
         }
         let text: Vec<_> = (0..words).map(|ahead| self.word(ahead)).collect();
         let better = format!("\"{}\"", text.join(" "));
-        let message = "why a plan fails stands in double quotes".to_owned();
-        self.instead(words, message, format!("write '{better}'"), &better);
+        let message = "why a plan fails stands in double quotes";
+        self.instead(words, message, message!("write '{}'", better), &better);
     }
 }

@@ -1,7 +1,8 @@
 //! What stands behind a template as other languages have it: ports, times.
 
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Words};
 use crate::kind::Kind;
+use crate::message;
 use crate::parser::Parser;
 
 /// So many tokens of a path are looked at.
@@ -30,8 +31,8 @@ impl Parser<'_, '_> {
     pub(in crate::parser) fn short_name_of_a_file(&mut self) {
         let named = self.nth(1) == Kind::Name && !self.begins_line(1);
         if self.at_word("as") && self.on_same_line() && named {
-            let message = "a file has no short name".to_owned();
-            let help = "remove it; what the file has is called by its own name".to_owned();
+            let message = "a file has no short name";
+            let help = "remove it; what the file has is called by its own name";
             self.instead(2, message, help, "");
         }
     }
@@ -46,8 +47,8 @@ impl Parser<'_, '_> {
         {
             let name = self.text_of(1, 2);
             let what = if self.nth(1) == Kind::Text { "file" } else { "toolbox" };
-            let message = format!("each {what} has a 'use' of its own");
-            let help = format!("write 'use {name}' on the next line");
+            let message = message!("each {} has a 'use' of its own", Words(what));
+            let help = message!("write 'use {}' on the next line", name);
             let place = self.ahead(2);
             let error = Diagnostic::new(Code::E0102, place, message);
             self.error(error.help(help).replace(format!("\nuse {name}")));
@@ -59,8 +60,8 @@ impl Parser<'_, '_> {
         }
         let (line, toolbox) = (self.text_between(first, self.at), self.word_before());
         let tokens = 1 + colons + usize::from(!self.begins_line(1 + colons));
-        let help = format!("write '{line}'; its names stand alone, or behind '{toolbox}.'");
-        self.instead(tokens, "a toolbox is used as a whole".to_owned(), help, "");
+        let help = message!("write '{}'; its names stand alone, or behind '{}.'", line, toolbox);
+        self.instead(tokens, "a toolbox is used as a whole", help, "");
     }
 
     /// `Turn[angle = 90 deg]`, `Turn angle = 90 deg`: reports the parentheses that are missing, and reads the ports.
@@ -74,9 +75,8 @@ impl Parser<'_, '_> {
             return;
         }
         let here = self.next_span();
-        let message = format!("expected '(', found {}", self.found());
         let help = "put what goes into a template in parentheses: '(' and ')'";
-        self.error(Diagnostic::new(Code::E0102, here, message).help(help));
+        self.error(self.instead_of(here, "'('").help(help));
         if in_brackets {
             self.pass(1);
         }
@@ -108,7 +108,7 @@ impl Parser<'_, '_> {
         let named = template.filter(|_| self.nth(tokens + 1) == Kind::OpenBrace);
         let error = match (watches, named) {
             (false, _) => {
-                let message = format!("only supervisors have '{word}'");
+                let message = message!("only supervisors have '{}'", word);
                 Diagnostic::new(Code::E0102, self.ahead(tokens), message)
                     .help("remove it")
                     .replace("")
@@ -119,13 +119,14 @@ impl Parser<'_, '_> {
                 let error = Diagnostic::new(
                     Code::E0102,
                     place,
-                    format!("'{word}' stands behind the template"),
+                    message!("'{}' stands behind the template", word),
                 );
-                error.help(format!("write '{better}'")).replace(better)
+                error.write(better)
             }
             (true, None) => {
-                let message = format!("'{word}' stands behind the template");
-                let help = format!("write the template, its ports in brackets, and then '{times}'");
+                let message = message!("'{}' stands behind the template", word);
+                let help =
+                    message!("write the template, its ports in brackets, and then '{}'", times);
                 Diagnostic::new(Code::E0102, self.ahead(tokens), message).help(help)
             }
         };

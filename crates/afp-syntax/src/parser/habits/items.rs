@@ -1,9 +1,10 @@
 //! Items that no plan and no file has, and items that stand in braces where they have no place.
 
 use super::{LOOP, is_type};
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Message};
 use crate::kind::Kind;
 use crate::lexer::CHOICE;
+use crate::message;
 use crate::parser::recovery::Body;
 use crate::parser::{MAX_DEPTH, Parser};
 use crate::source::Span;
@@ -15,7 +16,7 @@ const SUB_PLAN: &str = "write a plan of its own, and use it as a 'subplan'";
 
 impl Parser<'_, '_> {
     /// What to write for an item that no plan has, and that is no slip.
-    pub(in crate::parser) fn item_help(&self) -> Option<String> {
+    pub(in crate::parser) fn item_help(&self) -> Option<Message> {
         let (word, next) = (self.word(0), self.word(1));
         let begins_element = || self.on_line_from(1, Kind::OpenBrace).is_some();
         // What stands on the next line is none of this.
@@ -28,27 +29,27 @@ impl Parser<'_, '_> {
             }
             (_, Kind::Colon) if begins_element() => {
                 "begin an element with 'actor', 'computation' or 'subplan', a supervisor with 'supervise'"
-                    .to_owned()
+                    .into()
             }
             (_, Kind::Colon | Kind::Equal) => {
-                format!("begin an entry with 'var', 'const', 'in' or 'out': 'var {word}'")
+                message!("begin an entry with 'var', 'const', 'in' or 'out': 'var {}'", word)
             }
-            (_, Kind::Arrow) => "put the edge into the braces of an element or a supervisor".to_owned(),
-            (_, Kind::Name) if is_type(word) => format!("write 'var {next}: {word}'"),
-            ("double" | "real", Kind::Name) => format!("write 'var {next}: float'"),
-            ("def" | "task", Kind::Name) if self.nth(2) == Kind::OpenParen => SUB_PLAN.to_owned(),
+            (_, Kind::Arrow) => "put the edge into the braces of an element or a supervisor".into(),
+            (_, Kind::Name) if is_type(word) => message!("write 'var {}: {}'", next, word),
+            ("double" | "real", Kind::Name) => message!("write 'var {}: float'", next),
+            ("def" | "task", Kind::Name) if self.nth(2) == Kind::OpenParen => SUB_PLAN.into(),
             ("let" | "mut" | "auto" | "local" | "global" | "val" | "def", Kind::Name) => {
-                format!("write 'var {next}'")
+                message!("write 'var {}'", next)
             }
             ("task", Kind::Name) if self.nth(2) == Kind::Colon => return None,
-            ("if" | "else" | "elif" | "switch" | "case" | "when" | "match", _) => CHOICE.to_owned(),
-            ("while" | "for" | "loop" | "do" | "until", _) => LOOP.to_owned(),
-            ("import" | "include" | "from", _) => "write 'use' at the top of the file".to_owned(),
+            ("if" | "else" | "elif" | "switch" | "case" | "when" | "match", _) => CHOICE.into(),
+            ("while" | "for" | "loop" | "do" | "until", _) => LOOP.into(),
+            ("import" | "include" | "from", _) => "write 'use' at the top of the file".into(),
             ("fn" | "func" | "function" | "void" | "class" | "task", _) => {
-                SUB_PLAN.to_owned()
+                SUB_PLAN.into()
             }
             ("every" | "deadline", _) => {
-                "write it behind the supervisor's template, before its '{'".to_owned()
+                "write it behind the supervisor's template, before its '{'".into()
             }
             _ => return None,
         })
@@ -56,7 +57,7 @@ impl Parser<'_, '_> {
 
     /// `n = n + 1`, `n += 1`, `n++`: how a value is written, where an entry is that changes and not one that is declared, or,
     /// in the body of an element, a port.
-    pub(in crate::parser) fn assignment_help(&self, in_body: bool) -> Option<String> {
+    pub(in crate::parser) fn assignment_help(&self, in_body: bool) -> Option<Message> {
         let (name, sign) = (self.word(0), self.token(1)?.text);
         let end = |from: usize| self.end_of_value(from);
         let value = match (self.nth(1), self.nth(2)) {
@@ -74,10 +75,10 @@ impl Parser<'_, '_> {
             return None;
         }
         let help =
-            format!("let a computation write it: 'Assign(value = {value}, result => {name})'");
+            message!("let a computation write it: 'Assign(value = {}, result => {})'", value, name);
         Some(match declared {
             Some(word @ ("in" | "const")) => {
-                format!("declare '{name}' with 'var' in place of '{word}', and {help}")
+                message!("declare '{}' with 'var' in place of '{}', and {}", name, word, help)
             }
             _ => help,
         })
@@ -110,7 +111,7 @@ impl Parser<'_, '_> {
         let error =
             Diagnostic::new(Code::E0102, self.next_span(), "the type stands before the '='");
         let better = format!(": {ty} {value}");
-        let help = format!("write '{}{better}'", self.text_between(end - 1, end));
+        let help = message!("write '{}{}'", self.text_between(end - 1, end), better);
         self.error(error.help(help).fix(place, better));
         self.pass(1);
     }
@@ -125,16 +126,16 @@ impl Parser<'_, '_> {
         let error = Diagnostic::new(Code::E0102, sign, "the value stands before its range");
         let better = format!("{value} {bounds}");
         let place = self.place_between(range, self.at);
-        self.error(error.help(format!("write '{better}'")).fix(place, better));
+        self.error(error.write_at(place, better));
     }
 
     /// What to write for an item that files of other languages have.
-    pub(in crate::parser) fn top_help(&self) -> Option<String> {
+    pub(in crate::parser) fn top_help(&self) -> Option<Message> {
         if self.word(0) == "afp" && self.nth(1) == Kind::Int {
-            return Some("move it to the first line of the file".to_owned());
+            return Some("move it to the first line of the file".into());
         }
         let is_import = matches!(self.word(0), "import" | "include" | "from" | "using" | "require");
-        is_import.then(|| "write 'use' and the name of a toolbox".to_owned())
+        is_import.then(|| "write 'use' and the name of a toolbox".into())
     }
 
     /// Whether an actor, entry or supervisor begins here inside the body of another one, though no brace is missing.
@@ -151,7 +152,7 @@ impl Parser<'_, '_> {
     /// Reads an item of a file that stands inside of a plan.
     pub(in crate::parser) fn top_inside(&mut self) {
         let (here, word) = (self.next_span(), self.word(0));
-        let message = format!("'{word}' stands in the braces of a plan");
+        let message = message!("'{}' stands in the braces of a plan", word);
         let help = match word {
             "use" => "move it to the top of the file",
             _ => "move it behind the '}' of the plan",
@@ -168,7 +169,7 @@ impl Parser<'_, '_> {
     pub(in crate::parser) fn nested(&mut self) {
         let (here, word) = (self.next_span(), self.word(0));
         if self.depth == 0 {
-            let message = format!("'{word}' stands in braces where it has no place");
+            let message = message!("'{}' stands in braces where it has no place", word);
             let help = match word {
                 "supervise" => "move it behind the '}' of the other supervisor",
                 "on" => "move it behind the '}' of the supervisor",

@@ -1,7 +1,8 @@
 //! Lines of scenarios whose words stand in another order, or with other signs.
 
-use crate::diagnostics::{Code, Diagnostic};
+use crate::diagnostics::{Code, Diagnostic, Words};
 use crate::kind::Kind;
+use crate::message;
 use crate::parser::Parser;
 use crate::parser::scenario::is_line;
 
@@ -54,12 +55,12 @@ impl Parser<'_, '_> {
                 let better = better.trim_end();
                 let message = "a line begins with the time at which something happens";
                 let error = Diagnostic::new(Code::E0102, place, message);
-                error.help(format!("write '{better}'")).replace(better)
+                error.write(better)
             }
             None => {
-                let message = format!("no time at which to {}", self.word(0));
+                let message = message!("no time at which to {}", Words(self.word(0)));
                 let help =
-                    format!("write it in front, such as 'at 1 s: {}'", self.text_of(0, tokens));
+                    message!("write it in front, such as 'at 1 s: {}'", self.text_of(0, tokens));
                 Diagnostic::new(Code::E0102, place, message).help(help)
             }
         };
@@ -84,7 +85,7 @@ impl Parser<'_, '_> {
         let place = self.place_between(first, self.at + 1);
         let better = format!("never {}", self.text_between(first + 1, self.at));
         let error = Diagnostic::new(Code::E0102, place, "'never' stands in place of 'expect'");
-        self.error(error.help(format!("write '{better}'")).replace(better));
+        self.error(error.write(better));
         self.pass(1);
         while matches!(self.word(0), "within" | "before" | "after") && self.on_same_line() {
             self.open(Kind::Bound);

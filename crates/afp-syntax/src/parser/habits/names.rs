@@ -3,6 +3,7 @@
 use crate::diagnostics::{Code, Diagnostic};
 use crate::keywords::{self, DECLARES};
 use crate::kind::Kind;
+use crate::message;
 use crate::parser::Parser;
 
 impl Parser<'_, '_> {
@@ -28,7 +29,7 @@ impl Parser<'_, '_> {
         let parts: Vec<_> = (0..tokens).step_by(2).filter_map(|at| self.token(at)).collect();
         let parts: Vec<_> = parts.iter().map(|token| token.text).collect();
         let better = parts.join("_");
-        let help = format!("write '{better}' or '{}'", in_one_word(&parts));
+        let help = message!("write '{}' or '{}'", better, in_one_word(&parts));
         let error = Diagnostic::new(Code::E0102, self.ahead(tokens), "a name has no '-'");
         self.hyphens.insert(parts.join("-"));
         let declares = keywords::has(self.word_before(), DECLARES);

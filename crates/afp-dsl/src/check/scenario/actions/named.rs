@@ -1,12 +1,13 @@
 //! Paths of actions: a component, and what is to come of it.
 
 use super::COMPUTES;
-use crate::check::names::unknown;
+use crate::check::names::{offer, unknown};
 use crate::check::scenario::Checker;
 use crate::check::scenario::paths::{Found, Instance, Part};
 use crate::graph::Component;
 use afp_syntax::ast::{Name, Path};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
+use afp_syntax::message;
 
 /// So many components are looked at for a help.
 const MOST: usize = 2000;
@@ -54,18 +55,18 @@ impl Checker<'_> {
         let below = format!("{}.", path.text());
         let possible = self.possible(Some(verb), &below);
         let what = if verb == Verb::Fire { "an event" } else { "a state" };
-        let message = format!("{what} is missing behind '{}'", path.text());
+        let message = message!("{} is missing behind '{}'", Words(what), path.text());
         let error = Diagnostic::new(Code::E0210, path.span(), message);
         if possible.is_empty() {
             let events = self.possible(Some(Verb::Fire), &below);
             return match (self.paths.component(found), events.first()) {
                 (Some(Component::Computation(_)), _) => error.help(COMPUTES),
-                (_, Some(event)) => error.help(format!("write 'fire {event}'")),
+                (_, Some(event)) => error.help(message!("write 'fire {}'", event)),
                 (_, None) => error.help("name another component"),
             };
         }
         let known = possible.iter().map(String::as_str);
-        unknown(error.code, error.span, error.message, "", known, "")
+        offer(error, "", known, "")
     }
 
     /// Reports an event behind the name of an actor, whose supervisor is left out, or nothing that there is.
@@ -78,7 +79,7 @@ impl Checker<'_> {
         if is_event {
             possible.retain(|path| path.ends_with(&end));
         }
-        let message = format!("'{}' has no event '{}'", self.paths.name(found), name.text);
+        let message = message!("'{}' has no event '{}'", self.paths.name(found), name.text);
         let known = possible.iter().map(String::as_str);
         let said = unknown(Code::E0602, path.span(), message, "", known, "name another component");
         match possible.as_slice() {
@@ -98,12 +99,11 @@ impl Checker<'_> {
             let better = text(&names[..=at]);
             let place = names.get(at + 1).map_or(name.span, |more| more.span);
             return Diagnostic::new(Code::E0210, place, "a state or event has no parts")
-                .help(format!("write '{better}'"))
-                .fix(path.span(), better);
+                .write_at(path.span(), better);
         }
         let Part::Element(_) = found.part else { return self.no_outcome(found, name) };
         let home = text(&names[..at]);
-        let message = format!("'{home}' has no supervisor '{}'", name.text);
+        let message = message!("'{}' has no supervisor '{}'", home, name.text);
         let possible = self.possible(Some(verb), &format!("{home}."));
         let known = possible.iter().map(String::as_str);
         unknown(Code::E0602, path.span(), message, &path.text(), known, "name another component")
@@ -123,7 +123,7 @@ impl Checker<'_> {
         if possible.is_empty() {
             return error;
         }
-        let message = format!("whose '{}' is meant is not said", name.text);
+        let message = message!("whose '{}' is meant is not said", name.text);
         let known = possible.iter().map(String::as_str);
         let said = unknown(error.code, error.span, message, "", known, "");
         match possible.as_slice() {

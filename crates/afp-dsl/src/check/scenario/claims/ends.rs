@@ -6,7 +6,8 @@ use crate::check::synonyms::{self, Leads};
 use crate::graph::Target;
 use crate::scenario::{Cause, Claim, EndCause, Outcome};
 use afp_syntax::ast::{ENDS, Name, Path};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, words};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Subject, list};
+use afp_syntax::message;
 
 /// The end of a plan that was meant by a word.
 pub(super) fn meant(word: &str) -> Option<&'static str> {
@@ -33,8 +34,7 @@ impl Checker<'_> {
             diags.push(*error);
             return None;
         }
-        let error = Diagnostic::new(error.code, error.span, error.message);
-        diags.push(error.help(format!("write '{meant}'")).replace(meant));
+        diags.push(error.bare().write(meant));
         None
     }
 
@@ -63,9 +63,7 @@ impl Checker<'_> {
             (Err(_), Some(ending)) => return Some(Claim::End(Some(ending))),
             (Err(error), None) => {
                 diags.push(match meant(&path.text()).filter(|_| error.fix.is_none()) {
-                    Some(better) => Diagnostic::new(error.code, error.span, error.message)
-                        .help(format!("write '{better}'"))
-                        .replace(better),
+                    Some(better) => error.bare().write(better),
                     None => *error,
                 });
                 return None;
@@ -99,8 +97,9 @@ impl Checker<'_> {
             return Some(());
         }
         let plan = &self.paths.graph.main().name;
-        let message = format!("'{}' does not end '{plan}'", path.text());
+        let message = message!("'{}' does not end '{}'", path.text(), plan);
         let error = Diagnostic::new(Code::E0603, path.span(), message).help(self.endings());
+        let error = error.about(Subject::Path(path.text()));
         diags.push(match outcome.filter(|_| main) {
             Some(outcome) => error.note(self.paths.edge(found, outcome), "it leads elsewhere"),
             None => error,
@@ -109,7 +108,7 @@ impl Checker<'_> {
     }
 
     /// What ends the plan, for a help.
-    fn endings(&self) -> String {
+    fn endings(&self) -> Message {
         let paths = &self.paths;
         let ending = paths.components().flat_map(|(name, found)| {
             let outcomes = paths.outcomes(found).into_iter().chain([paths.special(found)]);
@@ -120,11 +119,9 @@ impl Checker<'_> {
         });
         let ending: Vec<_> = ending.collect();
         match ending.is_empty() {
-            true => {
-                "nothing leads to 'terminate'; only an error ends it: 'end by Error'".to_owned()
-            }
+            true => "nothing leads to 'terminate'; only an error ends it: 'end by Error'".into(),
             false => {
-                format!("what ends it is {}", words::list(ending.iter().map(String::as_str), "or"))
+                message!("what ends it is {}", list(ending.iter().map(String::as_str), "or"))
             }
         }
     }

@@ -5,6 +5,7 @@ use crate::check::scenario::Checker;
 use crate::check::scenario::paths::Part;
 use afp_syntax::ast::{ClaimTarget, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic};
+use afp_syntax::message;
 
 impl Checker<'_> {
     /// What is wrong where the state or event by which an element is left stands in place of the element, as it does in
@@ -27,10 +28,10 @@ impl Checker<'_> {
         let owner: Vec<_> = names.iter().take(owner).map(|name| &*name.text).collect();
         let element = self.paths.find(self.paths.main(), &names[..owner.len()]);
         let help = match element.is_ok_and(|(at, _)| matches!(at.part, Part::Element(_))) {
-            true => format!("write '{} -> {to} by {text}'", owner.join(".")),
-            false => format!("write the element that is left: 'ELEMENT -> {to} by {text}'"),
+            true => message!("write '{} -> {} by {}'", owner.join("."), to, text),
+            false => message!("write the element that is left: 'ELEMENT -> {} by {}'", to, text),
         };
-        let message = format!("'{text}' is no element");
+        let message = message!("'{}' is no element", text);
         Some(Diagnostic::new(Code::E0602, path.span(), message).help(help))
     }
 }

@@ -1,0 +1,31 @@
+//! Nothing is decided by the wording of a message: with codes in place of all texts the same is found.
+
+use afp_dsl::Compiled;
+use afp_syntax::diagnostics::show_only_codes;
+
+use crate::errors::stripped;
+use crate::support;
+
+/// All that tools act on: everything but the texts.
+fn found(compiled: &Compiled) -> Vec<String> {
+    let one = |each: &afp_syntax::diagnostics::Diagnostic| {
+        let notes: Vec<_> = each.note_texts().map(|(span, _)| span).collect();
+        format!("{:?} {:?} {:?} {:?}", (each.code, each.severity), each.span, each.fix, notes)
+    };
+    compiled.diags.iter().map(one).collect()
+}
+
+#[test]
+fn the_same_is_found_with_other_words() {
+    let toolboxes = support::toolboxes();
+    for path in support::files("tests/errors") {
+        let text = stripped(&support::read(&path));
+        let wanted = found(&support::compile(&text, &toolboxes));
+        show_only_codes(true);
+        let compiled = support::compile(&text, &toolboxes);
+        let (found, first) = (found(&compiled), compiled.diags.get(0).map(|it| it.message_text()));
+        show_only_codes(false);
+        assert_eq!(found, wanted, "{}", path.display());
+        assert_eq!(first.as_deref(), compiled.diags.get(0).map(|it| it.code.as_str()));
+    }
+}
