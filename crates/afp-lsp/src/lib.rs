@@ -17,7 +17,6 @@ mod diagnostics;
 mod dispatch;
 mod documents;
 mod host;
-mod reads;
 mod server;
 mod standard;
 mod uri;

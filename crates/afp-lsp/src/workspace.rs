@@ -1,6 +1,8 @@
 //! What the documents mean: projects, toolboxes and compilations, each made again only when a text
 //! that it read has changed.
 
+mod reads;
+
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,8 +18,9 @@ use afp_syntax::source::{Encoding, Source};
 
 use crate::documents::Documents;
 use crate::host::Host;
-use crate::reads::Reads;
 use crate::uri::BUILT_IN;
+
+pub(crate) use reads::Reads;
 
 /// The name of the project file.
 pub(crate) const PROJECT: &str = "afp.toml";

@@ -17,10 +17,9 @@ use super::Document;
 use super::scene::{Facts, Shown};
 use super::subscription::{MadeFrom, Subscription, plans};
 use crate::answer::{Answer, Failure, ok};
-use crate::reads::Reads;
 use crate::server::Server;
 use crate::uri;
-use crate::workspace::{Analysis, Workspace};
+use crate::workspace::{Analysis, Reads, Workspace};
 
 /// A plan of a document.
 #[derive(Deserialize)]

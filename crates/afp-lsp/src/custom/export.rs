@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::Document;
 use super::drawing::find;
 use crate::answer::{Answer, Failure, ok};
-use crate::reads::Reads;
+use crate::workspace::Reads;
 use crate::server::Server;
 
 /// A document.

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::{Document, items::no_item};
 use crate::answer::{Answer, Failure, ok};
-use crate::reads::Reads;
+use crate::workspace::Reads;
 use crate::server::Server;
 use crate::standard::completion::snippet;
 

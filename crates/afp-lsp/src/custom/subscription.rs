@@ -7,8 +7,7 @@ use afp_syntax::item::Item;
 use afp_syntax::source::Span;
 
 use super::scene::Facts;
-use crate::reads::Reads;
-use crate::workspace::{Analysis, Workspace};
+use crate::workspace::{Analysis, Reads, Workspace};
 
 /// A drawing that a client has and hears the changes of.
 #[derive(Debug)]
