@@ -47,21 +47,7 @@ pub trait Environment {
     fn emergency_stop(&mut self);
 }
 
-/// Events of a supervisor, by position in its template.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Events(u64);
-
-impl Events {
-    /// A set from its bits: bit `n` is the template's `n`-th event.
-    pub const fn from_bits(bits: u64) -> Self {
-        Events(bits)
-    }
-
-    /// Whether the template's `n`-th event is one of them.
-    pub const fn contains(self, n: u16) -> bool {
-        n < 64 && self.0 >> n & 1 == 1
-    }
-}
+pub use afp_types::Events;
 
 /// The ports and states of an actor, as its toolbox file declares them.
 #[diagnostic::on_unimplemented(

@@ -28,7 +28,7 @@ use crate::rt::{
     Committer, Cx, ElementRow, Flow, Plan, PlanState, Polled, Run, Slot, Tables, Target,
 };
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
-use afp_types::{Duration, Instant};
+use afp_types::{Duration, ElementId, Instant, SupervisorId};
 use at::StepAt;
 use sweep::Seen;
 
@@ -42,14 +42,14 @@ pub struct Machine<P: PlanState> {
 struct Level<P: PlanState> {
     plan: P,
     slots: P::Slots,
-    active: Option<u16>,
+    active: Option<ElementId>,
     due: Instant,
 }
 
 /// An edge about to be followed.
 #[derive(Clone, Copy)]
 struct Edge {
-    target: Target,
+    target: Option<Target>,
     /// How the plan ends if the edge leads to `terminate`.
     ending: Ending,
 }
@@ -97,7 +97,7 @@ impl<P: PlanState> Machine<P> {
     }
 
     /// The active element, by position; `None` before the start and after the end.
-    pub fn active(&self) -> Option<u16> {
+    pub fn active(&self) -> Option<ElementId> {
         self.level.active
     }
 
@@ -164,7 +164,7 @@ impl<P: PlanState> Level<P> {
             return self.end(Ending::Error(fault), cx);
         }
         self.trace_entries(t, cx);
-        for supervisor in 0..t.table().globals {
+        for supervisor in (0..t.table().globals).map(SupervisorId) {
             if let Err(fault) = self.start_supervisor(t, supervisor, cx) {
                 return self.end(Ending::Error(fault), cx);
             }
@@ -187,7 +187,12 @@ impl<P: PlanState> Level<P> {
 
     /// A step while an element is active.
     #[inline(always)]
-    fn step_element<R: Run>(&mut self, t: &P::Tables, element: u16, cx: &mut Cx<'_, R>) -> Flow
+    fn step_element<R: Run>(
+        &mut self,
+        t: &P::Tables,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Flow
     where
         P: Plan<R::Env>,
     {
@@ -278,22 +283,23 @@ impl<P: PlanState> Level<P> {
     }
 }
 
-/// The slot of a supervisor.
-fn slot(t: &impl Tables, supervisor: u16) -> Option<usize> {
-    t.table().supervisor(supervisor).map(|row| usize::from(row.slot))
+/// The slot of a row of a supervisor.
+fn slot(t: &impl Tables, row: u16) -> Option<usize> {
+    t.table().supervisor(row).map(|row| usize::from(row.slot))
 }
 
 /// The id of an element.
 #[inline]
-fn component<R: Run>(cx: &Cx<'_, R>, element: u16) -> ComponentId {
-    ComponentId(cx.place.components.saturating_add(u32::from(element)))
+fn component<R: Run>(cx: &Cx<'_, R>, element: ElementId) -> ComponentId {
+    ComponentId(cx.place.components.saturating_add(u32::from(element.0)))
 }
 
 /// The id of a supervisor.
 #[inline]
-fn supervisor_id<R: Run>(t: &impl Tables, cx: &Cx<'_, R>, supervisor: u16) -> ComponentId {
+fn supervisor_id<R: Run>(t: &impl Tables, cx: &Cx<'_, R>, supervisor: SupervisorId) -> ComponentId {
     let elements = t.table().elements.len() as u32;
-    ComponentId(cx.place.components.saturating_add(elements).saturating_add(u32::from(supervisor)))
+    let number = elements.saturating_add(u32::from(supervisor.0));
+    ComponentId(cx.place.components.saturating_add(number))
 }
 
 /// The next poll of an actor, on the grid of its period; polls that passed are skipped.

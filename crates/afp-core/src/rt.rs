@@ -36,7 +36,10 @@ pub use row::{RowInputs, row};
 pub use run::Run;
 pub use state::{AtElement, Plan, PlanState};
 pub use store::{Any, Choice, Discrete, Entry, Number, Object, Stored, Writable};
-pub use table::{Child, ElementKind, ElementRow, PlanTable, Range, SupervisorRow, Tables, Target};
+pub use table::{
+    Child, ElementId, ElementKind, ElementRow, PlanTable, Range, ReasonId, SupervisorId,
+    SupervisorRow, Tables, Target, Timing,
+};
 pub use write::WriteError;
 
 pub use crate::fault::BadValue;

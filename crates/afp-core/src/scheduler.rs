@@ -156,7 +156,7 @@ impl<P: PlanState> Scheduler<P> {
 
     /// The active element of the outermost plan.
     pub fn active(&self) -> Option<ElementId> {
-        self.machine.active().map(ElementId)
+        self.machine.active()
     }
 
     /// How the plan ended, once it has.

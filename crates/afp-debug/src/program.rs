@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use afp_core::Duration;
 use afp_core::trace::{ComponentId, Outcome, TraceEntryId, TraceHash};
-use afp_dsl::graph::{Component, EntryKind, Graph, PlanId};
+use afp_dsl::graph::{Component, EntryKind, Graph, PlanId, Timing};
 use afp_dsl::timing::{SupervisorTiming, timing};
 use afp_dsl::types::Type;
 use afp_dsl::unfold::{self, ComponentKind, Reaction, places, unfold};
@@ -66,10 +65,8 @@ pub struct Unit {
 /// The times of a supervisor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Times {
-    /// Its period.
-    pub every: Duration,
-    /// How long after its release its poll must be over.
-    pub deadline: Duration,
+    /// When it is polled.
+    pub timing: Timing,
     /// How long after its condition the robot stands, and how far that can be trusted; none where it interrupts nothing.
     pub bound: Option<String>,
 }
@@ -364,8 +361,7 @@ fn times(graph: &Graph) -> BTreeMap<Span, Times> {
             let trust = it.trust.as_str();
             total.map_or_else(|| trust.to_owned(), |total| format!("{total} ({trust})"))
         });
-        let [every, deadline] = [row.every, row.deadline].map(Duration::from_nanos);
-        (row.span, Times { every, deadline, bound })
+        (row.span, Times { timing: row.timing, bound })
     };
     timing(graph, None).supervisors.into_iter().map(row).collect()
 }

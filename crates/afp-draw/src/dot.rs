@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use super::Options;
 use super::names::free_names;
-use super::view::{Exit, To, View, name};
+use super::view::{Exit, To, View, name, to};
+use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
 /// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed ones for
@@ -43,7 +44,8 @@ impl<'a> Cluster<'a, '_> {
         for element in &plan.elements {
             self.node(text, element);
         }
-        for (end, look) in [(To::Terminate, ""), (To::Fail(""), ", color=red")] {
+        for (end, look) in [(Target::Terminate, ""), (Target::Fail(""), ", color=red")] {
+            let end = Some(end);
             if self.reaches(end) {
                 let (node, label) = (quoted(&self.node_name(end)), view.target_name(end));
                 line(text, 2, &format!("{node} [label=\"{label}\", shape=oval{look}];"));
@@ -51,8 +53,8 @@ impl<'a> Cluster<'a, '_> {
         }
         line(text, 1, "}");
         for first in &plan.starts {
-            let to = To::of(first.target.as_ref());
-            if to != To::Nowhere {
+            let to = to(first.target.as_ref());
+            if to.is_some() {
                 let to = quoted(&self.node_name(to));
                 line(text, 1, &format!("{} -> {to} [penwidth=2];", quoted(&start)));
             }
@@ -97,7 +99,7 @@ impl<'a> Cluster<'a, '_> {
     }
 
     fn edge(&self, text: &mut String, from: &str, exit: &Exit<'a>, label: &str) {
-        if matches!(exit.to, To::Ignore | To::Nowhere) {
+        if matches!(exit.to, Some(Target::Ignore) | None) {
             return;
         }
         let style = match exit.kind {
@@ -105,7 +107,7 @@ impl<'a> Cluster<'a, '_> {
             ExitKind::Error => "dotted",
             ExitKind::Event | ExitKind::Missed => "dashed",
         };
-        if exit.to == To::Resume {
+        if exit.to == Some(Target::Resume) {
             let (from, label) = (quoted(from), quoted(&format!("{label}\nresume")));
             let look = format!("label={label}, style={style}, arrowhead=empty");
             return line(text, 1, &format!("{from} -> {from} [{look}];"));
@@ -121,7 +123,9 @@ impl<'a> Cluster<'a, '_> {
     /// Tags get a name that no element can have.
     fn node_name(&self, to: To<'a>) -> String {
         match to {
-            To::Element(id) => self.element_name(&self.view.plan.elements[id.index()]),
+            Some(Target::Element(Ok(id))) => {
+                self.element_name(&self.view.plan.elements[id.index()])
+            }
             other => format!("{}!{}", self.prefix, self.view.target_name(other)),
         }
     }

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::scene::{Drawn, DrawnPlan};
-use super::view::{Exit, Input, Output, To, View, entry_name, entry_type, name};
+use super::view::{Exit, Input, Output, View, entry_name, entry_type, name, to};
 use super::{Options, Rect};
 use crate::layout_file::Position;
 use afp_dsl::outline::{Component, Outline, Part, Plan};
@@ -31,7 +31,7 @@ pub fn json(outline: &Outline, options: &Options) -> String {
 
 fn plan_object(drawn: &DrawnPlan) -> Map<String, Value> {
     let (view, plan) = (&drawn.view, drawn.view.plan);
-    let first = plan.starts.first().map(|start| To::of(start.target.as_ref()));
+    let first = plan.starts.first().map(|start| to(start.target.as_ref()));
     let elements = plan.elements.iter().map(|element| element_object(drawn, element)).collect();
     let mut object = Map::new();
     put(&mut object, "plan", json!(view.name()));
@@ -135,7 +135,7 @@ fn ports(inputs: &[Input], outputs: &[Output]) -> Value {
 }
 
 fn targets<'a>(view: &View<'a>, exits: &[Exit<'a>]) -> Value {
-    let exits = exits.iter().filter(|exit| exit.to != To::Nowhere);
+    let exits = exits.iter().filter(|exit| exit.to.is_some());
     let pair = |exit: &Exit<'a>| (exit.name.to_owned(), json!(view.target_name(exit.to)));
     Value::Object(exits.map(pair).collect())
 }
@@ -167,8 +167,8 @@ fn timing(plan: &Plan) -> Value {
         Some(json!({
             "element": owner,
             "supervisor": name(supervisor),
-            "every_ns": times.every,
-            "deadline_ns": times.deadline,
+            "every_ns": times.timing.period.as_nanos(),
+            "deadline_ns": times.timing.deadline.as_nanos(),
         }))
     };
     Value::Array(global.chain(local).filter_map(object).collect())

@@ -8,9 +8,9 @@ use std::borrow::Cow;
 use super::usage::{Count, PlanUsage, Reaction, times};
 use super::{Options, formula};
 use crate::layout_file::Position;
+use afp_dsl::graph::Target;
 use afp_dsl::outline::{
-    self, Component, ComponentKind, Destination, ElementId, Entry, ExitKind, Outline, Plan, PlanId,
-    Target,
+    self, Component, ComponentKind, ElementId, Entry, ExitKind, Outline, Plan, PlanId,
 };
 use afp_dsl::toolbox::Toolbox;
 use afp_dsl::types::text::duration;
@@ -63,21 +63,9 @@ pub(super) struct Exit<'a> {
     pub(super) severity: Option<Severity>,
 }
 
-/// Where an exit leads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum To<'a> {
-    Element(ElementId),
-    Terminate,
-    /// The plan fails; with the reason, in quotes, where one is written.
-    Fail(&'a str),
-    Ignore,
-    /// Back to what is active.
-    Resume,
-    /// To what the plan does not have.
-    Unknown(&'a str),
-    /// Nowhere, although it must lead somewhere.
-    Nowhere,
-}
+/// Where an exit leads: to an element, to a name that the plan does not have, or elsewhere. `fail` has
+/// its reason, in quotes, if one is written. `None` is nowhere, although the exit must lead somewhere.
+pub(super) type To<'a> = Option<Target<Result<ElementId, &'a str>, &'a str>>;
 
 impl Input<'_> {
     /// What it is bound to, else its default.
@@ -100,18 +88,13 @@ impl Exit<'_> {
     }
 }
 
-impl<'a> To<'a> {
-    pub(super) fn of(target: Option<&'a Target>) -> To<'a> {
-        match target.map(|target| (target.to, target.text.as_str())) {
-            Some((Destination::Element(id), _)) => To::Element(id),
-            Some((Destination::Terminate, _)) => To::Terminate,
-            Some((Destination::Fail, _)) => To::Fail(target.and_then(Target::reason).unwrap_or("")),
-            Some((Destination::Ignore, _)) => To::Ignore,
-            Some((Destination::Resume, _)) => To::Resume,
-            Some((Destination::Unknown, text)) if !text.is_empty() => To::Unknown(text),
-            _ => To::Nowhere,
-        }
-    }
+/// Where a target leads.
+pub(super) fn to(target: Option<&outline::Target>) -> To<'_> {
+    let target = target?;
+    let (to, text) = (target.to, target.text.as_str());
+    let is_known = to != Target::Element(None);
+    (is_known || !text.is_empty())
+        .then(|| to.map(|id| id.ok_or(text), |()| target.reason().unwrap_or("")))
 }
 
 impl<'a> View<'a> {
@@ -224,14 +207,14 @@ impl<'a> View<'a> {
             if exit.edge.is_none() && !exit.required {
                 return None;
             }
-            let to = To::of(exit.edge.as_ref().and_then(|edge| edge.target.as_ref()));
+            let to = to(exit.edge.as_ref().and_then(|edge| edge.target.as_ref()));
             let count = counts.and_then(|counts| match exit.kind {
                 ExitKind::State | ExitKind::Event => counts.outcomes.get(index).copied(),
                 ExitKind::Error | ExitKind::Missed => Some(counts.special),
             });
             let count = count.or_else(|| self.reacted(reactions?, component, exit));
             // What is ignored is never taken, so that counting it would say nothing.
-            let count = count.filter(|_| to != To::Ignore);
+            let count = count.filter(|_| to != Some(Target::Ignore));
             let severity = self.severity(exit.findings.worst());
             Some(Exit { name: &exit.name, nth: exit.nth, kind: exit.kind, to, count, severity })
         });
@@ -292,15 +275,11 @@ impl<'a> View<'a> {
 
     /// Where an exit leads, in the words of the language.
     pub(super) fn target_name(&self, to: To<'a>) -> &'a str {
-        match to {
-            To::Element(id) => name(&self.plan.elements[id.index()]),
-            To::Terminate => "terminate",
-            To::Fail(_) => "fail",
-            To::Ignore => "ignore",
-            To::Resume => "resume",
-            To::Unknown(text) => text,
-            To::Nowhere => "",
-        }
+        let Some(to) = to else { return "" };
+        to.keyword().unwrap_or_else(|element| match element {
+            Ok(id) => name(&self.plan.elements[id.index()]),
+            Err(text) => text,
+        })
     }
 
     /// The template's toolbox and its icon's name.
@@ -328,7 +307,8 @@ pub(super) fn entry_type(entry: &Entry) -> String {
 /// When a supervisor is polled, for its tooltip.
 pub(super) fn timing(component: &Component) -> String {
     component.times.map_or(String::new(), |times| {
-        let (every, deadline) = (duration(times.every), duration(times.deadline));
+        let times = [times.timing.period, times.timing.deadline];
+        let [every, deadline] = times.map(|time| duration(time.as_nanos()));
         format!("every {every}, deadline {deadline}")
     })
 }

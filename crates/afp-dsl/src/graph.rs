@@ -19,10 +19,14 @@ use afp_syntax::source::{Source, Span};
 
 pub use afp_syntax::ast::Operator;
 pub use afp_types::{
-    ElementId, EntryId, EntryKind, Function, PlanId, ReasonId, SupervisorId, ToolboxId,
+    ElementId, EntryId, EntryKind, Function, PlanId, ReasonId, SupervisorId, Target, Timing,
+    ToolboxId,
 };
 pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};
+
+/// Where an edge leads in a running plan; elements go by their numbers.
+pub type Goal = Target<u32, ()>;
 
 /// All plans that one plan needs, itself included.
 #[derive(Clone, Debug)]
@@ -34,7 +38,7 @@ pub struct Graph {
     /// The toolboxes in use, in the order in which the files name them.
     pub toolboxes: Vec<Arc<Toolbox>>,
     /// The tables that the scheduler reads, one for each of [`Graph::plans`].
-    pub rows: Vec<Rows>,
+    pub rows: Vec<Arc<Rows>>,
     /// The plan files, each with the number by which spans name it.
     pub sources: Vec<(u16, Arc<Source>)>,
 }
@@ -180,10 +184,8 @@ pub struct Supervisor {
     pub events: Vec<Target>,
     /// Where `DeadlineMissed` leads.
     pub on_miss: Option<Target>,
-    /// Poll period in nanoseconds.
-    pub every: u64,
-    /// Deadline after each release in nanoseconds.
-    pub deadline: u64,
+    /// When it is polled.
+    pub timing: Timing,
     /// The constants that its times are.
     pub timed_by: Vec<EntryId>,
     /// Where `every` is written, if it is.
@@ -192,21 +194,6 @@ pub struct Supervisor {
     pub span: Span,
     /// Where its edges stand in the text.
     pub edges: EdgeSpans,
-}
-
-/// Where an edge leads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Target {
-    /// To an element of the same plan.
-    Element(ElementId),
-    /// The plan ends.
-    Terminate,
-    /// The plan ends in `Error`, for a reason of its own.
-    Fail(ReasonId),
-    /// The event is not taken; events only.
-    Ignore,
-    /// What is active goes on; events, and computations that only events lead to.
-    Resume,
 }
 
 /// An output port bound to an entry.
@@ -279,7 +266,7 @@ impl Graph {
     }
 
     /// The tables of a plan by index.
-    pub fn rows(&self, id: PlanId) -> &Rows {
+    pub fn rows(&self, id: PlanId) -> &Arc<Rows> {
         &self.rows[id.index()]
     }
 

@@ -10,7 +10,7 @@ mod comparison;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::graph::Graph;
+use crate::graph::{Goal, Graph};
 use crate::toolbox::SignalType;
 use crate::types::Constant;
 use afp_syntax::diagnostics::Diagnostics;
@@ -241,7 +241,7 @@ pub enum Claim {
         /// The element that is left.
         from: u32,
         /// Where the edge leads.
-        to: Destination,
+        to: Goal,
         /// The state or event that it belongs to.
         by: Option<Cause>,
     },
@@ -290,19 +290,6 @@ pub enum Operand {
     Value(Constant),
     /// What another one is at that time.
     Subject(Subject),
-}
-
-/// Where an edge leads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Destination {
-    /// To an element.
-    Element(u32),
-    /// Out of the plan.
-    Terminate,
-    /// Out of the plan, which fails.
-    Fail,
-    /// Back to what is active.
-    Resume,
 }
 
 /// A component, or one of its outcomes.

@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use crate::flow::view::View;
 use crate::flow::{self, Model};
-use crate::graph::Graph;
+use crate::graph::{self, Graph};
 use afp_syntax::source::Span;
 
 use contribution::Outside;
@@ -82,10 +82,8 @@ pub struct SupervisorTiming {
     pub plan: String,
     /// Its path in that plan, such as `searchFirstWall.touch`.
     pub path: String,
-    /// Its period in nanoseconds.
-    pub every: u64,
-    /// Its deadline in nanoseconds.
-    pub deadline: u64,
+    /// When it is polled.
+    pub timing: graph::Timing,
     /// How long after its release its poll is over. `Err` names the declaration that is missing.
     pub response: Result<Response, String>,
     /// How long after its condition has come to hold the robot stands still; `None` when it

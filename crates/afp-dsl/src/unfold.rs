@@ -13,6 +13,7 @@ use crate::graph::{
 };
 use crate::types::Type;
 use afp_syntax::source::Span;
+pub use crate::graph::Goal;
 pub use afp_types::ComponentKind;
 use ports::Ports;
 pub use texts::{PlanTexts, TextPlace};
@@ -126,21 +127,6 @@ impl Place {
     }
 }
 
-/// Where an edge leads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Goal {
-    /// To an element.
-    Element(u32),
-    /// The plan ends.
-    Terminate,
-    /// The plan fails.
-    Fail,
-    /// The event is not taken.
-    Ignore,
-    /// What is active goes on.
-    Resume,
-}
-
 /// The place of each component, by its number.
 pub fn places(graph: &Graph) -> Vec<Place> {
     let mut all = vec![Place { span: graph.main().span, ..Place::default() }];
@@ -151,13 +137,7 @@ pub fn places(graph: &Graph) -> Vec<Place> {
 fn add_places(graph: &Graph, id: PlanId, number: u32, all: &mut Vec<Place>) {
     let plan = graph.plan(id);
     let first = all.len() as u32;
-    let goal = |target: Target| match target {
-        Target::Element(id) => Goal::Element(first + u32::from(id.0)),
-        Target::Terminate => Goal::Terminate,
-        Target::Fail(_) => Goal::Fail,
-        Target::Ignore => Goal::Ignore,
-        Target::Resume => Goal::Resume,
-    };
+    let goal = |target: Target| target.map(|id| first + u32::from(id.0), |_| ());
     let supervisors = first + plan.elements.len() as u32;
     let resuming = resuming(plan.elements.iter().map(Some));
     all.extend(plan.elements.iter().zip(resuming).map(|(element, resumes)| {
@@ -313,12 +293,6 @@ fn supervisor(graph: &Graph, plan: &Plan, index: usize, prefix: &str) -> Compone
 
 /// A target as the text names it.
 fn target(plan: &Plan, target: Option<Target>) -> String {
-    match target {
-        Some(Target::Element(id)) => plan.elements[id.index()].name.clone(),
-        Some(Target::Terminate) => "terminate".to_owned(),
-        Some(Target::Fail(_)) => "fail".to_owned(),
-        Some(Target::Ignore) => "ignore".to_owned(),
-        Some(Target::Resume) => "resume".to_owned(),
-        None => String::new(),
-    }
+    let Some(target) = target else { return String::new() };
+    target.keyword().unwrap_or_else(|id| &plan.elements[id.index()].name).to_owned()
 }

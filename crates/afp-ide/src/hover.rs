@@ -168,8 +168,8 @@ fn bounds(view: &View, definition: &Definition) -> Vec<String> {
         let time = afp_dsl::types::text::duration;
         facts.push(format!(
             "Polled every {}, deadline {}.",
-            time(times.every),
-            time(times.deadline)
+            time(times.timing.period.as_nanos()),
+            time(times.timing.deadline.as_nanos())
         ));
     }
     let Some(timing) = times.and_then(|_| view.compiled.timing()) else { return facts };

@@ -11,9 +11,7 @@ mod tests;
 use afp_core::devices::SignalId;
 use afp_core::trace::{self, Author, ComponentId, Ending, Names, Record, TraceEntryId};
 use afp_core::{Instant, Value, ValueRef};
-use afp_dsl::scenario::{
-    Cause, Claim, Destination, EndCause, Expectation, Outcome, Scenario, Subject,
-};
+use afp_dsl::scenario::{Cause, Claim, EndCause, Expectation, Outcome, Scenario, Subject};
 use afp_dsl::toolbox::Constant;
 use afp_dsl::unfold::{Goal, Place, places};
 
@@ -298,7 +296,7 @@ impl<'a> Watch<'a> {
     fn leave(&mut self, at: Instant, element: ComponentId, by: Cause) {
         let to = self.goal(by, element);
         let outermost = self.place(element).is_some_and(|place| place.plan == 0);
-        if outermost && matches!(to, Some(Goal::Terminate | Goal::Fail)) {
+        if outermost && matches!(to, Some(Goal::Terminate | Goal::Fail(_))) {
             self.last = Some(by);
         }
         if by.component == element.0 {
@@ -406,16 +404,6 @@ fn cause(component: ComponentId, outcome: trace::Outcome) -> Cause {
 fn fits(wanted: &Cause, by: Cause) -> bool {
     wanted.component == by.component
         && wanted.outcome.is_none_or(|outcome| Some(outcome) == by.outcome)
-}
-
-/// Whether an edge leads where a scenario says.
-fn leads(wanted: Destination, to: Option<Goal>) -> bool {
-    match wanted {
-        Destination::Element(element) => to == Some(Goal::Element(element)),
-        Destination::Terminate => to == Some(Goal::Terminate),
-        Destination::Fail => to == Some(Goal::Fail),
-        Destination::Resume => to == Some(Goal::Resume),
-    }
 }
 
 /// Whether the plan ended as a scenario says.

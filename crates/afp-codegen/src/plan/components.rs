@@ -105,7 +105,7 @@ fn start_supervisor(context: &Context<'_>) -> TokenStream {
     quote! {
         fn start_supervisor<R: Run<Env = E>>(
             &mut self,
-            #number: u16,
+            #number: SupervisorId,
             #cx: &mut Cx<'_, R>,
         ) -> Result<(), Fault> {
             #body
@@ -139,7 +139,7 @@ fn poll_supervisor(context: &Context<'_>) -> TokenStream {
         #[inline]
         fn poll_supervisor<R: Run<Env = E>>(
             &mut self,
-            #number: u16,
+            #number: SupervisorId,
             #wanted: Events,
             #cx: &mut Cx<'_, R>,
         ) -> Fired {
@@ -157,7 +157,7 @@ fn start_element(context: &Context<'_>) -> TokenStream {
     quote! {
         fn start_element<R: Run<Env = E>>(
             &mut self,
-            #number: u16,
+            #number: ElementId,
             #cx: &mut Cx<'_, R>,
         ) -> Started {
             let started: Result<Active, Fault> = #body;
@@ -318,7 +318,7 @@ fn poll_element(context: &Context<'_>) -> TokenStream {
         #[inline]
         fn poll_element<R: Run<Env = E>>(
             &mut self,
-            _: u16,
+            _: ElementId,
             #cx: &mut Cx<'_, R>,
         ) -> Polled {
             match &mut self.active {
@@ -352,7 +352,7 @@ fn interrupt_element(context: &Context<'_>) -> TokenStream {
     quote! {
         fn interrupt_element<R: Run<Env = E>>(
             &mut self,
-            _: u16,
+            _: ElementId,
             #cx: &mut Cx<'_, R>,
         ) -> Result<(), Fault> {
             match &mut self.active {
@@ -379,7 +379,7 @@ fn leave(context: &Context<'_>) -> TokenStream {
     let element = used(quote!(element), !arms.is_empty());
     let dropped = (!arms.is_empty()).then(|| quote!(match element { #(#arms)* _ => {} }));
     quote! {
-        fn leave(&mut self, #element: u16) {
+        fn leave(&mut self, #element: ElementId) {
             self.active = Active::None;
             #dropped
         }

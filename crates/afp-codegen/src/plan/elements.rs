@@ -8,14 +8,14 @@ use super::context::{ComponentNames, Context, is_bare};
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, comment, doc};
 use afp_dsl::graph::{Component, Element, Entry, EntryKind, Formula, Plan, PlanId, TemplateId};
-use afp_dsl::rows::ElementRow;
 use afp_dsl::types::{Conversion, Dimension, Type};
+use afp_types::ElementRow;
 
 /// Numbers, the enum of the active element, and the bindings of each element.
 pub fn elements(context: &Context<'_>) -> TokenStream {
     let numbers = (0..).zip(&context.elements).map(|(index, names)| {
         let (number, index) = (&names.number, Literal::u16_unsuffixed(index));
-        quote!(const #number: u16 = #index;)
+        quote!(const #number: ElementId = ElementId(#index);)
     });
     let active = active(context);
     let rows = context.rows.elements.iter().zip(&context.elements);

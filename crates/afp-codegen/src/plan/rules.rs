@@ -7,7 +7,7 @@ use super::context::{ComponentNames, Context};
 use super::elements::description;
 use crate::layout::{at, comment, doc};
 use afp_dsl::graph::{Component, Element, Target, TemplateId};
-use afp_dsl::rows::{ElementKind, ElementRow, Range, SupervisorRow};
+use afp_types::{Duration, ElementKind, ElementRow, Events, Range, SupervisorRow, Timing};
 
 /// The tables of the plan.
 pub fn rules(context: &Context<'_>) -> TokenStream {
@@ -58,7 +58,7 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
 
         #static_reasons
         #of_edges
-        static EDGES: [Target; #n_edges] = [#(#edges),*];
+        static EDGES: [Option<Target>; #n_edges] = [#(#edges),*];
         #of_elements
         static ELEMENTS: [ElementRow; #n_elements] = [#(#elements),*];
         #of_supervisors
@@ -125,7 +125,8 @@ fn supervisor(context: &Context<'_>, index: usize, row: &SupervisorRow) -> Token
         _ => ", where an element reacts to it",
     };
     let (note, at) = (comment(&format!("{name}: {template}{there}")), at(supervisor.span));
-    let [period, deadline, budget] = [row.period, row.deadline, row.budget].map(duration);
+    let Timing { period, deadline, budget } = row.timing;
+    let [period, deadline, budget] = [period, deadline, budget].map(duration);
     let (slot, events) = (Literal::u16_unsuffixed(row.slot), range(row.events));
     let on_miss = target(context, row.on_miss);
     let [wanted, wanted_in_look] = [row.wanted, row.wanted_in_look].map(event_set);
@@ -134,9 +135,7 @@ fn supervisor(context: &Context<'_>, index: usize, row: &SupervisorRow) -> Token
         #at
         SupervisorRow {
             instance: #instance,
-            period: #period,
-            deadline: #deadline,
-            budget: #budget,
+            timing: Timing { period: #period, deadline: #deadline, budget: #budget },
             slot: #slot,
             events: #events,
             on_miss: #on_miss,
@@ -147,7 +146,8 @@ fn supervisor(context: &Context<'_>, index: usize, row: &SupervisorRow) -> Token
 }
 
 /// A set of events.
-fn event_set(bits: u64) -> TokenStream {
+fn event_set(events: Events) -> TokenStream {
+    let bits = events.bits();
     let bits: Literal =
         format!("0b{bits:b}").parse().unwrap_or_else(|_| Literal::u64_unsuffixed(bits));
     quote!(Events::from_bits(#bits))
@@ -163,7 +163,10 @@ fn edges(context: &Context<'_>) -> Vec<TokenStream> {
                 Some(Target::Fail(id)) => {
                     format!("{name}: {outcome} -> fail {:?}", rows.reasons[id.index()])
                 }
-                Some(to) => format!("{name}: {outcome} -> {}", target_text(context, *to)),
+                Some(to) => {
+                    let to = to.keyword().unwrap_or_else(|id| &plan.elements[id.index()].name);
+                    format!("{name}: {outcome} -> {to}")
+                }
                 None => format!("{name}: {outcome} cannot happen"),
             };
             let (note, to) = (comment(&rule), target(context, *to));
@@ -205,7 +208,7 @@ fn sweeps(context: &Context<'_>) -> Vec<TokenStream> {
     for (element, row) in context.plan.elements.iter().zip(&rows.elements) {
         for (position, watch) in rows.sweeps[row.sweep.indices()].iter().enumerate() {
             let number = match context.supervisors.get(usize::from(*watch)) {
-                Some(names) => names.number.to_token_stream(),
+                Some(ComponentNames { number, .. }) => quote!(#number.0),
                 None => Literal::u16_unsuffixed(*watch).to_token_stream(),
             };
             let note =
@@ -222,34 +225,26 @@ fn range(range: Range) -> TokenStream {
 }
 
 fn target(context: &Context<'_>, target: Option<Target>) -> TokenStream {
-    match target {
-        Some(Target::Element(id)) => {
+    let Some(target) = target else { return quote!(None) };
+    let target = match target {
+        Target::Element(id) => {
             let number = &context.elements[id.index()].number;
-            quote!(Target::Element(#number))
+            quote!(Element(#number))
         }
-        Some(Target::Terminate) => quote!(Target::Terminate),
-        Some(Target::Fail(id)) => {
+        Target::Terminate => quote!(Terminate),
+        Target::Fail(id) => {
             let reason = Literal::u16_unsuffixed(id.0);
-            quote!(Target::Fail(#reason))
+            quote!(Fail(ReasonId(#reason)))
         }
-        Some(Target::Ignore) => quote!(Target::Ignore),
-        Some(Target::Resume) => quote!(Target::Resume),
-        None => quote!(Target::None),
-    }
-}
-
-fn target_text<'a>(context: &Context<'a>, target: Target) -> &'a str {
-    match target {
-        Target::Element(id) => &context.plan.elements[id.index()].name,
-        Target::Terminate => "terminate",
-        Target::Fail(_) => "fail",
-        Target::Ignore => "ignore",
-        Target::Resume => "resume",
-    }
+        Target::Ignore => quote!(Ignore),
+        Target::Resume => quote!(Resume),
+    };
+    quote!(Some(Target::#target))
 }
 
 /// A span of time in the largest unit that says it exactly.
-fn duration(nanos: u64) -> TokenStream {
+fn duration(time: Duration) -> TokenStream {
+    let nanos = time.as_nanos();
     let (unit, value) = match nanos {
         0 => return quote!(Duration::ZERO),
         _ if nanos.is_multiple_of(1_000_000_000) => (quote!(from_secs), nanos / 1_000_000_000),

@@ -204,9 +204,9 @@ fn at_element(context: &Context<'_>) -> Option<TokenStream> {
     (numbers.len() <= MAX_STEPS).then(|| {
         quote! {
             #[inline(always)]
-            fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+            fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
                 match element {
-                    #(#numbers => run.at::<{ #numbers }>(),)*
+                    #(#numbers => run.at::<{ #numbers.0 }>(),)*
                     _ => run.unknown(),
                 }
             }

@@ -12,7 +12,7 @@ use afp_dsl::graph::Supervisor;
 pub fn supervisors(context: &Context<'_>) -> TokenStream {
     let numbers = (0..).zip(&context.supervisors).map(|(index, names)| {
         let (number, index) = (&names.number, Literal::u16_unsuffixed(index));
-        quote!(const #number: u16 = #index;)
+        quote!(const #number: SupervisorId = SupervisorId(#index);)
     });
     let all = || context.plan.supervisors.iter().zip(&context.supervisors);
     let fields = all().map(|(supervisor, names)| {

@@ -1,7 +1,7 @@
 // p.rs
 
-const HERE: u16 = 0;
-const SEEK: u16 = 1;
+const HERE: ElementId = ElementId(0);
+const SEEK: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]

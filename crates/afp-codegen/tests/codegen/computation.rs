@@ -1,6 +1,6 @@
 // p.rs
 
-const AREA: u16 = 0;
+const AREA: ElementId = ElementId(0);
 
 /// The element that is active.
 #[derive(Clone, Default)]

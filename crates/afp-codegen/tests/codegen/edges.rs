@@ -21,9 +21,9 @@ impl Tables for Rules {
 }
 
 /// Where each state and event leads.
-static EDGES: [Target; 1] = [
+static EDGES: [Option<Target>; 1] = [
     // pause: Elapsed -> terminate
-    Target::Terminate,
+    Some(Target::Terminate),
 ];
 
 /// The elements.
@@ -33,7 +33,7 @@ static ELEMENTS: [ElementRow; 1] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 0, len: 1 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 0, len: 0 },
@@ -70,25 +70,25 @@ impl Tables for Rules {
 }
 
 /// Where each state and event leads.
-static EDGES: [Target; 9] = [
+static EDGES: [Option<Target>; 9] = [
     // count: Again -> wait
-    Target::Element(WAIT),
+    Some(Target::Element(WAIT)),
     // count: Done -> inner
-    Target::Element(INNER),
+    Some(Target::Element(INNER)),
     // wait: Elapsed -> count
-    Target::Element(COUNT),
+    Some(Target::Element(COUNT)),
     // inner: OK -> wait
-    Target::Element(WAIT),
+    Some(Target::Element(WAIT)),
     // inner: Interrupted cannot happen
-    Target::None,
+    None,
     // late: TimedOut -> wait
-    Target::Element(WAIT),
+    Some(Target::Element(WAIT)),
     // wait.first: Below -> ignore
-    Target::Ignore,
+    Some(Target::Ignore),
     // wait.first: Above -> count
-    Target::Element(COUNT),
+    Some(Target::Element(COUNT)),
     // wait.second: TimedOut -> count
-    Target::Element(COUNT),
+    Some(Target::Element(COUNT)),
 ];
 
 /// The elements.
@@ -98,7 +98,7 @@ static ELEMENTS: [ElementRow; 3] = [
         kind: ElementKind::Computation,
         period: Duration::ZERO,
         states: Range { first: 0, len: 2 },
-        on_error: Target::Terminate,
+        on_error: Some(Target::Terminate),
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 0, len: 0 },
@@ -109,7 +109,7 @@ static ELEMENTS: [ElementRow; 3] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 2, len: 1 },
-        on_error: Target::Element(INNER),
+        on_error: Some(Target::Element(INNER)),
         resumes: false,
         locals: Range { first: 1, len: 2 },
         sweep: Range { first: 0, len: 3 },
@@ -120,7 +120,7 @@ static ELEMENTS: [ElementRow; 3] = [
         kind: ElementKind::SubPlan,
         period: Duration::ZERO,
         states: Range { first: 3, len: 2 },
-        on_error: Target::Terminate,
+        on_error: Some(Target::Terminate),
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 3, len: 1 },
@@ -133,48 +133,56 @@ static SUPERVISORS: [SupervisorRow; 4] = [
     // late: CheckTimeout
     SupervisorRow {
         instance: LATE,
-        period: Duration::from_millis(10),
-        deadline: Duration::from_millis(2),
-        budget: Duration::from_micros(5),
+        timing: Timing {
+            period: Duration::from_millis(10),
+            deadline: Duration::from_millis(2),
+            budget: Duration::from_micros(5),
+        },
         slot: 0,
         events: Range { first: 5, len: 1 },
-        on_miss: Target::Terminate,
+        on_miss: Some(Target::Terminate),
         wanted: Events::from_bits(0b1),
         wanted_in_look: Events::from_bits(0b1),
     },
     // wait.first: CheckValue
     SupervisorRow {
         instance: WAIT_FIRST,
-        period: Duration::from_millis(10),
-        deadline: Duration::from_millis(10),
-        budget: Duration::from_micros(5),
+        timing: Timing {
+            period: Duration::from_millis(10),
+            deadline: Duration::from_millis(10),
+            budget: Duration::from_micros(5),
+        },
         slot: 1,
         events: Range { first: 6, len: 2 },
-        on_miss: Target::None,
+        on_miss: None,
         wanted: Events::from_bits(0b10),
         wanted_in_look: Events::from_bits(0b10),
     },
     // wait.second: CheckTimeout
     SupervisorRow {
         instance: WAIT_SECOND,
-        period: Duration::from_millis(10),
-        deadline: Duration::from_millis(1),
-        budget: Duration::from_micros(5),
+        timing: Timing {
+            period: Duration::from_millis(10),
+            deadline: Duration::from_millis(1),
+            budget: Duration::from_micros(5),
+        },
         slot: 2,
         events: Range { first: 8, len: 1 },
-        on_miss: Target::None,
+        on_miss: None,
         wanted: Events::from_bits(0b1),
         wanted_in_look: Events::from_bits(0b1),
     },
     // late: CheckTimeout, where an event of it leads
     SupervisorRow {
         instance: LATE,
-        period: Duration::from_millis(10),
-        deadline: Duration::from_millis(2),
-        budget: Duration::from_micros(5),
+        timing: Timing {
+            period: Duration::from_millis(10),
+            deadline: Duration::from_millis(2),
+            budget: Duration::from_micros(5),
+        },
         slot: 0,
         events: Range { first: 5, len: 1 },
-        on_miss: Target::Terminate,
+        on_miss: Some(Target::Terminate),
         wanted: Events::from_bits(0b0),
         wanted_in_look: Events::from_bits(0b0),
     },
@@ -183,9 +191,9 @@ static SUPERVISORS: [SupervisorRow; 4] = [
 /// Who is polled while an element is active, in order.
 static SWEEPS: [u16; 4] = [
     // while wait is active
-    WAIT_SECOND,
+    WAIT_SECOND.0,
     3,
-    WAIT_FIRST,
+    WAIT_FIRST.0,
     // while inner is active
-    LATE,
+    LATE.0,
 ];

@@ -159,9 +159,9 @@ impl PlanState for P {
     }
 
     #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+    fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         match element {
-            WAIT => run.at::<{ WAIT }>(),
+            WAIT => run.at::<{ WAIT.0 }>(),
             _ => run.unknown(),
         }
     }
@@ -291,7 +291,7 @@ where
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match supervisor {
@@ -311,7 +311,7 @@ where
     #[inline]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         wanted: Events,
         cx: &mut Cx<'_, R>,
     ) -> Fired {
@@ -340,7 +340,7 @@ where
 
     fn start_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
@@ -365,7 +365,11 @@ where
     }
 
     #[inline]
-    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
+    fn poll_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
@@ -377,7 +381,7 @@ where
 
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
@@ -386,7 +390,7 @@ where
         }
     }
 
-    fn leave(&mut self, element: u16) {
+    fn leave(&mut self, element: ElementId) {
         self.active = Active::None;
         match element {
             WAIT => {

@@ -57,8 +57,8 @@ impl ::afp_core::rt::Writable for Mood {
 
 // p.rs
 
-const SET: u16 = 0;
-const LOG: u16 = 1;
+const SET: ElementId = ElementId(0);
+const LOG: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]

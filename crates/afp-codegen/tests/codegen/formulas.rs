@@ -1,16 +1,16 @@
 // p.rs
 
-const A: u16 = 0;
-const B: u16 = 1;
-const C: u16 = 2;
-const D: u16 = 3;
-const E: u16 = 4;
-const K: u16 = 5;
-const N: u16 = 6;
-const O: u16 = 7;
-const Q: u16 = 8;
-const R: u16 = 9;
-const S: u16 = 10;
+const A: ElementId = ElementId(0);
+const B: ElementId = ElementId(1);
+const C: ElementId = ElementId(2);
+const D: ElementId = ElementId(3);
+const E: ElementId = ElementId(4);
+const K: ElementId = ElementId(5);
+const N: ElementId = ElementId(6);
+const O: ElementId = ElementId(7);
+const Q: ElementId = ElementId(8);
+const R: ElementId = ElementId(9);
+const S: ElementId = ElementId(10);
 
 /// The element that is active.
 #[derive(Clone, Default)]

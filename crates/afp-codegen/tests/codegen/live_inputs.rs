@@ -1,7 +1,7 @@
 // inner.rs
 
-const WAIT: u16 = 0;
-const LOG: u16 = 1;
+const WAIT: ElementId = ElementId(0);
+const LOG: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -166,9 +166,9 @@ impl PlanState for Inner {
     }
 
     #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+    fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         match element {
-            WAIT => run.at::<{ WAIT }>(),
+            WAIT => run.at::<{ WAIT.0 }>(),
             _ => run.unknown(),
         }
     }
@@ -271,7 +271,7 @@ where
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
@@ -280,7 +280,7 @@ where
     #[inline]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: Events,
         _: &mut Cx<'_, R>,
     ) -> Fired {
@@ -289,7 +289,7 @@ where
 
     fn start_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
@@ -314,7 +314,11 @@ where
     }
 
     #[inline]
-    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
+    fn poll_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
@@ -326,7 +330,7 @@ where
 
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
@@ -335,7 +339,7 @@ where
         }
     }
 
-    fn leave(&mut self, _: u16) {
+    fn leave(&mut self, _: ElementId) {
         self.active = Active::None;
     }
 
@@ -347,7 +351,7 @@ where
 
 // p.rs
 
-const INNER: u16 = 0;
+const INNER: ElementId = ElementId(0);
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -455,9 +459,9 @@ impl PlanState for P {
     }
 
     #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+    fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         match element {
-            INNER => run.at::<{ INNER }>(),
+            INNER => run.at::<{ INNER.0 }>(),
             _ => run.unknown(),
         }
     }
@@ -539,7 +543,7 @@ where
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
@@ -548,7 +552,7 @@ where
     #[inline]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: Events,
         _: &mut Cx<'_, R>,
     ) -> Fired {
@@ -557,7 +561,7 @@ where
 
     fn start_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
@@ -586,7 +590,11 @@ where
     }
 
     #[inline]
-    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
+    fn poll_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Inner(machine) => {
@@ -612,7 +620,7 @@ where
 
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
@@ -621,7 +629,7 @@ where
         }
     }
 
-    fn leave(&mut self, _: u16) {
+    fn leave(&mut self, _: ElementId) {
         self.active = Active::None;
     }
 

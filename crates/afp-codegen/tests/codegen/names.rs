@@ -1,8 +1,8 @@
 // config.rs
 
-const LOOP: u16 = 0;
-const ACTIVE: u16 = 1;
-const SELF: u16 = 2;
+const LOOP: ElementId = ElementId(0);
+const ACTIVE: ElementId = ElementId(1);
+const SELF: ElementId = ElementId(2);
 
 /// The element that is active.
 #[derive(Clone, Default)]

@@ -1,7 +1,7 @@
 // inner.rs
 
-const HERE: u16 = 0;
-const SEEK: u16 = 1;
+const HERE: ElementId = ElementId(0);
+const SEEK: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -39,8 +39,8 @@ fn seek_live() -> Result<kit::seek::Live, BadValue> {
 
 // p.rs
 
-const HERE: u16 = 0;
-const INNER: u16 = 1;
+const HERE: ElementId = ElementId(0);
+const INNER: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]

@@ -21,15 +21,15 @@ impl Tables for Rules {
 }
 
 /// Where each state and event leads.
-static EDGES: [Target; 4] = [
+static EDGES: [Option<Target>; 4] = [
     // wait: Elapsed -> terminate
-    Target::Terminate,
+    Some(Target::Terminate),
     // rest: Elapsed -> wait
-    Target::Element(WAIT),
+    Some(Target::Element(WAIT)),
     // tick: Due -> ignore
-    Target::Ignore,
+    Some(Target::Ignore),
     // tick, where an element reacts to it: Due -> rest
-    Target::Element(REST),
+    Some(Target::Element(REST)),
 ];
 
 /// The elements.
@@ -39,7 +39,7 @@ static ELEMENTS: [ElementRow; 2] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 0, len: 1 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 0, len: 1 },
@@ -50,7 +50,7 @@ static ELEMENTS: [ElementRow; 2] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 1, len: 1 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 1, len: 1 },
@@ -63,24 +63,28 @@ static SUPERVISORS: [SupervisorRow; 2] = [
     // tick: Every
     SupervisorRow {
         instance: TICK,
-        period: Duration::from_millis(10),
-        deadline: Duration::from_millis(10),
-        budget: Duration::from_micros(5),
+        timing: Timing {
+            period: Duration::from_millis(10),
+            deadline: Duration::from_millis(10),
+            budget: Duration::from_micros(5),
+        },
         slot: 0,
         events: Range { first: 2, len: 1 },
-        on_miss: Target::None,
+        on_miss: None,
         wanted: Events::from_bits(0b0),
         wanted_in_look: Events::from_bits(0b0),
     },
     // tick: Every, where an element reacts to it
     SupervisorRow {
         instance: TICK,
-        period: Duration::from_millis(10),
-        deadline: Duration::from_millis(10),
-        budget: Duration::from_micros(5),
+        timing: Timing {
+            period: Duration::from_millis(10),
+            deadline: Duration::from_millis(10),
+            budget: Duration::from_micros(5),
+        },
         slot: 0,
         events: Range { first: 3, len: 1 },
-        on_miss: Target::Terminate,
+        on_miss: Some(Target::Terminate),
         wanted: Events::from_bits(0b1),
         wanted_in_look: Events::from_bits(0b1),
     },
@@ -91,7 +95,7 @@ static SWEEPS: [u16; 2] = [
     // while wait is active
     1,
     // while rest is active
-    TICK,
+    TICK.0,
 ];
 
 /// The names behind the ids of a trace.

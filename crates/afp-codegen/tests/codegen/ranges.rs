@@ -1,6 +1,6 @@
 // inner.rs
 
-const WAIT: u16 = 0;
+const WAIT: ElementId = ElementId(0);
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -95,9 +95,9 @@ impl PlanState for Inner {
     }
 
     #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+    fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         match element {
-            WAIT => run.at::<{ WAIT }>(),
+            WAIT => run.at::<{ WAIT.0 }>(),
             _ => run.unknown(),
         }
     }
@@ -179,7 +179,7 @@ where
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
@@ -188,7 +188,7 @@ where
     #[inline]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: Events,
         _: &mut Cx<'_, R>,
     ) -> Fired {
@@ -197,7 +197,7 @@ where
 
     fn start_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
@@ -214,7 +214,11 @@ where
     }
 
     #[inline]
-    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
+    fn poll_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Wait(actor) => {
@@ -226,7 +230,7 @@ where
 
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
@@ -235,7 +239,7 @@ where
         }
     }
 
-    fn leave(&mut self, _: u16) {
+    fn leave(&mut self, _: ElementId) {
         self.active = Active::None;
     }
 
@@ -285,8 +289,8 @@ impl NamedPlan for Inner {
 
 // p.rs
 
-const COUNT: u16 = 0;
-const INNER: u16 = 1;
+const COUNT: ElementId = ElementId(0);
+const INNER: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -485,9 +489,9 @@ impl PlanState for P {
     }
 
     #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+    fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         match element {
-            INNER => run.at::<{ INNER }>(),
+            INNER => run.at::<{ INNER.0 }>(),
             _ => run.unknown(),
         }
     }
@@ -592,7 +596,7 @@ where
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         Err(Fault::INTERNAL)
@@ -601,7 +605,7 @@ where
     #[inline]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: SupervisorId,
         _: Events,
         _: &mut Cx<'_, R>,
     ) -> Fired {
@@ -610,7 +614,7 @@ where
 
     fn start_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
@@ -655,7 +659,11 @@ where
     }
 
     #[inline]
-    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
+    fn poll_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::Inner(machine) => {
@@ -671,7 +679,7 @@ where
 
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
@@ -680,7 +688,7 @@ where
         }
     }
 
-    fn leave(&mut self, _: u16) {
+    fn leave(&mut self, _: ElementId) {
         self.active = Active::None;
     }
 

@@ -1,7 +1,7 @@
 // round.rs
 
-const LOOP: u16 = 0;
-const WAIT: u16 = 1;
+const LOOP: ElementId = ElementId(0);
+const WAIT: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -45,8 +45,8 @@ fn wait_inputs() -> Result<std_templates::wait::Inputs, BadValue> {
 
 // outer.rs
 
-const ROUND: u16 = 0;
-const AGAIN: u16 = 1;
+const ROUND: ElementId = ElementId(0);
+const AGAIN: ElementId = ElementId(1);
 
 /// The element that is active.
 #[derive(Clone, Default)]

@@ -1,8 +1,8 @@
 // p.rs
 
-const NEAR: u16 = 0;
-const ANY: u16 = 1;
-const WAIT_SLOW: u16 = 2;
+const NEAR: SupervisorId = SupervisorId(0);
+const ANY: SupervisorId = SupervisorId(1);
+const WAIT_SLOW: SupervisorId = SupervisorId(2);
 
 /// The supervisors, each while it watches.
 #[derive(Clone, Default)]

@@ -55,22 +55,23 @@ use ::afp_core::{
 };
 use ::afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 use ::afp_core::rt::{
-    Actor, AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementKind,
-    ElementRow, Entry, EntryRow, Fired, NameTable, NamedPlan, Plan, PlanState, PlanTable,
-    Polled, PortRow, Range, Run, Slot, Started, Supervisor, SupervisorRow, Tables,
-    Target, Unit, finite, output, set_input, stage_outside,
+    Actor, AtElement, BadValue, Child, Committer, ComponentRow, Cx, ElementId,
+    ElementKind, ElementRow, Entry, EntryRow, Fired, NameTable, NamedPlan, Plan,
+    PlanState, PlanTable, Polled, PortRow, Range, Run, Slot, Started, Supervisor,
+    SupervisorId, SupervisorRow, Tables, Target, Timing, Unit, finite, output, set_input,
+    stage_outside,
 };
 use ::afp_core::trace::{ComponentKind, EntryKind, Sink};
 use afp_carbot::templates as carbot;
 
 // **** Actors ****
 
-const SEARCH_FIRST_WALL: u16 = 0;
-const BACKUP_COLLISION: u16 = 1;
-const FIND_WALL_ANGLE: u16 = 2;
-const PARALLEL_TO_WALL: u16 = 3;
-const FOLLOW_WALL: u16 = 4;
-const TURN_AFTER_WALL_LOST: u16 = 5;
+const SEARCH_FIRST_WALL: ElementId = ElementId(0);
+const BACKUP_COLLISION: ElementId = ElementId(1);
+const FIND_WALL_ANGLE: ElementId = ElementId(2);
+const PARALLEL_TO_WALL: ElementId = ElementId(3);
+const FOLLOW_WALL: ElementId = ElementId(4);
+const TURN_AFTER_WALL_LOST: ElementId = ElementId(5);
 
 /// The element that is active.
 #[derive(Clone, Default)]
@@ -161,10 +162,10 @@ fn turn_after_wall_lost_inputs() -> Result<carbot::turn::Inputs, BadValue> {
 
 // **** Supervisors ****
 
-const ESCAPE: u16 = 0;
-const SEARCH_FIRST_WALL_TOUCH: u16 = 1;
-const SEARCH_FIRST_WALL_CHECK_LANE: u16 = 2;
-const FOLLOW_WALL_WALL_TOUCH: u16 = 3;
+const ESCAPE: SupervisorId = SupervisorId(0);
+const SEARCH_FIRST_WALL_TOUCH: SupervisorId = SupervisorId(1);
+const SEARCH_FIRST_WALL_CHECK_LANE: SupervisorId = SupervisorId(2);
+const FOLLOW_WALL_WALL_TOUCH: SupervisorId = SupervisorId(3);
 
 /// The supervisors, each while it watches.
 #[derive(Clone, Default)]
@@ -292,14 +293,14 @@ impl PlanState for WallFollowing {
     }
 
     #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+    fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         match element {
-            SEARCH_FIRST_WALL => run.at::<{ SEARCH_FIRST_WALL }>(),
-            BACKUP_COLLISION => run.at::<{ BACKUP_COLLISION }>(),
-            FIND_WALL_ANGLE => run.at::<{ FIND_WALL_ANGLE }>(),
-            PARALLEL_TO_WALL => run.at::<{ PARALLEL_TO_WALL }>(),
-            FOLLOW_WALL => run.at::<{ FOLLOW_WALL }>(),
-            TURN_AFTER_WALL_LOST => run.at::<{ TURN_AFTER_WALL_LOST }>(),
+            SEARCH_FIRST_WALL => run.at::<{ SEARCH_FIRST_WALL.0 }>(),
+            BACKUP_COLLISION => run.at::<{ BACKUP_COLLISION.0 }>(),
+            FIND_WALL_ANGLE => run.at::<{ FIND_WALL_ANGLE.0 }>(),
+            PARALLEL_TO_WALL => run.at::<{ PARALLEL_TO_WALL.0 }>(),
+            FOLLOW_WALL => run.at::<{ FOLLOW_WALL.0 }>(),
+            TURN_AFTER_WALL_LOST => run.at::<{ TURN_AFTER_WALL_LOST.0 }>(),
             _ => run.unknown(),
         }
     }
@@ -386,7 +387,7 @@ where
 {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match supervisor {
@@ -415,7 +416,7 @@ where
     #[inline]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         wanted: Events,
         cx: &mut Cx<'_, R>,
     ) -> Fired {
@@ -462,7 +463,7 @@ where
 
     fn start_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Started {
         let started: Result<Active, Fault> = match element {
@@ -499,7 +500,11 @@ where
     }
 
     #[inline]
-    fn poll_element<R: Run<Env = E>>(&mut self, _: u16, cx: &mut Cx<'_, R>) -> Polled {
+    fn poll_element<R: Run<Env = E>>(
+        &mut self,
+        _: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Polled {
         match &mut self.active {
             Active::None => Polled::Failed(Fault::INTERNAL),
             Active::SearchFirstWall(actor) => {
@@ -535,7 +540,7 @@ where
 
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        _: u16,
+        _: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         match &mut self.active {
@@ -549,7 +554,7 @@ where
         }
     }
 
-    fn leave(&mut self, element: u16) {
+    fn leave(&mut self, element: ElementId) {
         self.active = Active::None;
         match element {
             SEARCH_FIRST_WALL => {
@@ -592,33 +597,33 @@ impl Tables for Rules {
 }
 
 /// Where each state and event leads.
-static EDGES: [Target; 13] = [
+static EDGES: [Option<Target>; 13] = [
     // searchFirstWall: ForwardSuccessful -> searchFirstWall
-    Target::Element(SEARCH_FIRST_WALL),
+    Some(Target::Element(SEARCH_FIRST_WALL)),
     // backupCollision: ForwardSuccessful -> findWallAngle
-    Target::Element(FIND_WALL_ANGLE),
+    Some(Target::Element(FIND_WALL_ANGLE)),
     // findWallAngle: WallFound -> parallelToWall
-    Target::Element(PARALLEL_TO_WALL),
+    Some(Target::Element(PARALLEL_TO_WALL)),
     // findWallAngle: NoWallFound -> turnAfterWallLost
-    Target::Element(TURN_AFTER_WALL_LOST),
+    Some(Target::Element(TURN_AFTER_WALL_LOST)),
     // parallelToWall: TurnSuccessful -> followWall
-    Target::Element(FOLLOW_WALL),
+    Some(Target::Element(FOLLOW_WALL)),
     // followWall: ForwardSuccessful -> followWall
-    Target::Element(FOLLOW_WALL),
+    Some(Target::Element(FOLLOW_WALL)),
     // followWall: LaneNotFree -> findWallAngle
-    Target::Element(FIND_WALL_ANGLE),
+    Some(Target::Element(FIND_WALL_ANGLE)),
     // followWall: WallLost -> turnAfterWallLost
-    Target::Element(TURN_AFTER_WALL_LOST),
+    Some(Target::Element(TURN_AFTER_WALL_LOST)),
     // turnAfterWallLost: TurnSuccessful -> searchFirstWall
-    Target::Element(SEARCH_FIRST_WALL),
+    Some(Target::Element(SEARCH_FIRST_WALL)),
     // escape: EscapeButtonPressed -> terminate
-    Target::Terminate,
+    Some(Target::Terminate),
     // searchFirstWall.touch: TouchSensorPressed -> backupCollision
-    Target::Element(BACKUP_COLLISION),
+    Some(Target::Element(BACKUP_COLLISION)),
     // searchFirstWall.checkLane: LaneNotFree -> findWallAngle
-    Target::Element(FIND_WALL_ANGLE),
+    Some(Target::Element(FIND_WALL_ANGLE)),
     // followWall.wallTouch: TouchSensorPressed -> backupCollision
-    Target::Element(BACKUP_COLLISION),
+    Some(Target::Element(BACKUP_COLLISION)),
 ];
 
 /// The elements.
@@ -628,7 +633,7 @@ static ELEMENTS: [ElementRow; 6] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 0, len: 1 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 1, len: 2 },
         sweep: Range { first: 0, len: 3 },
@@ -639,7 +644,7 @@ static ELEMENTS: [ElementRow; 6] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 1, len: 1 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 3, len: 1 },
@@ -650,7 +655,7 @@ static ELEMENTS: [ElementRow; 6] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 2, len: 2 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 4, len: 1 },
@@ -661,7 +666,7 @@ static ELEMENTS: [ElementRow; 6] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 4, len: 1 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 5, len: 1 },
@@ -672,7 +677,7 @@ static ELEMENTS: [ElementRow; 6] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 5, len: 3 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 3, len: 1 },
         sweep: Range { first: 6, len: 2 },
@@ -683,7 +688,7 @@ static ELEMENTS: [ElementRow; 6] = [
         kind: ElementKind::Actor,
         period: Duration::from_millis(10),
         states: Range { first: 8, len: 1 },
-        on_error: Target::None,
+        on_error: None,
         resumes: false,
         locals: Range { first: 0, len: 0 },
         sweep: Range { first: 8, len: 1 },
@@ -696,48 +701,56 @@ static SUPERVISORS: [SupervisorRow; 4] = [
     // escape: CheckEscapeButton
     SupervisorRow {
         instance: ESCAPE,
-        period: Duration::from_millis(50),
-        deadline: Duration::from_millis(10),
-        budget: Duration::from_micros(10),
+        timing: Timing {
+            period: Duration::from_millis(50),
+            deadline: Duration::from_millis(10),
+            budget: Duration::from_micros(10),
+        },
         slot: 0,
         events: Range { first: 9, len: 1 },
-        on_miss: Target::None,
+        on_miss: None,
         wanted: Events::from_bits(0b1),
         wanted_in_look: Events::from_bits(0b1),
     },
     // searchFirstWall.touch: CheckTouchSensor
     SupervisorRow {
         instance: SEARCH_FIRST_WALL_TOUCH,
-        period: Duration::from_millis(1),
-        deadline: Duration::from_millis(1),
-        budget: Duration::from_micros(10),
+        timing: Timing {
+            period: Duration::from_millis(1),
+            deadline: Duration::from_millis(1),
+            budget: Duration::from_micros(10),
+        },
         slot: 1,
         events: Range { first: 10, len: 1 },
-        on_miss: Target::None,
+        on_miss: None,
         wanted: Events::from_bits(0b1),
         wanted_in_look: Events::from_bits(0b1),
     },
     // searchFirstWall.checkLane: CheckDrivingLane
     SupervisorRow {
         instance: SEARCH_FIRST_WALL_CHECK_LANE,
-        period: Duration::from_millis(20),
-        deadline: Duration::from_millis(5),
-        budget: Duration::from_micros(100),
+        timing: Timing {
+            period: Duration::from_millis(20),
+            deadline: Duration::from_millis(5),
+            budget: Duration::from_micros(100),
+        },
         slot: 2,
         events: Range { first: 11, len: 1 },
-        on_miss: Target::None,
+        on_miss: None,
         wanted: Events::from_bits(0b1),
         wanted_in_look: Events::from_bits(0b1),
     },
     // followWall.wallTouch: CheckTouchSensor
     SupervisorRow {
         instance: FOLLOW_WALL_WALL_TOUCH,
-        period: Duration::from_millis(5),
-        deadline: Duration::from_millis(2),
-        budget: Duration::from_micros(10),
+        timing: Timing {
+            period: Duration::from_millis(5),
+            deadline: Duration::from_millis(2),
+            budget: Duration::from_micros(10),
+        },
         slot: 1,
         events: Range { first: 12, len: 1 },
-        on_miss: Target::None,
+        on_miss: None,
         wanted: Events::from_bits(0b1),
         wanted_in_look: Events::from_bits(0b1),
     },
@@ -746,20 +759,20 @@ static SUPERVISORS: [SupervisorRow; 4] = [
 /// Who is polled while an element is active, in order.
 static SWEEPS: [u16; 9] = [
     // while searchFirstWall is active
-    SEARCH_FIRST_WALL_TOUCH,
-    SEARCH_FIRST_WALL_CHECK_LANE,
-    ESCAPE,
+    SEARCH_FIRST_WALL_TOUCH.0,
+    SEARCH_FIRST_WALL_CHECK_LANE.0,
+    ESCAPE.0,
     // while backupCollision is active
-    ESCAPE,
+    ESCAPE.0,
     // while findWallAngle is active
-    ESCAPE,
+    ESCAPE.0,
     // while parallelToWall is active
-    ESCAPE,
+    ESCAPE.0,
     // while followWall is active
-    FOLLOW_WALL_WALL_TOUCH,
-    ESCAPE,
+    FOLLOW_WALL_WALL_TOUCH.0,
+    ESCAPE.0,
     // while turnAfterWallLost is active
-    ESCAPE,
+    ESCAPE.0,
 ];
 
 // **** Names ****

@@ -6,6 +6,7 @@
 use super::{Flow, Level};
 use crate::fault::Fault;
 use crate::rt::{AtElement, Cx, Plan, PlanState, Run};
+use afp_types::ElementId;
 
 /// A step of one level, for an element still to be named.
 pub(super) struct StepAt<'a, 'c, 't, P: PlanState, R: Run> {
@@ -19,11 +20,11 @@ impl<R: Run, P: Plan<R::Env>> AtElement for StepAt<'_, '_, '_, P, R> {
 
     #[inline(always)]
     fn at<const ELEMENT: u16>(self) -> Flow {
-        self.level.step_element(self.t, ELEMENT, self.cx)
+        self.level.step_element(self.t, ElementId(ELEMENT), self.cx)
     }
 
     #[inline]
-    fn any(self, element: u16) -> Flow {
+    fn any(self, element: ElementId) -> Flow {
         self.level.step_element(self.t, element, self.cx)
     }
 

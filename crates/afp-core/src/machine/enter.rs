@@ -1,19 +1,20 @@
 //! Entering an element: its supervisors start, all due supervisors are polled (the look), then it starts.
 
 use super::sweep::{Found, Moment, What};
-use super::{Edge, Flow, Level, Stop, component, supervisor_id};
+use super::{Edge, Flow, Level, Stop, component, slot, supervisor_id};
 use crate::clock::Clock;
 use crate::component::Environment;
 use crate::fault::Fault;
 use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables};
 use crate::trace::Record;
+use afp_types::{ElementId, SupervisorId};
 
 impl<P: PlanState> Level<P> {
     /// Enters an element. `None` when it is active now, else the edge by which it was left.
     pub(super) fn enter<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<Option<Edge>, Stop>
     where
@@ -21,7 +22,7 @@ impl<P: PlanState> Level<P> {
     {
         let Some(row) = t.table().element(element) else { return Err(Stop::Run(Fault::INTERNAL)) };
         if row.kind != ElementKind::Computation {
-            for local in row.locals.first..row.locals.first.saturating_add(row.locals.len) {
+            for local in row.locals.supervisors() {
                 if let Err(fault) = self.start_supervisor(t, local, cx) {
                     return self.error_edge(element, row, fault).map(Some);
                 }
@@ -37,13 +38,13 @@ impl<P: PlanState> Level<P> {
     pub(super) fn start_supervisor<R: Run>(
         &mut self,
         t: &P::Tables,
-        supervisor: u16,
+        supervisor: SupervisorId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>
     where
         P: Plan<R::Env>,
     {
-        let slot = t.table().supervisor(supervisor).map_or(usize::MAX, |row| usize::from(row.slot));
+        let slot = slot(t, supervisor.0).unwrap_or(usize::MAX);
         if let Some(slot) = self.slots.as_mut().get_mut(slot) {
             slot.next = cx.now;
         }
@@ -61,7 +62,7 @@ impl<P: PlanState> Level<P> {
     fn look<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         cx: &mut Cx<'_, R>,
     ) -> Option<Found>
@@ -75,7 +76,7 @@ impl<P: PlanState> Level<P> {
             for &row in t.table().sweep(row) {
                 let Some(row) = t.table().supervisor(row) else { continue };
                 let supervisor = row.instance;
-                if (supervisor < t.table().globals) != global {
+                if t.table().is_global(supervisor) != global {
                     continue;
                 }
                 if let Err(what) = self.poll_if_due(t, row, moment, cx) {
@@ -90,7 +91,7 @@ impl<P: PlanState> Level<P> {
     fn diverted<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         found: Found,
         cx: &mut Cx<'_, R>,
@@ -122,7 +123,7 @@ impl<P: PlanState> Level<P> {
     fn start_element<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         cx: &mut Cx<'_, R>,
     ) -> Result<Option<Edge>, Stop>
@@ -153,7 +154,7 @@ impl<P: PlanState> Level<P> {
     /// Nothing runs: the platform stops, the element's `Error` edge is taken.
     fn start_failed<R: Run>(
         &mut self,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         fault: Fault,
         cx: &mut Cx<'_, R>,

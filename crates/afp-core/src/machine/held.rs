@@ -10,6 +10,7 @@ use crate::clock::Clock;
 use crate::fault::Fault;
 use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables, Target};
 use crate::trace::{Author, Ending, Outcome, Record};
+use afp_types::{ElementId, SupervisorId};
 
 impl<P: PlanState> Level<P> {
     /// Takes an event that is held, its outputs staged. The element goes on, or there is an edge to leave
@@ -17,7 +18,7 @@ impl<P: PlanState> Level<P> {
     pub(super) fn hold<R: Run>(
         &mut self,
         t: &P::Tables,
-        supervisor: u16,
+        supervisor: SupervisorId,
         (event, target): (Outcome, Target),
         moment: Moment,
         cx: &mut Cx<'_, R>,
@@ -51,11 +52,11 @@ impl<P: PlanState> Level<P> {
     where
         P: Plan<R::Env>,
     {
-        let mut edge = Edge { target, ending: Ending::Interrupted };
+        let mut edge = Edge { target: Some(target), ending: Ending::Interrupted };
         loop {
             let computation = match edge.target {
-                Target::Resume => None,
-                Target::Element(element) => match t.table().element(element) {
+                Some(Target::Resume) => None,
+                Some(Target::Element(element)) => match t.table().element(element) {
                     Some(row) if row.kind == ElementKind::Computation => Some((element, row)),
                     _ => return Ok(Some(edge)),
                 },
@@ -74,7 +75,7 @@ impl<P: PlanState> Level<P> {
     fn compute<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         cx: &mut Cx<'_, R>,
     ) -> Result<Edge, Stop>

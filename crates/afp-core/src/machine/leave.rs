@@ -4,13 +4,14 @@ use super::{Edge, Flow, Level, Stop, component};
 use crate::fault::Fault;
 use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Polled, Run, Tables, Target};
 use crate::trace::{Author, Ending, Outcome, Record};
+use afp_types::ElementId;
 
 impl<P: PlanState> Level<P> {
     /// The active element has finished or failed.
     pub(super) fn left<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         polled: Polled,
         cx: &mut Cx<'_, R>,
@@ -61,10 +62,13 @@ impl<P: PlanState> Level<P> {
                 None => return Flow::Fatal(Fault::LIVELOCK),
             }
             let element = match edge.target {
-                Target::Element(element) => element,
-                Target::Terminate => return self.end(edge.ending, cx),
-                Target::Fail(reason) => return self.fail(t.table().reason(reason), cx),
-                Target::Ignore | Target::Resume | Target::None => {
+                Some(Target::Element(element)) => element,
+                Some(Target::Terminate) => return self.end(edge.ending, cx),
+                Some(Target::Fail(reason)) => {
+                    let reason = t.table().reasons.get(reason.index());
+                    return self.fail(reason.copied().unwrap_or(Fault::INTERNAL), cx);
+                }
+                Some(Target::Ignore | Target::Resume) | None => {
                     return Flow::Fatal(Fault::INTERNAL);
                 }
             };
@@ -89,7 +93,7 @@ impl<P: PlanState> Level<P> {
     pub(super) fn finished<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         state: u16,
         cx: &mut Cx<'_, R>,
@@ -107,7 +111,7 @@ impl<P: PlanState> Level<P> {
     pub(super) fn reached<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         state: u16,
         cx: &mut Cx<'_, R>,
@@ -121,7 +125,7 @@ impl<P: PlanState> Level<P> {
     /// The edge of an element that failed; unconnected, the plan ends.
     pub(super) fn error_edge<E: ?Sized>(
         &mut self,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         fault: Fault,
     ) -> Result<Edge, Stop>
@@ -154,7 +158,7 @@ impl<P: PlanState> Level<P> {
     pub(super) fn interrupt_element<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>
     where
@@ -175,7 +179,7 @@ impl<P: PlanState> Level<P> {
 /// The `Error` edge of an element; unconnected, the plan ends.
 pub(super) fn after_fault(row: &ElementRow, fault: Fault) -> Result<Edge, Stop> {
     match row.on_error {
-        Target::None => Err(Stop::Plan(Ending::Error(fault))),
+        None => Err(Stop::Plan(Ending::Error(fault))),
         target => Ok(Edge { target, ending: Ending::Ok }),
     }
 }

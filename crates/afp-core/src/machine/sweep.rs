@@ -7,6 +7,7 @@ use crate::clock::Clock;
 use crate::fault::Fault;
 use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, Run, SupervisorRow, Tables, Target};
 use crate::trace::{Author, Cause, Ending, Outcome, Record, Sink, Verdict};
+use afp_types::{ElementId, SupervisorId};
 
 /// What a sweep over the supervisors brought.
 pub(super) enum Seen {
@@ -19,7 +20,7 @@ pub(super) enum Seen {
 /// A supervisor that stops the activity.
 pub(super) struct Found {
     /// Which one.
-    pub supervisor: u16,
+    pub supervisor: SupervisorId,
     /// What it found.
     pub what: What,
 }
@@ -38,7 +39,7 @@ pub(super) enum What {
 #[derive(Clone, Copy)]
 pub(super) struct Moment {
     /// The element that is active or being entered.
-    pub element: u16,
+    pub element: ElementId,
     /// Whether it is being entered.
     pub look: bool,
 }
@@ -67,7 +68,7 @@ impl<P: PlanState> Level<P> {
     pub(super) fn sweep<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         cx: &mut Cx<'_, R>,
     ) -> Seen
@@ -142,7 +143,7 @@ impl<P: PlanState> Level<P> {
         if release > cx.now {
             return Ok(release);
         }
-        let next = release + row.period;
+        let next = release + row.timing.period;
         slot.next = next;
         let begin = cx.step.clock;
         let supervisor = row.instance;
@@ -154,7 +155,7 @@ impl<P: PlanState> Level<P> {
         if R::Sink::ENABLED {
             cx.trace(&Record::Polled { supervisor: id, verdict: fired.verdict() });
         }
-        let on_time = next > cx.now && end <= release + row.deadline;
+        let on_time = next > cx.now && end <= release + row.timing.deadline;
         if on_time && fired.is_nothing() {
             return Ok(next);
         }
@@ -176,11 +177,11 @@ impl<P: PlanState> Level<P> {
         P: Plan<R::Env>,
     {
         let supervisor = row.instance;
-        let release = serve(poll.release, row.period, cx.now);
+        let release = serve(poll.release, row.timing.period, cx.now);
         if let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) {
             slot.next = release.next;
         }
-        let deadline = release.at + row.deadline;
+        let deadline = release.at + row.timing.deadline;
         let (event, end) = match poll.fired.outcome() {
             Some(Outcome::Declared(event)) => (Some(event), poll.end),
             Some(_) => (None, poll.end.max(deadline + Duration::from_nanos(1))),
@@ -193,7 +194,7 @@ impl<P: PlanState> Level<P> {
         if let Some(event) = event {
             let target = t.table().edge(row.events, event);
             let event = Outcome::Declared(event);
-            if takes(t, supervisor, event, target, moment, cx) {
+            if let Some(target) = taken(t, supervisor, (event, target), moment, cx) {
                 if let Some(fault) = poll.fired.fault {
                     return Err(What::Fault(fault));
                 }
@@ -204,9 +205,9 @@ impl<P: PlanState> Level<P> {
         } else if let Some(fault) = poll.fired.fault {
             return Err(What::Fault(fault));
         }
-        let missed = late && !moment.look;
-        if missed && takes(t, supervisor, Outcome::DeadlineMissed, row.on_miss, moment, cx) {
-            let event = (Outcome::DeadlineMissed, row.on_miss);
+        let missed = (Outcome::DeadlineMissed, row.on_miss.filter(|_| late && !moment.look));
+        if let Some(target) = taken(t, supervisor, missed, moment, cx) {
+            let event = (Outcome::DeadlineMissed, target);
             return self.take(t, supervisor, event, moment, cx).map(|()| release.next);
         }
         Ok(release.next)
@@ -216,7 +217,7 @@ impl<P: PlanState> Level<P> {
     fn take<R: Run>(
         &mut self,
         t: &P::Tables,
-        supervisor: u16,
+        supervisor: SupervisorId,
         (event, target): (Outcome, Target),
         moment: Moment,
         cx: &mut Cx<'_, R>,
@@ -234,7 +235,7 @@ impl<P: PlanState> Level<P> {
     pub(super) fn interrupted<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         found: Found,
         cx: &mut Cx<'_, R>,
@@ -269,7 +270,7 @@ impl<P: PlanState> Level<P> {
     pub(super) fn after_supervisor<R: Run>(
         &mut self,
         t: &P::Tables,
-        element: u16,
+        element: ElementId,
         row: &ElementRow,
         found: Found,
         cx: &mut Cx<'_, R>,
@@ -281,13 +282,13 @@ impl<P: PlanState> Level<P> {
             What::Event(_, target) => {
                 self.commit(Author::Component(supervisor_id(t, cx, found.supervisor)), cx);
                 self.plan.leave(element);
-                Ok(Edge { target, ending: Ending::Interrupted })
+                Ok(Edge { target: Some(target), ending: Ending::Interrupted })
             }
             What::Leads(_, edge) => {
                 self.plan.leave(element);
                 edge
             }
-            What::Fault(fault) if found.supervisor < t.table().globals => {
+            What::Fault(fault) if t.table().is_global(found.supervisor) => {
                 self.plan.leave(element);
                 Err(Stop::Plan(Ending::Error(fault)))
             }
@@ -322,28 +323,27 @@ fn serve(first: Instant, period: Duration, now: Instant) -> Release {
     Release { at, next: at + period, skipped }
 }
 
-/// Whether an event is taken at this moment.
-fn takes<R: Run>(
+/// Where an event leads, if it is taken at this moment.
+fn taken<R: Run>(
     t: &impl Tables,
-    supervisor: u16,
-    event: Outcome,
-    target: Target,
+    supervisor: SupervisorId,
+    (event, target): (Outcome, Option<Target>),
     moment: Moment,
     cx: &mut Cx<'_, R>,
-) -> bool {
-    match target {
-        Target::Ignore | Target::None => false,
-        Target::Terminate | Target::Fail(_) | Target::Resume => true,
-        Target::Element(element) => {
-            let global = supervisor < t.table().globals;
-            let there = element == moment.element && (global || moment.look);
-            if there && R::Sink::ENABLED {
+) -> Option<Target> {
+    match target? {
+        Target::Ignore => None,
+        Target::Element(element)
+            if element == moment.element && (moment.look || t.table().is_global(supervisor)) =>
+        {
+            if R::Sink::ENABLED {
                 let supervisor = supervisor_id(t, cx, supervisor);
                 let element = component(cx, element);
                 cx.sink.record(cx.now, &Record::AlreadyThere { supervisor, event, element });
             }
-            !there
+            None
         }
+        target => Some(target),
     }
 }
 
@@ -352,7 +352,7 @@ fn is_held(t: &impl Tables, target: Target) -> bool {
     match target {
         Target::Resume => true,
         Target::Element(element) => t.table().element(element).is_some_and(|row| row.resumes),
-        Target::Terminate | Target::Fail(_) | Target::Ignore | Target::None => false,
+        Target::Terminate | Target::Fail(_) | Target::Ignore => false,
     }
 }
 
@@ -367,11 +367,11 @@ fn trace_miss<R: Run>(
     end: Instant,
     cx: &mut Cx<'_, R>,
 ) {
-    let deadline = release.at + row.deadline;
+    let deadline = release.at + row.timing.deadline;
     let missed = u64::from(end > deadline);
     cx.step.misses = cx.step.misses.saturating_add(missed).saturating_add(release.skipped);
     if R::Sink::ENABLED {
-        let late = release.skipped > 0 || begin + row.budget > deadline;
+        let late = release.skipped > 0 || begin + row.timing.budget > deadline;
         let record = Record::Missed {
             supervisor: supervisor_id(t, cx, row.instance),
             lateness: end - deadline,

@@ -6,7 +6,7 @@ use crate::component::Events;
 use crate::fault::{BadValue, Fault};
 use crate::rt::plan::{Committer, Cx, Fired, Polled, Slot, Started};
 use crate::rt::run::Run;
-use crate::rt::table::Tables;
+use crate::rt::table::{ElementId, SupervisorId, Tables};
 use crate::rt::write::WriteError;
 use crate::trace::Sink;
 
@@ -28,7 +28,7 @@ pub trait PlanState: Sized {
     /// of its own with its rows folded in.
     #[doc(hidden)]
     #[inline(always)]
-    fn at_element<A: AtElement>(element: u16, run: A) -> A::Out {
+    fn at_element<A: AtElement>(element: ElementId, run: A) -> A::Out {
         run.any(element)
     }
 
@@ -91,7 +91,7 @@ pub trait AtElement: Sized {
     fn at<const ELEMENT: u16>(self) -> Self::Out;
 
     /// Does it at any element.
-    fn any(self, element: u16) -> Self::Out;
+    fn any(self, element: ElementId) -> Self::Out;
 
     /// There is no such element.
     fn unknown(self) -> Self::Out;
@@ -109,7 +109,7 @@ pub trait Plan<E: ?Sized>: PlanState {
     #[doc(hidden)]
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>;
 
@@ -117,18 +117,19 @@ pub trait Plan<E: ?Sized>: PlanState {
     #[doc(hidden)]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         wanted: Events,
         cx: &mut Cx<'_, R>,
     ) -> Fired;
 
     /// Starts an element: inputs, then the component; runs a computation.
     #[doc(hidden)]
-    fn start_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Started;
+    fn start_element<R: Run<Env = E>>(&mut self, element: ElementId, cx: &mut Cx<'_, R>)
+    -> Started;
 
     /// Polls the active element.
     #[doc(hidden)]
-    fn poll_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Polled;
+    fn poll_element<R: Run<Env = E>>(&mut self, element: ElementId, cx: &mut Cx<'_, R>) -> Polled;
 
     /// Interrupts the active element.
     ///
@@ -137,13 +138,13 @@ pub trait Plan<E: ?Sized>: PlanState {
     #[doc(hidden)]
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault>;
 
     /// Drops an element's instance and its supervisors.
     #[doc(hidden)]
-    fn leave(&mut self, element: u16);
+    fn leave(&mut self, element: ElementId);
 
     /// Drops everything that is left when the plan ends.
     #[doc(hidden)]

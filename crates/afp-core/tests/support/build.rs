@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use afp_core::rt::{
-    Child, ElementKind, ElementRow, Events, PlanTable, Range, SupervisorRow, Target,
+    Child, ElementId, ElementKind, ElementRow, Events, PlanTable, Range, ReasonId, SupervisorId,
+    SupervisorRow, Target, Timing,
 };
 use afp_core::trace::EntryKind;
 use afp_core::{Duration, Fault, Reason, Value};
@@ -21,7 +22,7 @@ pub struct Spec {
     pub supervisors: Vec<SupervisorSpec>,
     pub element_rows: Vec<ElementRow>,
     pub supervisor_rows: Vec<SupervisorRow>,
-    pub edges: Vec<Target>,
+    pub edges: Vec<Option<Target>>,
     pub sweeps: Vec<u16>,
 }
 
@@ -263,7 +264,7 @@ impl Builder {
 impl Spec {
     pub fn table(&self) -> PlanTable<'_> {
         PlanTable {
-            start: self.start,
+            start: ElementId(self.start),
             globals: self.globals,
             entries: self.entries.len() as u16,
             elements: &self.element_rows,
@@ -299,25 +300,26 @@ impl Spec {
     fn target(&self, name: &str) -> Target {
         match name {
             "terminate" => Target::Terminate,
-            "fail" => Target::Fail(0),
+            "fail" => Target::Fail(ReasonId(0)),
             "resume" => Target::Resume,
             "ignore" => Target::Ignore,
             name => {
                 let index = self.elements.iter().position(|element| element.name == name);
-                Target::Element(index.unwrap_or_else(|| panic!("no element {name}")) as u16)
+                let index = index.unwrap_or_else(|| panic!("no element {name}"));
+                Target::Element(ElementId(index as u16))
             }
         }
     }
 
-    fn optional(&self, name: Option<&str>) -> Target {
-        name.map_or(Target::None, |name| self.target(name))
+    fn optional(&self, name: Option<&str>) -> Option<Target> {
+        name.map(|name| self.target(name))
     }
 
     fn add_edges(&mut self, outcomes: &[(&str, &str)]) -> Range {
         let first = self.edges.len() as u16;
         for (_, target) in outcomes {
             let target = self.target(target);
-            self.edges.push(target);
+            self.edges.push(Some(target));
         }
         Range { first, len: outcomes.len() as u16 }
     }
@@ -328,10 +330,12 @@ impl Spec {
         let connected = guard.events.iter().enumerate().filter(|(_, (_, to))| *to != "ignore");
         let wanted = connected.fold(0, |bits, (n, _)| bits | 1 << n);
         self.supervisor_rows.push(SupervisorRow {
-            instance: index as u16,
-            period: Duration::from_millis(guard.period),
-            deadline: Duration::from_millis(guard.deadline),
-            budget: Duration::from_millis(guard.budget),
+            instance: SupervisorId(index as u16),
+            timing: Timing {
+                period: Duration::from_millis(guard.period),
+                deadline: Duration::from_millis(guard.deadline),
+                budget: Duration::from_millis(guard.budget),
+            },
             slot: slot as u16,
             events,
             on_miss: self.optional(guard.on_miss),
@@ -375,16 +379,14 @@ impl Spec {
         let targets = element.states.iter().map(|(_, to)| *to).chain(element.on_error);
         targets.into_iter().any(|to| match self.target(to) {
             Target::Resume => true,
-            Target::Element(next) => self.resumes(usize::from(next), seen),
+            Target::Element(next) => self.resumes(next.index(), seen),
             _ => false,
         })
     }
 
     /// Each local supervisor's element, by position.
     pub fn owner(&self, supervisor: u16) -> Option<usize> {
-        let holds = |row: &ElementRow| {
-            (row.locals.first..row.locals.first + row.locals.len).contains(&supervisor)
-        };
+        let holds = |row: &ElementRow| row.locals.indices().contains(&usize::from(supervisor));
         self.element_rows.iter().position(holds)
     }
 

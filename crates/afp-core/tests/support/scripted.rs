@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Committer, Cx, ElementKind, Events, Fired, Machine, Plan, PlanState, PlanTable,
-    Polled, Run, Slot, Started, Tables,
+    BadValue, Committer, Cx, ElementId, ElementKind, Events, Fired, Machine, Plan, PlanState,
+    PlanTable, Polled, Run, Slot, Started, SupervisorId, Tables,
 };
 use afp_core::trace::{EntryKind, Sink};
 use afp_core::{Fault, Value, ValueRef, WriteError};
@@ -28,7 +28,7 @@ pub struct Scripted {
     staged: Vec<Option<Value>>,
     children: Vec<Option<Machine<Scripted>>>,
     /// The element that was started and has not been left.
-    running: Option<u16>,
+    running: Option<ElementId>,
     watching: Vec<bool>,
 }
 
@@ -76,10 +76,10 @@ impl Scripted {
     /// Runs a sub-plan's machine, then hands the `out` entries that it set to `take`.
     fn with_child<R>(
         &mut self,
-        element: u16,
+        element: ElementId,
         run: impl FnOnce(&mut Self, &mut Machine<Self>) -> R,
     ) -> R {
-        let index = usize::from(element);
+        let index = element.index();
         let mut machine = self.children[index].take().expect("a sub-plan");
         let result = run(self, &mut machine);
         self.children[index] = Some(machine);
@@ -189,11 +189,11 @@ impl PlanState for Scripted {
 impl Plan<World> for Scripted {
     fn start_supervisor<R: Run<Env = World>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
-        let name = self.spec.supervisors[usize::from(supervisor)].name;
-        let watching = &mut self.watching[usize::from(supervisor)];
+        let name = self.spec.supervisors[supervisor.index()].name;
+        let watching = &mut self.watching[supervisor.index()];
         assert!(!*watching, "{name} is started while it watches");
         cx.env.call(name, Phase::Start, cx.now)?;
         *watching = true;
@@ -202,12 +202,12 @@ impl Plan<World> for Scripted {
 
     fn poll_supervisor<R: Run<Env = World>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         wanted: Events,
         cx: &mut Cx<'_, R>,
     ) -> Fired {
         let spec = self.spec.clone();
-        let index = usize::from(supervisor);
+        let index = supervisor.index();
         let guard = &spec.supervisors[index];
         assert!(self.watching[index], "{} is polled but does not watch", guard.name);
         if let Err(fault) = cx.env.call(guard.name, Phase::Poll, cx.now) {
@@ -221,9 +221,13 @@ impl Plan<World> for Scripted {
         Fired::event(event, cx.env.output(guard.name, cx.now))
     }
 
-    fn start_element<R: Run<Env = World>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Started {
+    fn start_element<R: Run<Env = World>>(
+        &mut self,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Started {
         let spec = self.spec.clone();
-        let row = &spec.elements[usize::from(element)];
+        let row = &spec.elements[element.index()];
         let computes = row.kind == ElementKind::Computation;
         assert!(computes || self.running.is_none(), "two elements run at once");
         for entry in &row.reads {
@@ -231,7 +235,7 @@ impl Plan<World> for Scripted {
             cx.env.saw(cx.now, row.name, &value);
         }
         if row.kind == ElementKind::SubPlan {
-            let child = spec.element_rows[usize::from(element)].child;
+            let child = spec.element_rows[element.index()].child;
             self.running = Some(element);
             return self.with_child(element, |plan, machine| {
                 for (inner, outer) in &row.ins {
@@ -261,12 +265,16 @@ impl Plan<World> for Scripted {
         }
     }
 
-    fn poll_element<R: Run<Env = World>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Polled {
+    fn poll_element<R: Run<Env = World>>(
+        &mut self,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Polled {
         let spec = self.spec.clone();
-        let row = &spec.elements[usize::from(element)];
+        let row = &spec.elements[element.index()];
         assert_eq!(self.running, Some(element), "{} is polled but does not run", row.name);
         if row.kind == ElementKind::SubPlan {
-            let child = spec.element_rows[usize::from(element)].child;
+            let child = spec.element_rows[element.index()].child;
             return self.with_child(element, |plan, machine| {
                 let flow = cx.inside(child, |cx| machine.step(cx));
                 Polled::sub_plan(
@@ -292,25 +300,24 @@ impl Plan<World> for Scripted {
 
     fn interrupt_element<R: Run<Env = World>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
         let spec = self.spec.clone();
-        let row = &spec.elements[usize::from(element)];
+        let row = &spec.elements[element.index()];
         assert_eq!(self.running, Some(element), "{} is interrupted but does not run", row.name);
         if row.kind == ElementKind::SubPlan {
-            let child = spec.element_rows[usize::from(element)].child;
+            let child = spec.element_rows[element.index()].child;
             return self
                 .with_child(element, |_, machine| cx.inside(child, |cx| machine.interrupt(cx)));
         }
         cx.env.call(row.name, Phase::Interrupt, cx.now)
     }
 
-    fn leave(&mut self, element: u16) {
+    fn leave(&mut self, element: ElementId) {
         self.running = None;
-        let locals = self.spec.element_rows[usize::from(element)].locals;
-        let first = usize::from(locals.first);
-        self.watching[first..first + usize::from(locals.len)].fill(false);
+        let locals = self.spec.element_rows[element.index()].locals;
+        self.watching[locals.indices()].fill(false);
     }
 
     fn end(&mut self) {

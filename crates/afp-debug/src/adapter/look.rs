@@ -262,11 +262,11 @@ impl Adapter<'_> {
         let Some(times) = program.unit(supervisor).and_then(|unit| unit.times.as_ref()) else {
             return Ok(all);
         };
-        if let Some(next) = state.next_release(supervisor, times.every, now) {
+        if let Some(next) = state.next_release(supervisor, times.timing.period, now) {
             all.push(variable("next release", format!("{:.3} s", next.as_secs_f64())));
         }
-        all.push(variable("every", duration(times.every.as_nanos())));
-        all.push(variable("deadline", duration(times.deadline.as_nanos())));
+        all.push(variable("every", duration(times.timing.period.as_nanos())));
+        all.push(variable("deadline", duration(times.timing.deadline.as_nanos())));
         all.extend(times.bound.iter().map(|bound| variable("stops within", bound.clone())));
         Ok(all)
     }

@@ -4,9 +4,10 @@
 use super::super::layout;
 use super::super::metrics::width;
 use super::super::sketch::{Anchor, Frame, Label, Piece, Rect, Shape};
-use super::super::view::{Exit, To, View, name};
+use super::super::view::{Exit, View, name};
 use super::Card;
 use super::parts::leave;
+use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, Part};
 
 /// Size of the tab's text in pixels, and the room on both sides of it.
@@ -47,7 +48,7 @@ impl<'a> Tab<'a> {
     fn leading(&self) -> impl Iterator<Item = (&'a Component, &Exit<'a>)> {
         let all = self.supervisors.iter();
         all.flat_map(|(each, exits)| exits.iter().map(move |exit| (*each, exit)))
-            .filter(|(_, exit)| matches!(exit.to, To::Element(_)))
+            .filter(|(_, exit)| matches!(exit.to, Some(Target::Element(Ok(_)))))
     }
 
     fn text(&self) -> String {

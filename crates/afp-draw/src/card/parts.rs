@@ -6,6 +6,7 @@ use super::super::sketch::{Anchor, Arrow, Label, Piece, Rect, Sketch, Tip};
 use super::super::usage::{Class, Use};
 use super::super::view::{Exit, Input, Output, To};
 use super::{Card, Leaving, REACH};
+use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, ExitKind, Part};
 
 /// Height of a row with a port or an exit.
@@ -45,13 +46,13 @@ struct Tag<'a> {
 impl<'a> Tag<'a> {
     fn of(to: To<'a>) -> Option<Tag<'a>> {
         let (text, class) = match to {
-            To::Element(_) | To::Resume => return None,
-            To::Terminate => ("Terminate", "terminate"),
-            To::Fail("") => ("Fail", "fail"),
-            To::Fail(reason) => (reason, "fail"),
-            To::Ignore => ("Ignore", "ignore"),
-            To::Unknown(text) => (text, "unknown"),
-            To::Nowhere => ("?", "nowhere"),
+            Some(Target::Element(Ok(_)) | Target::Resume) => return None,
+            Some(Target::Terminate) => ("Terminate", "terminate"),
+            Some(Target::Fail("")) => ("Fail", "fail"),
+            Some(Target::Fail(reason)) => (reason, "fail"),
+            Some(Target::Ignore) => ("Ignore", "ignore"),
+            Some(Target::Element(Err(text))) => (text, "unknown"),
+            None => ("?", "nowhere"),
         };
         Some(Tag { text, class })
     }
@@ -73,20 +74,20 @@ pub(super) fn pill_width(text: &str) -> f64 {
 pub(super) fn exit_width(exit: &Exit) -> f64 {
     let own = chip_width(&exit.text());
     match exit.to {
-        To::Resume => (own + BESIDE + PILL / 3.0).max(width(RESUME, CHIP_SIZE, false)),
+        Some(Target::Resume) => (own + BESIDE + PILL / 3.0).max(width(RESUME, CHIP_SIZE, false)),
         to => own.max(Tag::of(to).map_or(0.0, tag_width)),
     }
 }
 
 /// The room that an exit needs on the right of a box.
 pub(super) fn exit_height(exit: &Exit) -> f64 {
-    if exit.to == To::Resume { ROW + BESIDE - 5.0 } else { ROW }
+    if exit.to == Some(Target::Resume) { ROW + BESIDE - 5.0 } else { ROW }
 }
 
 /// How far to the right of its box an exit with its tag or arrow back reaches.
 pub(super) fn reach_right(exit: &Exit) -> f64 {
     let beyond = match exit.to {
-        To::Resume => OUT + APART + width(RESUME, CHIP_SIZE, false),
+        Some(Target::Resume) => OUT + APART + width(RESUME, CHIP_SIZE, false),
         to => Tag::of(to).map_or(0.0, |tag| STUB + tag_width(tag)),
     };
     STAND_OUT + beyond
@@ -189,12 +190,12 @@ pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
     let text = exit.text();
     let width = chip_width(&text);
     // The arrow back comes up beside the exit.
-    let x = if exit.to == To::Resume { x - (exit_width(exit) - width) / 2.0 } else { x };
+    let x = if exit.to == Some(Target::Resume) { x - (exit_width(exit) - width) / 2.0 } else { x };
     let rect = Rect { x: x - width / 2.0, y: y - PILL + STAND_OUT, width, height: PILL };
     chip(card, of, rect, exit, &text);
     let bottom = rect.bottom();
     card.height = card.height.max(bottom);
-    if exit.to == To::Resume {
+    if exit.to == Some(Target::Resume) {
         let (turn, up) = (bottom + OUT, rect.right() + BESIDE - 5.0);
         back(card, exit, vec![(x, bottom), (x, turn), (up, turn), (up, y)]);
         let base = turn + APART + 0.8 * CHIP_SIZE;
@@ -221,7 +222,7 @@ pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
     let right = x + STAND_OUT;
     let rect = Rect { x: right - width, y: y - PILL / 2.0, width, height: PILL };
     chip(card, of, rect, exit, &text);
-    if exit.to == To::Resume {
+    if exit.to == Some(Target::Resume) {
         let (turn, below) = (right + OUT, y + BESIDE);
         back(card, exit, vec![(right, y), (turn, y), (turn, below), (x, below)]);
         resume_label(card, (turn + APART, y + BESIDE / 2.0 + 0.36 * CHIP_SIZE));
@@ -250,7 +251,7 @@ fn resume_label(card: &mut Card, (x, y): (f64, f64)) {
 
 /// The exit itself: hollow when it leads nowhere.
 fn chip(card: &mut Card, of: &Component, rect: Rect, exit: &Exit, text: &str) {
-    let class = if exit.to == To::Nowhere { "open".into() } else { exit_class(exit) };
+    let class = if exit.to.is_none() { "open".into() } else { exit_class(exit) };
     card.sketch.pill(rect, class, text, CHIP_SIZE);
     let (part, severity) = (part(exit), exit.severity);
     card.sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity });
@@ -264,7 +265,7 @@ pub(super) fn part(exit: &Exit) -> Part {
 
 /// Leads flow from an exit to its element; nothing where it leads to none.
 pub(super) fn leave(card: &mut Card, of: &Component, at: layout::Exit, exit: &Exit) {
-    if let To::Element(id) = exit.to {
+    if let Some(Target::Element(Ok(id))) = exit.to {
         let (item, part, severity) = (of.item.clone(), part(exit), exit.severity);
         let class = exit_class(exit);
         card.exits.push(Leaving { item, part, severity, at, to: id.index(), class });

@@ -6,10 +6,11 @@ use super::super::sketch::{
     Anchor, Arrow, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch,
 };
 use super::super::usage::{Class, Use, times};
-use super::super::view::{To, View, entry_name, entry_type};
+use super::super::view::{View, entry_name, entry_type, to};
 use super::parts::{PORT_SIZE, ROW, pill_width};
 use super::{Card, Hung, Leaving};
 use afp_dsl::graph::EntryKind;
+use afp_dsl::graph::Target;
 use afp_dsl::outline::{Entry, Part};
 
 /// Size of the plan's name in pixels.
@@ -75,8 +76,8 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
         let x = rect.x + rect.width * f64::from(number) / (count + 1.0);
         let (class, severity) = ("start".into(), view.severity(start.findings.worst()));
         let (item, part) = (view.plan.item.clone(), Part::Start(number));
-        match To::of(start.target.as_ref()) {
-            To::Element(id) => {
+        match to(start.target.as_ref()) {
+            Some(Target::Element(Ok(id))) => {
                 let at = layout::Exit::Below(x, rect.bottom());
                 card.exits.push(Leaving { item, part, severity, at, to: id.index(), class });
                 card.sketch.mark(severity, (x, rect.bottom()));
@@ -85,7 +86,7 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
                 let points = vec![(x, rect.bottom()), (x, rect.bottom() + STUB)];
                 card.sketch.arrows.push(Arrow::flow(points, class));
                 let (text, class) = match to {
-                    To::Unknown(text) => (text, "unknown"),
+                    Some(Target::Element(Err(text))) => (text, "unknown"),
                     other => (view.target_name(other), "nowhere"),
                 };
                 let text = if text.is_empty() { "?" } else { text };

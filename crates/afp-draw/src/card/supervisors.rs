@@ -3,12 +3,13 @@
 use super::super::metrics::width;
 use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};
 use super::super::usage::{Class, Use, times};
-use super::super::view::{Exit, Input, Output, To, View, name, timing};
+use super::super::view::{Exit, Input, Output, View, name, timing};
 use super::parts::{
     PORT_SIZE, ROW, STAND_OUT, chip_width, exit_height, exit_right, inflow, outflow, pill_width,
     reach_right,
 };
 use super::{Card, REACH, shown};
+use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, ComponentKind, Part};
 use afp_dsl::types::text::duration;
 
@@ -99,13 +100,13 @@ impl<'a> Row<'a> {
         let own = name(supervisor);
         let own = if reacts { format!("on {own}") } else { own.to_owned() };
         let mut template = view.template_name(watcher).to_owned();
-        let every = supervisor.times.map(|times| times.every);
+        let every = supervisor.times.map(|times| times.timing.period.as_nanos());
         let usual = supervisor.template().map(|template| template.every);
         if let Some(every) = every.filter(|every| usual.is_some_and(|usual| usual != *every)) {
             template += &format!(" · every {}", duration(every));
         }
         let events = view.exits(supervisor);
-        let counts = || events.iter().filter(|exit| exit.to != To::Ignore);
+        let counts = || events.iter().filter(|exit| exit.to != Some(Target::Ignore));
         let counts = || counts().filter_map(|exit| exit.count);
         let is_counted = view.count(supervisor).is_some() || reacts && counts().next().is_some();
         let usage = is_counted.then(|| {

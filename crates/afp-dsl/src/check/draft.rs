@@ -146,7 +146,7 @@ pub(super) fn value(text: &str, formula: &ast::Formula) -> Value {
 
 /// Where an edge or `start` leads, without what that means.
 pub(super) fn target(name: Name) -> Target {
-    Target { text: name.text, span: name.span, to: Destination::Unknown }
+    Target { text: name.text, span: name.span, to: Destination::Element(None) }
 }
 
 /// The text at a place, where it stands in one line without comments and spare blanks.

@@ -266,12 +266,13 @@ impl Places<'_> {
     fn leads_to(&self, target: &Target) -> Destination {
         match self.meanings.get(target.name_span()) {
             Some(Found::Word(Word::Terminate)) => Destination::Terminate,
-            Some(Found::Word(Word::Fail)) => Destination::Fail,
+            Some(Found::Word(Word::Fail)) => Destination::Fail(()),
             Some(Found::Word(Word::Ignore)) => Destination::Ignore,
             Some(Found::Word(Word::Resume)) => Destination::Resume,
-            Some(Found::Definition(span)) => find(&self.elements, span)
-                .map_or(Destination::Unknown, |place| Destination::Element(ElementId::new(place))),
-            _ => Destination::Unknown,
+            Some(Found::Definition(span)) => {
+                Destination::Element(find(&self.elements, span).map(ElementId::new))
+            }
+            _ => Destination::Element(None),
         }
     }
 

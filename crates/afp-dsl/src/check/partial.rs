@@ -162,7 +162,7 @@ impl Reader {
             globals,
             reasons: Vec::new(),
             start: start.map_or(anything, |start| match start.target.as_ref().map(|it| it.to) {
-                Some(Destination::Element(id)) => leads.element(id),
+                Some(Destination::Element(Some(id))) => leads.element(id),
                 _ => anything,
             }),
             interruptible: node.interruptible,
@@ -204,13 +204,7 @@ impl Reader {
         leads: Leads,
     ) -> Supervisor {
         let (name, span) = named(node.name.as_ref(), node.span);
-        let usual = Times {
-            every: DEFAULT_EVERY,
-            deadline: DEFAULT_EVERY,
-            every_span: None,
-            deadline_span: None,
-        };
-        let times = node.times.unwrap_or(usual);
+        let times = node.times.unwrap_or_else(|| Times::new(DEFAULT_EVERY, DEFAULT_EVERY, None));
         let event = |exit: &Exit| leads.target(exit).unwrap_or(graph::Target::Ignore);
         let missed = node.exits.iter().find(|exit| exit.kind == ExitKind::Missed);
         Supervisor {
@@ -222,8 +216,7 @@ impl Reader {
             outputs: Vec::new(),
             events: events(node).map(event).collect(),
             on_miss: missed.and_then(|exit| leads.target(exit)),
-            every: times.every,
-            deadline: times.deadline,
+            timing: times.timing,
             timed_by: Vec::new(),
             every_span: times.every_span,
             edges: EdgeSpans::default(),
@@ -294,14 +287,9 @@ impl Leads {
     }
 
     fn edge(self, edge: &Edge) -> graph::Target {
-        match edge.target.as_ref().map(|target| target.to) {
-            Some(Destination::Element(id)) => graph::Target::Element(self.element(id)),
-            Some(Destination::Terminate) => graph::Target::Terminate,
-            Some(Destination::Fail) => graph::Target::Fail(ReasonId(0)),
-            Some(Destination::Ignore) => graph::Target::Ignore,
-            Some(Destination::Resume) => graph::Target::Resume,
-            Some(Destination::Unknown) | None => graph::Target::Element(self.anything),
-        }
+        let to = edge.target.as_ref().map_or(Destination::Element(None), |target| target.to);
+        let element = |id: Option<_>| id.map_or(self.anything, |id| self.element(id));
+        to.map(element, |()| ReasonId(0))
     }
 
     fn element(self, id: crate::outline::ElementId) -> ElementId {

@@ -141,8 +141,8 @@ impl Dump<'_> {
                 "supervise {}: {}{generic} every {} deadline {}",
                 supervisor.name,
                 named.head,
-                duration(supervisor.every),
-                duration(supervisor.deadline)
+                duration(supervisor.timing.period.as_nanos()),
+                duration(supervisor.timing.deadline.as_nanos())
             ),
         );
         self.binds(&named, &supervisor.inputs, &supervisor.outputs);
@@ -183,11 +183,8 @@ impl Dump<'_> {
 
     fn edge(&mut self, outcome: &str, target: Target) {
         let target = match target {
-            Target::Element(id) => self.plan.elements[id.index()].name.as_str(),
-            Target::Terminate => "terminate",
             Target::Fail(id) => &format!("fail {:?}", self.plan.reasons[id.index()]),
-            Target::Ignore => "ignore",
-            Target::Resume => "resume",
+            target => target.keyword().unwrap_or_else(|id| &self.plan.elements[id.index()].name),
         };
         self.line(3, &format!("{outcome} -> {target}"));
     }

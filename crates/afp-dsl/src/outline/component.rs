@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use super::{ElementId, EntryId, Findings, PlanId};
-use crate::toolbox::Toolbox;
+use crate::toolbox::{Template, Toolbox};
 use crate::types::{Constant, Type};
 use afp_syntax::ast::Name;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
+use afp_types::{Duration, Timing};
 
 /// An element or a supervisor.
 #[derive(Clone, Debug)]
@@ -95,14 +96,22 @@ pub enum MadeFrom {
 /// When a supervisor is polled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Times {
-    /// Poll period in nanoseconds.
-    pub every: u64,
-    /// Deadline after each release in nanoseconds.
-    pub deadline: u64,
+    /// The times.
+    pub timing: Timing,
     /// Where `every` is written, if it is.
     pub every_span: Option<Span>,
     /// Where `deadline` is written, if it is.
     pub deadline_span: Option<Span>,
+}
+
+impl Times {
+    /// Times that are not written, in nanoseconds.
+    pub(crate) fn new(every: u64, deadline: u64, template: Option<&Template>) -> Times {
+        let budget = template.and_then(|template| template.budget).unwrap_or(0);
+        let [period, deadline, budget] = [every, deadline, budget].map(Duration::from_nanos);
+        let timing = Timing { period, deadline, budget };
+        Times { timing, every_span: None, deadline_span: None }
+    }
 }
 
 /// An input port.
@@ -241,21 +250,5 @@ impl Target {
     }
 }
 
-/// What a target means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-// A tag as wide as what it carries: copies are of whole words.
-#[repr(u32)]
-pub enum Destination {
-    /// An element of the plan.
-    Element(ElementId),
-    /// The plan ends.
-    Terminate,
-    /// The plan ends in `Error`.
-    Fail,
-    /// The event is not taken.
-    Ignore,
-    /// What is active goes on.
-    Resume,
-    /// Nothing of the plan has that name.
-    Unknown,
-}
+/// What a target means. An element is `None` if nothing of the plan has that name.
+pub type Destination = afp_types::Target<Option<ElementId>, ()>;

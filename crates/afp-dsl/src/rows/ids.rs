@@ -4,7 +4,7 @@
 //! the blocks of its sub-plans, element by element, laid out alike; entries likewise.
 
 use crate::graph::{Component, Plan};
-use crate::rows::Child;
+use afp_types::Child;
 
 /// How many numbers a plan takes, and where those of its sub-plans begin.
 pub(super) struct Block {

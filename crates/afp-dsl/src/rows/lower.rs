@@ -1,18 +1,21 @@
 //! From plans to tables.
 
+use std::sync::Arc;
+
 use crate::graph::{
     Component, Element, ElementId, Graph, Plan, Supervisor, SupervisorId, resuming,
 };
 use crate::rows::ids::blocks;
 use crate::rows::wanted::{elsewhere, wanted};
-use crate::rows::{Child, ElementKind, ElementRow, Range, Rows, SupervisorRow, polling_order};
+use crate::rows::{Rows, polling_order};
+use afp_types::{Child, Duration, ElementKind, ElementRow, Range, SupervisorRow};
 
 /// The tables of all plans of a graph, in their order; `None` when a table would have too many rows,
 /// which the check has reported.
-pub(crate) fn lower(graph: &Graph) -> Option<Vec<Rows>> {
+pub(crate) fn lower(graph: &Graph) -> Option<Vec<Arc<Rows>>> {
     let blocks = blocks(&graph.plans)?;
     let plans = graph.plans.iter().zip(&blocks);
-    plans.map(|(plan, block)| rows(graph, plan, &block.children)).collect()
+    plans.map(|(plan, block)| rows(graph, plan, &block.children).map(Arc::new)).collect()
 }
 
 fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
@@ -35,7 +38,7 @@ fn rows(graph: &Graph, plan: &Plan, children: &[Child]) -> Option<Rows> {
         rows.elements.push(ElementRow { resumes, sweep, ..row });
     }
     for (index, supervisor) in plan.supervisors.iter().enumerate() {
-        let row = add_supervisor(&mut rows, graph, plan, supervisor, index)?;
+        let row = add_supervisor(&mut rows, plan, supervisor, index)?;
         rows.supervisors.push(row);
     }
     for (supervisor, there) in elsewhere {
@@ -52,10 +55,10 @@ fn row_at(
     supervisor: SupervisorId,
     there: ElementId,
 ) -> Option<SupervisorRow> {
-    let row = rows.supervisors.get(supervisor.index())?.clone();
+    let row = rows.supervisors.get(supervisor.index())?;
     let targets = plan.events_at(supervisor, there);
     let wanted = wanted(&targets, Some(there))?;
-    let row = SupervisorRow { wanted, wanted_in_look: wanted, ..row };
+    let row = SupervisorRow { wanted, wanted_in_look: wanted, ..*row };
     if plan.elements[there.index()].reactions_to(supervisor).is_none() {
         return Some(row);
     }
@@ -70,7 +73,7 @@ fn add_element(
     element: &Element,
     child: Child,
 ) -> Option<ElementRow> {
-    let (kind, period) = match element.component {
+    let (kind, nanos) = match element.component {
         Component::Actor(id) => (ElementKind::Actor, graph.template(id).every),
         Component::Computation(_) => (ElementKind::Computation, 0),
         Component::SubPlan(_) => (ElementKind::SubPlan, 0),
@@ -80,7 +83,7 @@ fn add_element(
     let len = u16::try_from(element.supervisors.len()).ok()?;
     Some(ElementRow {
         kind,
-        period,
+        period: Duration::from_nanos(nanos),
         states,
         on_error: element.on_error,
         resumes: false,
@@ -111,7 +114,6 @@ fn polled(
 
 fn add_supervisor(
     rows: &mut Rows,
-    graph: &Graph,
     plan: &Plan,
     supervisor: &Supervisor,
     index: usize,
@@ -127,9 +129,7 @@ fn add_supervisor(
     };
     Some(SupervisorRow {
         instance: SupervisorId(index),
-        period: supervisor.every,
-        deadline: supervisor.deadline,
-        budget: graph.template(supervisor.template).budget.unwrap_or(0),
+        timing: supervisor.timing,
         slot,
         events: append(&mut rows.edges, supervisor.events.iter().copied().map(Some))?,
         on_miss: supervisor.on_miss,

@@ -9,6 +9,6 @@ pub(crate) fn polling_order(
     ids: impl Iterator<Item = SupervisorId>,
 ) -> Vec<SupervisorId> {
     let mut order: Vec<_> = ids.collect();
-    order.sort_by_key(|id| plan.supervisors[id.index()].deadline);
+    order.sort_by_key(|id| plan.supervisors[id.index()].timing.deadline);
     order
 }

@@ -4,10 +4,11 @@
 //! nor is in the look one that would start its own element anew.
 
 use crate::graph::{ElementId, Plan, SupervisorId, Target};
+use afp_types::Events;
 
 /// The events that lead to something other than `ignore` and the element `there`; `None` where they are
 /// too many for a set.
-pub(super) fn wanted(events: &[Target], there: Option<ElementId>) -> Option<u64> {
+pub(super) fn wanted(events: &[Target], there: Option<ElementId>) -> Option<Events> {
     let mut bits = 0;
     let taken = |target: &Target| match target {
         Target::Ignore => false,
@@ -17,7 +18,7 @@ pub(super) fn wanted(events: &[Target], there: Option<ElementId>) -> Option<u64>
     for (index, _) in events.iter().enumerate().filter(|(_, target)| taken(target)) {
         bits |= 1_u64.checked_shl(u32::try_from(index).ok()?)?;
     }
-    Some(bits)
+    Some(Events::from_bits(bits))
 }
 
 /// The global supervisors with each of the elements for which they have a row of their own: those that

@@ -31,7 +31,7 @@ fn late_responses(known: Timing, diags: &mut Diagnostics) {
                 "'{}' may take {} from its release to the end of its poll, longer than its deadline of {}",
                 row.path,
                 Words(duration(response.total())),
-                Words(duration(row.deadline))
+                Words(duration(row.timing.deadline.as_nanos()))
             );
             diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
         }
@@ -39,7 +39,11 @@ fn late_responses(known: Timing, diags: &mut Diagnostics) {
 }
 
 fn late(row: &SupervisorTiming) -> Option<Response> {
-    row.response.as_ref().ok().filter(|response| response.total() > row.deadline).copied()
+    row.response
+        .as_ref()
+        .ok()
+        .filter(|response| response.total() > row.timing.deadline.as_nanos())
+        .copied()
 }
 
 /// Says what the response is made of.
@@ -96,10 +100,14 @@ fn ticks(graph: &Graph, target: &Target, tick: u64, diags: &mut Diagnostics) {
     };
     used(graph, |views| {
         for view in views {
-            for supervisor in view.supervisors().filter(|supervisor| supervisor.every < tick) {
+            for supervisor in view.supervisors() {
+                let every = supervisor.timing.period.as_nanos();
+                if every >= tick {
+                    continue;
+                }
                 let span = supervisor.every_span.unwrap_or(supervisor.span);
                 let help = message!("write at least 'every {}'", duration(tick));
-                report(span, &supervisor.name, supervisor.every, help);
+                report(span, &supervisor.name, every, help);
             }
             for (_, element) in view.elements() {
                 let Component::Actor(id) = element.component else { continue };
@@ -126,7 +134,7 @@ fn responses(graph: &Graph, target: &Target, diags: &mut Diagnostics) {
             row.path,
             Words(duration(response.total())),
             target.name,
-            Words(duration(row.deadline))
+            Words(duration(row.timing.deadline.as_nanos()))
         );
         diags.push(parts(Diagnostic::new(Code::E0405, row.span, message), &response));
     }

@@ -146,8 +146,8 @@ fn share(
     supervisors: impl Iterator<Item = SupervisorId>,
 ) -> (f64, Option<Arc<str>>) {
     supervisors.fold((0.0, None), |(demand, unknown), id| {
-        let (own, every) = (poll(view, id).known(), view.supervisor(id).every);
-        let share = own.as_ref().map_or(0.0, |own| *own as f64 / every as f64);
+        let (own, period) = (poll(view, id).known(), view.supervisor(id).timing.period);
+        let share = own.as_ref().map_or(0.0, |own| *own as f64 / period.as_nanos() as f64);
         (demand + share, unknown.or_else(|| own.err().map(Arc::from)))
     })
 }

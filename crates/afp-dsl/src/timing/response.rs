@@ -9,6 +9,7 @@ use super::cost::Cost;
 use super::held::{interrupts, poll};
 use super::level::Levels;
 use super::{Interruption, Response, SupervisorTiming, Trust};
+use afp_types::Duration;
 
 /// What holds for every supervisor of the plan that runs.
 pub(super) struct Bounds<'a> {
@@ -42,8 +43,7 @@ pub(super) fn rows(
             rows.push(SupervisorTiming {
                 plan: view.plan.name.clone(),
                 path: view.supervisor_path(id),
-                every: supervisor.every,
-                deadline: supervisor.deadline,
+                timing: supervisor.timing,
                 response,
                 interruption,
                 span: supervisor.span,
@@ -96,10 +96,12 @@ fn interruption(
             return Some(Interruption { trust: Trust::Unknown, terms: Vec::new(), reason });
         }
     };
-    let period = ("period", supervisor.every);
+    let [period, deadline] =
+        [supervisor.timing.period, supervisor.timing.deadline].map(Duration::as_nanos);
+    let period = ("period", period);
     let assumed = |reason: String| Interruption {
         trust: Trust::Assumed,
-        terms: vec![period, ("deadline", supervisor.deadline), ("stop", stop)],
+        terms: vec![period, ("deadline", deadline), ("stop", stop)],
         reason,
     };
     let (response, interrupt) = match (response, interrupt.known()) {
@@ -108,8 +110,8 @@ fn interruption(
         (_, Err(reason)) => return Some(assumed(reason)),
     };
     // Budgets are declared, so a bound without any slack proves nothing.
-    if response >= supervisor.deadline {
-        let longer = if response == supervisor.deadline { "as long as" } else { "longer than" };
+    if response >= deadline {
+        let longer = if response == deadline { "as long as" } else { "longer than" };
         return Some(assumed(format!("the response may be {longer} the deadline")));
     }
     let terms = vec![period, ("response", response), ("interrupt", interrupt), ("stop", stop)];

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::{Basis, Interruption, StepParts, SupervisorTiming, Timing};
 use crate::types::text::duration;
+use afp_types::Duration;
 
 /// What a response is made of, and what not.
 const RESPONSE: &str = "a response has the target's tick in it, not the delay of a sensor";
@@ -56,9 +57,10 @@ impl Timing {
 
     fn row(&self, row: &SupervisorTiming) -> [String; 7] {
         let path = self.path(row);
+        let [period, deadline] = [row.timing.period, row.timing.deadline].map(Duration::as_nanos);
         let (response, slack) = match &row.response {
             Ok(response) => {
-                let (total, deadline) = (response.total(), row.deadline);
+                let total = response.total();
                 let sign = if total > deadline { "-" } else { "" };
                 (duration(total), format!("{sign}{}", duration(deadline.abs_diff(total))))
             }
@@ -68,7 +70,7 @@ impl Timing {
             None => ("-".to_owned(), "interrupts nothing".to_owned()),
             Some(interruption) => describe(interruption),
         };
-        [path, duration(row.every), duration(row.deadline), response, slack, bound, terms]
+        [path, duration(period), duration(deadline), response, slack, bound, terms]
     }
 
     /// The same as one JSON object: `plan`, `longest_step_ns`, `longest_step_parts`, `demand` (each with `null` and a reason where
@@ -169,6 +171,7 @@ fn describe(interruption: &Interruption) -> (String, String) {
 }
 
 fn supervisor(row: &SupervisorTiming) -> Value {
+    let [period, deadline] = [row.timing.period, row.timing.deadline].map(Duration::as_nanos);
     let response = row.response.as_ref().ok().map(|response| {
         json!({
             "total_ns": response.total(),
@@ -192,10 +195,10 @@ fn supervisor(row: &SupervisorTiming) -> Value {
         "plan": row.plan,
         "supervisor": row.path,
         "slack_ns": row.response.as_ref().ok().map(|response| {
-            i128::from(row.deadline) - i128::from(response.total())
+            i128::from(deadline) - i128::from(response.total())
         }).and_then(|slack| i64::try_from(slack).ok()),
-        "every_ns": row.every,
-        "deadline_ns": row.deadline,
+        "every_ns": period,
+        "deadline_ns": deadline,
         "response": response,
         "response_unknown": row.response.as_ref().err(),
         "interruption": interruption,

@@ -124,7 +124,7 @@ fn the_last_of_64_events_is_wanted() {
     );
     let compiled = compile(&text);
     let graph = compiled.graph.as_ref().unwrap_or_else(|| panic!("{}", compiled.render(false)));
-    assert_eq!(graph.rows(graph.main).supervisors[0].wanted, 1 << 63);
+    assert_eq!(graph.rows(graph.main).supervisors[0].wanted.bits(), 1 << 63);
 }
 
 #[test]

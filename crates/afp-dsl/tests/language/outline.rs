@@ -151,7 +151,8 @@ fn component(
         line(depth + 1, format!("says {doc:?}"));
     }
     if let Some(times) = component.times {
-        line(depth + 1, format!("every {} deadline {} ns", times.every, times.deadline));
+        let times = [times.timing.period, times.timing.deadline].map(|time| time.as_nanos());
+        line(depth + 1, format!("every {} deadline {} ns", times[0], times[1]));
     }
     for input in &component.inputs {
         let ty = input.ty.as_ref().map_or("?".to_owned(), ToString::to_string);
@@ -214,11 +215,9 @@ fn bound(plan: &Plan, binding: &Binding) -> String {
 
 fn target(plan: &Plan, target: &Target) -> String {
     match target.to {
-        Destination::Element(id) => plan.elements[id.index()].item.to_string(),
-        Destination::Terminate | Destination::Fail | Destination::Ignore | Destination::Resume => {
-            target.text.clone()
-        }
-        Destination::Unknown => format!("{} (unknown)", target.text),
+        Destination::Element(Some(id)) => plan.elements[id.index()].item.to_string(),
+        Destination::Element(None) => format!("{} (unknown)", target.text),
+        _ => target.text.clone(),
     }
 }
 

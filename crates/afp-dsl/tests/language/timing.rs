@@ -42,7 +42,7 @@ fn the_plan_of_the_paper_is_proved_where_it_has_slack() {
         for row in timing(&graph, Some(&target)).supervisors {
             let bound = row.interruption.unwrap();
             // A poll each millisecond leaves a Pi, which is late by a tenth of that, no slack.
-            let no_slack = row.response.unwrap().total() == row.deadline;
+            let no_slack = row.response.unwrap().total() == row.timing.deadline.as_nanos();
             assert_eq!(no_slack, name.starts_with("pi") && row.path == "searchFirstWall.touch");
             let trust = if no_slack { Trust::Assumed } else { Trust::Proved };
             assert_eq!(bound.trust, trust, "{name}: {}", row.path);

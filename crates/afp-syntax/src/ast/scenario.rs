@@ -4,6 +4,7 @@ use super::plan::binds;
 use super::{Bind, Formula, Name, Ref, child, children, find_token, keyword, token, tokens, views};
 use crate::Node;
 use crate::kind::Kind;
+use afp_types::Target;
 
 views! {
     /// A scenario.
@@ -87,41 +88,8 @@ pub enum ClaimKind {
     Hole,
 }
 
-/// What follows an element in a claim.
-#[derive(Clone, Debug)]
-pub enum ClaimTarget {
-    /// An element.
-    Element(Path),
-    /// The plan ends.
-    Terminate,
-    /// The plan fails.
-    Fail,
-    /// What is active goes on.
-    Resume,
-}
-
-impl ClaimTarget {
-    /// The element's path.
-    pub fn path(&self) -> Option<&Path> {
-        match self {
-            ClaimTarget::Element(path) => Some(path),
-            ClaimTarget::Terminate | ClaimTarget::Fail | ClaimTarget::Resume => None,
-        }
-    }
-
-    /// What an edge there has behind its arrow.
-    pub fn word(&self) -> String {
-        let word = match self {
-            ClaimTarget::Element(path) => {
-                return path.names().pop().map(|it| it.text).unwrap_or_default();
-            }
-            ClaimTarget::Terminate => "terminate",
-            ClaimTarget::Fail => "fail",
-            ClaimTarget::Resume => "resume",
-        };
-        word.to_owned()
-    }
-}
+/// What follows an element in a claim; never `ignore`.
+pub type ClaimTarget = Target<Path, ()>;
 
 impl Scenario {
     /// Its name, quotes included.
@@ -271,7 +239,7 @@ impl Claim {
         if token(&self.node, Kind::Arrow, self.file).is_some() {
             let words = [
                 ("terminate", ClaimTarget::Terminate),
-                ("fail", ClaimTarget::Fail),
+                ("fail", ClaimTarget::Fail(())),
                 ("resume", ClaimTarget::Resume),
             ];
             let word = words.into_iter().find(|(word, _)| has(word)).map(|(_, target)| target);

@@ -73,7 +73,9 @@ impl Pair<'_> {
 
     /// Where the supervisor is polled at about those shares of the element's run.
     fn points(&self) -> Vec<Point> {
-        let Some(every) = self.parts.supervisor(self.supervisor).map(|each| each.every) else {
+        let Some(every) =
+            self.parts.supervisor(self.supervisor).map(|each| each.timing.period.as_nanos())
+        else {
             return Vec::new();
         };
         let (from, to) = (self.active.from.as_nanos(), self.active.to.as_nanos());
@@ -95,7 +97,10 @@ impl Pair<'_> {
         let own = |place: &Place| place.owner == Some(self.element);
         match self.parts.place(self.supervisor).is_some_and(own) {
             true => 0,
-            false => self.parts.supervisor(self.supervisor).map_or(0, |each| each.every),
+            false => self
+                .parts
+                .supervisor(self.supervisor)
+                .map_or(0, |each| each.timing.period.as_nanos()),
         }
     }
 
@@ -118,7 +123,8 @@ impl Pair<'_> {
         let there = goal == Goal::Resume
             || goal == Goal::Element(self.element) && supervisor.owner.is_none();
         let wait = self.wait();
-        let (time, within) = (duration(at - since), duration(wait + supervisor.deadline));
+        let (time, within) =
+            (duration(at - since), duration(wait + supervisor.timing.deadline.as_nanos()));
         let soon = format!("within {within} after {time}");
         let stand = self.standstill(at).map(|stand| stand + wait);
         let ending = self.ending(goal, &soon).filter(|_| !there);
@@ -132,7 +138,7 @@ impl Pair<'_> {
         } else {
             let to = match goal {
                 Goal::Element(to) => parts.name(to),
-                Goal::Fail => "fail",
+                Goal::Fail(_) => "fail",
                 Goal::Terminate | Goal::Ignore | Goal::Resume => "terminate",
             };
             let to = self.beside(goal, to);
@@ -149,7 +155,7 @@ impl Pair<'_> {
                 }),
             );
         }
-        let end = stand.unwrap_or(at + wait + supervisor.deadline) + BEHIND;
+        let end = stand.unwrap_or(at + wait + supervisor.timing.deadline.as_nanos()) + BEHIND;
         Some(Draft {
             title: format!("{element}: {name}{} at {percent} %", self.whose()),
             plan: parts.path(0).to_owned(),
@@ -234,7 +240,7 @@ impl Pair<'_> {
         // Others may write the entries at once where the plan goes on with more than an actor.
         let alone = match goal {
             Goal::Element(to) => matches!(parts.component(to), Some(Component::Actor(_))),
-            Goal::Terminate | Goal::Fail => {
+            Goal::Terminate | Goal::Fail(_) => {
                 parts.place(self.element).is_some_and(|place| place.plan == 0)
             }
             Goal::Ignore | Goal::Resume => false,
@@ -269,7 +275,7 @@ impl Pair<'_> {
 fn ended_by(goal: Goal, terminated: &'static str) -> Option<&'static str> {
     match goal {
         Goal::Terminate => Some(terminated),
-        Goal::Fail => Some("Error"),
+        Goal::Fail(_) => Some("Error"),
         Goal::Element(_) | Goal::Ignore | Goal::Resume => None,
     }
 }

@@ -160,7 +160,7 @@ impl Reach {
             Some(Goal::Terminate) => {
                 parts.place(edge.component).is_some_and(|place| place.plan != 0)
             }
-            Some(Goal::Fail | Goal::Ignore | Goal::Resume) | None => false,
+            Some(Goal::Fail(_) | Goal::Ignore | Goal::Resume) | None => false,
         }
     }
 

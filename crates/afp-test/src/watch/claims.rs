@@ -3,7 +3,7 @@
 use afp_core::trace::{Author, ComponentId};
 use afp_dsl::scenario::{Claim, Operand};
 
-use super::{Occurrence, State, ends, fits, leads};
+use super::{Occurrence, State, ends, fits};
 
 /// Whether a claim is about this.
 pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
@@ -11,7 +11,7 @@ pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
         (
             Claim::Transition { from, to, by },
             Occurrence::Edge { from: left, to: goal, by: why },
-        ) => from == left && leads(*to, *goal) && by.is_none_or(|by| fits(&by, *why)),
+        ) => from == left && *goal == Some(*to) && by.is_none_or(|by| fits(&by, *why)),
         (Claim::Happens(wanted), Occurrence::Outcome(cause)) => fits(wanted, *cause),
         (Claim::End(wanted), Occurrence::End(ending, last)) => ends(*wanted, *ending, *last),
         (Claim::Interrupt(wanted), Occurrence::Interrupt(element)) => wanted == element,

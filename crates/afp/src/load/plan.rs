@@ -8,8 +8,8 @@ mod testing;
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Committer, Cx, Events, Fired, NamedPlan, Plan, Polled, Run, Scale, Slot, Started,
-    Tables, Unit, initial, int_to_float,
+    BadValue, Committer, Cx, ElementId, Events, Fired, NamedPlan, Plan, Polled, Run, Scale, Slot,
+    Started, SupervisorId, Tables, Unit, initial, int_to_float,
 };
 use afp_core::trace::{Outcome, Sink};
 use afp_core::{Environment, Fault, PlanState, Value, ValueRef, WriteError};
@@ -170,9 +170,13 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
     /// A supervisor reports what was put there. Apart from the poll, which is done in every step.
     #[cold]
     #[inline(never)]
-    fn report_injected<R: Run<Env = E>>(&mut self, supervisor: u16, cx: &mut Cx<'_, R>) -> Fired {
-        let part = self.elements.len() as u32 + u32::from(supervisor);
-        let watch = self.supervisors.get_mut(usize::from(supervisor));
+    fn report_injected<R: Run<Env = E>>(
+        &mut self,
+        supervisor: SupervisorId,
+        cx: &mut Cx<'_, R>,
+    ) -> Fired {
+        let part = self.elements.len() as u32 + u32::from(supervisor.0);
+        let watch = self.supervisors.get_mut(supervisor.index());
         let Some((watch, injected)) = watch.and_then(|watch| {
             let injected = watch.injected.take()?;
             Some((watch, injected))
@@ -329,10 +333,10 @@ impl<E: ?Sized + 'static> NamedPlan for LoadedPlan<E> {
 impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
     fn start_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
-        let watch = self.supervisors.get_mut(usize::from(supervisor)).ok_or(Fault::INTERNAL)?;
+        let watch = self.supervisors.get_mut(supervisor.index()).ok_or(Fault::INTERNAL)?;
         let args = watch.inputs.pull(&self.config.values);
         let started = cx.show_inputs(|see, env, now| watch.slot.start(&args, see, env, now));
         cx.noted(started)
@@ -341,11 +345,11 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
     #[inline]
     fn poll_supervisor<R: Run<Env = E>>(
         &mut self,
-        supervisor: u16,
+        supervisor: SupervisorId,
         wanted: Events,
         cx: &mut Cx<'_, R>,
     ) -> Fired {
-        let Some(watch) = self.supervisors.get_mut(usize::from(supervisor)) else {
+        let Some(watch) = self.supervisors.get_mut(supervisor.index()) else {
             return Fired::fault(Fault::INTERNAL);
         };
         if watch.injected.is_some() {
@@ -360,15 +364,19 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
         }
     }
 
-    fn start_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Started {
-        let Some(slot) = self.elements.get_mut(usize::from(element)) else {
+    fn start_element<R: Run<Env = E>>(
+        &mut self,
+        element: ElementId,
+        cx: &mut Cx<'_, R>,
+    ) -> Started {
+        let Some(slot) = self.elements.get_mut(element.index()) else {
             return Started::Failed(Fault::INTERNAL);
         };
         slot.start(&mut self.config, cx)
     }
 
-    fn poll_element<R: Run<Env = E>>(&mut self, element: u16, cx: &mut Cx<'_, R>) -> Polled {
-        let Some(slot) = self.elements.get_mut(usize::from(element)) else {
+    fn poll_element<R: Run<Env = E>>(&mut self, element: ElementId, cx: &mut Cx<'_, R>) -> Polled {
+        let Some(slot) = self.elements.get_mut(element.index()) else {
             return Polled::Failed(Fault::INTERNAL);
         };
         match slot.injected {
@@ -379,20 +387,20 @@ impl<E: Environment + ?Sized + 'static> Plan<E> for LoadedPlan<E> {
 
     fn interrupt_element<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         cx: &mut Cx<'_, R>,
     ) -> Result<(), Fault> {
-        let slot = self.elements.get_mut(usize::from(element)).ok_or(Fault::INTERNAL)?;
+        let slot = self.elements.get_mut(element.index()).ok_or(Fault::INTERNAL)?;
         slot.interrupt(cx)
     }
 
-    fn leave(&mut self, element: u16) {
-        if let Some(slot) = self.elements.get_mut(usize::from(element)) {
+    fn leave(&mut self, element: ElementId) {
+        if let Some(slot) = self.elements.get_mut(element.index()) {
             slot.clear();
         }
         let locals = self.tables.table().element(element).map(|row| row.locals);
-        for local in locals.map_or(0..0, |range| range.first..range.first + range.len) {
-            if let Some(watch) = self.supervisors.get_mut(usize::from(local)) {
+        for local in locals.unwrap_or_default().supervisors() {
+            if let Some(watch) = self.supervisors.get_mut(local.index()) {
                 watch.clear();
             }
         }

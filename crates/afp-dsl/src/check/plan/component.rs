@@ -313,8 +313,7 @@ impl Components<'_> {
             outputs,
             events: connected.outcomes.into_iter().collect::<Option<_>>()?,
             on_miss: connected.extra,
-            every: times.every,
-            deadline: times.deadline,
+            timing: times.timing,
             every_span: times.every_span,
             timed_by: self.timed_by(node),
             edges: connected.spans,
@@ -379,8 +378,9 @@ fn effective(template: Option<&Template>, written: &Written, diags: &mut Diagnos
         if written.words[0].is_none() || written.values[0].is_some() {
             timing::deadline_fits(deadline, every, span, diags);
         }
-        return Times { every, deadline, every_span, deadline_span: Some(span) };
+        let times = Times::new(every, deadline, template);
+        return Times { every_span, deadline_span: Some(span), ..times };
     }
     let deadline = template.and_then(|template| template.deadline).unwrap_or(every);
-    Times { every, deadline: deadline.min(every), every_span, deadline_span: None }
+    Times { every_span, ..Times::new(every, deadline.min(every), template) }
 }

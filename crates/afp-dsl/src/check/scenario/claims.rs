@@ -9,7 +9,7 @@ use super::resolve;
 use super::{Checker, Stretch};
 use crate::check::names::{offer, unknown};
 use crate::graph::{Component, Target};
-use crate::scenario::{Cause, Claim, Destination, Expectation, Outcome};
+use crate::scenario::{Cause, Claim, Expectation, Outcome};
 use afp_syntax::ast::{self, Bound, ClaimKind, ClaimTarget, Line, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Subject, list, words};
 use afp_syntax::message;
@@ -108,12 +108,12 @@ impl Checker<'_> {
             }
             None => self.element(from_path, diags),
         };
-        let found = match to.path() {
+        let found = match to.element() {
             Some(path) => Some(self.target(path, diags)?),
             None => None,
         };
         let from = from?;
-        if let (Some(to), Some(path)) = (found, to.path())
+        if let (Some(to), Some(path)) = (found, to.element())
             && to.instance != from.instance
         {
             let message = message!(
@@ -135,11 +135,9 @@ impl Checker<'_> {
         self.joined(from, found, by.as_ref(), (from_path, to), diags)?;
         Some(Claim::Transition {
             from: self.paths.number(from),
-            to: match (to, found) {
-                (ClaimTarget::Terminate, _) => Destination::Terminate,
-                (ClaimTarget::Fail, _) => Destination::Fail,
-                (ClaimTarget::Resume, _) => Destination::Resume,
-                (ClaimTarget::Element(_), found) => Destination::Element(self.paths.number(found?)),
+            to: match found {
+                Some(found) => Target::Element(self.paths.number(found)),
+                None => to.clone().map(|_| 0, |()| ()),
             },
             by: by.map(|((found, outcome), _)| Cause {
                 component: self.paths.number(found),
@@ -158,17 +156,11 @@ impl Checker<'_> {
         diags: &mut Diagnostics,
     ) -> Option<()> {
         let causes = self.paths.causes(from);
-        let leads = |(found, outcome): &&(Found, Outcome)| match (
-            target,
-            self.paths.target_at(*found, *outcome, from),
-        ) {
-            (ClaimTarget::Element(_), Some(Target::Element(id))) => {
-                to.is_some_and(|to| to.part == Part::Element(id))
-            }
-            (ClaimTarget::Terminate, Some(Target::Terminate))
-            | (ClaimTarget::Fail, Some(Target::Fail(_)))
-            | (ClaimTarget::Resume, Some(Target::Resume)) => true,
-            _ => false,
+        let leads = |(found, outcome): &&(Found, Outcome)| {
+            self.paths.target_at(*found, *outcome, from).is_some_and(|at| match at {
+                Target::Element(id) => to.is_some_and(|to| to.part == Part::Element(id)),
+                at => at.keyword().ok() == target.keyword().ok(),
+            })
         };
         let fits = |(found, outcome): &&(Found, Outcome)| match by {
             Some(((wanted, want), _)) => {
@@ -196,7 +188,7 @@ impl Checker<'_> {
                 ),
             ),
             None => (
-                target.path().map_or(from_path.span(), Path::span),
+                target.element().map_or(from_path.span(), Path::span),
                 message!("no edge leads from '{}' to '{}'", from_path.text(), name),
             ),
         };
@@ -220,10 +212,8 @@ impl Checker<'_> {
                 let found = Found { instance: from.instance, part: Part::Element(id) };
                 Some(format!("{home}{}", self.paths.name(found)))
             }
-            Target::Terminate => Some("terminate".to_owned()),
-            Target::Fail(_) => Some("fail".to_owned()),
-            Target::Resume => Some("resume".to_owned()),
             Target::Ignore => None,
+            target => target.keyword().ok().map(str::to_owned),
         };
         let goals =
             causes.iter().filter_map(|(each, outcome)| self.paths.target_at(*each, *outcome, from));
@@ -392,5 +382,5 @@ impl Checker<'_> {
 
 /// A target as a claim names it.
 fn written(target: &ClaimTarget) -> String {
-    target.path().map_or_else(|| target.word(), Path::text)
+    target.keyword().map_or_else(Path::text, str::to_owned)
 }

@@ -98,7 +98,7 @@ impl NameRecorder<'_> {
         match claim.kind() {
             ClaimKind::Transition { from, to, by } => {
                 self.component(&from);
-                to.path().iter().for_each(|path| self.component(path));
+                to.element().iter().for_each(|path| self.component(path));
                 by.iter().for_each(|path| self.cause(&from, &to, path));
             }
             ClaimKind::Active(path) | ClaimKind::Interrupt(path) => self.component(&path),

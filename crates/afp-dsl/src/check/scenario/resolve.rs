@@ -10,7 +10,7 @@ use crate::graph::{ElementId, SupervisorId};
 use crate::index::Recorder;
 use crate::outline::{Component, ComponentKind};
 use crate::scenario::Outcome;
-use afp_syntax::ast::{ClaimTarget, Name};
+use afp_syntax::ast::{ClaimTarget, Name, Path};
 use afp_syntax::diagnostics::{Code, Diagnostic, Sought, list};
 use afp_syntax::message;
 use afp_syntax::source::Span;
@@ -164,9 +164,11 @@ impl<'a> Resolver<'a> {
         let here = active.reactions.iter().filter(|it| is_global && is_called(it, name));
         let exits = here.chain([member]).flat_map(|it| &it.exits);
         let mut exits = exits.filter(|exit| outcome.is_none_or(|name| *exit.name == *name.text));
+        let last = |path: &Path| path.names().pop().map(|name| name.text).unwrap_or_default();
+        let to = to.keyword().map_or_else(last, str::to_owned);
         exits.any(|exit| {
             let target = exit.edge.as_ref().and_then(|edge| edge.target.as_ref());
-            target.is_some_and(|target| target.text.split(' ').next() == Some(to.word().as_str()))
+            target.is_some_and(|target| target.text.split(' ').next() == Some(&*to))
         })
     }
 

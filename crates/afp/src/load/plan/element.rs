@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afp_core::rt::{
-    BadValue, Child, Cx, Flow, Machine, Plan, PlanState, Polled, Run, Started, input,
+    BadValue, Child, Cx, ElementId, Flow, Machine, Plan, PlanState, Polled, Run, Started, input,
 };
 use afp_core::trace::Outcome;
 use afp_core::{Environment, Fault};
@@ -149,12 +149,12 @@ impl<E: Environment + ?Sized + 'static> ElementSlot<E> {
     #[inline(never)]
     pub fn finish<R: Run<Env = E>>(
         &mut self,
-        element: u16,
+        element: ElementId,
         config: &mut Config,
         cx: &mut Cx<'_, R>,
     ) -> Polled {
         let Some(injected) = self.injected.take() else { return Polled::Pending };
-        cx.show_injected(element.into(), injected.outcome);
+        cx.show_injected(element.0.into(), injected.outcome);
         let Outcome::Declared(state) = injected.outcome else {
             return Polled::Failed(Fault::INJECTED);
         };

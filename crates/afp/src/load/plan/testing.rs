@@ -22,13 +22,13 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         injection: &Injection,
     ) -> Result<(), NotInjected> {
         let part = injection.component.0.checked_sub(1).ok_or(NotInjected::NotActive)?;
-        self.inject_at(active.map(|element| element.0), part, injection)
+        self.inject_at(active, part, injection)
     }
 
     /// As [`LoadedPlan::inject`]; `part` counts from this plan's first element.
     pub(in crate::load) fn inject_at(
         &mut self,
-        active: Option<u16>,
+        active: Option<ElementId>,
         part: u32,
         injection: &Injection,
     ) -> Result<(), NotInjected> {
@@ -36,7 +36,7 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
         let (elements, supervisors) = (self.elements.len() as u32, self.supervisors.len() as u32);
         if part < elements {
             let slot = self.elements.get_mut(part as usize).ok_or(NotInjected::NotActive)?;
-            return match u32::from(active) == part {
+            return match u32::from(active.0) == part {
                 true => slot.inject(injection),
                 false => Err(NotInjected::NotActive),
             };
@@ -45,15 +45,15 @@ impl<E: Environment + ?Sized + 'static> LoadedPlan<E> {
             let table = self.tables.table();
             let locals =
                 table.element(active).map(|row| row.locals).ok_or(NotInjected::NotActive)?;
-            let local = u32::from(locals.first)..u32::from(locals.first) + u32::from(locals.len);
-            if number >= u32::from(table.globals) && !local.contains(&number) {
+            let is_local = locals.supervisors().any(|local| u32::from(local.0) == number);
+            if number >= u32::from(table.globals) && !is_local {
                 return Err(NotInjected::NotActive);
             }
             let watch = self.supervisors.get_mut(number as usize).ok_or(NotInjected::NotActive)?;
             return injection.put(&mut watch.injected);
         }
         self.elements
-            .get_mut(usize::from(active))
+            .get_mut(active.index())
             .ok_or(NotInjected::NotActive)?
             .inject_inside(part, injection)
     }
