@@ -8,12 +8,12 @@
 mod ports;
 mod texts;
 
+pub use crate::graph::Goal;
 use crate::graph::{
     Component, EdgeSpans, Element, Entry, EntryKind, Graph, Plan, PlanId, Target, resuming,
 };
 use crate::types::Type;
 use afp_syntax::source::Span;
-pub use crate::graph::Goal;
 pub use afp_types::ComponentKind;
 use ports::Ports;
 pub use texts::{PlanTexts, TextPlace};
