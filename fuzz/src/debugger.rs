@@ -4,13 +4,13 @@ use std::sync::{Arc, LazyLock};
 use std::time::Duration as Wall;
 
 use afp_core::Instant;
-use afp_core::trace::ComponentId;
+use afp_core::trace::{ComponentId, Outcome};
 use afp_debug::wire::Frames;
 use afp_debug::{Adapter, Host, Launch, LogTarget, Outgoing, Program, Target};
 use afp_dsl::Toolboxes;
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
-use afp_session::{EventKind, RunEvent};
+use afp_session::{Datum, EventKind, NamedComponent, NamedOutcome, RunEvent};
 use afp_syntax::source::Source;
 use serde_json::Value;
 
@@ -47,12 +47,15 @@ impl Host<'static> for Recorded {
         let program = PROGRAM.clone().ok_or("the plan is wrong")?;
         let units = (0..).map(ComponentId).zip(&program.units).skip(1);
         let events = units.cycle().take(60).zip(1_u64..).flat_map(|((id, unit), second)| {
-            [EventKind::Started, EventKind::Input, EventKind::Finished].map(|kind| RunEvent {
+            let (port, value, unit_of) = (String::new(), Datum::Unset, String::new());
+            let input = EventKind::Input { port, value, unit: unit_of };
+            let (name, target) = (String::new(), String::new());
+            let finished =
+                EventKind::Finished(NamedOutcome { name, outcome: Outcome::Declared(0), target });
+            [EventKind::Started, input, finished].map(|kind| RunEvent {
                 at: Instant::from_nanos(second * 1_000_000_000),
+                component: NamedComponent { path: unit.path.clone(), id },
                 kind,
-                component: unit.path.clone(),
-                component_id: id,
-                ..RunEvent::default()
             })
         });
         let events = events.collect();

@@ -25,7 +25,7 @@ pub use core::task::Poll;
 
 pub use afp_types::{
     Duration, ElementId, EntryId, Instant, MAX_TEXT, MAX_TRANSITIONS_PER_STEP, Text, Value,
-    ValueRef,
+    ValueOf, ValueRef,
 };
 pub use clock::{Clock, StillClock};
 pub use component::{

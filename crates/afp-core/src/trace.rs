@@ -6,10 +6,11 @@
 mod display;
 mod hash;
 mod names;
+mod record;
 
-use afp_types::{Duration, Instant, ValueRef};
+use afp_types::Instant;
 
-use crate::fault::{Detail, Fault};
+use crate::fault::Fault;
 
 pub use afp_types::{ComponentKind, EntryKind};
 pub use display::Line;
@@ -18,6 +19,7 @@ pub use names::{
     ComponentId, ComponentName, EntryName, Names, Outcome, PortName, Reaction, TextPlace,
     TraceEntryId, declared,
 };
+pub use record::{Record, RecordOf};
 
 /// How a plan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,135 +59,6 @@ pub enum Cause {
     LateRelease,
     /// The poll took too long.
     LongPoll,
-}
-
-/// One thing that happened. The order within a step is fixed: outside commit; for each polled
-/// supervisor its poll and its miss, and where its event may resume, event, commits and computations
-/// until resumed; event; interrupts, innermost first; commits, inner first; starts of supervisors;
-/// diverted or started.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Record<'a> {
-    /// A step was asked for an earlier time than the one before; it ran at the time of that one.
-    ClockWentBack {
-        /// The time asked for.
-        asked: Instant,
-    },
-    /// Somebody asked the plan to stop.
-    StopRequested,
-    /// A component is about to report an outcome that is not its own: whoever tests the plan put it
-    /// there.
-    Injected {
-        /// The supervisor or actor.
-        component: ComponentId,
-        /// The event or state.
-        outcome: Outcome,
-    },
-    /// A supervisor was polled.
-    Polled {
-        /// The supervisor.
-        supervisor: ComponentId,
-        /// What it said.
-        verdict: Verdict,
-    },
-    /// A supervisor's poll ended after its deadline, or releases passed without a poll.
-    Missed {
-        /// The supervisor.
-        supervisor: ComponentId,
-        /// Time after the deadline; zero when only earlier releases were skipped.
-        lateness: Duration,
-        /// Why.
-        cause: Cause,
-        /// Releases that passed entirely.
-        skipped: u64,
-    },
-    /// An event was taken.
-    Event {
-        /// The supervisor.
-        supervisor: ComponentId,
-        /// The event.
-        event: Outcome,
-        /// The element of the same plan that is active or being entered, which decides where the event leads.
-        element: ComponentId,
-    },
-    /// An event was not taken, because it leads to the element that is already active or being
-    /// entered.
-    AlreadyThere {
-        /// The supervisor.
-        supervisor: ComponentId,
-        /// The event.
-        event: Outcome,
-        /// That element.
-        element: ComponentId,
-    },
-    /// An actor or sub-plan was interrupted.
-    Interrupted {
-        /// The element.
-        element: ComponentId,
-    },
-    /// An element reached a state; for a sub-plan 0 is `OK` and 1 `Interrupted`.
-    Finished {
-        /// The element.
-        element: ComponentId,
-        /// The state.
-        state: Outcome,
-    },
-    /// An entry changed; all entries of one commit follow one another.
-    Committed {
-        /// Who wrote it.
-        author: Author,
-        /// The entry.
-        entry: TraceEntryId,
-        /// Its value before.
-        old: ValueRef<'a>,
-        /// Its value now.
-        new: ValueRef<'a>,
-    },
-    /// An input that a component is about to start with.
-    Input {
-        /// The component.
-        component: ComponentId,
-        /// The port, by position among the template's input ports.
-        port: u16,
-        /// What it reads.
-        value: ValueRef<'a>,
-    },
-    /// A component started.
-    Started {
-        /// The component.
-        component: ComponentId,
-    },
-    /// An event taken in the look replaced the start of an element.
-    Diverted {
-        /// The element that did not start.
-        element: ComponentId,
-        /// The supervisor that saw a reason.
-        supervisor: ComponentId,
-        /// The event.
-        event: Outcome,
-    },
-    /// An element goes on after an event that led to `resume`.
-    Resumed {
-        /// The element, active or being entered.
-        element: ComponentId,
-        /// The supervisor whose event it was.
-        supervisor: ComponentId,
-    },
-    /// A component failed.
-    Faulted {
-        /// The component.
-        component: ComponentId,
-        /// Why.
-        fault: Fault,
-        /// The value that it is about, where it is about one.
-        detail: Option<Detail>,
-    },
-    /// A plan ended; a sub-plan goes by the id of its element.
-    Ended {
-        /// The plan.
-        plan: ComponentId,
-        /// How.
-        ending: Ending,
-    },
 }
 
 /// Receives records. Called within a step: it must neither block nor allocate where the step

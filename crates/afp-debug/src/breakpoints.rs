@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use afp_core::Fault;
 use afp_core::trace::{ComponentId, Outcome};
-use afp_session::{EndingKind, EventKind, RunEvent};
+use afp_session::{EndingKind, EventAt, EventKind, RunEvent};
 
 use crate::adapter::ClientId;
 use crate::hit_count::HitCount;
@@ -224,13 +224,13 @@ impl Breakpoint {
 impl Filters {
     fn exception(self, event: &RunEvent) -> Option<&'static str> {
         match event.kind {
-            EventKind::Faulted | EventKind::Ended
-                if self.livelock && event.fault == Fault::LIVELOCK.code() =>
+            EventKind::Faulted(ref fault) | EventKind::Ended { ref fault, .. }
+                if self.livelock && fault.code == Fault::LIVELOCK.code() =>
             {
                 Some("livelock")
             }
-            EventKind::Faulted if self.fault => Some("fault"),
-            EventKind::Missed if self.deadline_missed => Some("deadlineMissed"),
+            EventKind::Faulted(_) if self.fault => Some("fault"),
+            EventKind::Missed(_) if self.deadline_missed => Some("deadlineMissed"),
             EventKind::Interrupted if self.interruption => Some("interruption"),
             _ => None,
         }
@@ -239,36 +239,36 @@ impl Filters {
 
 /// Where an event happens.
 fn spots(event: &RunEvent, program: &Program) -> impl Iterator<Item = Spot> {
-    let (id, outcome) = (event.component_id, Outcome::from_number(event.outcome_id));
-    let all = match event.kind {
+    let id = event.component.id;
+    let all = match &event.kind {
         EventKind::Started => [Some(Spot::Start(id)), None, None],
-        EventKind::Finished => [Some(Spot::Reports(id)), Some(Spot::Outcome(id, outcome)), None],
-        EventKind::Event => {
-            let reaction = Spot::Reaction(event.element_id, id, outcome);
-            [Some(Spot::Reports(id)), Some(Spot::Outcome(id, outcome)), Some(reaction)]
+        EventKind::Finished(state) => {
+            [Some(Spot::Reports(id)), Some(Spot::Outcome(id, state.outcome)), None]
         }
-        EventKind::Diverted => {
-            let by = event.supervisor_id;
-            let reaction = Spot::Reaction(id, by, outcome);
-            [Some(Spot::Reports(by)), Some(Spot::Outcome(by, outcome)), Some(reaction)]
-        }
+        EventKind::Event(EventAt { event, element, .. }) => reported(id, event.outcome, element.id),
+        EventKind::Diverted { event, supervisor } => reported(supervisor.id, event.outcome, id),
         // The plan itself ends, whether something of it failed or it all.
-        EventKind::Faulted if id == ComponentId(0) => [None; 3],
-        EventKind::Faulted => [Some(Spot::Outcome(id, Outcome::Error)), None, None],
-        EventKind::Ended if id == ComponentId(0) => {
-            let failed = event.ending == Some(EndingKind::Error);
-            [failed.then_some(Spot::Outcome(id, Outcome::Error)), None, None]
+        EventKind::Faulted(_) if id == ComponentId(0) => [None; 3],
+        EventKind::Faulted(_) => [Some(Spot::Outcome(id, Outcome::Error)), None, None],
+        EventKind::Ended { ending: EndingKind::Error, .. } if id == ComponentId(0) => {
+            [Some(Spot::Outcome(id, Outcome::Error)), None, None]
         }
-        EventKind::Missed => [Some(Spot::Outcome(id, Outcome::DeadlineMissed)), None, None],
+        EventKind::Missed(_) => [Some(Spot::Outcome(id, Outcome::DeadlineMissed)), None, None],
         // That a plan begins with its initial values is no writing.
-        EventKind::Committed => {
-            let entry = program.entries.get(event.entry_id.0 as usize);
+        EventKind::Committed { entry_id, .. } => {
+            let entry = program.entries.get(entry_id.0 as usize);
             let written = entry.is_some_and(|entry| entry.plan != id);
-            [written.then_some(Spot::Commit(event.entry_id)), None, None]
+            [written.then_some(Spot::Commit(*entry_id)), None, None]
         }
         _ => [None; 3],
     };
     all.into_iter().flatten()
+}
+
+/// Where an event of a supervisor happens while an element is active or being entered.
+fn reported(supervisor: ComponentId, event: Outcome, element: ComponentId) -> [Option<Spot>; 3] {
+    let reaction = Spot::Reaction(element, supervisor, event);
+    [Some(Spot::Reports(supervisor)), Some(Spot::Outcome(supervisor, event)), Some(reaction)]
 }
 
 /// A text in which formulas in braces are their values; one that is none stays as it is.

@@ -51,12 +51,12 @@ impl LogTarget {
     /// # Errors
     /// The events are those of another program: why.
     pub fn new(program: Arc<Program>, mut events: Vec<RunEvent>) -> Result<LogTarget, String> {
-        let known = |event: &RunEvent| match program.unit(event.component_id) {
-            Some(unit) => event.component.is_empty() || unit.path == event.component,
-            None => event.component_id == afp_session::OUTSIDE,
+        let known = |event: &RunEvent| match program.unit(event.component.id) {
+            Some(unit) => event.component.path.is_empty() || unit.path == event.component.path,
+            None => event.component.id == afp_session::OUTSIDE,
         };
         if let Some(stranger) = events.iter().find(|event| !known(event)) {
-            let name = &stranger.component;
+            let name = &stranger.component.path;
             return Err(format!(
                 "the log tells of '{name}', which its plan has not any more: the toolboxes have changed since"
             ));

@@ -28,12 +28,12 @@ pub struct Cone {
 impl Sensed {
     /// What a signal says that is a value.
     pub fn value(device: &DeviceRow, row: &SignalRow, value: &Datum) -> Sensed {
-        Sensed::new(device, row, value.in_unit(row.ty.unit()), None)
+        Sensed::new(device, row, value.in_unit(row.ty.unit()).to_string(), None)
     }
 
     /// What a range sensor says.
     pub fn range(device: &DeviceRow, row: &SignalRow, cone: Cone) -> Sensed {
-        let heard = cone.range.map(|range| Datum::Number(range).in_unit("m"));
+        let heard = cone.range.map(|range| Datum::Float(range).in_unit("m").to_string());
         Sensed::new(device, row, heard.unwrap_or_else(|| "no echo".to_owned()), Some(cone))
     }
 

@@ -6,8 +6,8 @@ use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, ComponentKind, TraceEntryId, TraceHash};
 use afp_core::{Duration, Instant, SetError, StartError, WriteError};
 use afp_session::{
-    AnySession, Applied, Datum, Figures, Holder, NamedRecord, Observer, Open, Pose2, Request,
-    RunEvent, SampleRef, Stimulus, View,
+    AnySession, Applied, Figures, Holder, NamedRecord, Observer, Open, Pose2, Request, RunEvent,
+    SampleRef, Stimulus, View,
 };
 
 use crate::program::Program;
@@ -314,9 +314,9 @@ impl Target for SessionTarget<'_> {
         self.note_asked();
         let id = id.map(|id| TraceEntryId(id as u32));
         let of = id.map_or(Holder::Unknown, Holder::Entry);
-        let datum = Datum::new(self.run.session.names(), of, value.borrow());
+        let datum = of.named(self.run.session.names(), value.as_deref());
         let unit = id.map_or("", |id| self.run.session.names().entry(id).unit);
-        Ok(datum.in_unit(unit))
+        Ok(datum.in_unit(unit).to_string())
     }
 
     fn devices(&self) -> &'static [DeviceRow] {

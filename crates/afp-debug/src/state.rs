@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use afp_core::trace::{ComponentId, Outcome, TraceEntryId};
 use afp_core::{Duration, Instant};
 use afp_dsl::unfold::ComponentKind;
-use afp_session::{Datum, EndingKind, EventKind, Miss, RunEvent};
+use afp_session::{Datum, EndingKind, EventAt, EventKind, Miss, NamedOutcome, RunEvent};
 
 use crate::program::Program;
 use crate::text::Line;
@@ -58,64 +58,78 @@ pub struct Taken {
 impl State {
     /// Takes in the next event.
     pub fn apply(&mut self, event: &RunEvent, program: &Program) {
-        let id = event.component_id;
+        let id = event.component.id;
         self.follow(event, program);
-        match event.kind {
+        match &event.kind {
             EventKind::Started => self.start(id, event.at, program),
-            EventKind::Finished | EventKind::Interrupted => self.leave(id, program),
-            EventKind::Diverted => self.leave(id, program),
-            EventKind::Committed => {
-                let value = event.value.clone().unwrap_or(Datum::Unset);
-                self.entries.insert(event.entry_id, value);
+            EventKind::Finished(_) | EventKind::Interrupted | EventKind::Diverted { .. } => {
+                self.leave(id, program);
             }
-            EventKind::Input => self.read(event),
+            EventKind::Committed { entry_id, new, .. } => {
+                self.entries.insert(*entry_id, new.clone());
+            }
+            EventKind::Input { port, value, .. } => {
+                let (at, ports) = self.inputs.entry(id).or_default();
+                if *at != event.at {
+                    ports.clear();
+                }
+                *at = event.at;
+                ports.insert(port.clone(), value.clone());
+            }
             // What saw nothing leaves what was seen last.
-            EventKind::Polled if event.outcome.is_empty() && event.fault.is_empty() => {}
-            EventKind::Polled => {
-                let said = match &*event.fault_text {
-                    "" => event.outcome.clone(),
-                    why => format!("failed: {why}"),
-                };
-                self.reports.insert(id, (event.at, said));
+            EventKind::Polled(Ok(None)) => {}
+            EventKind::Polled(Ok(Some(reported))) => {
+                self.reports.insert(id, (event.at, reported.name.clone()));
             }
-            EventKind::Missed => {
-                if let Some(miss) = event.missed {
-                    let before = self.misses.get(&id).map_or(0, |(count, _)| *count);
-                    self.misses.insert(id, (before + miss.deadlines(), miss));
+            EventKind::Polled(Err(fault)) => {
+                self.reports.insert(id, (event.at, format!("failed: {}", fault.text)));
+            }
+            EventKind::Missed(miss) => {
+                let before = self.misses.get(&id).map_or(0, |(count, _)| *count);
+                self.misses.insert(id, (before + miss.deadlines(), *miss));
+            }
+            EventKind::Ended { ending, fault } => {
+                self.close(id, program);
+                if id == ComponentId(0) {
+                    self.ended = Some((*ending, fault.text.clone()));
+                    let led = self.taken.remove(&id);
+                    self.ended_by = led.filter(|led| led.at == event.at);
                 }
             }
-            EventKind::Ended => self.end(event, program),
             _ => {}
         }
     }
 
     /// Keeps in mind by which edges elements become active.
     fn follow(&mut self, event: &RunEvent, program: &Program) {
-        let id = event.component_id;
-        let by = match event.kind {
+        let by = event.component.id;
+        let (outcome, element) = match &event.kind {
             // The event that diverts a start was heard before, as were computations behind it.
-            EventKind::Finished | EventKind::Event | EventKind::Faulted => id,
-            EventKind::Started => return self.begin(id, event.at, program),
+            EventKind::Finished(state) => (state.clone(), None),
+            EventKind::Event(EventAt { event, element, .. }) => (event.clone(), Some(element.id)),
+            EventKind::Faulted(_) => {
+                let (name, outcome) = ("Error".to_owned(), Outcome::Declared(0));
+                (NamedOutcome { name, outcome, target: String::new() }, None)
+            }
+            EventKind::Started => return self.begin(by, event.at, program),
             _ => return,
         };
         if program.unit(by).is_some_and(|unit| unit.kind == ComponentKind::Computation) {
             // It is done at once, without a start.
             self.begin(by, event.at, program);
         }
-        let (element, outcome) = (event.element_id, Outcome::from_number(event.outcome_id));
-        let reactions = program.unit(element).map_or(&[][..], |unit| &unit.reactions);
-        let reacts = |(of, to, _): &(ComponentId, Outcome, String)| (*of, *to) == (by, outcome);
-        match event.kind == EventKind::Event && reactions.iter().any(reacts) {
-            true => self.reacted.insert((element, by, outcome), event.at),
-            false => self.reached.insert((by, outcome), event.at),
+        let NamedOutcome { name, outcome, target } = outcome;
+        let reacts = |element: &ComponentId| {
+            let mut reactions = program.unit(*element).into_iter().flat_map(|it| &it.reactions);
+            reactions.any(|(of, to, _)| (*of, *to) == (by, outcome))
         };
-        let (target, text) = (event.target.clone(), Line(event).to_string());
+        match element.filter(reacts) {
+            Some(element) => self.reacted.insert((element, by, outcome), event.at),
+            None => self.reached.insert((by, outcome), event.at),
+        };
         if let Some(unit) = program.unit(by) {
-            let outcome = match event.kind {
-                EventKind::Faulted => "Error".to_owned(),
-                _ => event.outcome.clone(),
-            };
-            self.taken.insert(unit.plan, Taken { by, outcome, target, text, at: event.at });
+            let text = Line(event).to_string();
+            self.taken.insert(unit.plan, Taken { by, outcome: name, target, text, at: event.at });
         }
     }
 
@@ -158,24 +172,6 @@ impl State {
         let of = |supervisor: &ComponentId| program.unit(*supervisor).map(|it| it.plan);
         self.watching.retain(|supervisor, _| of(supervisor) != Some(plan));
         inner.into_iter().for_each(|inner| self.close(inner, program));
-    }
-
-    fn read(&mut self, event: &RunEvent) {
-        let (at, ports) = self.inputs.entry(event.component_id).or_default();
-        if *at != event.at {
-            ports.clear();
-        }
-        *at = event.at;
-        ports.insert(event.port.clone(), event.value.clone().unwrap_or(Datum::Unset));
-    }
-
-    fn end(&mut self, event: &RunEvent, program: &Program) {
-        self.close(event.component_id, program);
-        if event.component_id == ComponentId(0) {
-            let ending = event.ending.unwrap_or(EndingKind::Ok);
-            self.ended = Some((ending, event.fault_text.clone()));
-            self.ended_by = self.taken.remove(&ComponentId(0)).filter(|led| led.at == event.at);
-        }
     }
 
     /// The active element of each nested plan, the outermost first.

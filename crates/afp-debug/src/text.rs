@@ -3,50 +3,53 @@
 use std::fmt;
 
 use afp_core::trace::Cause;
-use afp_session::{Datum, EndingKind, EventKind, Miss, RunEvent};
+use afp_session::{Datum, EndingKind, EventKind, FaultText, Miss, NamedOutcome, RunEvent};
 
 /// An event as in the trace, without its time; nothing for what comes from outside, which no trace has.
 pub(crate) struct Line<'a>(pub &'a RunEvent);
 
+/// The state or event, and where it leads.
+fn outcome(outcome: &NamedOutcome) -> impl fmt::Display {
+    fmt::from_fn(move |f| match &*outcome.target {
+        "" => f.write_str(&outcome.name),
+        target => write!(f, "{} -> {target}", outcome.name),
+    })
+}
+
+/// A value with its SI unit.
+fn value(value: &Datum, unit: &str) -> String {
+    match value {
+        Datum::Float(number) if !unit.is_empty() => format!("{number} {unit}"),
+        other => other.to_string(),
+    }
+}
+
 impl Line<'_> {
-    /// The state or event, and where it leads.
-    fn outcome(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0.outcome)?;
-        match &*self.0.target {
-            "" => Ok(()),
-            target => write!(f, " -> {target}"),
-        }
-    }
-
-    fn value(&self, value: &Option<Datum>) -> String {
-        match (value, &*self.0.unit) {
-            (None, _) => Datum::Unset.to_string(),
-            (Some(Datum::Number(number)), unit) if !unit.is_empty() => format!("{number} {unit}"),
-            (Some(other), _) => other.to_string(),
-        }
-    }
-
-    fn ended(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RunEvent { component, fault, fault_text, ending, .. } = self.0;
+    fn ended(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        ending: EndingKind,
+        fault: &FaultText,
+    ) -> fmt::Result {
+        let (component, FaultText { code, text }) = (&self.0.component.path, fault);
         match ending {
-            Some(EndingKind::Ok) => write!(f, "{component} ended OK"),
-            Some(EndingKind::Interrupted) => write!(f, "{component} ended Interrupted"),
-            Some(EndingKind::Error) if fault == afp_core::Fault::FAILED => {
-                write!(f, "{component} ended Error({fault}: {fault_text})")
+            EndingKind::Ok => write!(f, "{component} ended OK"),
+            EndingKind::Interrupted => write!(f, "{component} ended Interrupted"),
+            EndingKind::Error if code == afp_core::Fault::FAILED => {
+                write!(f, "{component} ended Error({code}: {text})")
             }
-            Some(EndingKind::Error) => write!(f, "{component} ended Error({fault})"),
-            None => write!(f, "{component} ended"),
+            EndingKind::Error => write!(f, "{component} ended Error({code})"),
         }
     }
 
-    fn missed(&self, f: &mut fmt::Formatter<'_>, miss: Miss) -> fmt::Result {
+    fn missed(&self, f: &mut fmt::Formatter<'_>, miss: &Miss) -> fmt::Result {
         let Miss { lateness, skipped, cause } = miss;
         let cause = match cause {
             Some(Cause::LateRelease) => "late release",
             Some(Cause::LongPoll) => "long poll",
             None => "unknown cause",
         };
-        let path = &self.0.component;
+        let path = &self.0.component.path;
         write!(f, "{path} missed its deadline by {lateness} ({cause}, {skipped} skipped)")
     }
 }
@@ -54,45 +57,41 @@ impl Line<'_> {
 impl fmt::Display for Line<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         use EventKind as Kind;
-        let RunEvent { component, entry, fault, fault_text, outcome, .. } = self.0;
-        match self.0.kind {
-            Kind::Unknown | Kind::Requested => Ok(()),
-            Kind::ClockWentBack => {
-                write!(f, "clock went back to {}", self.0.asked.unwrap_or_default())
-            }
+        let component = &self.0.component.path;
+        match &self.0.kind {
+            Kind::Unknown | Kind::Requested(_) => Ok(()),
+            Kind::ClockWentBack { asked } => write!(f, "clock went back to {asked}"),
             Kind::StopRequested => f.write_str("stop requested"),
-            Kind::Injected => write!(f, "{component} is made to report {outcome}"),
-            Kind::Polled if !fault.is_empty() => write!(f, "{component} polled: fault {fault}"),
-            Kind::Polled if outcome.is_empty() => write!(f, "{component} polled: clear"),
-            Kind::Polled => write!(f, "{component} polled: {outcome}"),
-            Kind::Missed => self.0.missed.map_or(Ok(()), |miss| self.missed(f, miss)),
-            Kind::Event => {
-                write!(f, "{component} event ")?;
-                self.outcome(f)
+            Kind::Injected(outcome) => {
+                write!(f, "{component} is made to report {}", outcome.name)
             }
-            Kind::AlreadyThere => {
-                write!(f, "{component} already there: ")?;
-                self.outcome(f)
+            Kind::Polled(Err(fault)) => write!(f, "{component} polled: fault {}", fault.code),
+            Kind::Polled(Ok(None)) => write!(f, "{component} polled: clear"),
+            Kind::Polled(Ok(Some(event))) => write!(f, "{component} polled: {}", event.name),
+            Kind::Missed(miss) => self.missed(f, miss),
+            Kind::Event(at) => write!(f, "{component} event {}", outcome(&at.event)),
+            Kind::AlreadyThere(at) => {
+                write!(f, "{component} already there: {}", outcome(&at.event))
             }
             Kind::Interrupted => write!(f, "{component} interrupted"),
-            Kind::Finished => {
-                write!(f, "{component} finished ")?;
-                self.outcome(f)
-            }
-            Kind::Committed => {
-                let (old, new) = (self.value(&self.0.old), self.value(&self.0.value));
+            Kind::Finished(state) => write!(f, "{component} finished {}", outcome(state)),
+            Kind::Committed { entry, old, new, unit, .. } => {
+                let [old, new] = [old, new].map(|it| value(it, unit));
                 write!(f, "{component} commits {entry}: {old} -> {new}")
             }
-            Kind::Input => {
-                let (port, value) = (&self.0.port, self.value(&self.0.value));
-                write!(f, "{component} reads {port} = {value}")
+            Kind::Input { port, value: read, unit } => {
+                write!(f, "{component} reads {port} = {}", value(read, unit))
             }
             Kind::Started => write!(f, "{component} started"),
-            Kind::Diverted => write!(f, "{component} diverted by {}", self.0.supervisor),
-            Kind::Resumed => write!(f, "{component} resumed by {}", self.0.supervisor),
-            Kind::Faulted => write!(f, "{component} fault {fault}: {fault_text}"),
-            Kind::Ended => self.ended(f),
-            Kind::Lost => write!(f, "{} records lost", self.0.lost),
+            Kind::Diverted { supervisor, .. } => {
+                write!(f, "{component} diverted by {}", supervisor.path)
+            }
+            Kind::Resumed { supervisor } => write!(f, "{component} resumed by {}", supervisor.path),
+            Kind::Faulted(FaultText { code, text }) => {
+                write!(f, "{component} fault {code}: {text}")
+            }
+            Kind::Ended { ending, fault } => self.ended(f, *ending, fault),
+            Kind::Lost(count) => write!(f, "{count} records lost"),
         }
     }
 }

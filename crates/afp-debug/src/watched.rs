@@ -1,5 +1,6 @@
 //! Formulas that a client asks for, with their values now.
 
+use afp_core::Text;
 use afp_core::trace::{ComponentId, TraceEntryId};
 use afp_dsl::graph::EntryId;
 use afp_dsl::toolbox::Constant;
@@ -75,13 +76,13 @@ impl Watched {
             // No formula knows the inside of an object; which one an entry holds is told as of entries.
             let object = self.entry.and_then(|entry| state.entry(entry));
             let object = object.filter(|held| matches!(held, Datum::Object(_)));
-            return Ok(object.map_or("unset".to_owned(), |held| held.in_unit("")));
+            return Ok(object.map_or("unset".to_owned(), |held| held.to_string()));
         };
         let unit = match self.watch.ty() {
             Type::Quantity(dimension) => dimension.si_unit(),
             _ => String::new(),
         };
-        Ok(datum(value, self.watch.ty()).in_unit(&unit))
+        Ok(datum(value, self.watch.ty()).in_unit(&unit).to_string())
     }
 
     /// The type of its value, as in the text.
@@ -100,33 +101,24 @@ impl Program {
     }
 }
 
-/// A value as formulas have it.
+/// A value as formulas have it; none for one that is unset or an object.
 fn constant(value: &Datum, ty: &Type) -> Option<Constant> {
-    Some(match (value, ty) {
-        (Datum::Truth(truth), _) => Constant::Bool(*truth),
-        (Datum::Integer(integer), _) => Constant::Int(*integer),
-        (Datum::Number(number), _) => Constant::Float(*number),
-        (Datum::Text(text), _) => Constant::Text(text.clone()),
-        (Datum::Choice(text), Type::Enum(choices)) => {
-            let name = text.rsplit('.').next()?;
-            let index = choices.variants.iter().position(|variant| variant == name)?;
-            Constant::Choice(u16::try_from(index).ok()?)
-        }
-        _ => return None,
-    })
+    let place = |name: String| {
+        let (name, Type::Enum(choices)) = (name.rsplit('.').next()?, ty) else { return None };
+        u16::try_from(choices.variants.iter().position(|variant| variant == name)?).ok()
+    };
+    let value = value.clone().try_map(|text| Text::try_from(&*text).ok(), place, |_| None)?;
+    Some(value).filter(|value| *value != Constant::Unset)
 }
 
 /// A value as runs tell of it.
 fn datum(value: Constant, ty: &Type) -> Datum {
-    match (value, ty) {
-        (Constant::Bool(truth), _) => Datum::Truth(truth),
-        (Constant::Int(integer), _) => Datum::Integer(integer),
-        (Constant::Float(number), _) => Datum::Number(number),
-        (Constant::Text(text), _) => Datum::Text(text),
-        (Constant::Choice(place), Type::Enum(choices)) => {
+    let name = |place| match ty {
+        Type::Enum(choices) => {
             let name = choices.variants.get(usize::from(place)).map_or("", |name| &**name);
-            Datum::Choice(format!("{}.{name}", choices.name))
+            format!("{}.{name}", choices.name)
         }
-        (Constant::Choice(place), _) => Datum::Choice(format!("#{place}")),
-    }
+        _ => format!("#{place}"),
+    };
+    value.map(|text| text.to_string(), name, |object| format!("#{object}"))
 }

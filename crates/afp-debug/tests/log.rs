@@ -197,12 +197,12 @@ fn a_log_is_sought_through_and_cannot_be_changed() {
 fn a_deadline_that_was_missed_holds_a_log_where_that_is_wanted() {
     let mut log = recorded(SHIPPED, "plan.afp", 5, None);
     // Simulated supervisors are never late: it is made to seem so.
-    let polled =
-        |event: &RunEvent| event.kind == EventKind::Started && event.component.ends_with(".touch");
+    let polled = |event: &RunEvent| {
+        event.kind == EventKind::Started && event.component.path.ends_with(".touch")
+    };
     let place = log.events.iter().position(polled).expect("a supervisor starts");
     let miss = Miss { lateness: Duration::from_millis(3), cause: None, skipped: 1 };
-    let missed =
-        RunEvent { kind: EventKind::Missed, missed: Some(miss), ..log.events[place].clone() };
+    let missed = RunEvent { kind: EventKind::Missed(miss), ..log.events[place].clone() };
     log.events.insert(place + 1, missed);
     for wanted in [true, false] {
         let mut past = Clients::new(Box::new(Recorded(SHIPPED.to_owned(), log.clone())));

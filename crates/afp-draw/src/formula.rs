@@ -24,13 +24,10 @@ pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String
 /// A value as text, in a unit that suits its size.
 pub fn constant(value: &Constant, ty: Option<&Type>) -> String {
     match (value, ty) {
-        (Constant::Bool(value), _) => value.to_string(),
-        (Constant::Int(value), _) => value.to_string(),
         (Constant::Float(value), Some(Type::Quantity(dimension))) => quantity(*value, *dimension),
         (Constant::Float(value), _) => number(*value),
-        (Constant::Text(value), _) => format!("{value:?}"),
         (Constant::Choice(place), Some(ty)) => choice(*place, ty),
-        (Constant::Choice(place), None) => place.to_string(),
+        (value, _) => value.to_string(),
     }
 }
 

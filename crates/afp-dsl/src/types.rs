@@ -1,6 +1,5 @@
 //! Types of entries, ports and formulas.
 
-mod constant;
 pub mod readable;
 pub mod text;
 
@@ -11,7 +10,9 @@ use afp_syntax::diagnostics::{Arg, ToArg};
 use afp_syntax::source::Span;
 
 pub use afp_syntax::dimension::Dimension;
-pub use constant::Constant;
+
+/// A value known before a plan runs, already of its port's or entry's type; always set, and not an object.
+pub type Constant = afp_types::Value;
 
 /// The type of an entry, a port or a formula.
 #[derive(Clone, Debug, PartialEq)]

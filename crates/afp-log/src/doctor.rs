@@ -23,12 +23,12 @@ pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
     // Reading decodes AFP's own messages and knows why a log was cut short. What was lost before it was recovered is nothing
     // that is wrong with the file.
     let (log, _) = read_all(path)?;
+    let lost = log.lost();
     match (log.cut_short, scanned) {
         (Some(cut), _) => doctor.found.push(cut),
         (None, Err(error)) => doctor.found.push(error.to_string()),
         (None, Ok(())) => doctor.compare(),
     }
-    let lost: u64 = log.events.iter().map(|event| event.lost).sum();
     if lost > 0 {
         doctor.found.push(format!("{lost} records were lost while it was written"));
     }

@@ -103,7 +103,7 @@ impl Encoder {
             Item::Record(owned) => self.record(owned.at, &owned.get()),
             Item::Event(event) => {
                 self.close_commit()?;
-                self.send(EVENTS, event.at, &event::encode(*event))
+                self.send(EVENTS, event.at, &event::message(*event))
             }
             Item::Started(at) => self.configuration(at, String::new()),
             Item::Lost { at, count, entries } => {
@@ -132,7 +132,7 @@ impl Encoder {
             _ => self.close_commit()?,
         }
         let event = RunEvent::new(at, record, &self.names);
-        self.send(EVENTS, at, &event::encode(event))
+        self.send(EVENTS, at, &event::message(event))
     }
 
     fn set(&mut self, entry: TraceEntryId, value: afp_core::ValueRef<'_>) {
@@ -146,7 +146,7 @@ impl Encoder {
     fn set_all(&mut self, at: Instant, values: &[Value]) -> Result<(), LogError> {
         self.commit = None;
         for (id, value) in (0..).zip(values) {
-            self.set(TraceEntryId(id), value.borrow());
+            self.set(TraceEntryId(id), value.as_deref());
         }
         self.configuration(at, String::new())
     }
@@ -165,9 +165,8 @@ impl Encoder {
     }
 
     fn lost(&mut self, at: Instant, count: u64) -> Result<(), LogError> {
-        let kind = EventKind::Lost;
-        let lost = RunEvent { at, kind, lost: count, ..RunEvent::default() };
-        self.send(EVENTS, at, &event::encode(lost))
+        let lost = RunEvent { at, kind: EventKind::Lost(count), ..RunEvent::default() };
+        self.send(EVENTS, at, &event::message(lost))
     }
 
     fn send(&mut self, to: Channel, at: Instant, message: &impl Message) -> Result<(), LogError> {

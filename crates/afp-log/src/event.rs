@@ -1,23 +1,24 @@
 //! What happened as messages of the file, and back: names beside ids, so that a reader needs no tables.
 
 use afp_core::trace::{
-    self, Cause, ComponentId, ComponentName, EntryName, Names, TraceEntryId, declared,
+    self, Cause, ComponentId, ComponentName, EntryName, Names, Outcome, TraceEntryId, declared,
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_session::{
-    Datum, Done, EndingKind, EventKind, Holder, Miss, Pose2, Put, Requested, RunEvent, Stimulus,
+    Datum, Done, EndingKind, EventAt, EventKind, FaultText, Holder, Miss, NamedComponent,
+    NamedOutcome, Pose2, Put, Requested, RunEvent, Stimulus,
 };
 use prost::Message;
 use prost_types::Timestamp;
 
 use crate::proto::afp::plan_event::{self, Kind};
-use crate::proto::afp::plan_table::{Component, Outcome, Reaction};
+use crate::proto::afp::plan_table::{self, Component, Reaction};
 use crate::proto::afp::request::{self, Became, Output};
-use crate::proto::afp::{Entry, PlanEvent, PlanTable, Request, Value, plan_table, value};
+use crate::proto::afp::{Entry, PlanEvent, PlanTable, Request, Value, value};
 
 /// What happened, as the bytes of a message: to be kept or sent without a log around it.
 pub fn pack(event: &RunEvent) -> Vec<u8> {
-    encode(event.clone()).encode_to_vec()
+    message(event.clone()).encode_to_vec()
 }
 
 /// What [`pack`] made bytes of; none for other bytes.
@@ -25,147 +26,181 @@ pub fn unpack(bytes: &[u8]) -> Option<RunEvent> {
     PlanEvent::decode(bytes).ok().map(decode)
 }
 
-/// What happened, as a message.
-pub(crate) fn encode(event: RunEvent) -> PlanEvent {
-    let kind = kind(event.kind);
-    let missed = event.missed;
-    let cause = missed.and_then(|miss| miss.cause);
-    PlanEvent {
-        time: Some(timestamp(event.at)),
-        kind: kind.into(),
-        component: event.component,
-        outcome: event.outcome,
-        target: event.target,
-        entry: event.entry,
-        port: event.port,
-        old: event.old.map(encode_value),
-        value: event.value.map(encode_value),
-        supervisor: event.supervisor,
-        element: event.element,
-        element_id: event.element_id.0,
-        on: event.on,
-        fault: event.fault,
-        fault_text: event.fault_text,
-        lateness_ns: missed.map_or(0, |miss| miss.lateness.as_nanos()),
-        cause: match cause {
-            None => plan_event::Cause::NoCause,
-            Some(Cause::LateRelease) => plan_event::Cause::LateRelease,
-            Some(Cause::LongPoll) => plan_event::Cause::LongPoll,
+/// What happened, as a message: fields that its kind has not are empty.
+pub(crate) fn message(event: RunEvent) -> PlanEvent {
+    let RunEvent { at, component, kind } = event;
+    let mut to = PlanEvent {
+        time: Some(timestamp(at)),
+        component: component.path,
+        component_id: component.id.0,
+        ..PlanEvent::default()
+    };
+    let kind = to.put(kind);
+    to.set_kind(kind);
+    to
+}
+
+impl PlanEvent {
+    fn put(&mut self, kind: EventKind) -> Kind {
+        match kind {
+            EventKind::Unknown => Kind::Unknown,
+            EventKind::ClockWentBack { asked } => {
+                self.asked_ns = asked.as_nanos();
+                Kind::ClockWentBack
+            }
+            EventKind::StopRequested => Kind::StopRequested,
+            EventKind::Requested(request) => {
+                self.request = Some(encode_request(request));
+                Kind::Requested
+            }
+            EventKind::Injected(outcome) => self.put_outcome(outcome, Kind::Injected),
+            EventKind::Polled(Ok(None)) => Kind::Polled,
+            EventKind::Polled(Ok(Some(event))) => self.put_outcome(event, Kind::Polled),
+            EventKind::Polled(Err(fault)) => self.put_fault(fault, Kind::Polled),
+            EventKind::Missed(Miss { lateness, cause, skipped }) => {
+                self.lateness_ns = lateness.as_nanos();
+                self.skipped = skipped;
+                self.set_cause(match cause {
+                    None => plan_event::Cause::NoCause,
+                    Some(Cause::LateRelease) => plan_event::Cause::LateRelease,
+                    Some(Cause::LongPoll) => plan_event::Cause::LongPoll,
+                });
+                Kind::Missed
+            }
+            EventKind::Event(event) => self.put_event(event, Kind::Event),
+            EventKind::AlreadyThere(event) => self.put_event(event, Kind::AlreadyThere),
+            EventKind::Interrupted => Kind::Interrupted,
+            EventKind::Finished(state) => self.put_outcome(state, Kind::Finished),
+            EventKind::Committed { entry, entry_id, old, new, unit } => {
+                (self.entry, self.entry_id, self.unit) = (entry, entry_id.0, unit);
+                (self.old, self.value) = (Some(encode_value(old)), Some(encode_value(new)));
+                Kind::Committed
+            }
+            EventKind::Input { port, value, unit } => {
+                (self.port, self.value, self.unit) = (port, Some(encode_value(value)), unit);
+                Kind::Input
+            }
+            EventKind::Started => Kind::Started,
+            EventKind::Diverted { event, supervisor } => {
+                self.put_supervisor(supervisor);
+                self.put_outcome(event, Kind::Diverted)
+            }
+            EventKind::Resumed { supervisor } => {
+                self.put_supervisor(supervisor);
+                Kind::Resumed
+            }
+            EventKind::Faulted(fault) => self.put_fault(fault, Kind::Faulted),
+            EventKind::Ended { ending, fault } => {
+                self.set_ending(match ending {
+                    EndingKind::Ok => plan_event::Ending::Ok,
+                    EndingKind::Interrupted => plan_event::Ending::EndedInterrupted,
+                    EndingKind::Error => plan_event::Ending::Error,
+                });
+                self.put_fault(fault, Kind::Ended)
+            }
+            EventKind::Lost(count) => {
+                self.lost = count;
+                Kind::Lost
+            }
         }
-        .into(),
-        skipped: missed.map_or(0, |miss| miss.skipped),
-        ending: match event.ending {
-            None => plan_event::Ending::NotEnded,
-            Some(EndingKind::Ok) => plan_event::Ending::Ok,
-            Some(EndingKind::Interrupted) => plan_event::Ending::EndedInterrupted,
-            Some(EndingKind::Error) => plan_event::Ending::Error,
-        }
-        .into(),
-        lost: event.lost,
-        asked_ns: event.asked.map_or(0, Instant::as_nanos),
-        component_id: event.component_id.0,
-        outcome_id: event.outcome_id.into(),
-        entry_id: event.entry_id.0,
-        supervisor_id: event.supervisor_id.0,
-        unit: event.unit,
-        request: event.request.map(encode_request),
+    }
+
+    fn put_outcome(&mut self, outcome: NamedOutcome, kind: Kind) -> Kind {
+        let NamedOutcome { name, outcome, target } = outcome;
+        (self.outcome, self.outcome_id, self.target) = (name, outcome.number().into(), target);
+        kind
+    }
+
+    fn put_fault(&mut self, fault: FaultText, kind: Kind) -> Kind {
+        (self.fault, self.fault_text) = (fault.code, fault.text);
+        kind
+    }
+
+    fn put_event(&mut self, event: EventAt, kind: Kind) -> Kind {
+        let EventAt { event, element, on } = event;
+        (self.element, self.element_id, self.on) = (element.path, element.id.0, on);
+        self.put_outcome(event, kind)
+    }
+
+    fn put_supervisor(&mut self, supervisor: NamedComponent) {
+        (self.supervisor, self.supervisor_id) = (supervisor.path, supervisor.id.0);
     }
 }
 
 /// What a message says.
-pub(crate) fn decode(message: PlanEvent) -> RunEvent {
-    let kind = known(message.kind());
-    let missed = (kind == EventKind::Missed).then(|| Miss {
-        lateness: Duration::from_nanos(message.lateness_ns),
-        cause: match message.cause() {
-            plan_event::Cause::NoCause => None,
-            plan_event::Cause::LateRelease => Some(Cause::LateRelease),
-            plan_event::Cause::LongPoll => Some(Cause::LongPoll),
-        },
-        skipped: message.skipped,
-    });
-    let ending = match message.ending() {
-        plan_event::Ending::NotEnded => None,
-        plan_event::Ending::Ok => Some(EndingKind::Ok),
-        plan_event::Ending::EndedInterrupted => Some(EndingKind::Interrupted),
-        plan_event::Ending::Error => Some(EndingKind::Error),
-    };
-    let asked = Instant::from_nanos(message.asked_ns);
-    RunEvent {
-        at: instant(&message.time),
-        kind,
-        missed,
-        ending,
-        asked: (kind == EventKind::ClockWentBack).then_some(asked),
-        component: message.component,
-        component_id: ComponentId(message.component_id),
-        outcome: message.outcome,
-        // Positions are below this; a damaged one is that of nothing.
-        outcome_id: u16::try_from(message.outcome_id).unwrap_or(u16::MAX),
-        target: message.target,
-        supervisor: message.supervisor,
-        element: message.element,
-        element_id: ComponentId(message.element_id),
-        on: message.on,
-        supervisor_id: ComponentId(message.supervisor_id),
-        entry: message.entry,
-        entry_id: TraceEntryId(message.entry_id),
-        port: message.port,
-        old: message.old.map(decode_value),
-        value: message.value.map(decode_value),
-        unit: message.unit,
-        fault: message.fault,
-        fault_text: message.fault_text,
-        lost: message.lost,
-        request: message.request.and_then(decode_request),
-    }
+pub(crate) fn decode(mut message: PlanEvent) -> RunEvent {
+    let path = std::mem::take(&mut message.component);
+    let component = component(path, message.component_id);
+    RunEvent { at: instant(&message.time), component, kind: kind(message) }
 }
 
-fn kind(kind: EventKind) -> Kind {
-    match kind {
-        EventKind::Unknown => Kind::Unknown,
-        EventKind::ClockWentBack => Kind::ClockWentBack,
-        EventKind::StopRequested => Kind::StopRequested,
-        EventKind::Requested => Kind::Requested,
-        EventKind::Injected => Kind::Injected,
-        EventKind::Polled => Kind::Polled,
-        EventKind::Missed => Kind::Missed,
-        EventKind::Event => Kind::Event,
-        EventKind::AlreadyThere => Kind::AlreadyThere,
-        EventKind::Interrupted => Kind::Interrupted,
-        EventKind::Finished => Kind::Finished,
-        EventKind::Committed => Kind::Committed,
-        EventKind::Input => Kind::Input,
-        EventKind::Started => Kind::Started,
-        EventKind::Diverted => Kind::Diverted,
-        EventKind::Resumed => Kind::Resumed,
-        EventKind::Faulted => Kind::Faulted,
-        EventKind::Ended => Kind::Ended,
-        EventKind::Lost => Kind::Lost,
-    }
+fn component(path: String, id: u32) -> NamedComponent {
+    NamedComponent { path, id: ComponentId(id) }
 }
 
-fn known(kind: Kind) -> EventKind {
+fn kind(message: PlanEvent) -> EventKind {
+    let (kind, cause, ending) = (message.kind(), message.cause(), message.ending());
+    let fault = FaultText { code: message.fault, text: message.fault_text };
+    // Positions are below this; a damaged one is that of nothing.
+    let outcome = Outcome::from_number(u16::try_from(message.outcome_id).unwrap_or(u16::MAX));
+    let outcome = NamedOutcome { name: message.outcome, outcome, target: message.target };
+    let element = || component(message.element, message.element_id);
+    let supervisor = || component(message.supervisor, message.supervisor_id);
+    let value = |value: Option<Value>| value.map_or(Datum::Unset, decode_value);
     match kind {
         Kind::Unknown => EventKind::Unknown,
-        Kind::ClockWentBack => EventKind::ClockWentBack,
+        Kind::ClockWentBack => {
+            EventKind::ClockWentBack { asked: Instant::from_nanos(message.asked_ns) }
+        }
         Kind::StopRequested => EventKind::StopRequested,
-        Kind::Requested => EventKind::Requested,
-        Kind::Injected => EventKind::Injected,
-        Kind::Polled => EventKind::Polled,
-        Kind::Missed => EventKind::Missed,
-        Kind::Event => EventKind::Event,
-        Kind::AlreadyThere => EventKind::AlreadyThere,
+        Kind::Requested => message
+            .request
+            .and_then(decode_request)
+            .map_or(EventKind::Unknown, EventKind::Requested),
+        Kind::Injected => EventKind::Injected(outcome),
+        Kind::Polled if !fault.code.is_empty() => EventKind::Polled(Err(fault)),
+        Kind::Polled if outcome.name.is_empty() => EventKind::Polled(Ok(None)),
+        Kind::Polled => EventKind::Polled(Ok(Some(outcome))),
+        Kind::Missed => EventKind::Missed(Miss {
+            lateness: Duration::from_nanos(message.lateness_ns),
+            cause: match cause {
+                plan_event::Cause::NoCause => None,
+                plan_event::Cause::LateRelease => Some(Cause::LateRelease),
+                plan_event::Cause::LongPoll => Some(Cause::LongPoll),
+            },
+            skipped: message.skipped,
+        }),
+        Kind::Event => {
+            EventKind::Event(EventAt { event: outcome, element: element(), on: message.on })
+        }
+        Kind::AlreadyThere => {
+            EventKind::AlreadyThere(EventAt { event: outcome, element: element(), on: message.on })
+        }
         Kind::Interrupted => EventKind::Interrupted,
-        Kind::Finished => EventKind::Finished,
-        Kind::Committed => EventKind::Committed,
-        Kind::Input => EventKind::Input,
+        Kind::Finished => EventKind::Finished(outcome),
+        Kind::Committed => EventKind::Committed {
+            entry: message.entry,
+            entry_id: TraceEntryId(message.entry_id),
+            old: value(message.old),
+            new: value(message.value),
+            unit: message.unit,
+        },
+        Kind::Input => {
+            EventKind::Input { port: message.port, value: value(message.value), unit: message.unit }
+        }
         Kind::Started => EventKind::Started,
-        Kind::Diverted => EventKind::Diverted,
-        Kind::Resumed => EventKind::Resumed,
-        Kind::Faulted => EventKind::Faulted,
-        Kind::Ended => EventKind::Ended,
-        Kind::Lost => EventKind::Lost,
+        Kind::Diverted => EventKind::Diverted { event: outcome, supervisor: supervisor() },
+        Kind::Resumed => EventKind::Resumed { supervisor: supervisor() },
+        Kind::Faulted => EventKind::Faulted(fault),
+        Kind::Ended => match ending {
+            plan_event::Ending::NotEnded => EventKind::Unknown,
+            plan_event::Ending::Ok => EventKind::Ended { ending: EndingKind::Ok, fault },
+            plan_event::Ending::EndedInterrupted => {
+                EventKind::Ended { ending: EndingKind::Interrupted, fault }
+            }
+            plan_event::Ending::Error => EventKind::Ended { ending: EndingKind::Error, fault },
+        },
+        Kind::Lost => EventKind::Lost(message.lost),
     }
 }
 
@@ -174,9 +209,9 @@ pub(crate) fn encode_value(datum: Datum) -> Value {
     Value {
         value: match datum {
             Datum::Unset => None,
-            Datum::Truth(truth) => Some(value::Value::Truth(truth)),
-            Datum::Integer(integer) => Some(value::Value::Integer(integer)),
-            Datum::Number(number) => Some(value::Value::Number(number)),
+            Datum::Bool(truth) => Some(value::Value::Truth(truth)),
+            Datum::Int(integer) => Some(value::Value::Integer(integer)),
+            Datum::Float(number) => Some(value::Value::Number(number)),
             Datum::Text(text) => Some(value::Value::Text(text)),
             Datum::Choice(choice) => Some(value::Value::Choice(choice)),
             Datum::Object(object) => Some(value::Value::Object(object)),
@@ -188,9 +223,9 @@ pub(crate) fn encode_value(datum: Datum) -> Value {
 pub(crate) fn decode_value(message: Value) -> Datum {
     match message.value {
         None => Datum::Unset,
-        Some(value::Value::Truth(truth)) => Datum::Truth(truth),
-        Some(value::Value::Integer(integer)) => Datum::Integer(integer),
-        Some(value::Value::Number(number)) => Datum::Number(number),
+        Some(value::Value::Truth(truth)) => Datum::Bool(truth),
+        Some(value::Value::Integer(integer)) => Datum::Int(integer),
+        Some(value::Value::Number(number)) => Datum::Float(number),
         Some(value::Value::Text(text)) => Datum::Text(text),
         Some(value::Value::Choice(choice)) => Datum::Choice(choice),
         Some(value::Value::Object(object)) => Datum::Object(object),
@@ -306,14 +341,14 @@ pub(crate) fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: Valu
         name: path.to_owned(),
         r#type: ty.to_owned(),
         unit: unit.to_owned(),
-        value: Some(encode_value(Datum::new(names, Holder::Entry(id), value))),
+        value: Some(encode_value(Holder::Entry(id).named(names, value))),
     }
 }
 
 /// What the plan consists of, as a message.
 pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     let outcomes = |id| {
-        let named = |(outcome, name): (_, &str)| Outcome {
+        let named = |(outcome, name): (_, &str)| plan_table::Outcome {
             name: name.to_owned(),
             target: names.target(id, outcome).to_owned(),
         };
@@ -353,17 +388,17 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     }
 }
 
+/// An instant as protobuf writes it.
+pub(crate) fn timestamp(at: Instant) -> Timestamp {
+    let nanos = at.as_nanos();
+    // Both fit: a u64 holds 584 years of nanoseconds.
+    Timestamp { seconds: (nanos / 1_000_000_000) as i64, nanos: (nanos % 1_000_000_000) as i32 }
+}
+
 /// The instant of a protobuf time stamp; one before zero counts as zero.
 pub(crate) fn instant(time: &Option<Timestamp>) -> Instant {
     let Some(Timestamp { seconds, nanos }) = *time else { return Instant::ZERO };
     let (seconds, nanos) = (u64::try_from(seconds), u64::try_from(nanos));
     let (seconds, nanos) = (seconds.unwrap_or(0), nanos.unwrap_or(0));
     Instant::from_nanos(seconds.saturating_mul(1_000_000_000).saturating_add(nanos))
-}
-
-/// An instant as protobuf writes it.
-pub(crate) fn timestamp(at: Instant) -> Timestamp {
-    let nanos = at.as_nanos();
-    // Both fit: a u64 holds 584 years of nanoseconds.
-    Timestamp { seconds: (nanos / 1_000_000_000) as i64, nanos: (nanos % 1_000_000_000) as i32 }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use afp_core::Instant;
-use afp_session::{Datum, Outlines, RunEvent, frames};
+use afp_session::{Datum, EventKind, Outlines, RunEvent, frames};
 use mcap::records::Record;
 use prost::Message;
 
@@ -148,6 +148,15 @@ pub(crate) fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
 }
 
 impl LogData {
+    /// How many records could not be kept while it was written.
+    pub fn lost(&self) -> u64 {
+        let lost = |event: &RunEvent| match event.kind {
+            EventKind::Lost(count) => count,
+            _ => 0,
+        };
+        self.events.iter().map(lost).sum()
+    }
+
     /// What was lost before the log was recovered is missing from it all the same.
     fn note_missing(&mut self) {
         let stretches: Vec<_> = self.missing.iter().map(Missing::to_string).collect();

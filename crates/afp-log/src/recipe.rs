@@ -145,8 +145,8 @@ impl LogData {
 
     /// What came from outside, in the order in which it was done.
     fn requests(&self) -> Vec<(Instant, afp_session::Stimulus)> {
-        let made = self.events.iter().filter_map(|event| event.request.clone());
-        made.map(|request| (request.at, request.what)).collect()
+        let made = self.events.iter().filter_map(|event| event.facts().request);
+        made.map(|request| (request.at, request.what.clone())).collect()
     }
 
     /// Whether it says in which world the run was, which may have no text.
@@ -173,7 +173,7 @@ impl LogData {
 
     /// What was asked for and did not come before the end.
     pub fn not_reached(&self) -> impl Iterator<Item = &afp_session::Requested> {
-        let requests = self.events.iter().filter_map(|event| event.request.as_ref());
+        let requests = self.events.iter().filter_map(|event| event.facts().request);
         requests.filter(|request| request.done == Done::NotReached)
     }
 }

@@ -269,7 +269,7 @@ impl Recorder {
     /// An entry holds something else from now on.
     fn set(&mut self, entry: TraceEntryId, value: ValueRef<'_>) {
         if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
-            *kept = value.to_owned();
+            *kept = value.to_value().unwrap_or_default();
         }
     }
 

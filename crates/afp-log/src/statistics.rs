@@ -69,10 +69,7 @@ pub fn statistics(log: &LogData) -> Statistics {
         }
     }
     counts.finish(log.span.map(|(_, last)| last).unwrap_or_default());
-    let mut all = Statistics {
-        lost: log.events.iter().map(|event| event.lost).sum(),
-        ..Statistics::default()
-    };
+    let mut all = Statistics { lost: log.lost(), ..Statistics::default() };
     for (id, usage) in (0..).map(ComponentId).zip(&counts.components) {
         let row = names.component(id);
         let path = row.path.to_owned();

@@ -297,11 +297,11 @@ impl Runner {
     fn get<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let session = self.lock()?;
         let number = session.entry(name)?;
-        let value = session.session.entry(number).to_owned();
+        let value = session.session.entry(number).to_value().map_err(error)?;
         let id = TraceEntryId::from(number);
         let names = session.names.clone();
         drop(session);
-        to_python(py, value.borrow(), |choice| names.choice(id, choice).to_owned())
+        to_python(py, value.as_deref(), |choice| names.choice(id, choice).to_owned())
     }
 
     /// Writes an entry: before the start an `in` entry, later an `in` or `var` entry at the next step.

@@ -24,7 +24,7 @@ pub(crate) use summary::{Ran, Requests, RunFigures, StoppedBy, Summary};
 /// The timeline of a log, line by line.
 pub fn timeline(log: &LogData) -> impl Iterator<Item = String> {
     log.events.iter().filter_map(|event| {
-        let name = log.names.component(event.component_id);
+        let name = log.names.component(event.component.id);
         let watches = name.kind == ComponentKind::Supervisor;
         let starts = event.kind == EventKind::Started;
         if watches && starts { None } else { timeline::line(event, name.template) }

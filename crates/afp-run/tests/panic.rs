@@ -81,8 +81,8 @@ fn a_panic_stops_the_robot_and_ends_the_run() {
     let log = afp_log::read(&log).unwrap();
     assert_eq!(log.cut_short, None);
     let last = log.events.last().unwrap();
-    assert_eq!((last.kind, last.ending), (EventKind::Ended, Some(EndingKind::Error)));
-    assert_eq!(last.fault, "panic");
+    let EventKind::Ended { ending: EndingKind::Error, fault } = &last.kind else { panic!() };
+    assert_eq!(fault.code, "panic");
     let end = last.at.as_secs_f64();
     assert!((0.99..1.02).contains(&end), "{end}");
 }

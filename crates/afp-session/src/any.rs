@@ -8,7 +8,7 @@ use afp_core::{Duration, EntryId, Fault, Instant, StartError, Value, ValueRef, W
 
 use crate::figures::Figures;
 use crate::not_set::NotSet;
-use crate::observer::{Gate, Go, Observer};
+use crate::observer::{Gate, Go, Next, Observer};
 use crate::request::{Request, RequestError, RequestId};
 use crate::sample::SampleRef;
 use crate::stimulus::Stimulus;
@@ -88,12 +88,11 @@ pub trait AnySession: Send {
         to: &mut [&mut dyn Observer],
     ) -> Result<Go, StartError>;
 
-    /// Does the next thing, as [`AnySession::tick`] does without a limit or a gate. Whether the plan still runs, once that
-    /// was its next step or where it has ended; none where it was something that comes before the step.
+    /// Does the next thing, as [`AnySession::tick`] does without a limit or a gate, and says what that was.
     ///
     /// # Errors
     /// The plan cannot start.
-    fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Option<bool>, StartError>;
+    fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Next, StartError>;
 
     /// Runs the plan until `until`, until it has ended and the robot has come to rest, or until the gate stops it;
     /// whether it did. A plan that still runs goes on with the next call.

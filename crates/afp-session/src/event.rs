@@ -2,6 +2,7 @@
 //!
 //! Timelines, lines of JSON, Python and logs read this; a log's file alone has another form of it.
 
+mod facts;
 mod named;
 
 use afp_core::trace::{
@@ -12,108 +13,139 @@ use afp_core::{Duration, Fault, Instant, ValueRef};
 use crate::datum::Datum;
 use crate::stimulus::Stimulus;
 
+pub use facts::Facts;
 use named::Namer;
 
-/// One thing that happened in a run. What does not apply to its kind is empty.
-#[derive(Clone, Debug, PartialEq)]
+/// One thing that happened in a run.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunEvent {
     /// When.
     pub at: Instant,
+    /// The component that it is about; of a commit its author; the number 0 without a path for what is about none.
+    pub component: NamedComponent,
     /// What.
     pub kind: EventKind,
-    /// The path of the component that it is about; of a commit, of its author.
-    pub component: String,
-    /// Its number; [`OUTSIDE`] for a commit of nobody inside the plan.
-    pub component_id: ComponentId,
-    /// The state or event.
-    pub outcome: String,
-    /// Its position in the template.
-    pub outcome_id: u16,
-    /// Where the outcome leads: an element, `terminate`, `fail`, `ignore`, `resume`.
-    pub target: String,
-    /// The supervisor that diverted a start, or whose event resumed.
-    pub supervisor: String,
-    /// Its number.
-    pub supervisor_id: ComponentId,
-    /// The element that was active or being entered when an event was taken, or was not.
-    pub element: String,
-    /// Its number.
-    pub element_id: ComponentId,
-    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
-    pub on: bool,
-    /// The entry that was written.
-    pub entry: String,
-    /// Its number.
-    pub entry_id: TraceEntryId,
-    /// The input port that was read.
-    pub port: String,
-    /// The value before a commit.
-    pub old: Option<Datum>,
-    /// The value after a commit, or of an input.
-    pub value: Option<Datum>,
-    /// The SI unit of the values.
-    pub unit: String,
-    /// The code of a fault.
-    pub fault: String,
-    /// The fault in words.
-    pub fault_text: String,
-    /// By how much a deadline was missed.
-    pub missed: Option<Miss>,
-    /// How a plan ended.
-    pub ending: Option<EndingKind>,
-    /// The time that a step was asked for when the clock went back.
-    pub asked: Option<Instant>,
-    /// How many records could not be kept.
-    pub lost: u64,
-    /// What came from outside.
-    pub request: Option<Requested>,
 }
 
 /// The author of a commit that nobody inside the plan made.
 pub const OUTSIDE: ComponentId = ComponentId(u32::MAX);
 
-/// What kind of thing happened.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What happened.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum EventKind {
     /// Something that this release does not know.
     #[default]
     Unknown,
     /// A step was asked for an earlier time than the one before.
-    ClockWentBack,
+    ClockWentBack {
+        /// The time asked for.
+        asked: Instant,
+    },
     /// The plan was asked to stop.
     StopRequested,
     /// Something came from outside: a press, a fault, a write.
-    Requested,
+    Requested(Requested),
     /// A component was made to report an outcome.
-    Injected,
-    /// A supervisor was polled.
-    Polled,
+    Injected(NamedOutcome),
+    /// A supervisor was polled: the event that it reported, or how it failed.
+    Polled(Result<Option<NamedOutcome>, FaultText>),
     /// A deadline was missed.
-    Missed,
+    Missed(Miss),
     /// An event was taken.
-    Event,
+    Event(EventAt),
     /// An event was not taken, as it leads to the element already active.
-    AlreadyThere,
+    AlreadyThere(EventAt),
     /// An element was interrupted.
     Interrupted,
     /// An element reached a state.
-    Finished,
+    Finished(NamedOutcome),
     /// An entry changed.
-    Committed,
+    Committed {
+        /// The path of the entry.
+        entry: String,
+        /// Its number.
+        entry_id: TraceEntryId,
+        /// Its value before.
+        old: Datum,
+        /// Its value now.
+        new: Datum,
+        /// The SI unit of the values.
+        unit: String,
+    },
     /// A component is about to start with a value at an input port.
-    Input,
+    Input {
+        /// The name of the port.
+        port: String,
+        /// What it reads.
+        value: Datum,
+        /// The SI unit of the value.
+        unit: String,
+    },
     /// A component started.
     Started,
     /// An event replaced the start of an element.
-    Diverted,
+    Diverted {
+        /// The event of the supervisor.
+        event: NamedOutcome,
+        /// The supervisor that saw a reason.
+        supervisor: NamedComponent,
+    },
     /// An element goes on after an event that did not interrupt it.
-    Resumed,
+    Resumed {
+        /// The supervisor whose event it was.
+        supervisor: NamedComponent,
+    },
     /// A component failed.
-    Faulted,
+    Faulted(FaultText),
     /// A plan ended.
-    Ended,
-    /// Records could not be kept.
-    Lost,
+    Ended {
+        /// How.
+        ending: EndingKind,
+        /// Why, if it ended in an error.
+        fault: FaultText,
+    },
+    /// So many records could not be kept.
+    Lost(u64),
+}
+
+/// A component by its path and its number.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NamedComponent {
+    /// Dotted path from the outermost plan; `outside` for [`OUTSIDE`].
+    pub path: String,
+    /// Its number.
+    pub id: ComponentId,
+}
+
+/// A state or event that a component reports.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedOutcome {
+    /// Its name.
+    pub name: String,
+    /// Which of the component's outcomes it is.
+    pub outcome: Outcome,
+    /// Where it leads: an element, `terminate`, `fail`, `ignore`, `resume`; empty until it is taken.
+    pub target: String,
+}
+
+/// An event while an element was active or being entered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EventAt {
+    /// The event.
+    pub event: NamedOutcome,
+    /// The element.
+    pub element: NamedComponent,
+    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
+    pub on: bool,
+}
+
+/// Why something failed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FaultText {
+    /// The code of the fault.
+    pub code: String,
+    /// The fault in words.
+    pub text: String,
 }
 
 /// A missed deadline.
@@ -167,33 +199,6 @@ pub enum Done {
     NotReached,
 }
 
-impl EventKind {
-    /// The kind in a word, as JSON and Python have it.
-    pub fn word(self) -> &'static str {
-        match self {
-            EventKind::Unknown => "unknown",
-            EventKind::ClockWentBack => "clock_went_back",
-            EventKind::StopRequested => "stop_requested",
-            EventKind::Requested => "requested",
-            EventKind::Injected => "injected",
-            EventKind::Polled => "polled",
-            EventKind::Missed => "missed",
-            EventKind::Event => "event",
-            EventKind::AlreadyThere => "already_there",
-            EventKind::Interrupted => "interrupted",
-            EventKind::Finished => "finished",
-            EventKind::Committed => "committed",
-            EventKind::Input => "input",
-            EventKind::Started => "started",
-            EventKind::Diverted => "diverted",
-            EventKind::Resumed => "resumed",
-            EventKind::Faulted => "faulted",
-            EventKind::Ended => "ended",
-            EventKind::Lost => "lost",
-        }
-    }
-}
-
 impl EndingKind {
     /// The ending in a word: `ok`, `interrupted`, `error`.
     pub fn word(self) -> &'static str {
@@ -218,92 +223,69 @@ impl Miss {
 
 /// The author of a commit: a path, or `outside`.
 pub fn author(names: &(impl Names + ?Sized), author: Author) -> String {
-    match author {
-        Author::Component(id) => names.component(id).path.to_owned(),
-        Author::Outside => "outside".to_owned(),
-    }
+    Namer { names }.component(author_id(author)).path
 }
 
-impl Default for RunEvent {
-    fn default() -> Self {
-        let (none, text) = (ComponentId(0), String::new);
-        RunEvent {
-            at: Instant::ZERO,
-            kind: EventKind::Unknown,
-            component: text(),
-            component_id: none,
-            outcome: text(),
-            outcome_id: 0,
-            target: text(),
-            supervisor: text(),
-            supervisor_id: none,
-            element: text(),
-            element_id: none,
-            on: false,
-            entry: text(),
-            entry_id: TraceEntryId(0),
-            port: text(),
-            old: None,
-            value: None,
-            unit: text(),
-            fault: text(),
-            fault_text: text(),
-            missed: None,
-            ending: None,
-            asked: None,
-            lost: 0,
-            request: None,
-        }
+/// The number of an author.
+fn author_id(author: Author) -> ComponentId {
+    match author {
+        Author::Component(id) => id,
+        Author::Outside => OUTSIDE,
     }
 }
 
 impl RunEvent {
     /// A record with the names behind its ids.
     pub fn new(at: Instant, record: &Record<'_>, names: &(impl Names + ?Sized)) -> RunEvent {
-        RunEvent { at, ..Namer { names }.describe(record) }
+        let namer = Namer { names };
+        let (id, kind) = namer.describe(record);
+        RunEvent { at, component: namer.component(id), kind }
     }
 
     /// Something that came from outside.
     pub fn requested(at: Instant, request: Requested) -> RunEvent {
-        RunEvent { at, kind: EventKind::Requested, request: Some(request), ..RunEvent::default() }
+        RunEvent { at, kind: EventKind::Requested(request), ..RunEvent::default() }
     }
 
     /// The record behind it, as far as counting matters: without values, and with one fault for all. `None` where
     /// it says nothing about components.
     pub fn record(&self) -> Option<Record<'static>> {
-        let (component, none) = (self.component_id, ValueRef::Unset);
-        let outcome = Outcome::from_number(self.outcome_id);
-        Some(match self.kind {
+        let (component, none) = (self.component.id, ValueRef::Unset);
+        Some(match &self.kind {
             EventKind::Started => Record::Started { component },
-            EventKind::Finished => Record::Finished { element: component, state: outcome },
-            EventKind::Interrupted => Record::Interrupted { element: component },
-            EventKind::Event => {
-                let element = self.element_id;
-                Record::Event { supervisor: component, event: outcome, element }
+            EventKind::Finished(NamedOutcome { outcome, .. }) => {
+                Record::Finished { element: component, state: *outcome }
             }
-            EventKind::Faulted => {
+            EventKind::Interrupted => Record::Interrupted { element: component },
+            EventKind::Event(EventAt { event, element, .. }) => {
+                let (event, element) = (event.outcome, element.id);
+                Record::Event { supervisor: component, event, element }
+            }
+            EventKind::Faulted(_) => {
                 Record::Faulted { component, fault: Fault::INTERNAL, detail: None }
             }
-            EventKind::Polled => Record::Polled { supervisor: component, verdict: Verdict::Clear },
-            EventKind::Missed => {
-                let Miss { lateness, cause, skipped } = self.missed?;
+            EventKind::Polled(_) => {
+                Record::Polled { supervisor: component, verdict: Verdict::Clear }
+            }
+            EventKind::Missed(Miss { lateness, cause, skipped }) => {
+                let (lateness, skipped) = (*lateness, *skipped);
                 let cause = cause.unwrap_or(Cause::LateRelease);
                 Record::Missed { supervisor: component, lateness, cause, skipped }
             }
-            EventKind::Ended => Record::Ended {
+            EventKind::Ended { ending, .. } => Record::Ended {
                 plan: component,
-                ending: match self.ending? {
+                ending: match ending {
                     EndingKind::Ok => Ending::Ok,
                     EndingKind::Interrupted => Ending::Interrupted,
                     EndingKind::Error => Ending::Error(Fault::INTERNAL),
                 },
             },
-            EventKind::Committed => Record::Committed {
+            EventKind::Committed { entry_id, .. } => Record::Committed {
                 author: match component {
                     OUTSIDE => Author::Outside,
                     component => Author::Component(component),
                 },
-                entry: self.entry_id,
+                entry: *entry_id,
                 old: none,
                 new: none,
             },

@@ -50,12 +50,15 @@ mod world;
 pub use any::AnySession;
 pub use counts::{Counts, Usage};
 pub use datum::{Datum, Holder};
-pub use event::{Done, EndingKind, EventKind, Miss, OUTSIDE, Requested, RunEvent, author};
+pub use event::{
+    Done, EndingKind, EventAt, EventKind, Facts, FaultText, Miss, NamedComponent, NamedOutcome,
+    OUTSIDE, Requested, RunEvent, author,
+};
 pub use faults::{Active, Faults};
 pub use figures::{Figure, FigureValue, Figures, Span};
 pub use hardware::{Hardware, LastResort, NoWorld, Settings};
 pub use not_set::{NotSet, refusal, what_it_takes};
-pub use observer::{Applied, Gate, Go, NamedRecord, Observer, Open, Sampling, View};
+pub use observer::{Applied, Gate, Go, NamedRecord, Next, Observer, Open, Sampling, View};
 pub use opened::Opened;
 #[cfg(feature = "load")]
 pub use opened::{Opener, hardware};

@@ -20,6 +20,17 @@ pub enum Go {
     Stop,
 }
 
+/// What a call of [`Session::next_step`](crate::Session::next_step) did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Next {
+    /// Something that comes before the plan's next step: a sample, a request.
+    BeforeStep,
+    /// The plan's next step; the plan still runs.
+    Step,
+    /// The plan has ended.
+    Ended,
+}
+
 /// Says whether time may pass: holds a run back to real time, pauses it, calls it off.
 ///
 /// ```

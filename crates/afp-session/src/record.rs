@@ -1,6 +1,6 @@
 //! Trace records that own what they say, small enough for a queue and made without allocation, and sinks that keep them.
 
-use afp_core::trace::{NoTrace, Record, Sink, Verdict};
+use afp_core::trace::{NoTrace, Record, RecordOf, Sink, Verdict};
 use afp_core::{Instant, Value, ValueRef};
 
 /// A record with its time; its texts are kept in place.
@@ -8,71 +8,20 @@ use afp_core::{Instant, Value, ValueRef};
 pub struct OwnedRecord {
     /// The time of the step.
     pub at: Instant,
-    /// The record with its values taken out.
-    fixed: Record<'static>,
-    old: Value,
-    new: Value,
+    record: RecordOf<Value>,
 }
 
 impl OwnedRecord {
     /// Copies a record.
     pub fn new(at: Instant, record: &Record<'_>) -> Self {
-        let none = ValueRef::Unset;
-        let (fixed, old, new) = match *record {
-            Record::Committed { author, entry, old, new } => {
-                (Record::Committed { author, entry, old: none, new: none }, old, new)
-            }
-            Record::Input { component, port, value } => {
-                (Record::Input { component, port, value: none }, none, value)
-            }
-            Record::ClockWentBack { asked } => (Record::ClockWentBack { asked }, none, none),
-            Record::StopRequested => (Record::StopRequested, none, none),
-            Record::Injected { component, outcome } => {
-                (Record::Injected { component, outcome }, none, none)
-            }
-            Record::Polled { supervisor, verdict } => {
-                (Record::Polled { supervisor, verdict }, none, none)
-            }
-            Record::Missed { supervisor, lateness, cause, skipped } => {
-                (Record::Missed { supervisor, lateness, cause, skipped }, none, none)
-            }
-            Record::Event { supervisor, event, element } => {
-                (Record::Event { supervisor, event, element }, none, none)
-            }
-            Record::AlreadyThere { supervisor, event, element } => {
-                (Record::AlreadyThere { supervisor, event, element }, none, none)
-            }
-            Record::Interrupted { element } => (Record::Interrupted { element }, none, none),
-            Record::Finished { element, state } => {
-                (Record::Finished { element, state }, none, none)
-            }
-            Record::Started { component } => (Record::Started { component }, none, none),
-            Record::Diverted { element, supervisor, event } => {
-                (Record::Diverted { element, supervisor, event }, none, none)
-            }
-            Record::Resumed { element, supervisor } => {
-                (Record::Resumed { element, supervisor }, none, none)
-            }
-            Record::Faulted { component, fault, detail } => {
-                (Record::Faulted { component, fault, detail }, none, none)
-            }
-            Record::Ended { plan, ending } => (Record::Ended { plan, ending }, none, none),
-        };
-        OwnedRecord { at, fixed, old: old.to_owned(), new: new.to_owned() }
+        // No plan has a text that is too long for an entry.
+        let owned = |value: &ValueRef<'_>| value.to_value().unwrap_or_default();
+        OwnedRecord { at, record: record.map(owned) }
     }
 
     /// The record, its values borrowed.
     pub fn get(&self) -> Record<'_> {
-        match self.fixed {
-            Record::Committed { author, entry, .. } => {
-                let (old, new) = (self.old.borrow(), self.new.borrow());
-                Record::Committed { author, entry, old, new }
-            }
-            Record::Input { component, port, .. } => {
-                Record::Input { component, port, value: self.new.borrow() }
-            }
-            other => other,
-        }
+        self.record.map(Value::as_deref)
     }
 }
 

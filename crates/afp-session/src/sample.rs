@@ -136,13 +136,30 @@ pub enum SampleRef<'a> {
     Outline(&'a Shape),
 }
 
+macro_rules! from_values {
+    ($($value:ty => $kind:ident,)*) => {$(
+        impl<'a> From<$value> for SampleRef<'a> {
+            fn from(value: $value) -> Self {
+                SampleRef::$kind(value)
+            }
+        }
+    )*};
+}
+
+from_values! {
+    bool => Bool,
+    i64 => Int,
+    f64 => Float,
+    &'a str => Text,
+}
+
 impl SampleRef<'_> {
     /// The value of the language that it is; none of what logs and pictures alone show.
     pub fn value(&self) -> Option<Datum> {
         match *self {
-            SampleRef::Bool(truth) => Some(Datum::Truth(truth)),
-            SampleRef::Int(number) => Some(Datum::Integer(number)),
-            SampleRef::Float(number) => Some(Datum::Number(number)),
+            SampleRef::Bool(truth) => Some(truth.into()),
+            SampleRef::Int(number) => Some(number.into()),
+            SampleRef::Float(number) => Some(number.into()),
             SampleRef::Text(text) => Some(Datum::Text(text.to_owned())),
             SampleRef::Pose(_)
             | SampleRef::Range(_)

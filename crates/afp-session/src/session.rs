@@ -16,7 +16,7 @@ use afp_core::{Duration, Fault, Instant, Scheduler, StartError, Wake};
 use crate::faults::Faults;
 use crate::figures::Figures;
 use crate::holds::Holds;
-use crate::observer::{Gate, Go, Observer, Open};
+use crate::observer::{Gate, Go, Next, Observer, Open};
 use crate::record::{Keep, Kept};
 use crate::request::{Request, Requests};
 use crate::robot::{FaultOf, Measure, Robot};
@@ -246,20 +246,22 @@ where
         self.guarded(to, |session, to| session.tick_fitted(limit, gate, to))
     }
 
-    /// Does the next thing, as [`Session::tick`] does without a limit or a gate. Whether the plan still runs, once that was
-    /// its next step or where it has ended; none where it was something that comes before the step.
+    /// Does the next thing, as [`Session::tick`] does without a limit or a gate, and says what that was.
     ///
     /// # Errors
     /// The plan cannot start.
-    pub fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Option<bool>, StartError> {
+    pub fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Next, StartError> {
         if self.ending().is_some() {
-            return Ok(Some(false));
+            return Ok(Next::Ended);
         }
         self.fit(to);
         let due = self.due();
         self.guarded(to, |session, to| session.tick_fitted(Instant::MAX, &mut Open, to))?;
-        let running = self.ending().is_none();
-        Ok((self.robot.now() >= due || !running).then_some(running))
+        Ok(match (self.ending(), self.robot.now() >= due) {
+            (Some(_), _) => Next::Ended,
+            (None, true) => Next::Step,
+            (None, false) => Next::BeforeStep,
+        })
     }
 
     #[inline]

@@ -98,7 +98,7 @@ impl Stimulus {
                 let id = TraceEntryId::from(*entry);
                 Stimulus::Write {
                     entry: names.entry(id).path.to_owned(),
-                    value: Datum::new(names, Holder::Entry(id), value.borrow()),
+                    value: Holder::Entry(id).named(names, value.as_deref()),
                     unit: names.entry(id).unit.to_owned(),
                 }
             }
@@ -124,9 +124,7 @@ impl Stimulus {
                 ends: names.component(*component).kind != ComponentKind::Supervisor,
                 outputs: outputs
                     .iter()
-                    .map(|(port, value)| {
-                        (*port, Datum::new(names, Holder::Unknown, value.borrow()))
-                    })
+                    .map(|(port, value)| (*port, Holder::Unknown.named(names, value.as_deref())))
                     .collect(),
             },
             Request::Idle(element) => {
@@ -153,7 +151,7 @@ impl Stimulus {
                 let unknown = || RequestError::NoEntry(entry.clone());
                 let id = ids.find(|id| names.entry(*id).path == entry).ok_or_else(unknown)?;
                 let number = u16::try_from(id.0).map_err(|_| unknown())?;
-                let value = value.value(names, Holder::Entry(id)).ok_or_else(unknown)?;
+                let value = Holder::Entry(id).value(names, value).ok_or_else(unknown)?;
                 Request::Write(EntryId(number), value)
             }
             Stimulus::Press { control, held } => {
@@ -200,7 +198,7 @@ fn injection(
         .ok_or_else(|| RequestError::NoOutcome(format!("{path}.{outcome}")))?;
     let outputs = outputs
         .iter()
-        .filter_map(|(port, value)| Some((*port, value.value(names, Holder::Unknown)?)));
+        .filter_map(|(port, value)| Some((*port, Holder::Unknown.value(names, value)?)));
     Ok(Request::Inject(Injection { component, outcome, outputs: outputs.collect() }))
 }
 

@@ -13,8 +13,8 @@ use afp_core::devices::{ControlId, FaultId, SignalId};
 use afp_core::trace::{Ending, Outcome, Record, Verdict};
 use afp_core::{Duration, EntryId, Fault, Instant, Platform, SetError, Text, Value, WriteError};
 use afp_session::{
-    AnySession, Applied, Figure, Go, Measure, NamedRecord, Observer, Open, Request, RequestError,
-    RequestId, SampleRef, Sampling, Session, Stimulus, View,
+    AnySession, Applied, Figure, Go, Measure, NamedRecord, Next, Observer, Open, Request,
+    RequestError, RequestId, SampleRef, Sampling, Session, Stimulus, View,
 };
 use support::{POSITION, Toy, plan};
 
@@ -405,13 +405,14 @@ fn step_by_step_it_is_the_same_run_and_each_call_says_whether_it_was_a_step() {
     loop {
         let steps = heard.steps.len();
         match single.next_step(&mut [&mut heard]).unwrap() {
-            Some(runs) => {
+            made @ (Next::Step | Next::Ended) => {
+                let runs = made == Next::Step;
                 assert_eq!((heard.steps.len() - steps, runs), (1, single.ending().is_none()));
                 if !runs {
                     break;
                 }
             }
-            None => {
+            Next::BeforeStep => {
                 assert_eq!(heard.steps.len(), steps);
                 before += 1;
             }
@@ -419,5 +420,5 @@ fn step_by_step_it_is_the_same_run_and_each_call_says_whether_it_was_a_step() {
     }
     assert_eq!((single.trace(), &heard.steps), (whole.trace(), &told.steps));
     assert!(before > 100, "{before} samples and requests between steps");
-    assert_eq!(single.next_step(&mut [&mut heard]), Ok(Some(false)));
+    assert_eq!(single.next_step(&mut [&mut heard]), Ok(Next::Ended));
 }

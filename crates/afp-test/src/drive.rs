@@ -3,7 +3,6 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use afp::load::value_of;
 use afp_core::devices::SignalId;
 use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, EntryId, Instant, StartError};
@@ -12,7 +11,7 @@ use afp_dsl::scenario::Scenario;
 use afp_log::{About, OwnedNames, SessionLog, WhenFull};
 use afp_run::{RunError, hashes};
 use afp_session::{
-    AnyRobot, AnySession, Applied, Build, Datum, Go, Holder, Loader, NamedRecord, Observer, Recipe,
+    AnyRobot, AnySession, Applied, Build, Go, Holder, Loader, NamedRecord, Observer, Recipe,
     RequestError, RequestId, SampleRef, Sampling, TextFile, View,
 };
 use afp_toolboxes::project::own_toolbox_texts;
@@ -120,7 +119,7 @@ fn session(
     let session = robot.session(&scenario.graph, &*world.world, scenario.seed, &[]);
     let mut session = session.map_err(|why| world.no_session(why))?;
     for (entry, value) in &scenario.set {
-        let set = session.write(EntryId(*entry), value_of(value));
+        let set = session.write(EntryId(*entry), value.clone());
         set.map_err(|why| refused(scenario, &why.to_string()))?;
     }
     session.set_rest(REST);
@@ -237,7 +236,7 @@ impl Judge<'_> {
         };
         let name = entries.get(index).map_or("", |entry| entry.name.as_str());
         let holder = Holder::Entry(TraceEntryId(index as u32));
-        let [held, known] = [held, known].map(|value| Datum::new(view.names(), holder, value));
+        let [held, known] = [held, known].map(|value| holder.named(view.names(), value));
         self.broken.push(Broken {
             text: "(entries hold what was committed)".to_owned(),
             span: self.scenario.span,

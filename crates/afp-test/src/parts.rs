@@ -2,6 +2,7 @@
 
 mod usage;
 
+use afp_core::Text;
 use afp_dsl::graph::{
     Component, Element, ElementId, Graph, Output, Plan, PlanId, Supervisor, SupervisorId,
     TemplateId,
@@ -258,7 +259,7 @@ fn zero(ty: &Type) -> Option<(Constant, String)> {
             let text = format!("0.0 {}", dimension.usual_unit()).trim_end().to_owned();
             (Constant::Float(0.0), text)
         }
-        Type::Text => (Constant::Text(String::new()), "\"\"".to_owned()),
+        Type::Text => (Constant::Text(Text::new()), "\"\"".to_owned()),
         Type::Enum(home) => {
             (Constant::Choice(0), format!("{}.{}", home.name, home.variants.first()?))
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use afp::load::{Injection, value_of};
+use afp::load::Injection;
 use afp_core::devices::{find_control, find_fault};
 use afp_core::trace::{self, ComponentId, ComponentKind, Names};
 use afp_core::{Duration, EntryId, Instant};
@@ -38,7 +38,7 @@ fn requested(session: &dyn AnySession, action: &Action) -> Result<Request, Reque
         id.ok_or(RequestError::NoControl)
     };
     Ok(match action {
-        Action::Set(entry, value) => Request::Write(EntryId(*entry), value_of(value)),
+        Action::Set(entry, value) => Request::Write(EntryId(*entry), value.clone()),
         Action::Press(part, time) => {
             Request::Hold(control(part)?, time.map_or(HOLD, Duration::from_nanos))
         }
@@ -64,6 +64,6 @@ fn injected(injection: &scenario::Injection, names: &dyn Names) -> Injection {
             (Outcome::Special, ComponentKind::Supervisor) => trace::Outcome::DeadlineMissed,
             (Outcome::Special, _) => trace::Outcome::Error,
         },
-        outputs: injection.outputs.iter().map(|(port, value)| (*port, value_of(value))).collect(),
+        outputs: injection.outputs.clone(),
     }
 }

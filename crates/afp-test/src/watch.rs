@@ -10,9 +10,8 @@ mod tests;
 
 use afp_core::devices::SignalId;
 use afp_core::trace::{self, Author, ComponentId, Ending, Names, Record, TraceEntryId};
-use afp_core::{Instant, Value, ValueRef};
+use afp_core::{Instant, Value, ValueOf, ValueRef};
 use afp_dsl::scenario::{Cause, Claim, EndCause, Expectation, Outcome, Scenario, Subject};
-use afp_dsl::toolbox::Constant;
 use afp_dsl::unfold::{Goal, Place, places};
 
 use afp_session::{Datum, Holder, SampleRef};
@@ -65,6 +64,9 @@ pub struct Activation {
     /// When it was left, or the run was over.
     pub to: Instant,
 }
+
+/// A value as it is compared: one that a robot signals may have a text that no entry holds.
+type Held = ValueOf<String>;
 
 /// How things stand.
 pub(crate) struct State {
@@ -161,7 +163,7 @@ impl<'a> Watch<'a> {
             }
             Record::Committed { author, entry, new, .. } => {
                 if let Some(named) = self.state.named.get_mut(entry.0 as usize) {
-                    *named = Datum::new(names, Holder::Entry(entry), new);
+                    *named = Holder::Entry(entry).named(names, new);
                 }
                 self.committed(at, author, entry, new);
             }
@@ -181,7 +183,7 @@ impl<'a> Watch<'a> {
         &'v self,
         held: impl Iterator<Item = ValueRef<'v>>,
     ) -> Option<(usize, ValueRef<'v>, ValueRef<'v>)> {
-        let committed = self.state.entries.iter().map(Value::borrow);
+        let committed = self.state.entries.iter().map(Value::as_deref);
         let pairs = held.zip(committed).enumerate();
         let mut pairs = pairs.map(|(index, (held, committed))| (index, held, committed));
         pairs.find(|(_, held, committed)| held != committed)
@@ -242,7 +244,7 @@ impl<'a> Watch<'a> {
     fn committed(&mut self, at: Instant, author: Author, id: TraceEntryId, new: ValueRef<'_>) {
         let entry = id.0;
         if let Some(value) = self.state.entries.get_mut(entry as usize) {
-            *value = new.to_owned();
+            *value = new.to_value().unwrap_or_default();
         }
         // A commit writes an entry once.
         let first = match &mut self.commit {
@@ -357,9 +359,9 @@ impl<'a> Watch<'a> {
 impl State {
     /// What an entry holds or a signal says; nothing inside for an unset entry, an object, or a signal that measured
     /// nothing or fell silent; none at all for a signal that said nothing yet.
-    fn held(&self, subject: &Subject) -> Option<Option<Constant>> {
+    fn held(&self, subject: &Subject) -> Option<Option<Held>> {
         match subject {
-            Subject::Entry(entry) => Some(self.entries.get(*entry as usize).and_then(constant)),
+            Subject::Entry(entry) => Some(self.entries.get(*entry as usize).and_then(held)),
             Subject::Signal(signal, field) => self.signals.said(signal, *field),
         }
     }
@@ -372,23 +374,17 @@ impl State {
                 let unit = self.units.get(*entry as usize).map_or("", String::as_str);
                 match self.named.get(*entry as usize)? {
                     Datum::Unset => None,
-                    value => Some(value.in_unit(unit)),
+                    value => Some(value.in_unit(unit).to_string()),
                 }
             }
         }
     }
 }
 
-/// A value as the compiler has it; `None` for an unset entry or an object.
-fn constant(value: &Value) -> Option<Constant> {
-    Some(match value {
-        Value::Bool(value) => Constant::Bool(*value),
-        Value::Int(value) => Constant::Int(*value),
-        Value::Float(value) => Constant::Float(*value),
-        Value::Text(text) => Constant::Text(text.as_str().to_owned()),
-        Value::Choice(value) => Constant::Choice(*value),
-        Value::Unset | Value::Object(_) => return None,
-    })
+/// A value as it is compared; `None` for an unset entry or an object.
+fn held(value: &Value) -> Option<Held> {
+    let is_compared = !matches!(value, Value::Unset | Value::Object(_));
+    is_compared.then(|| value.as_deref().map(str::to_owned, |choice| choice, |object| object))
 }
 
 /// An outcome of the trace.

@@ -49,7 +49,7 @@ pub use target::Target;
 pub use text::{Nanoseconds, Rounded};
 pub use time::{Duration, Instant};
 pub use units::SingleUnit;
-pub use value::{Text, Value, ValueRef};
+pub use value::{Text, Value, ValueOf, ValueRef};
 
 use core::fmt;
 

@@ -1,36 +1,21 @@
-//! Values as the trace, outside writers and loaded plans see them, and the text that an entry holds in place.
+//! Values of the language, and the text that an entry holds in place.
+//!
+//! Compiler, scheduler, trace and logs have the same kinds of values. They differ in how they hold a text, and in whether
+//! the values of enums and the objects have numbers or names.
 
 use core::cmp::Ordering;
 use core::fmt;
+use core::ops::Deref;
 
-use crate::{Error, MAX_TEXT};
+use crate::{Error, MAX_TEXT, Measured};
 
 /// A text of at most [`MAX_TEXT`] bytes, in place.
-#[derive(Clone, Default, PartialEq, Eq)]
+#[derive(Clone, Default, PartialEq, Eq, Hash)]
 pub struct Text(heapless::String<MAX_TEXT>);
 
-/// A value that borrows its text: cheap to pass to a trace.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ValueRef<'a> {
-    /// Nobody has written it yet.
-    Unset,
-    /// A truth value.
-    Bool(bool),
-    /// An integer.
-    Int(i64),
-    /// A number or a quantity in SI units.
-    Float(f64),
-    /// A text.
-    Text(&'a str),
-    /// A value of an enum, by position.
-    Choice(u16),
-    /// An object, known by the number of the commit that wrote it.
-    Object(u32),
-}
-
-/// A value that owns its text.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Value {
+/// A value: a text is held as `T`, the value of an enum as `C`, an object as `O`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ValueOf<T, C = u16, O = u32> {
     /// Nobody has written it yet.
     #[default]
     Unset,
@@ -41,12 +26,18 @@ pub enum Value {
     /// A number or a quantity in SI units.
     Float(f64),
     /// A text.
-    Text(Text),
-    /// A value of an enum, by position.
-    Choice(u16),
-    /// An object, known by the number of the commit that wrote it.
-    Object(u32),
+    Text(T),
+    /// A value of an enum: its position or its name.
+    Choice(C),
+    /// An object: the number of the commit that wrote it, or that with the name of its type.
+    Object(O),
 }
+
+/// A value that owns its text.
+pub type Value = ValueOf<Text>;
+
+/// A value that borrows its text: cheap to pass to a trace.
+pub type ValueRef<'a> = ValueOf<&'a str>;
 
 impl Text {
     /// The empty text.
@@ -89,21 +80,116 @@ impl TryFrom<&str> for Text {
     }
 }
 
+impl Deref for Text {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        self.as_str()
+    }
+}
+
+impl AsRef<str> for Text {
+    fn as_ref(&self) -> &str {
+        self
+    }
+}
+
+impl PartialEq<str> for Text {
+    fn eq(&self, other: &str) -> bool {
+        self.as_str() == other
+    }
+}
+
+impl PartialEq<&str> for Text {
+    fn eq(&self, other: &&str) -> bool {
+        self.as_str() == *other
+    }
+}
+
 impl fmt::Debug for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(self.as_str(), f)
     }
 }
 
+impl fmt::Display for Text {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self)
+    }
+}
+
+impl<T, C, O> ValueOf<T, C, O> {
+    /// The same value, its text, choice or object held in another way.
+    pub fn map<U, D, P>(
+        self,
+        text: impl FnOnce(T) -> U,
+        choice: impl FnOnce(C) -> D,
+        object: impl FnOnce(O) -> P,
+    ) -> ValueOf<U, D, P> {
+        let (text, choice) = (|it| Some(text(it)), |it| Some(choice(it)));
+        self.try_map(text, choice, |it| Some(object(it))).unwrap_or_default()
+    }
+
+    /// The same value, its text, choice or object held in another way; none where that cannot be.
+    pub fn try_map<U, D, P>(
+        self,
+        text: impl FnOnce(T) -> Option<U>,
+        choice: impl FnOnce(C) -> Option<D>,
+        object: impl FnOnce(O) -> Option<P>,
+    ) -> Option<ValueOf<U, D, P>> {
+        Some(match self {
+            ValueOf::Unset => ValueOf::Unset,
+            ValueOf::Bool(value) => ValueOf::Bool(value),
+            ValueOf::Int(value) => ValueOf::Int(value),
+            ValueOf::Float(value) => ValueOf::Float(value),
+            ValueOf::Text(value) => ValueOf::Text(text(value)?),
+            ValueOf::Choice(value) => ValueOf::Choice(choice(value)?),
+            ValueOf::Object(value) => ValueOf::Object(object(value)?),
+        })
+    }
+
+    /// The value as people write it; a number is in the SI unit `unit`, empty for none.
+    pub fn in_unit<'a>(&'a self, unit: &'a str) -> impl fmt::Display + 'a
+    where
+        Self: fmt::Display,
+    {
+        fmt::from_fn(move |f| match self {
+            ValueOf::Float(number) => write!(f, "{}", Measured::new(*number, unit)),
+            other => write!(f, "{other}"),
+        })
+    }
+
+    /// Writes the value as in a plan; a quantity in SI units without the unit, which the entry knows.
+    fn write(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        choice: impl FnOnce(&C, &mut fmt::Formatter<'_>) -> fmt::Result,
+        object: impl FnOnce(&O, &mut fmt::Formatter<'_>) -> fmt::Result,
+    ) -> fmt::Result
+    where
+        T: AsRef<str>,
+    {
+        match self {
+            ValueOf::Unset => f.write_str("unset"),
+            ValueOf::Bool(value) => write!(f, "{value}"),
+            ValueOf::Int(value) => write!(f, "{value}"),
+            ValueOf::Float(value) => write!(f, "{value}"),
+            ValueOf::Text(value) => write!(f, "{:?}", value.as_ref()),
+            ValueOf::Choice(value) => choice(value, f),
+            ValueOf::Object(value) => object(value, f),
+        }
+    }
+}
+
 impl Value {
     /// The same value, its text borrowed.
-    pub fn borrow(&self) -> ValueRef<'_> {
+    pub fn as_deref(&self) -> ValueRef<'_> {
         match self {
             Value::Unset => ValueRef::Unset,
             Value::Bool(value) => ValueRef::Bool(*value),
             Value::Int(value) => ValueRef::Int(*value),
             Value::Float(value) => ValueRef::Float(*value),
-            Value::Text(value) => ValueRef::Text(value.as_str()),
+            Value::Text(value) => ValueRef::Text(value),
             Value::Choice(value) => ValueRef::Choice(*value),
             Value::Object(value) => ValueRef::Object(*value),
         }
@@ -119,32 +205,63 @@ impl ValueRef<'_> {
         }
     }
 
-    /// The same value, owning its text; one longer than [`MAX_TEXT`], which no plan has, is empty.
-    pub fn to_owned(self) -> Value {
-        match self {
-            ValueRef::Unset => Value::Unset,
-            ValueRef::Bool(value) => Value::Bool(value),
-            ValueRef::Int(value) => Value::Int(value),
-            ValueRef::Float(value) => Value::Float(value),
-            ValueRef::Text(value) => Value::Text(Text::try_from(value).unwrap_or_default()),
-            ValueRef::Choice(value) => Value::Choice(value),
-            ValueRef::Object(value) => Value::Object(value),
-        }
+    /// The same value, owning its text.
+    ///
+    /// # Errors
+    /// [`Error::TooLong`] for a text that no entry holds.
+    pub fn to_value(self) -> Result<Value, Error> {
+        self.try_map(|text| text.try_into().ok(), Some, Some).ok_or(Error::TooLong)
     }
 }
 
-impl fmt::Display for ValueRef<'_> {
-    /// As in a plan, quantities in SI units without the unit, which the entry knows.
+impl<T: AsRef<str>> fmt::Display for ValueOf<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ValueRef::Unset => f.write_str("unset"),
-            ValueRef::Bool(value) => write!(f, "{value}"),
-            ValueRef::Int(value) => write!(f, "{value}"),
-            ValueRef::Float(value) => write!(f, "{value}"),
-            ValueRef::Text(value) => write!(f, "{value:?}"),
-            ValueRef::Choice(value) => write!(f, "#{value}"),
-            ValueRef::Object(value) => write!(f, "object#{value}"),
-        }
+        self.write(f, |choice, f| write!(f, "#{choice}"), |object, f| write!(f, "object#{object}"))
+    }
+}
+
+impl<S: AsRef<str>> fmt::Display for ValueOf<S, S, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |name: &S, f: &mut fmt::Formatter<'_>| f.write_str(name.as_ref());
+        self.write(f, name, name)
+    }
+}
+
+impl<T, C, O> From<bool> for ValueOf<T, C, O> {
+    fn from(value: bool) -> Self {
+        ValueOf::Bool(value)
+    }
+}
+
+impl<T, C, O> From<i64> for ValueOf<T, C, O> {
+    fn from(value: i64) -> Self {
+        ValueOf::Int(value)
+    }
+}
+
+impl<T, C, O> From<f64> for ValueOf<T, C, O> {
+    fn from(value: f64) -> Self {
+        ValueOf::Float(value)
+    }
+}
+
+impl From<Text> for Value {
+    fn from(text: Text) -> Self {
+        Value::Text(text)
+    }
+}
+
+impl TryFrom<&str> for Value {
+    type Error = Error;
+
+    fn try_from(text: &str) -> Result<Self, Error> {
+        Text::try_from(text).map(Value::Text)
+    }
+}
+
+impl<'a> From<&'a str> for ValueRef<'a> {
+    fn from(text: &'a str) -> Self {
+        ValueRef::Text(text)
     }
 }
 

@@ -4,7 +4,6 @@
 //! instance of a checked graph. Everything is allocated then; a step allocates nothing.
 
 mod config;
-mod constant;
 mod error;
 mod formula;
 mod inject;
@@ -19,7 +18,6 @@ mod tables;
 
 pub use afp_core::rt::{Args, BadValue, Outputs};
 pub use afp_dsl::graph::Graph;
-pub use constant::value_of;
 pub use error::LoadError;
 pub use inject::{Injection, NotInjected};
 pub use library::load;

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::Module;
 use crate::Options;
@@ -188,11 +188,12 @@ fn value(type_paths: &TypePaths<'_>, ty: &Type, cell: &Cell) -> TokenStream {
             type_paths.constant(*dimension, *value)
         }
         (Constant::Float(value), _) => type_paths.constant(Dimension::NONE, *value),
-        (Constant::Text(text), _) => quote!(#text),
+        (Constant::Text(text), _) => text.as_str().to_token_stream(),
         (Constant::Choice(place), Type::Enum(choices)) => {
             let (path, variant) = (type_paths.value(ty), variant(choices, *place));
             quote!(#path::#variant)
         }
-        (Constant::Choice(place), _) => int(*place),
+        // The check lets no other value into a cell.
+        _ => TokenStream::new(),
     }
 }

@@ -139,7 +139,7 @@ fn give(core: &TokenStream, number: u16, port: &OutPort) -> TokenStream {
         Type::Enum(_) => quote!(to.choice(#number, #core::rt::Choice::index(#name));),
         Type::Object(_) => quote!(to.object(#number, &mut Some(#name));),
         Type::Any | Type::Number | Type::Discrete => {
-            quote!(to.value(#number, #core::rt::Stored::as_value(&#name).to_owned());)
+            quote!(to.value(#number, #core::rt::Stored::to_value(&#name));)
         }
     }
 }

@@ -89,15 +89,12 @@ fn show(ty: &Type, value: f64) -> String {
 
 fn constant(ty: &Type, value: &Constant) -> String {
     match (value, ty) {
-        (Constant::Bool(value), _) => value.to_string(),
-        (Constant::Int(value), _) => value.to_string(),
         (Constant::Float(value), ty) => show(ty, *value),
-        (Constant::Text(text), _) => format!("{text:?}"),
         (Constant::Choice(index), Type::Enum(choices)) => {
             let name = choices.variants.get(usize::from(*index));
             format!("{}.{}", choices.name, name.map_or("", |name| name))
         }
-        (Constant::Choice(index), _) => index.to_string(),
+        (value, _) => value.to_string(),
     }
 }
 

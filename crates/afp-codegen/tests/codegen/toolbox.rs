@@ -309,7 +309,7 @@ pub mod watch {
         fn give(self, to: &mut dyn ::afp_core::rt::Outputs) {
             match self {
                 Event::Changed { seen: value_0, side: value_1 } => {
-                    to.value(0, ::afp_core::rt::Stored::as_value(&value_0).to_owned());
+                    to.value(0, ::afp_core::rt::Stored::to_value(&value_0));
                     to.choice(1, ::afp_core::rt::Choice::index(value_1));
                 }
                 Event::Same { side: value_1 } => {

@@ -14,6 +14,11 @@ pub trait Stored: Default {
     /// The value as a trace shows it.
     fn as_value(&self) -> ValueRef<'_>;
 
+    /// The value, owning its text; a text that is stored fits.
+    fn to_value(&self) -> Value {
+        self.as_value().to_value().unwrap_or_default()
+    }
+
     /// Called once when a commit writes the value, with the number of that commit.
     fn committed(&mut self, _commit: u32) {}
 
@@ -255,7 +260,7 @@ impl Any for Text {}
 
 impl Stored for Value {
     fn as_value(&self) -> ValueRef<'_> {
-        self.borrow()
+        self.as_deref()
     }
 
     fn committed(&mut self, commit: u32) {

@@ -119,7 +119,7 @@ impl<P: PlanState> Scheduler<P> {
         entry: TypedEntry<P, T>,
         value: T,
     ) -> Result<(), WriteError> {
-        self.write(entry.position, value.as_value().to_owned())
+        self.write(entry.position, value.to_value())
     }
 
     /// As [`Scheduler::set`], by name, with the value as it would stand in the plan; a text without its quotes.

@@ -68,7 +68,7 @@ impl Scripted {
 
     fn see<R: Run<Env = World>>(&self, live: Option<&'static str>, who: &str, cx: &mut Cx<'_, R>) {
         if let Some(entry) = live {
-            let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].borrow());
+            let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].as_deref());
             cx.env.saw(cx.now, who, &value);
         }
     }
@@ -147,7 +147,7 @@ impl PlanState for Scripted {
     }
 
     fn entry(&self, entry: u16) -> ValueRef<'_> {
-        self.entries[usize::from(entry)].borrow()
+        self.entries[usize::from(entry)].as_deref()
     }
 
     fn accepts(&self, entry: u16, value: &Value) -> Result<(), WriteError> {
@@ -175,7 +175,7 @@ impl PlanState for Scripted {
     fn commit<S: Sink>(&mut self, to: &mut Committer<'_, S>) {
         for (index, staged) in self.staged.iter_mut().enumerate() {
             if let Some(new) = staged.take() {
-                to.wrote(index as u16, self.entries[index].borrow(), new.borrow());
+                to.wrote(index as u16, self.entries[index].as_deref(), new.as_deref());
                 self.entries[index] = new;
             }
         }
@@ -231,7 +231,7 @@ impl Plan<World> for Scripted {
         let computes = row.kind == ElementKind::Computation;
         assert!(computes || self.running.is_none(), "two elements run at once");
         for entry in &row.reads {
-            let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].borrow());
+            let value = format!("{}", self.entries[usize::from(self.spec.entry(entry))].as_deref());
             cx.env.saw(cx.now, row.name, &value);
         }
         if row.kind == ElementKind::SubPlan {

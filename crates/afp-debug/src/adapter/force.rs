@@ -129,15 +129,14 @@ impl Run<'_> {
                 let event = &what.event;
                 match &force.what {
                     What::Value(_) => {
-                        event.kind == EventKind::Committed
-                            && event.entry == force.path
-                            && event.component_id != OUTSIDE
+                        matches!(&event.kind, EventKind::Committed { entry, .. } if *entry == force.path)
+                            && event.component.id != OUTSIDE
                     }
                     What::Outcome { component, .. } => {
-                        event.component_id == *component
+                        event.component.id == *component
                             && matches!(
                                 event.kind,
-                                EventKind::Started | EventKind::AlreadyThere | EventKind::Event
+                                EventKind::Started | EventKind::AlreadyThere(_) | EventKind::Event(_)
                             )
                     }
                 }

@@ -100,7 +100,7 @@ impl Run<'_> {
         let Mode::Goto(to) = self.mode else { return Ok(()) };
         let plan = self.target.program().unit(to).map(|unit| unit.plan);
         let moved = happened.iter().any(|what| {
-            let unit = self.target.program().unit(what.event.component_id);
+            let unit = self.target.program().unit(what.event.component.id);
             let started = what.event.kind == EventKind::Started;
             started
                 && unit.is_some_and(|unit| {
@@ -114,8 +114,8 @@ impl Run<'_> {
 /// Whether something has come to the element that one goes to; computations are done as soon as they begin.
 pub(super) fn is_there(happened: &[Happened], to: ComponentId) -> bool {
     happened.iter().any(|what| {
-        let kind = matches!(what.event.kind, EventKind::Started | EventKind::Finished);
-        kind && what.event.component_id == to
+        let kind = matches!(what.event.kind, EventKind::Started | EventKind::Finished(_));
+        kind && what.event.component.id == to
     })
 }
 

@@ -132,7 +132,7 @@ impl Word<'_> {
         let id = self.unit?;
         let (_, si_unit) = self.program.unit(id)?.inputs.iter().find(|port| port.0 == self.text)?;
         let value = self.state.inputs(id).find(|(name, _)| *name == self.text);
-        let value = value.map(|(_, value)| value.in_unit(si_unit));
+        let value = value.map(|(_, value)| value.in_unit(si_unit).to_string());
         Some(HoverText::from(value.unwrap_or_else(|| "not read yet".to_owned())))
     }
 

@@ -180,7 +180,8 @@ impl Adapter<'_> {
         let entries = (0..).zip(&program.entries).filter(|(_, entry)| entry.plan == plan);
         let shown = entries.map(|(number, entry)| {
             let value = state.entry(TraceEntryId(number));
-            let value = value.map_or("unset".to_owned(), |value| value.in_unit(&entry.unit));
+            let value =
+                value.map_or("unset".to_owned(), |value| value.in_unit(&entry.unit).to_string());
             let fixed = entry.kind == EntryKind::Const || plan != FLOW;
             let hint = fixed.then(|| dapts::VariablePresentationHint {
                 attributes: Some(vec![dapts::VariablePresentationHintAttributes::ReadOnly]),
@@ -204,7 +205,9 @@ impl Adapter<'_> {
         let unit =
             |name: &str| ports.iter().find(|port| port.0 == name).map_or("", |port| &*port.1);
         let inputs = run.target.state().inputs(id);
-        Ok(inputs.map(|(name, value)| variable(name, value.in_unit(unit(name)))).collect())
+        Ok(inputs
+            .map(|(name, value)| variable(name, value.in_unit(unit(name)).to_string()))
+            .collect())
     }
 
     /// What the entries hold that a component writes, by its ports: what it has ready is written when it is done.
@@ -215,8 +218,9 @@ impl Adapter<'_> {
         let shown = outputs.iter().filter_map(|(port, path)| {
             let number = program.entries.iter().position(|entry| entry.path == *path)?;
             let value = state.entry(TraceEntryId(number as u32));
-            let value = value
-                .map_or("unset".to_owned(), |value| value.in_unit(&program.entries[number].unit));
+            let value = value.map_or("unset".to_owned(), |value| {
+                value.in_unit(&program.entries[number].unit).to_string()
+            });
             Some(dapts::Variable {
                 evaluate_name: Some(path.clone()),
                 ..variable(&format!("{port} => {path}"), value)

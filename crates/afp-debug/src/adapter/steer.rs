@@ -279,11 +279,10 @@ impl Run<'_> {
             |plan| happened.iter().any(|what| is_transition(what, self.target.program(), plan));
         let ended = |plan| {
             happened.iter().any(|what| {
-                let (kind, id) = (what.event.kind, what.event.component_id);
-                id == plan
+                what.event.component.id == plan
                     && matches!(
-                        kind,
-                        EventKind::Ended | EventKind::Interrupted | EventKind::Finished
+                        what.event.kind,
+                        EventKind::Ended { .. } | EventKind::Interrupted | EventKind::Finished(_)
                     )
             })
         };
@@ -302,14 +301,17 @@ impl Run<'_> {
 pub(super) fn is_transition(what: &Happened, program: &Program, plan: Option<ComponentId>) -> bool {
     use afp_dsl::unfold::ComponentKind;
     let event = &what.event;
-    let Some(unit) = program.unit(event.component_id) else { return false };
+    let Some(unit) = program.unit(event.component.id) else { return false };
     let element = matches!(
         unit.kind,
         ComponentKind::Actor | ComponentKind::SubPlan | ComponentKind::Computation
     );
     let kind = matches!(
         event.kind,
-        EventKind::Started | EventKind::Finished | EventKind::Interrupted | EventKind::Diverted
+        EventKind::Started
+            | EventKind::Finished(_)
+            | EventKind::Interrupted
+            | EventKind::Diverted { .. }
     );
     kind && element && plan.is_none_or(|plan| unit.plan == plan)
 }

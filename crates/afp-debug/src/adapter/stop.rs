@@ -29,11 +29,11 @@ impl Kind {
 impl Adapter<'_> {
     /// Says what happened, with its place; what components read and see stands in their scopes.
     pub(super) fn say(&mut self, run: &Run<'_>, what: &Happened) {
-        if matches!(what.event.kind, EventKind::Input | EventKind::Polled) {
+        if matches!(what.event.kind, EventKind::Input { .. } | EventKind::Polled(_)) {
             return;
         }
         let at = what.event.at.as_secs_f64();
-        let text = match &what.event.request {
+        let text = match what.event.facts().request {
             Some(Requested { what, done: Done::Refused(why), .. }) => {
                 format!("{at:>10.3}  {what} (from outside) is refused: {why}\n")
             }
@@ -41,8 +41,9 @@ impl Adapter<'_> {
             None => format!("{at:>10.3}  {}\n", what.text),
         };
         let program = run.target.program();
-        let place = program.unit(what.event.component_id).map(|unit| unit.at);
-        let refused = matches!(&what.event.request, Some(Requested { done: Done::Refused(_), .. }));
+        let place = program.unit(what.event.component.id).map(|unit| unit.at);
+        let refused =
+            matches!(what.event.facts().request, Some(Requested { done: Done::Refused(_), .. }));
         let mut said = super::output(if refused { "stderr" } else { "console" }, &text);
         let place = place.filter(|_| !what.text.is_empty());
         said.source = place.and_then(|place| source(program, place.file));
@@ -132,7 +133,7 @@ impl Adapter<'_> {
             .zip(&program.entries)
             .filter_map(|(number, entry)| {
                 let value = state.entry(afp_core::trace::TraceEntryId(number))?;
-                Some((entry.path.clone(), json!(value.in_unit(&entry.unit))))
+                Some((entry.path.clone(), json!(value.in_unit(&entry.unit).to_string())))
             })
             .collect();
         let stack: Vec<_> = state.stack().into_iter().map(path).collect();

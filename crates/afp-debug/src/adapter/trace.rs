@@ -82,29 +82,29 @@ fn record(what: &Happened, step: u64, program: &Program) -> Option<Value> {
     let event = &what.event;
     let kind = match event.kind {
         EventKind::Started => "started",
-        EventKind::Finished => "finished",
+        EventKind::Finished(_) => "finished",
         EventKind::Interrupted => "interrupted",
-        EventKind::Diverted => "diverted",
-        EventKind::Event => "event",
-        EventKind::Committed => "committed",
-        EventKind::Missed => "missed",
-        EventKind::Faulted => "faulted",
-        EventKind::Ended => "ended",
-        EventKind::Requested => "requested",
+        EventKind::Diverted { .. } => "diverted",
+        EventKind::Event(_) => "event",
+        EventKind::Committed { .. } => "committed",
+        EventKind::Missed(_) => "missed",
+        EventKind::Faulted(_) => "faulted",
+        EventKind::Ended { .. } => "ended",
+        EventKind::Requested(_) => "requested",
         _ => return None,
     };
     let mut record = json!({
-        "at": event.at.as_secs_f64(), "step": step, "kind": kind, "path": event.component, "text": what.text,
+        "at": event.at.as_secs_f64(), "step": step, "kind": kind, "path": event.component.path, "text": what.text,
     });
-    if program.unit(event.component_id).is_some_and(|unit| unit.kind == ComponentKind::Supervisor) {
+    if program.unit(event.component.id).is_some_and(|unit| unit.kind == ComponentKind::Supervisor) {
         record["supervisor"] = json!(true);
     }
-    if let Some(request) = &event.request {
+    if let Some(request) = event.facts().request {
         record["text"] = json!(request.what.to_string());
     }
-    if event.kind == EventKind::Committed {
-        record["entry"] = json!(event.entry);
-        record["value"] = json!(event.value.as_ref().map(|value| value.in_unit(&event.unit)));
+    if let EventKind::Committed { entry, new, unit, .. } = &event.kind {
+        record["entry"] = json!(entry);
+        record["value"] = json!(new.in_unit(unit).to_string());
     }
     Some(record)
 }

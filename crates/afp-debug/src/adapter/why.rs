@@ -133,7 +133,7 @@ fn values(program: &Program, state: &State, id: ComponentId) -> Map<String, Valu
     let ports = program.unit(id).map_or(&[][..], |unit| &unit.inputs);
     let unit = |name: &str| ports.iter().find(|port| port.0 == name).map_or("", |port| &*port.1);
     let shown = |(name, value): (&str, &afp_session::Datum)| {
-        (name.to_owned(), json!(value.in_unit(unit(name))))
+        (name.to_owned(), json!(value.in_unit(unit(name)).to_string()))
     };
     state.inputs(id).map(shown).collect()
 }

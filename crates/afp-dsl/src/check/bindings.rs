@@ -255,9 +255,7 @@ fn inputs(
                 missing.push(input);
                 None
             }
-            None => {
-                input.default.clone().and_then(|value| Some(of_constant(value, ty?, input.span)))
-            }
+            None => input.default.clone().and_then(|value| of_constant(value, ty?, input.span)),
         };
         formulas.push(formula);
     }

@@ -165,15 +165,16 @@ impl Scope<'_> {
 }
 
 /// A value as a formula.
-pub(crate) fn of_constant(value: Constant, ty: &Type, span: Span) -> Formula {
+pub(crate) fn of_constant(value: Constant, ty: &Type, span: Span) -> Option<Formula> {
     let kind = match value {
         Constant::Bool(value) => FormulaKind::Bool(value),
         Constant::Int(value) => FormulaKind::Int(value),
         Constant::Float(value) => FormulaKind::Float(value),
-        Constant::Text(text) => FormulaKind::Text(text),
+        Constant::Text(text) => FormulaKind::Text(text.to_string()),
         Constant::Choice(place) => FormulaKind::Choice(place),
+        Constant::Unset | Constant::Object(_) => return None,
     };
-    Formula { kind, ty: ty.clone(), span }
+    Some(Formula { kind, ty: ty.clone(), span })
 }
 
 struct Typer<'a> {

@@ -5,7 +5,7 @@
 //! whatever becomes of the quotient.
 
 use afp_types::{
-    Error, MAX_TEXT, Quantity, Unit, bool_to_float, bool_to_int, finite, float_to_int, int_add,
+    Error, Quantity, Text, Unit, bool_to_float, bool_to_int, finite, float_to_int, int_add,
     int_mul, int_neg, int_rem, int_sub, int_to_float, parse_bool, parse_choice, parse_float,
     parse_int, parse_quantity, rem,
 };
@@ -39,8 +39,7 @@ fn part(
         FormulaKind::Bool(value) => Some(Constant::Bool(*value)),
         FormulaKind::Int(value) => Some(Constant::Int(*value)),
         FormulaKind::Float(value) => Some(Constant::Float(*value)),
-        FormulaKind::Text(text) if text.len() > MAX_TEXT => return Err(Error::TooLong),
-        FormulaKind::Text(text) => Some(Constant::Text(text.clone())),
+        FormulaKind::Text(text) => Some(Constant::try_from(text.as_str())?),
         FormulaKind::Choice(value) => Some(Constant::Choice(*value)),
         FormulaKind::Entry(id) => entry(id.0),
         FormulaKind::Neg(inner) => match part(inner, entry)? {
@@ -79,12 +78,9 @@ fn binary(
         (Some(Constant::Float(left)), Some(Constant::Float(right))) => {
             Some(Constant::Float(floats(operator, left, right)?))
         }
-        (Some(Constant::Text(left)), Some(Constant::Text(right))) => {
-            let joined = left + &right;
-            if joined.len() > MAX_TEXT {
-                return Err(Error::TooLong);
-            }
-            Some(Constant::Text(joined))
+        (Some(Constant::Text(mut text)), Some(Constant::Text(right))) => {
+            text.push(&right)?;
+            Some(Constant::Text(text))
         }
         _ => None,
     })
@@ -142,13 +138,7 @@ pub(crate) fn convert(conversion: &Conversion, value: Constant) -> Result<Consta
         (Conversion::FloatToInt, Constant::Float(value)) => Constant::Int(float_to_int(value)?),
         (Conversion::BoolToInt, Constant::Bool(value)) => Constant::Int(bool_to_int(value)),
         (Conversion::BoolToFloat, Constant::Bool(value)) => Constant::Float(bool_to_float(value)),
-        (Conversion::ToText(ty), value) => {
-            let text = to_text(&value, ty)?;
-            if text.len() > MAX_TEXT {
-                return Err(Error::TooLong);
-            }
-            Constant::Text(text)
-        }
+        (Conversion::ToText(ty), value) => Constant::Text(to_text(value, ty)?),
         (Conversion::FromText(ty), Constant::Text(text)) => from_text(&text, ty)?,
         (_, value) => value,
     })
@@ -156,23 +146,21 @@ pub(crate) fn convert(conversion: &Conversion, value: Constant) -> Result<Consta
 
 /// The text of a value: shortest decimal that reads back as the same number, SI unit behind a
 /// quantity, name of an enum's value.
-fn to_text(value: &Constant, ty: &Type) -> Result<String, Error> {
-    Ok(match (value, ty) {
-        (Constant::Bool(value), _) => value.to_string(),
-        (Constant::Int(value), _) => value.to_string(),
+fn to_text(value: Constant, ty: &Type) -> Result<Text, Error> {
+    match (value, ty) {
         (Constant::Float(value), ty) => {
             let unit = match ty {
                 Type::Quantity(dimension) => dimension.si_unit(),
                 _ => String::new(),
             };
-            Quantity { value: finite(*value)?, unit: &unit }.to_string()
+            Text::print(Quantity { value: finite(value)?, unit: &unit })
         }
-        (Constant::Text(text), _) => text.clone(),
+        (Constant::Text(text), _) => Ok(text),
         (Constant::Choice(index), Type::Enum(choices)) => {
-            choices.variants.get(usize::from(*index)).cloned().unwrap_or_default()
+            choices.variants.get(usize::from(index)).map_or("", |name| name).try_into()
         }
-        (Constant::Choice(index), _) => index.to_string(),
-    })
+        (value, _) => Text::print(value),
+    }
 }
 
 /// The value of a text, as it is read at run time.
@@ -186,7 +174,7 @@ fn from_text(text: &str, ty: &Type) -> Result<Constant, Error> {
             let units = units.iter().map(|unit| Unit { name: &unit.name, scale: unit.scale });
             parse_quantity(text, units).map(Constant::Float)
         }
-        Type::Text => Ok(Constant::Text(text.to_owned())),
+        Type::Text => Constant::try_from(text),
         Type::Enum(choices) => {
             let names = choices.variants.iter().map(String::as_str);
             parse_choice(text, names).map(Constant::Choice)

@@ -1,6 +1,6 @@
 //! How values are compared.
 
-use crate::types::Constant;
+use afp_types::ValueOf;
 
 /// How two values compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,12 +39,12 @@ impl Comparison {
     }
 
     /// Whether two values compare so; an order is known of numbers alone, of which an int and a float compare as floats.
-    pub fn holds(self, left: &Constant, right: &Constant) -> bool {
+    pub fn holds<T: PartialEq>(self, left: &ValueOf<T>, right: &ValueOf<T>) -> bool {
         let order = match (left, right) {
-            (Constant::Int(left), Constant::Int(right)) => left.partial_cmp(right),
-            (Constant::Float(left), Constant::Float(right)) => left.partial_cmp(right),
-            (Constant::Int(left), Constant::Float(right)) => (*left as f64).partial_cmp(right),
-            (Constant::Float(left), Constant::Int(right)) => left.partial_cmp(&(*right as f64)),
+            (ValueOf::Int(left), ValueOf::Int(right)) => left.partial_cmp(right),
+            (ValueOf::Float(left), ValueOf::Float(right)) => left.partial_cmp(right),
+            (ValueOf::Int(left), ValueOf::Float(right)) => (*left as f64).partial_cmp(right),
+            (ValueOf::Float(left), ValueOf::Int(right)) => left.partial_cmp(&(*right as f64)),
             _ if left == right => Some(std::cmp::Ordering::Equal),
             _ => None,
         };

@@ -36,7 +36,7 @@ fn now(entry: EntryId) -> Option<Constant> {
         Some(Constant::Float(0.3)),
         Some(Constant::Int(4)),
         Some(Constant::Bool(true)),
-        Some(Constant::Text("a < b".to_owned())),
+        Some(Constant::try_from("a < b").unwrap()),
         Some(Constant::Choice(1)),
         None,
     ][entry.index()]

@@ -260,11 +260,11 @@ impl Shared {
 fn shown(datum: &Datum, unit: &str) -> Value {
     match datum {
         Datum::Unset | Datum::Object(_) => Value::Null,
-        Datum::Truth(truth) => json!(truth),
-        Datum::Integer(integer) => json!(integer),
-        Datum::Number(number) if unit.is_empty() => json!(number),
+        Datum::Bool(truth) => json!(truth),
+        Datum::Int(integer) => json!(integer),
+        Datum::Float(number) if unit.is_empty() => json!(number),
         Datum::Text(text) | Datum::Choice(text) => json!(text),
-        Datum::Number(_) => json!(datum.in_unit(unit)),
+        Datum::Float(_) => json!(datum.in_unit(unit).to_string()),
     }
 }
 

@@ -10,7 +10,7 @@ use std::thread::JoinHandle;
 use crate::Messages;
 use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, Instant};
-use afp_session::{AnySession, Datum, HOLD, Holder, Request, Stimulus};
+use afp_session::{AnySession, HOLD, Holder, Request, Stimulus};
 
 use super::admission::Tokens;
 use super::hub::{Asked, Hub, Question, Service, Stream, Written};
@@ -116,7 +116,7 @@ fn write(session: &mut dyn AnySession, entry: &str, text: &str) -> Written {
             let names = session.names();
             let mut ids = (0..names.entries()).map(TraceEntryId);
             let id = ids.find(|id| names.entry(*id).path == entry);
-            Ok(Datum::new(names, id.map_or(Holder::Unknown, Holder::Entry), value.borrow()))
+            Ok(id.map_or(Holder::Unknown, Holder::Entry).named(names, value.as_deref()))
         }
         Err(why) => Err(why.to_string()),
     }

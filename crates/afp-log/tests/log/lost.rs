@@ -87,7 +87,7 @@ fn shape(x: f64) -> Shape {
 }
 
 fn lost(log: &LogData) -> u64 {
-    log.events.iter().map(|event| event.lost).sum()
+    log.lost()
 }
 
 #[test]
@@ -121,10 +121,13 @@ fn what_got_lost_is_said_again() {
     drop(log);
     let log = read_any(&path).unwrap();
     assert!(lost(&log) > 0);
-    assert!(log.events.iter().all(|event| event.kind != EventKind::Committed), "it got lost");
+    assert!(
+        log.events.iter().all(|event| !matches!(event.kind, EventKind::Committed { .. })),
+        "it got lost"
+    );
     let last = log.configurations.last().unwrap();
-    assert_eq!((last.at, &last.entries[0].1), (at(40), &Datum::Number(0.3)));
-    let said = [(at(0), Datum::Truth(false)), (at(40), Datum::Truth(true))];
+    assert_eq!((last.at, &last.entries[0].1), (at(40), &Datum::Float(0.3)));
+    let said = [(at(0), Datum::Bool(false)), (at(40), Datum::Bool(true))];
     assert_eq!(log.samples["bumper/left"], said);
     assert_eq!(log.things.get("box").unwrap()[0], [2.0, 0.0]);
 }
@@ -145,5 +148,5 @@ fn how_a_run_came_out_does_not_get_lost() {
     let written = log.finish().unwrap();
     let log = read_any(&path).unwrap();
     assert_eq!((log.end["trace"].as_str(), lost(&log)), ("12ab", written.lost));
-    assert_eq!(log.configurations.last().unwrap().entries[0].1, Datum::Number(0.3));
+    assert_eq!(log.configurations.last().unwrap().entries[0].1, Datum::Float(0.3));
 }

@@ -23,7 +23,7 @@ use afp_log::{
     About, LogError, OwnedNames, Recorder, SessionLog, WhenFull, doctor, read, recover,
     recovered_name,
 };
-use afp_session::{Datum, EventKind, NamedRecord, Observer};
+use afp_session::{Datum, EventAt, EventKind, NamedRecord, Observer};
 
 /// A log whose run has begun, of a robot with those devices.
 fn begun(path: &Path, devices: &'static [DeviceRow]) -> SessionLog {
@@ -192,17 +192,17 @@ fn what_is_written_is_read() {
     assert_eq!(log.names.target_at(ComponentId(2), FIRST, ComponentId(3)), "go");
     assert_eq!(log.events.len(), 2009);
     let event = &log.events[2003];
-    assert_eq!(event.kind, EventKind::Event);
+    let EventKind::Event(EventAt { event: taken, element, on }) = &event.kind else { panic!() };
     assert_eq!(
-        (&*event.component, &*event.outcome, &*event.target),
+        (&*event.component.path, &*taken.name, &*taken.target),
         ("go.touch", "TouchSensorPressed", "terminate")
     );
-    assert_eq!((&*event.element, event.on), ("go", true));
+    assert_eq!((&*element.path, *on), ("go", true));
     let (time, pose) = log.poses[39];
     assert_eq!(time, at(2000));
     assert!((pose.x - 2.0).abs() < 1e-9 && (pose.heading - 0.25).abs() < 1e-9);
     assert_eq!(log.configurations.len(), 3);
-    let values = [("far", Datum::Number(0.3)), ("side", Datum::Choice("Side.right".to_owned()))];
+    let values = [("far", Datum::Float(0.3)), ("side", Datum::Choice("Side.right".to_owned()))];
     assert_eq!(log.configurations[2].entries, values.map(|(name, it)| (name.to_owned(), it)));
     assert_eq!(doctor(&path).unwrap(), [""; 0]);
 }
@@ -302,8 +302,8 @@ fn a_full_queue_is_counted_and_told() {
     assert!(lost > 0, "the writer cannot be faster than this loop");
     assert_eq!(log.finish().unwrap().lost, lost);
     let log = read(&path).unwrap();
-    assert_eq!(log.events.iter().map(|event| event.lost).sum::<u64>(), lost);
-    let kept = log.events.iter().filter(|event| event.kind == EventKind::Polled).count();
+    assert_eq!(log.lost(), lost);
+    let kept = log.events.iter().filter(|event| matches!(event.kind, EventKind::Polled(_))).count();
     assert_eq!(kept as u64 + lost, 200_000);
     assert!(doctor(&path).unwrap()[0].contains("were lost"));
 }

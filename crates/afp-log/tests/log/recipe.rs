@@ -9,7 +9,7 @@ use super::{Names1, at};
 
 fn requests_of_each_kind() -> Vec<Stimulus> {
     let (control, fault) = ("touch.touch".to_owned(), "wheels.slip".to_owned());
-    let outputs = vec![(1, Datum::Choice("#2".to_owned())), (2, Datum::Number(0.1))];
+    let outputs = vec![(1, Datum::Choice("#2".to_owned())), (2, Datum::Float(0.1))];
     let (component, outcome) = ("go.touch".to_owned(), "TouchSensorPressed".to_owned());
     let (entry, value) = ("side".to_owned(), Datum::Choice("Side.right".to_owned()));
     vec![
@@ -75,15 +75,15 @@ fn a_recipe_comes_back_as_it_was_written() {
         log.event(RunEvent::requested(at(2), request));
     }
     let signal = Signal { device: "battery", name: "left", unit: "" };
-    log.sample(at(3), signal, Datum::Number(0.5));
+    log.sample(at(3), signal, Datum::Float(0.5));
     log.end(at(4), vec![("trace".to_owned(), "12ab".to_owned())]);
     log.finish().unwrap();
     let log = read(&path).unwrap();
     assert!(log.has_world());
     assert_eq!(log.recipe(), recipe);
     assert_eq!(log.not_reached().count(), 4);
-    assert_eq!(log.events[1].request.as_ref().unwrap().done, become_[1]);
-    assert_eq!(log.samples["battery/left"], [(at(3), Datum::Number(0.5))]);
+    assert_eq!(log.events[1].facts().request.unwrap().done, become_[1]);
+    assert_eq!(log.samples["battery/left"], [(at(3), Datum::Float(0.5))]);
     assert_eq!(log.topics["/robot/battery/left"].schema, "afp.Sample");
     assert_eq!(log.end["trace"], "12ab");
     assert_eq!(doctor(&path).unwrap(), [""; 0]);

@@ -29,7 +29,7 @@ fn when_a_signal_falls_silent_is_logged() {
     tones.iter().zip(0..).for_each(|(tone, turn)| sample(&mut log, at(turn * 20), *tone));
     drop(log);
     let said = read(&dir.path().join("a.mcap.part")).unwrap().samples;
-    let tone = Datum::Number(880.0);
+    let tone = Datum::Float(880.0);
     let expected = [(at(20), tone.clone()), (at(60), Datum::Unset), (at(100), tone)];
     assert_eq!(said["signals/tone"], expected);
 }

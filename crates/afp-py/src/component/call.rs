@@ -87,7 +87,7 @@ impl PyTemplate {
         if let Some(see) = see {
             for (port, _, value) in &inputs.0 {
                 if let Pulled::Value(value) = value {
-                    see(*port, value.borrow());
+                    see(*port, value.as_deref());
                 }
             }
         }
@@ -213,7 +213,7 @@ impl Inputs<'_> {
         let dict = PyDict::new(py);
         for (_, port, value) in &self.0 {
             let value = match value {
-                Pulled::Value(value) => shown(py, &port.ty, value.borrow())?,
+                Pulled::Value(value) => shown(py, &port.ty, value.as_deref())?,
                 Pulled::Object(object) => object.get(py)?,
             };
             dict.set_item(&port.name, value)?;
@@ -250,7 +250,7 @@ fn pull(args: &dyn Args, number: u16, port: &InPort) -> Result<Pulled, Fault> {
         Type::Bool => Value::Bool(args.bool(number)?),
         Type::Int => Value::Int(args.int(number)?),
         Type::Quantity(_) => Value::Float(args.float(number)?),
-        Type::Text => ValueRef::Text(args.text(number)?).to_owned(),
+        Type::Text => Value::try_from(args.text(number)?)?,
         Type::Enum(_) => Value::Choice(args.choice(number)?),
         Type::Any | Type::Number | Type::Discrete => args.value(number)?,
         Type::Object(_) => {

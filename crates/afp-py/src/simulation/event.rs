@@ -37,7 +37,7 @@ impl Event {
 
     /// From a log.
     pub fn logged(event: RunEvent) -> Event {
-        let line = event.request.is_some().then(|| afp_run::event_line(&event)).flatten();
+        let line = event.facts().request.is_some().then(|| afp_run::event_line(&event)).flatten();
         Event { line: line.as_deref().map(plain), event }
     }
 }
@@ -59,109 +59,109 @@ impl Event {
     /// Whom it happened to: the path of an element or supervisor; who wrote, for `committed`.
     #[getter]
     fn component(&self) -> &str {
-        &self.event.component
+        &self.event.component.path
     }
 
     /// The state or event.
     #[getter]
     fn outcome(&self) -> Option<&str> {
-        text(&self.event.outcome)
+        self.event.facts().outcome.and_then(|it| text(&it.name))
     }
 
     /// Where the outcome leads.
     #[getter]
     fn target(&self) -> Option<&str> {
-        text(&self.event.target)
+        self.event.facts().outcome.and_then(|it| text(&it.target))
     }
 
     /// The supervisor that diverted a start, or whose event resumed.
     #[getter]
     fn supervisor(&self) -> Option<&str> {
-        text(&self.event.supervisor)
+        self.event.facts().supervisor.and_then(|it| text(&it.path))
     }
 
     /// The element that was active or being entered when an event was taken.
     #[getter]
     fn element(&self) -> Option<&str> {
-        text(&self.event.element)
+        self.event.facts().element.and_then(|it| text(&it.path))
     }
 
     /// Whether that element answered: the target is one of its `on`, not the supervisor's.
     #[getter]
     fn on(&self) -> bool {
-        self.event.on
+        self.event.facts().on
     }
 
     /// The entry that was written.
     #[getter]
     fn entry(&self) -> Option<&str> {
-        text(&self.event.entry)
+        text(self.event.facts().entry)
     }
 
     /// The input port that was read.
     #[getter]
     fn port(&self) -> Option<&str> {
-        text(&self.event.port)
+        text(self.event.facts().port)
     }
 
     /// The value before a commit.
     #[getter]
     fn old(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        value(py, self.event.old.as_ref())
+        value(py, self.event.facts().old)
     }
 
     /// The value of an entry after a commit, or of an input.
     #[getter]
     fn value(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        value(py, self.event.value.as_ref())
+        value(py, self.event.facts().value)
     }
 
     /// The SI unit of the values.
     #[getter]
     fn unit(&self) -> Option<&str> {
-        text(&self.event.unit)
+        text(self.event.facts().unit)
     }
 
     /// How a plan ended: `ok`, `interrupted`, `error`.
     #[getter]
     fn ending(&self) -> Option<&'static str> {
-        self.event.ending.map(EndingKind::word)
+        self.event.facts().ending.map(EndingKind::word)
     }
 
     /// The code of a fault.
     #[getter]
     fn fault(&self) -> Option<&str> {
-        text(&self.event.fault)
+        self.event.facts().fault.and_then(|it| text(&it.code))
     }
 
     /// The fault in words.
     #[getter]
     fn fault_text(&self) -> Option<&str> {
-        text(&self.event.fault_text)
+        self.event.facts().fault.and_then(|it| text(&it.text))
     }
 
     /// By how much a deadline was missed, seconds.
     #[getter]
     fn lateness(&self) -> Option<f64> {
-        self.event.missed.map(|miss| miss.lateness.as_secs_f64())
+        self.event.facts().miss.map(|miss| miss.lateness.as_secs_f64())
     }
 
     /// Why a deadline was missed: `late_release` or `long_poll`.
     #[getter]
     fn cause(&self) -> Option<&'static str> {
-        self.event.missed.as_ref().map(Miss::word).filter(|word| !word.is_empty())
+        self.event.facts().miss.map(Miss::word).filter(|word| !word.is_empty())
     }
 
     /// What came from outside, in the words of scenarios: `press touch.touch`.
     #[getter]
     fn request(&self) -> Option<String> {
-        self.event.request.as_ref().map(|request| request.what.to_string())
+        self.event.facts().request.map(|request| request.what.to_string())
     }
 
     /// Why what came from outside was not done: a reason, or `not reached`.
     #[getter]
     fn refused(&self) -> Option<&str> {
-        match &self.event.request.as_ref()?.done {
+        match &self.event.facts().request?.done {
             Done::Done => None,
             Done::Refused(why) => Some(why),
             Done::NotReached => Some("not reached"),
@@ -182,9 +182,10 @@ impl Event {
     }
 
     fn __hash__(&self) -> u64 {
-        let RunEvent { at, component, outcome, .. } = &self.event;
+        let RunEvent { at, component, .. } = &self.event;
+        let outcome = self.outcome().unwrap_or_default();
         let mut hasher = DefaultHasher::new();
-        (at.as_nanos(), component, outcome).hash(&mut hasher);
+        (at.as_nanos(), &component.path, outcome).hash(&mut hasher);
         hasher.finish()
     }
 
@@ -232,9 +233,9 @@ fn text(text: &str) -> Option<&str> {
 pub fn value(py: Python<'_>, value: Option<&Datum>) -> PyResult<Py<PyAny>> {
     match value {
         None | Some(Datum::Unset) => Ok(py.None()),
-        Some(Datum::Truth(truth)) => truth.into_py_any(py),
-        Some(Datum::Integer(integer)) => integer.into_py_any(py),
-        Some(Datum::Number(number)) => number.into_py_any(py),
+        Some(Datum::Bool(truth)) => truth.into_py_any(py),
+        Some(Datum::Int(integer)) => integer.into_py_any(py),
+        Some(Datum::Float(number)) => number.into_py_any(py),
         Some(Datum::Choice(choice)) => {
             choice.rsplit_once('.').map_or(&**choice, |(_, name)| name).into_py_any(py)
         }

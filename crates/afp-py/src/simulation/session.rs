@@ -15,7 +15,7 @@ use afp_dsl::graph::Graph;
 use afp_log::{OwnedNames, SessionLog, WhenFull};
 use afp_run::RunError;
 use afp_run::inputs::missing;
-use afp_session::{AnySession, Go, Observer, Pose2, Request, SampleRef, Track, refusal};
+use afp_session::{AnySession, Go, Next, Observer, Pose2, Request, SampleRef, Track, refusal};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -192,9 +192,9 @@ impl Run {
                 Ok(_) if self.keeper.refused.is_some() => {
                     return self.keeper.refused.take().map_or(Ok(true), Err);
                 }
-                Ok(Some(true)) => return Ok(true),
-                Ok(Some(false)) => return self.end(),
-                Ok(None) => halt = self.look(),
+                Ok(Next::Step) => return Ok(true),
+                Ok(Next::Ended) => return self.end(),
+                Ok(Next::BeforeStep) => halt = self.look(),
             }
         }
     }

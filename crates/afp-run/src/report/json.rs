@@ -2,7 +2,7 @@
 //!
 //! Nothing here depends on the machine: interpreter and generated binary print the same bytes.
 
-use afp_session::{Datum, Done, EndingKind, Miss, RunEvent};
+use afp_session::{Datum, Done, EndingKind, Facts, Miss, RunEvent};
 use serde::Serialize;
 
 #[derive(Default, Serialize)]
@@ -49,27 +49,27 @@ struct Line<'a> {
 
 /// An event as a line of JSON, without its end.
 pub(super) fn line(event: &RunEvent) -> Option<String> {
-    let missed = event.missed.as_ref();
-    let request = event.request.as_ref();
+    let Facts { outcome, fault, miss, request, .. } = event.facts();
+    let Facts { element, on, supervisor, entry, old, value: new, unit, ending, .. } = event.facts();
     let line = Line {
         t: event.at.as_secs_f64(),
         kind: event.kind.word(),
-        component: &event.component,
-        outcome: &event.outcome,
-        target: &event.target,
-        supervisor: &event.supervisor,
-        element: &event.element,
-        on: event.on,
-        entry: &event.entry,
-        old: event.old.as_ref().map(value),
-        new: event.value.as_ref().map(value),
-        unit: &event.unit,
-        ending: event.ending.map_or("", EndingKind::word),
-        fault: &event.fault,
-        text: &event.fault_text,
-        lateness_s: missed.map(|miss| miss.lateness.as_secs_f64()),
-        cause: missed.map_or("", Miss::word),
-        skipped: missed.map(|miss| miss.skipped),
+        component: &event.component.path,
+        outcome: outcome.map_or("", |it| &it.name),
+        target: outcome.map_or("", |it| &it.target),
+        supervisor: supervisor.map_or("", |it| &it.path),
+        element: element.map_or("", |it| &it.path),
+        on,
+        entry,
+        old: old.map(value),
+        new: new.map(value),
+        unit,
+        ending: ending.map_or("", EndingKind::word),
+        fault: fault.map_or("", |it| &it.code),
+        text: fault.map_or("", |it| &it.text),
+        lateness_s: miss.map(|miss| miss.lateness.as_secs_f64()),
+        cause: miss.map_or("", Miss::word),
+        skipped: miss.map(|miss| miss.skipped),
         request: request.map(|request| request.what.to_string()),
         refused: request.and_then(|request| match &request.done {
             Done::Refused(why) => Some(why.as_str()),
@@ -82,9 +82,9 @@ pub(super) fn line(event: &RunEvent) -> Option<String> {
 fn value(datum: &Datum) -> serde_json::Value {
     match datum {
         Datum::Unset => serde_json::Value::Null,
-        Datum::Truth(truth) => (*truth).into(),
-        Datum::Integer(integer) => (*integer).into(),
-        Datum::Number(number) => (*number).into(),
+        Datum::Bool(truth) => (*truth).into(),
+        Datum::Int(integer) => (*integer).into(),
+        Datum::Float(number) => (*number).into(),
         Datum::Text(text) | Datum::Choice(text) | Datum::Object(text) => text.as_str().into(),
     }
 }

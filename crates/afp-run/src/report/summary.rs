@@ -111,7 +111,7 @@ impl Requests {
 
 impl Observer for Requests {
     fn on_request(&mut self, applied: &Applied<'_>) {
-        self.0.extend(applied.event().request);
+        self.0.extend(applied.event().facts().request.cloned());
     }
 }
 

@@ -4,7 +4,10 @@ use std::fmt::Write;
 
 use afp_core::Duration;
 use afp_core::trace::Cause;
-use afp_session::{Datum, Done, EndingKind, EventKind, Requested, RunEvent, Stimulus};
+use afp_session::{
+    Done, EndingKind, EventAt, EventKind, FaultText, Miss, NamedComponent, NamedOutcome, Requested,
+    RunEvent, Stimulus,
+};
 use afp_types::Meaning;
 use anstyle::{AnsiColor, Style};
 
@@ -33,56 +36,54 @@ pub(super) fn head(what: &[(&str, String)]) -> String {
 /// of the event's component.
 pub(super) fn line(event: &RunEvent, template: &str) -> Option<String> {
     use EventKind as Kind;
-    let component = &event.component;
-    let text = match event.kind {
-        Kind::Input if logs(template) => logged(event),
-        Kind::Unknown | Kind::Polled | Kind::Input | Kind::Interrupted => return None,
-        Kind::ClockWentBack => {
-            let asked = event.asked.unwrap_or_default().as_secs_f64();
-            format!("{BAD}! the clock went back to {asked:.6} s{BAD:#}")
+    let component = &event.component.path;
+    let text = match &event.kind {
+        Kind::Input { port, value, unit } if logs(template) => {
+            format!("{DATA}✎ {component}: {port} = {}{DATA:#}", value.in_unit(unit))
         }
-        Kind::Requested => requested(event.request.as_ref()?),
+        Kind::Unknown | Kind::Polled(_) | Kind::Input { .. } | Kind::Interrupted => return None,
+        Kind::ClockWentBack { asked } => {
+            format!("{BAD}! the clock went back to {:.6} s{BAD:#}", asked.as_secs_f64())
+        }
+        Kind::Requested(request) => requested(request),
         Kind::StopRequested => format!("{EVENT}■ stop requested{EVENT:#}"),
-        Kind::Injected => format!("{EVENT}◇ {} (injected){EVENT:#}", outcome(component, event)),
-        Kind::Missed => missed(event),
-        Kind::Event => {
-            let answered = answered(event);
+        Kind::Injected(it) => format!("{EVENT}◇ {} (injected){EVENT:#}", outcome(component, it)),
+        Kind::Missed(miss) => missed(component, miss),
+        Kind::Event(EventAt { event, element, on }) => {
+            let answered = match on {
+                true => format!("  {QUIET}by 'on' of {}{QUIET:#}", element.path),
+                false => String::new(),
+            };
             format!("{EVENT}⚡ {}{EVENT:#}{answered}", outcome(component, event))
         }
-        Kind::AlreadyThere => {
+        Kind::AlreadyThere(EventAt { event, .. }) => {
             format!("{QUIET}· {} (already there){QUIET:#}", outcome(component, event))
         }
-        Kind::Finished => format!("{QUIET}✓ {}{QUIET:#}", outcome(component, event)),
-        Kind::Committed => commit(event),
+        Kind::Finished(state) => format!("{QUIET}✓ {}{QUIET:#}", outcome(component, state)),
+        Kind::Committed { entry, old, new, unit, .. } => {
+            let (old, new) = (old.in_unit(unit), new.in_unit(unit));
+            format!("{DATA}◆ {entry}: {old} → {new}{DATA:#}  {QUIET}by {component}{QUIET:#}")
+        }
         Kind::Started => format!("{ACTIVE}▶ {component}{ACTIVE:#}  {QUIET}{template}{QUIET:#}"),
-        Kind::Diverted => {
-            let why = &event.supervisor;
+        Kind::Diverted { supervisor, .. } => {
+            let why = &supervisor.path;
             format!("{EVENT}↪ {component} does not start, {why} looked first{EVENT:#}")
         }
-        Kind::Resumed => {
-            let why = &event.supervisor;
-            format!("{QUIET}↩ {component} goes on after {why}{QUIET:#}")
+        Kind::Resumed { supervisor } => {
+            format!("{QUIET}↩ {component} goes on after {}{QUIET:#}", supervisor.path)
         }
-        Kind::Faulted => format!("{BAD}✗ {component} failed: {}{BAD:#}", event.fault_text),
-        Kind::Ended => ended(event),
-        Kind::Lost => format!("{BAD}! {} records lost{BAD:#}", event.lost),
+        Kind::Faulted(fault) => format!("{BAD}✗ {component} failed: {}{BAD:#}", fault.text),
+        Kind::Ended { ending, fault } => ended(&event.component, *ending, fault),
+        Kind::Lost(count) => format!("{BAD}! {count} records lost{BAD:#}"),
     };
     let at = event.at.as_secs_f64();
     Some(format!("{at:>10.3}  {text}"))
 }
 
-fn outcome(path: &str, event: &RunEvent) -> String {
-    match &*event.target {
-        "" => format!("{path}.{}", event.outcome),
-        target => format!("{path}.{} → {target}", event.outcome),
-    }
-}
-
-/// Which element led an event of a global supervisor elsewhere.
-fn answered(event: &RunEvent) -> String {
-    match event.on {
-        true => format!("  {QUIET}by 'on' of {}{QUIET:#}", event.element),
-        false => String::new(),
+fn outcome(path: &str, outcome: &NamedOutcome) -> String {
+    match &*outcome.target {
+        "" => format!("{path}.{}", outcome.name),
+        target => format!("{path}.{} → {target}", outcome.name),
     }
 }
 
@@ -107,14 +108,12 @@ pub(super) fn stimulus(what: &Stimulus) -> String {
     }
 }
 
-fn missed(event: &RunEvent) -> String {
-    let Some(miss) = event.missed else { return String::new() };
+fn missed(component: &str, miss: &Miss) -> String {
     let cause = match miss.cause {
         Some(Cause::LateRelease) => "late release",
         Some(Cause::LongPoll) => "long poll",
         None => "unknown cause",
     };
-    let component = &event.component;
     let skipped = match miss.skipped {
         0 => String::new(),
         1 => "1 release skipped".to_owned(),
@@ -132,32 +131,16 @@ fn missed(event: &RunEvent) -> String {
     )
 }
 
-/// What a plan writes to its log.
-fn logged(event: &RunEvent) -> String {
-    let (component, port) = (&event.component, &event.port);
-    let value = event.value.as_ref().unwrap_or(&Datum::Unset).in_unit(&event.unit);
-    format!("{DATA}✎ {component}: {port} = {value}{DATA:#}")
-}
-
-fn commit(event: &RunEvent) -> String {
-    let show = |value: &Option<Datum>| value.as_ref().unwrap_or(&Datum::Unset).in_unit(&event.unit);
-    let (entry, old, new) = (&event.entry, show(&event.old), show(&event.value));
-    let author = &event.component;
-    format!("{DATA}◆ {entry}: {old} → {new}{DATA:#}  {QUIET}by {author}{QUIET:#}")
-}
-
-fn ended(event: &RunEvent) -> String {
-    let RunEvent { component, fault, fault_text, .. } = event;
-    let style = match (event.component_id.0, event.ending) {
-        (_, Some(EndingKind::Error)) => BAD,
+fn ended(plan: &NamedComponent, ending: EndingKind, fault: &FaultText) -> String {
+    let style = match (plan.id.0, ending) {
+        (_, EndingKind::Error) => BAD,
         (0, _) => STRONG,
         _ => QUIET,
     };
-    let how = match event.ending {
-        Some(EndingKind::Ok) => "OK".to_owned(),
-        Some(EndingKind::Interrupted) => "Interrupted".to_owned(),
-        Some(EndingKind::Error) => format!("Error: {fault_text} ({fault})"),
-        None => "somehow".to_owned(),
+    let how = match ending {
+        EndingKind::Ok => "OK".to_owned(),
+        EndingKind::Interrupted => "Interrupted".to_owned(),
+        EndingKind::Error => format!("Error: {} ({})", fault.text, fault.code),
     };
-    format!("{style}■ {component} ended: {how}{style:#}")
+    format!("{style}■ {} ended: {how}{style:#}", plan.path)
 }

@@ -1,12 +1,13 @@
 //! Records of a trace as events with names.
 
-use afp_core::trace::{
-    Author, ComponentId, Ending, EntryName, Names, Outcome, PortName, Record, TraceEntryId, Verdict,
-};
-use afp_core::{Fault, ValueRef};
+use afp_core::Fault;
+use afp_core::trace::{ComponentId, Ending, EntryName, Names, Outcome, PortName, Record, Verdict};
 
-use super::{EndingKind, EventKind, Miss, OUTSIDE, RunEvent, author};
-use crate::datum::{Datum, Holder};
+use super::{
+    EndingKind, EventAt, EventKind, FaultText, Miss, NamedComponent, NamedOutcome, OUTSIDE,
+    author_id,
+};
+use crate::datum::Holder;
 
 /// Puts names in place of ids.
 pub(super) struct Namer<'a, N: ?Sized> {
@@ -14,161 +15,103 @@ pub(super) struct Namer<'a, N: ?Sized> {
 }
 
 impl<N: Names + ?Sized> Namer<'_, N> {
-    /// A record as an event, without its time.
-    pub(super) fn describe(&self, record: &Record<'_>) -> RunEvent {
+    /// What a record says, and the number of the component that it is about.
+    pub(super) fn describe(&self, record: &Record<'_>) -> (ComponentId, EventKind) {
+        let plan = ComponentId(0);
         match *record {
-            Record::ClockWentBack { asked } => {
-                RunEvent { asked: Some(asked), ..self.plan(EventKind::ClockWentBack) }
+            Record::ClockWentBack { asked } => (plan, EventKind::ClockWentBack { asked }),
+            Record::StopRequested => (plan, EventKind::StopRequested),
+            Record::Injected { component, outcome } => {
+                (component, EventKind::Injected(self.reported(component, outcome)))
             }
-            Record::StopRequested => self.plan(EventKind::StopRequested),
-            Record::Injected { component, outcome } => RunEvent {
-                // Where it leads is known when it is taken.
-                target: String::new(),
-                ..self.outcome(EventKind::Injected, component, outcome)
-            },
-            Record::Polled { supervisor, verdict } => self.polled(supervisor, verdict),
-            Record::Missed { supervisor, lateness, cause, skipped } => RunEvent {
-                missed: Some(Miss { lateness, cause: Some(cause), skipped }),
-                ..self.about(EventKind::Missed, supervisor)
-            },
+            Record::Polled { supervisor, verdict } => {
+                let said = match verdict {
+                    Verdict::Clear => Ok(None),
+                    Verdict::Event(event) => Ok(Some(self.reported(supervisor, event))),
+                    Verdict::Fault(fault) => Err(fault_text(fault)),
+                };
+                (supervisor, EventKind::Polled(said))
+            }
+            Record::Missed { supervisor, lateness, cause, skipped } => {
+                let cause = Some(cause);
+                (supervisor, EventKind::Missed(Miss { lateness, cause, skipped }))
+            }
             Record::Event { supervisor, event, element } => {
-                self.event(EventKind::Event, supervisor, event, element)
+                (supervisor, EventKind::Event(self.event_at(supervisor, event, element)))
             }
             Record::AlreadyThere { supervisor, event, element } => {
-                self.event(EventKind::AlreadyThere, supervisor, event, element)
+                (supervisor, EventKind::AlreadyThere(self.event_at(supervisor, event, element)))
             }
-            Record::Interrupted { element } => self.about(EventKind::Interrupted, element),
+            Record::Interrupted { element } => (element, EventKind::Interrupted),
             Record::Finished { element, state } => {
-                self.outcome(EventKind::Finished, element, state)
+                (element, EventKind::Finished(self.taken(element, state)))
             }
             Record::Committed { author, entry, old, new } => {
-                self.committed(author, entry, old, new)
+                let EntryName { path, unit, .. } = self.names.entry(entry);
+                let holder = Holder::Entry(entry);
+                let [old, new] = [old, new].map(|value| holder.named(self.names, value));
+                let (path, unit) = (path.to_owned(), unit.to_owned());
+                let kind = EventKind::Committed { entry: path, entry_id: entry, old, new, unit };
+                (author_id(author), kind)
             }
             Record::Input { component, port, value } => {
                 let PortName { name, unit, .. } = self.names.input_port(component, port);
-                RunEvent {
-                    port: name.to_owned(),
-                    value: Some(Datum::new(self.names, Holder::Input(component, port), value)),
-                    unit: unit.to_owned(),
-                    ..self.about(EventKind::Input, component)
-                }
+                let value = Holder::Input(component, port).named(self.names, value);
+                let (port, unit) = (name.to_owned(), unit.to_owned());
+                (component, EventKind::Input { port, value, unit })
             }
-            Record::Started { component } => self.about(EventKind::Started, component),
-            Record::Diverted { element, supervisor, event } => RunEvent {
-                component: self.path(element),
-                component_id: element,
-                supervisor: self.path(supervisor),
-                supervisor_id: supervisor,
-                ..self.outcome(EventKind::Diverted, supervisor, event)
-            },
-            Record::Resumed { element, supervisor } => RunEvent {
-                supervisor: self.path(supervisor),
-                supervisor_id: supervisor,
-                ..self.about(EventKind::Resumed, element)
-            },
-            Record::Faulted { component, fault, detail } => RunEvent {
-                fault_text: fault.explained(detail, self.names).to_string(),
-                ..self.fault(EventKind::Faulted, component, fault)
-            },
-            Record::Ended { plan, ending } => self.ended(plan, ending),
+            Record::Started { component } => (component, EventKind::Started),
+            Record::Diverted { element, supervisor, event } => {
+                let event = self.taken(supervisor, event);
+                let supervisor = self.component(supervisor);
+                (element, EventKind::Diverted { event, supervisor })
+            }
+            Record::Resumed { element, supervisor } => {
+                (element, EventKind::Resumed { supervisor: self.component(supervisor) })
+            }
+            Record::Faulted { component, fault, detail } => {
+                let text = fault.explained(detail, self.names).to_string();
+                let code = fault.code().to_owned();
+                (component, EventKind::Faulted(FaultText { code, text }))
+            }
+            Record::Ended { plan, ending } => {
+                let (ending, fault) = match ending {
+                    Ending::Ok => (EndingKind::Ok, FaultText::default()),
+                    Ending::Interrupted => (EndingKind::Interrupted, FaultText::default()),
+                    Ending::Error(fault) => (EndingKind::Error, fault_text(fault)),
+                };
+                (plan, EventKind::Ended { ending, fault })
+            }
         }
     }
 
-    fn path(&self, id: ComponentId) -> String {
-        self.names.component(id).path.to_owned()
+    pub(super) fn component(&self, id: ComponentId) -> NamedComponent {
+        let path = if id == OUTSIDE { "outside" } else { self.names.component(id).path };
+        NamedComponent { path: path.to_owned(), id }
     }
 
-    /// What is about the whole plan.
-    fn plan(&self, kind: EventKind) -> RunEvent {
-        self.about(kind, ComponentId(0))
+    /// An outcome before it is taken, which decides where it leads.
+    fn reported(&self, id: ComponentId, outcome: Outcome) -> NamedOutcome {
+        let name = self.names.outcome(id, outcome).to_owned();
+        NamedOutcome { name, outcome, target: String::new() }
     }
 
-    fn about(&self, kind: EventKind, id: ComponentId) -> RunEvent {
-        RunEvent { kind, component: self.path(id), component_id: id, ..RunEvent::default() }
-    }
-
-    fn outcome(&self, kind: EventKind, id: ComponentId, outcome: Outcome) -> RunEvent {
-        RunEvent {
-            outcome: self.names.outcome(id, outcome).to_owned(),
-            target: self.names.target(id, outcome).to_owned(),
-            outcome_id: outcome.number(),
-            ..self.about(kind, id)
-        }
+    fn taken(&self, id: ComponentId, outcome: Outcome) -> NamedOutcome {
+        let target = self.names.target(id, outcome).to_owned();
+        NamedOutcome { target, ..self.reported(id, outcome) }
     }
 
     /// An event, which leads where the element that is active or being entered says.
-    fn event(
-        &self,
-        kind: EventKind,
-        supervisor: ComponentId,
-        event: Outcome,
-        element: ComponentId,
-    ) -> RunEvent {
+    fn event_at(&self, supervisor: ComponentId, event: Outcome, element: ComponentId) -> EventAt {
         let mut reactions = (0..u16::MAX).map_while(|n| self.names.reaction(element, n));
         let own = reactions.find(|each| (each.supervisor, each.outcome) == (supervisor, event));
-        let polled = self.outcome(kind, supervisor, event);
-        RunEvent {
-            target: own.map_or(polled.target, |reaction| reaction.target.to_owned()),
-            on: own.is_some(),
-            element: self.path(element),
-            element_id: element,
-            ..polled
-        }
+        let taken = self.taken(supervisor, event);
+        let target = own.map_or(taken.target, |reaction| reaction.target.to_owned());
+        let event = NamedOutcome { target, ..taken };
+        EventAt { event, element: self.component(element), on: own.is_some() }
     }
+}
 
-    fn fault(&self, kind: EventKind, id: ComponentId, fault: Fault) -> RunEvent {
-        RunEvent {
-            fault: fault.code().to_owned(),
-            fault_text: fault.to_string(),
-            ..self.about(kind, id)
-        }
-    }
-
-    fn polled(&self, supervisor: ComponentId, verdict: Verdict) -> RunEvent {
-        let kind = EventKind::Polled;
-        match verdict {
-            Verdict::Clear => self.about(kind, supervisor),
-            Verdict::Event(event) => {
-                // Where the event leads is known when it is taken.
-                RunEvent { target: String::new(), ..self.outcome(kind, supervisor, event) }
-            }
-            Verdict::Fault(fault) => self.fault(kind, supervisor, fault),
-        }
-    }
-
-    fn committed(
-        &self,
-        by: Author,
-        entry: TraceEntryId,
-        old: ValueRef<'_>,
-        new: ValueRef<'_>,
-    ) -> RunEvent {
-        let EntryName { path, unit, .. } = self.names.entry(entry);
-        RunEvent {
-            kind: EventKind::Committed,
-            component: author(self.names, by),
-            component_id: match by {
-                Author::Component(id) => id,
-                Author::Outside => OUTSIDE,
-            },
-            entry: path.to_owned(),
-            entry_id: entry,
-            unit: unit.to_owned(),
-            old: Some(Datum::new(self.names, Holder::Entry(entry), old)),
-            value: Some(Datum::new(self.names, Holder::Entry(entry), new)),
-            ..RunEvent::default()
-        }
-    }
-
-    fn ended(&self, plan: ComponentId, ending: Ending) -> RunEvent {
-        let with = |ending| RunEvent { ending: Some(ending), ..self.about(EventKind::Ended, plan) };
-        match ending {
-            Ending::Ok => with(EndingKind::Ok),
-            Ending::Interrupted => with(EndingKind::Interrupted),
-            Ending::Error(fault) => RunEvent {
-                ending: Some(EndingKind::Error),
-                ..self.fault(EventKind::Ended, plan, fault)
-            },
-        }
-    }
+fn fault_text(fault: Fault) -> FaultText {
+    FaultText { code: fault.code().to_owned(), text: fault.to_string() }
 }

@@ -11,7 +11,7 @@ use super::{Session, report};
 use crate::any::AnySession;
 use crate::figures::Figures;
 use crate::not_set::NotSet;
-use crate::observer::{Gate, Go, Observer};
+use crate::observer::{Gate, Go, Next, Observer};
 use crate::record::Keep;
 use crate::request::{Request, RequestError, RequestId};
 use crate::robot::Robot;
@@ -96,7 +96,7 @@ where
         self.tick(limit, gate, to)
     }
 
-    fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Option<bool>, StartError> {
+    fn next_step(&mut self, to: &mut [&mut dyn Observer]) -> Result<Next, StartError> {
         self.next_step(to)
     }
 

@@ -3,7 +3,7 @@
 use afp_core::trace::{Author, ComponentId};
 use afp_dsl::scenario::{Claim, Operand};
 
-use super::{Occurrence, State, ends, fits};
+use super::{Occurrence, State, ends, fits, held};
 
 /// Whether a claim is about this.
 pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
@@ -31,7 +31,7 @@ pub(super) fn holds(claim: &Claim, state: &State) -> Option<bool> {
         Claim::Compare { left, comparison, right } => {
             let left = state.held(left)?;
             let right = match right {
-                Operand::Value(value) => Some(value.clone()),
+                Operand::Value(value) => held(value),
                 Operand::Subject(other) => state.held(other)?,
             };
             let both = left.zip(right);

@@ -1,8 +1,7 @@
 //! One expectation while a scenario runs.
 
-use afp_core::{Ending, Fault, Instant};
+use afp_core::{Ending, Fault, Instant, Value};
 use afp_dsl::scenario::{Claim, Expectation, Operand, Subject, Wanted, Window};
-use afp_dsl::toolbox::Constant;
 
 use super::claims::{happens, holds};
 use super::moments::Moments;
@@ -177,7 +176,7 @@ fn compared(left: &Subject, right: &Operand, state: &State) -> String {
     };
     match right {
         // Of what is true or false, that it was not so says all.
-        Operand::Value(Constant::Bool(_)) => "it was not so".to_owned(),
+        Operand::Value(Value::Bool(_)) => "it was not so".to_owned(),
         Operand::Value(_) => format!("it was otherwise; in the end it is {shown}"),
         Operand::Subject(other) => {
             let other = state.shown(other).unwrap_or_else(|| "nothing".to_owned());

@@ -2,8 +2,9 @@
 
 use afp_core::devices::{DeviceRow, SignalId, SignalType, find_signal, signals};
 use afp_dsl::scenario::{Claim, Field, Operand, Part, Scenario, Subject};
-use afp_dsl::toolbox::Constant;
-use afp_session::{Datum, SampleRef};
+use afp_session::SampleRef;
+
+use super::Held;
 
 /// The signals that expectations and moments are about, with what they say.
 #[derive(Default)]
@@ -26,7 +27,7 @@ enum Said {
     Nothing,
     /// There was nothing to measure, such as an echo, or it says nothing any more.
     Empty,
-    Value(Constant),
+    Value(Held),
 }
 
 impl Signals {
@@ -81,7 +82,7 @@ impl Signals {
     }
 
     /// What a signal says; nothing inside where it measured nothing or fell silent, none at all where it said nothing yet.
-    pub(super) fn said(&self, signal: &Part, field: Option<Field>) -> Option<Option<Constant>> {
+    pub(super) fn said(&self, signal: &Part, field: Option<Field>) -> Option<Option<Held>> {
         match &self.find(signal, field)?.said {
             Said::Nothing => None,
             Said::Empty => Some(None),
@@ -95,12 +96,8 @@ impl Signals {
         Some(match &each.said {
             Said::Nothing => return None,
             Said::Empty => "nothing".to_owned(),
-            Said::Value(Constant::Bool(value)) => value.to_string(),
-            Said::Value(Constant::Int(number)) => number.to_string(),
-            Said::Value(Constant::Float(number)) => Datum::Number(*number).in_unit(each.unit),
-            Said::Value(Constant::Text(text)) => format!("\"{text}\""),
-            // No signal has values of an enum.
-            Said::Value(Constant::Choice(_)) => return None,
+            Said::Value(Held::Text(text)) => format!("\"{text}\""),
+            Said::Value(value) => value.in_unit(each.unit).to_string(),
         })
     }
 
@@ -124,19 +121,19 @@ fn signals_of(claim: &Claim) -> impl Iterator<Item = (&Part, Option<Field>)> {
 
 fn said(value: SampleRef<'_>, field: Option<Field>) -> Said {
     Said::Value(match (value, field) {
-        (SampleRef::Bool(value), _) => Constant::Bool(value),
-        (SampleRef::Int(value), _) => Constant::Int(value),
-        (SampleRef::Float(value), _) => Constant::Float(value),
-        (SampleRef::Text(text), _) => Constant::Text(text.to_owned()),
-        (SampleRef::Pose(frame), Some(Field::X)) => Constant::Float(frame.pose.x),
-        (SampleRef::Pose(frame), Some(Field::Y)) => Constant::Float(frame.pose.y),
-        (SampleRef::Pose(frame), Some(Field::Heading)) => Constant::Float(frame.pose.heading),
+        (SampleRef::Pose(frame), Some(Field::X)) => Held::Float(frame.pose.x),
+        (SampleRef::Pose(frame), Some(Field::Y)) => Held::Float(frame.pose.y),
+        (SampleRef::Pose(frame), Some(Field::Heading)) => Held::Float(frame.pose.heading),
         (SampleRef::Range(reading), Some(Field::Distance)) => match reading.range {
-            Some(range) => Constant::Float(range),
+            Some(range) => Held::Float(range),
             None => return Said::Empty,
         },
         // The compiler names no part that a type has not.
-        _ => return Said::Empty,
+        (value, _) => match value.value() {
+            // No signal has values of an enum, or objects.
+            Some(value) => value.map(|text| text, |_| 0, |_| 0),
+            None => return Said::Empty,
+        },
     })
 }
 

@@ -110,7 +110,7 @@ fn an_entry_that_changes_without_a_commit_is_noticed() {
     let mut watch = Watch::new(&scenario, &names, Signals::default());
     sound().iter().for_each(|record| watch.on_record(Instant::ZERO, record, &names));
     let (one, two) = (Value::Float(1.0), Value::Float(2.0));
-    assert!(watch.differs([one.borrow(), one.borrow()].into_iter()).is_none());
-    let found = watch.differs([one.borrow(), two.borrow()].into_iter());
+    assert!(watch.differs([one.as_deref(), one.as_deref()].into_iter()).is_none());
+    let found = watch.differs([one.as_deref(), two.as_deref()].into_iter());
     assert_eq!(found.map(|(index, ..)| index), Some(1));
 }

@@ -144,8 +144,8 @@ impl Config {
                 to_cell.swap(&mut **from);
                 from.clear();
             }
-            let old = if slot.is_set { slot.value.borrow() } else { ValueRef::Unset };
-            to.wrote(entry, old, value.borrow());
+            let old = if slot.is_set { slot.value.as_deref() } else { ValueRef::Unset };
+            to.wrote(entry, old, value.as_deref());
             slot.value = value;
             slot.is_set = true;
         }
@@ -185,7 +185,7 @@ impl Values {
     /// The value of an entry as a trace shows it.
     pub fn show(&self, entry: u16) -> ValueRef<'_> {
         match self.0.get(usize::from(entry)) {
-            Some(slot) if slot.is_set => slot.value.borrow(),
+            Some(slot) if slot.is_set => slot.value.as_deref(),
             _ => ValueRef::Unset,
         }
     }
@@ -216,7 +216,7 @@ impl Values {
     pub fn is_still(&self, entry: u16, passed: &Value) -> bool {
         let Some(slot) = self.0.get(usize::from(entry)) else { return true };
         let source = slot.object.as_ref().map(|_| Value::Object(slot.source));
-        slot.value.borrow().is_same(passed.borrow()) || source.as_ref() == Some(passed)
+        slot.value.as_deref().is_same(passed.as_deref()) || source.as_ref() == Some(passed)
     }
 
     /// Makes an entry unset.

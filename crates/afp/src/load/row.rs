@@ -6,7 +6,6 @@ use afp_core::Value;
 use afp_core::rt::{Args, BadValue, Outputs, Ports, RowInputs, input, row};
 use afp_dsl::table::Table;
 
-use super::constant::value_of;
 use super::slots::{ComputationSlot, See};
 
 /// The states, as the toolbox declares them.
@@ -23,7 +22,7 @@ impl RowSlot {
     /// A reader of a table that has no errors.
     pub fn new(table: &Table) -> Self {
         let rows = table.rows.iter();
-        let rows = rows.map(|row| row.iter().map(|cell| value_of(&cell.value)).collect());
+        let rows = rows.map(|row| row.iter().map(|cell| cell.value.clone()).collect());
         RowSlot { rows: rows.collect() }
     }
 }

@@ -263,7 +263,7 @@ fn stage_results<E: Environment + ?Sized + 'static>(
     for (port, entry) in plan.results() {
         match plan.cell(entry) {
             Some(cell) => stage.put_object(port, |to| to.copy(cell)),
-            None => stage.put(port, plan.entry(entry).to_owned()),
+            None => stage.put(port, plan.entry(entry).to_value()?),
         }
     }
     stage.result()

@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn what_is_silent_says_nothing() {
         let second = |second: u64| Instant::from_nanos(second * 1_000_000_000);
-        let said = vec![(second(1), Datum::Number(880.0)), (second(2), Datum::Unset)];
+        let said = vec![(second(1), Datum::Float(880.0)), (second(2), Datum::Unset)];
         let samples = [("signals/tone".to_owned(), said)].into();
         let senses = Senses::take(&mut LogData { samples, ..LogData::default() }, &SPEAKER);
         assert_eq!(senses.at(second(1), None).len(), 1);

@@ -1,0 +1,105 @@
+//! What events say, for readers that show all kinds of them alike: lines of JSON, Python.
+
+use super::{
+    EndingKind, EventKind, FaultText, Miss, NamedComponent, NamedOutcome, Requested, RunEvent,
+};
+use crate::datum::Datum;
+
+/// What an event says besides its component; what its kind has not is empty.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Facts<'a> {
+    /// The state or event.
+    pub outcome: Option<&'a NamedOutcome>,
+    /// The element that was active or being entered when an event was taken, or was not.
+    pub element: Option<&'a NamedComponent>,
+    /// Whether that element answered: the target is one of its `on`, not the supervisor's.
+    pub on: bool,
+    /// The supervisor that diverted a start, or whose event resumed.
+    pub supervisor: Option<&'a NamedComponent>,
+    /// The entry that was written.
+    pub entry: &'a str,
+    /// The input port that was read.
+    pub port: &'a str,
+    /// The value before a commit.
+    pub old: Option<&'a Datum>,
+    /// The value after a commit, or of an input.
+    pub value: Option<&'a Datum>,
+    /// The SI unit of the values.
+    pub unit: &'a str,
+    /// Why something failed.
+    pub fault: Option<&'a FaultText>,
+    /// By how much a deadline was missed.
+    pub miss: Option<&'a Miss>,
+    /// How a plan ended.
+    pub ending: Option<EndingKind>,
+    /// What came from outside.
+    pub request: Option<&'a Requested>,
+}
+
+impl RunEvent {
+    /// What it says, whatever its kind is.
+    pub fn facts(&self) -> Facts<'_> {
+        let none = Facts::default();
+        match &self.kind {
+            EventKind::Unknown
+            | EventKind::ClockWentBack { .. }
+            | EventKind::StopRequested
+            | EventKind::Polled(Ok(None))
+            | EventKind::Interrupted
+            | EventKind::Started
+            | EventKind::Lost(_) => none,
+            EventKind::Requested(request) => Facts { request: Some(request), ..none },
+            EventKind::Injected(outcome)
+            | EventKind::Polled(Ok(Some(outcome)))
+            | EventKind::Finished(outcome) => Facts { outcome: Some(outcome), ..none },
+            EventKind::Missed(miss) => Facts { miss: Some(miss), ..none },
+            EventKind::Event(at) | EventKind::AlreadyThere(at) => {
+                let (outcome, element) = (Some(&at.event), Some(&at.element));
+                Facts { outcome, element, on: at.on, ..none }
+            }
+            EventKind::Committed { entry, old, new, unit, .. } => {
+                Facts { entry, old: Some(old), value: Some(new), unit, ..none }
+            }
+            EventKind::Input { port, value, unit } => {
+                Facts { port, value: Some(value), unit, ..none }
+            }
+            EventKind::Diverted { event, supervisor } => {
+                Facts { outcome: Some(event), supervisor: Some(supervisor), ..none }
+            }
+            EventKind::Resumed { supervisor } => Facts { supervisor: Some(supervisor), ..none },
+            EventKind::Polled(Err(fault)) | EventKind::Faulted(fault) => {
+                Facts { fault: Some(fault), ..none }
+            }
+            EventKind::Ended { ending, fault } => {
+                Facts { ending: Some(*ending), fault: Some(fault), ..none }
+            }
+        }
+    }
+}
+
+impl EventKind {
+    /// The kind in a word, as JSON and Python have it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            EventKind::Unknown => "unknown",
+            EventKind::ClockWentBack { .. } => "clock_went_back",
+            EventKind::StopRequested => "stop_requested",
+            EventKind::Requested(_) => "requested",
+            EventKind::Injected(_) => "injected",
+            EventKind::Polled(_) => "polled",
+            EventKind::Missed(_) => "missed",
+            EventKind::Event(_) => "event",
+            EventKind::AlreadyThere(_) => "already_there",
+            EventKind::Interrupted => "interrupted",
+            EventKind::Finished(_) => "finished",
+            EventKind::Committed { .. } => "committed",
+            EventKind::Input { .. } => "input",
+            EventKind::Started => "started",
+            EventKind::Diverted { .. } => "diverted",
+            EventKind::Resumed { .. } => "resumed",
+            EventKind::Faulted(_) => "faulted",
+            EventKind::Ended { .. } => "ended",
+            EventKind::Lost(_) => "lost",
+        }
+    }
+}
