@@ -14,7 +14,7 @@ mod toolbox;
 
 use rowan::{GreenNodeData, GreenTokenData, Language, NodeOrToken};
 
-use crate::diagnostics::Diagnostics;
+use crate::diagnostics::{Arg, Diagnostics, ToArg};
 use crate::keywords;
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -38,6 +38,12 @@ pub struct Name {
     pub text: String,
     /// Its place.
     pub span: Span,
+}
+
+impl ToArg for Name {
+    fn to_arg(&self) -> Arg {
+        Arg::Name(self.text.clone())
+    }
 }
 
 macro_rules! views {

@@ -3,7 +3,6 @@
 use std::fmt::Display;
 
 use super::words;
-use crate::ast::Name;
 
 /// A sentence with holes, and what fills them. Others can ask for its names, and not for its wording.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
@@ -154,12 +153,6 @@ impl ToArg for Arg {
 impl ToArg for Message {
     fn to_arg(&self) -> Arg {
         Arg::Part(self.clone())
-    }
-}
-
-impl ToArg for Name {
-    fn to_arg(&self) -> Arg {
-        Arg::Name(self.text.clone())
     }
 }
 
