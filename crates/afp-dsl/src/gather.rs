@@ -65,15 +65,7 @@ pub(crate) fn gather(
     sources: &mut Sources,
     diags: &mut Diagnostics,
 ) -> Vec<PlanFile> {
-    let mut gathering = Gathering {
-        files,
-        toolboxes,
-        sources,
-        diags,
-        found: Vec::new(),
-        known: FxHashMap::default(),
-        identities: FxHashMap::default(),
-    };
+    let mut gathering = Gathering::new(files, toolboxes, sources, diags);
     gathering.first(source);
     let mut next = 0;
     while next < gathering.found.len() {
@@ -91,15 +83,7 @@ pub(crate) fn gather_all(
     diags: &mut Diagnostics,
 ) -> Vec<PlanFile> {
     let none = |_: &str| Err("it is not among the files".to_owned());
-    let mut gathering = Gathering {
-        files: &none,
-        toolboxes,
-        sources,
-        diags,
-        found: Vec::new(),
-        known: FxHashMap::default(),
-        identities: FxHashMap::default(),
-    };
+    let mut gathering = Gathering::new(&none, toolboxes, sources, diags);
     files.iter().for_each(|source| gathering.first(source));
     for file in 0..gathering.found.len() {
         gathering.follow(file);
@@ -128,7 +112,17 @@ enum Unusable {
     Toolbox(String),
 }
 
-impl Gathering<'_> {
+impl<'a> Gathering<'a> {
+    fn new(
+        files: &'a dyn Files,
+        toolboxes: &'a Toolboxes,
+        sources: &'a mut Sources,
+        diags: &'a mut Diagnostics,
+    ) -> Gathering<'a> {
+        let (known, identities) = (FxHashMap::default(), FxHashMap::default());
+        Gathering { files, toolboxes, sources, diags, found: Vec::new(), known, identities }
+    }
+
     fn first(&mut self, source: &Source) {
         let source = Arc::new(source.clone());
         // Beyond 65,536 files spans would be ambiguous; nothing can be said about such a

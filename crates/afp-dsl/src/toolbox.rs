@@ -13,7 +13,7 @@ pub use afp_syntax::ast::TemplateKind;
 pub use device::{Amount, Control, Device, DeviceKind, Fault, Signal, SignalType};
 
 /// A checked toolbox file.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Toolbox {
     /// The name by which `use` finds it.
     pub name: String,
@@ -50,7 +50,7 @@ impl Toolbox {
 }
 
 /// One actor, supervisor or computation that plans can use.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Template {
     /// What it is.
     pub kind: TemplateKind,

@@ -26,23 +26,21 @@ pub enum Meaning {
     Limits,
 }
 
-const KNOWN: &[(&str, &str, Meaning)] = &[
-    ("std", "Assign", Meaning::Assigns),
-    ("std", "CheckTimeout", Meaning::TimesOut),
-    ("std", "CheckValue", Meaning::Limits),
-    ("std", "Compare", Meaning::Compares),
-    ("std", "Count", Meaning::Counts),
-    ("std", "Is", Meaning::Equals),
-    ("std", "Log", Meaning::Logs),
-    ("std", "Row", Meaning::ReadsRow),
-    ("std", "Switch", Meaning::Selects),
-];
-
 impl Meaning {
     /// The meaning of a template; `None` if only its declaration is known.
     pub fn of(toolbox: &str, template: &str) -> Option<Meaning> {
-        let is_it = |row: &&(&str, &str, Meaning)| row.0 == toolbox && row.1 == template;
-        KNOWN.iter().find(is_it).map(|row| row.2)
+        Some(match (toolbox, template) {
+            ("std", "Assign") => Meaning::Assigns,
+            ("std", "CheckTimeout") => Meaning::TimesOut,
+            ("std", "CheckValue") => Meaning::Limits,
+            ("std", "Compare") => Meaning::Compares,
+            ("std", "Count") => Meaning::Counts,
+            ("std", "Is") => Meaning::Equals,
+            ("std", "Log") => Meaning::Logs,
+            ("std", "Row") => Meaning::ReadsRow,
+            ("std", "Switch") => Meaning::Selects,
+            _ => return None,
+        })
     }
 
     /// Whether it is a computation whose state depends only on its inputs.

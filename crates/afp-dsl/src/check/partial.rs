@@ -15,7 +15,7 @@ use crate::graph::{
 use crate::outline::{
     Component, ComponentKind, Destination, Edge, Exit, ExitKind, MadeFrom, Outline, Plan, Times,
 };
-use crate::toolbox::{Template, TemplateKind, Toolbox};
+use crate::toolbox::{Template, Toolbox};
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::Span;
 
@@ -72,36 +72,9 @@ pub(super) fn partial(
 
 /// A toolbox of one template, which takes no time: what stands for those that are not known.
 fn nothing_known() -> Toolbox {
-    let span = Span::default();
-    let template = Template {
-        kind: TemplateKind::Actor,
-        name: String::new(),
-        doc: String::new(),
-        icon: None,
-        uses: Vec::new(),
-        inputs: Vec::new(),
-        outputs: Vec::new(),
-        outcomes: Vec::new(),
-        states_of: None,
-        meaning: None,
-        reads_table: None,
-        every: DEFAULT_EVERY,
-        deadline: None,
-        budget: Some(0),
-        stop: Some(0),
-        span,
-    };
-    Toolbox {
-        name: String::new(),
-        version: String::new(),
-        doc: String::new(),
-        devices: Vec::new(),
-        templates: vec![template],
-        enums: Vec::new(),
-        objects: Vec::new(),
-        rust_path: String::new(),
-        span,
-    }
+    let template =
+        Template { every: DEFAULT_EVERY, budget: Some(0), stop: Some(0), ..Template::default() };
+    Toolbox { templates: vec![template], ..Toolbox::default() }
 }
 
 /// Reads plans from the outline.

@@ -126,13 +126,10 @@ fn read(
     let mut toolbox = Toolbox {
         version: version.map(|version| unquote(&version, diags)).unwrap_or_default(),
         doc: head.map(|head| head.doc()).unwrap_or_default(),
-        devices: Vec::new(),
-        templates: Vec::new(),
-        enums: Vec::new(),
-        objects: Vec::new(),
         rust_path: rust_path.to_owned(),
         span: name.as_ref().map(|name| name.span).unwrap_or_default(),
         name: name.as_ref().map(|name| name.text.clone()).unwrap_or_default(),
+        ..Toolbox::default()
     };
     let types = declare(&items, &mut toolbox, diags);
     let site = Site { types: &types, source: &source.text, record, devices: &[] };

@@ -25,17 +25,7 @@ impl Levels {
 fn level(view: &View<'_>, inner: &[Level]) -> Level {
     let plan = view.plan;
     let globals = (0..plan.globals).map(SupervisorId);
-    let mut level = Level {
-        globals: sum(view, globals.clone()),
-        entering: Cost::ZERO,
-        longest_step: Cost::ZERO,
-        longest: None,
-        interrupt: Cost::ZERO,
-        stop: Cost::ZERO,
-        demand: 0.0,
-        demand_unknown: None,
-        busiest: None,
-    };
+    let mut level = Level { globals: sum(view, globals.clone()), ..Level::default() };
     let costs = entering(view, inner);
     // Each global supervisor may divert once what is being entered.
     let diverted = diverted(view, &costs);
@@ -96,6 +86,7 @@ impl Level {
 }
 
 /// What an element costs without its supervisors.
+#[derive(Default)]
 struct Own {
     poll: Cost,
     interrupt: Cost,
@@ -129,13 +120,7 @@ impl Own {
                     poll,
                 }
             }
-            Component::Computation(_) => Own {
-                poll: Cost::ZERO,
-                interrupt: Cost::ZERO,
-                stop: Cost::ZERO,
-                demand: 0.0,
-                demand_unknown: None,
-            },
+            Component::Computation(_) => Own::default(),
         }
     }
 }

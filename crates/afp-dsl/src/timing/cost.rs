@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::toolbox::Template;
 
 /// A bound in nanoseconds, or the reason why there is none.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Cost {
     time: u64,
     unknown: Option<Arc<str>>,

@@ -9,7 +9,7 @@ use super::StepParts;
 use super::cost::Cost;
 
 /// What a plan costs while it is active.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Level {
     /// One poll of each global supervisor.
     pub globals: Cost,

@@ -25,9 +25,10 @@ views! {
 named! { Toolbox Template InPort OutPort Outcome }
 
 /// What a template is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TemplateKind {
     /// Acts over time, ends in a state.
+    #[default]
     Actor,
     /// Watches, reports events.
     Supervisor,

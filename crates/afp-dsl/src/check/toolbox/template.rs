@@ -69,19 +69,9 @@ fn without_parts(node: &ast::Template, name: Name) -> Template {
         kind: node.kind(),
         name: name.text,
         doc: node.doc(),
-        icon: None,
-        uses: Vec::new(),
-        inputs: Vec::new(),
-        outputs: Vec::new(),
-        outcomes: Vec::new(),
-        states_of: None,
-        meaning: None,
-        reads_table: None,
         every: timing::DEFAULT_EVERY,
-        deadline: None,
-        budget: None,
-        stop: None,
         span: name.span,
+        ..Template::default()
     }
 }
 
