@@ -61,7 +61,14 @@ fn run(text: &str) -> Option<Value> {
     let mut platform = Platform::new(Script::default(), Log::default(), CostClock::default());
     let wake = scheduler.start((&mut platform, &mut NoTrace, &StillClock), Instant::ZERO);
     match wake.expect("nothing is missing") {
-        Wake::At(_) => Some(scheduler.plan().get("x").expect("there is an x").to_owned()),
+        Wake::At(_) => Some(
+            scheduler
+                .plan()
+                .get("x")
+                .expect("there is an x")
+                .to_value()
+                .expect("a value of an entry fits"),
+        ),
         Wake::Ended(ending) => {
             assert!(matches!(ending, Ending::Error(_)), "{ending:?}");
             None

@@ -12,8 +12,9 @@ use pyo3::types::{PyDict, PyList};
 use crate::attach::in_background;
 use crate::errors::{error, log_error, run_error};
 use crate::link::link;
+use crate::sensed::table;
 use crate::simulation::{Event, value};
-use crate::world::{World, table};
+use crate::world::World;
 
 /// Reads a log, as far as it goes, into a dictionary.
 #[pyfunction]

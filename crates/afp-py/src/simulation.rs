@@ -34,8 +34,9 @@ use crate::errors::{error, log_error, plan_error};
 use crate::forks;
 use crate::link::{devices, fits, link};
 use crate::plan::Plan;
+use crate::sensed::table;
 use crate::value::{Given, measured, no_pickle, to_python};
-use crate::world::{World, table};
+use crate::world::World;
 
 pub use driven::Driven;
 use event::line;

@@ -125,7 +125,7 @@ mod tests {
     use super::*;
     use crate::grid::{Point, WorldChoice};
     use crate::outcome::Ending;
-    use crate::ranges::Seeds;
+    use crate::seeds::Seeds;
 
     #[test]
     fn each_column_has_a_name_of_its_own() {

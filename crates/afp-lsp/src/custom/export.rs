@@ -12,8 +12,8 @@ use serde_json::{Value, json};
 use super::Document;
 use super::drawing::find;
 use crate::answer::{Answer, Failure, ok};
-use crate::workspace::Reads;
 use crate::server::Server;
+use crate::workspace::Reads;
 
 /// A document.
 #[derive(Deserialize)]

@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 
 use super::{Document, items::no_item};
 use crate::answer::{Answer, Failure, ok};
-use crate::workspace::Reads;
 use crate::server::Server;
 use crate::standard::completion::snippet;
+use crate::workspace::Reads;
 
 /// What is looked for among templates.
 #[derive(Deserialize)]

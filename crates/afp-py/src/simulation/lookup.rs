@@ -16,9 +16,9 @@ impl Run {
             self.find(path, &[ComponentKind::Actor, ComponentKind::Supervisor]).ok_or_else(
                 || PyValueError::new_err(format!("the plan has no actor or supervisor '{path}'")),
             )?;
-        let found = declared(&**names, component).find(|(_, name)| *name == outcome);
+        let found = declared(names, component).find(|(_, name)| *name == outcome);
         let (outcome, _) = found.ok_or_else(|| {
-            let known: Vec<_> = declared(&**names, component).map(|(_, name)| name).collect();
+            let known: Vec<_> = declared(names, component).map(|(_, name)| name).collect();
             let known = known.join(", ");
             PyValueError::new_err(format!("'{path}' has no '{outcome}'; there are: {known}"))
         })?;

@@ -6,7 +6,7 @@ use afp::load::{Injection, LoadedPlan, NotInjected};
 use afp_core::ElementId;
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{ComponentId, Names};
+use afp_core::trace::{ComponentId, Names as _};
 use afp_core::{Duration, EntryId, Instant, Value, WriteError};
 
 use super::Session;

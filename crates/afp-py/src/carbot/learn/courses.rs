@@ -19,8 +19,8 @@ use super::score::{NOTHING_TO_REACH, Weights};
 use super::start::{GivenStart, start};
 use crate::errors::error;
 use crate::link::link;
+use crate::sensed::table;
 use crate::value::no_pickle;
-use crate::world::table;
 
 /// What came of a step: observations, rewards, which episodes have ended, which are too late.
 type Stepped<'py> = (
