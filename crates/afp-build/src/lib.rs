@@ -21,7 +21,6 @@ pub use parts::{Parts, no_hardware};
 /// Why something was not built.
 #[derive(Debug)]
 pub enum NotBuilt {
-    /// This is why.
     Why(RunError),
     /// It has been told, to people or to tools.
     Told {

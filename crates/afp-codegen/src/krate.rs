@@ -35,7 +35,6 @@ pub struct CrateOptions {
     pub lib: bool,
 }
 
-/// The robot itself.
 #[derive(Clone, Debug)]
 pub struct Hardware {
     /// The path of its type.
@@ -49,7 +48,6 @@ pub struct Hardware {
 pub struct CrateFile {
     /// Its path below the crate's folder.
     pub path: String,
-    /// Its text.
     pub text: String,
     places: Places,
     whole: Span,

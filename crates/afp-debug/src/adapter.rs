@@ -301,7 +301,6 @@ impl<'h> Adapter<'h> {
         serde_json::to_value(response).map_err(|why| Refusal(why.to_string()))
     }
 
-    /// The run.
     fn run(&mut self) -> Answer<&mut Run<'h>> {
         self.run
             .as_mut()

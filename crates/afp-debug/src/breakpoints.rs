@@ -22,7 +22,6 @@ pub(crate) struct Breakpoints {
     sets: BTreeMap<(ClientId, Set), Vec<Breakpoint>>,
     /// What goes wrong.
     filters: BTreeMap<ClientId, Filters>,
-    /// Those at each spot.
     at: HashMap<Spot, Vec<u64>>,
     made: u64,
 }
@@ -36,7 +35,6 @@ pub(crate) enum Set {
     Data,
 }
 
-/// One of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Breakpoint {
     pub id: u64,
@@ -55,7 +53,6 @@ pub(crate) struct Found {
     pub spots: Vec<Spot>,
     /// The line at which it is, from 0, where it was set at one.
     pub line: Option<u32>,
-    /// Which hits count.
     pub counted: HitCount,
     /// Counts as hit only while this holds, in each use of its plan.
     pub conditions: BTreeMap<ComponentId, Watched>,
@@ -74,9 +71,7 @@ pub(crate) enum Kind {
 pub(crate) struct Filters {
     /// A component fails.
     pub fault: bool,
-    /// A deadline is missed.
     pub deadline_missed: bool,
-    /// An element is interrupted.
     pub interruption: bool,
     /// Edge after edge is taken without time passing.
     pub livelock: bool,

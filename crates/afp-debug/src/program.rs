@@ -17,7 +17,6 @@ pub struct Program {
     pub files: Vec<String>,
     /// All components by number; the first is the plan itself.
     pub units: Vec<Unit>,
-    /// All entries by number.
     pub entries: Vec<Entry>,
     /// Where the name of each plan of the graph stands.
     plans: Vec<Place>,
@@ -25,7 +24,6 @@ pub struct Program {
     edges: BTreeMap<Place, Vec<Spot>>,
     /// What can happen at a line of a file.
     lines: BTreeMap<(usize, u32), Vec<Spot>>,
-    /// The graph.
     pub(crate) graph: Graph,
     /// Texts that files have not, or not any more.
     texts: BTreeMap<usize, String>,
@@ -40,9 +38,7 @@ pub struct Unit {
     pub path: String,
     /// The last name of the path.
     pub name: String,
-    /// Its template or plan.
     pub template: String,
-    /// What it is.
     pub kind: ComponentKind,
     /// The plan that it belongs to, by the number of its element.
     pub plan: ComponentId,
@@ -58,7 +54,6 @@ pub struct Unit {
     pub reactions: Vec<(ComponentId, Outcome, String)>,
     /// How often a supervisor is asked, and what follows from it.
     pub times: Option<Times>,
-    /// Where it stands.
     pub at: Place,
 }
 
@@ -76,7 +71,6 @@ pub struct Times {
 pub struct Entry {
     /// Dotted path from the outermost plan.
     pub path: String,
-    /// Its name.
     pub name: String,
     /// The plan that it belongs to.
     pub plan: ComponentId,
@@ -86,7 +80,6 @@ pub struct Entry {
     pub ty: String,
     /// The SI unit of its values, empty for what is no quantity.
     pub unit: String,
-    /// Where it stands.
     pub at: Place,
 }
 
@@ -112,7 +105,6 @@ pub enum Spot {
     Reports(ComponentId),
     /// An event of a supervisor is taken while the first one is active, which reacts to it by itself.
     Reaction(ComponentId, ComponentId, Outcome),
-    /// An entry is written.
     Commit(TraceEntryId),
 }
 

@@ -3,7 +3,6 @@
 use afp_core::devices::{DeviceRow, SignalRow, SignalType, signals};
 use afp_session::{AnySession, Datum, Pose2, SampleRef};
 
-/// What a signal says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensed {
     /// Its device and its name: `touch.touched`.

@@ -46,9 +46,7 @@ pub struct State {
 pub struct Taken {
     /// The component that led along it.
     pub by: ComponentId,
-    /// The state or event.
     pub outcome: String,
-    /// Where to.
     pub target: String,
     /// In the words of the trace.
     pub text: String,

@@ -14,13 +14,11 @@ use crate::text::Line;
 
 /// A plan that runs, or that ran.
 pub trait Target {
-    /// The plan.
     fn program(&self) -> &Arc<Program>;
 
     /// What is the case.
     fn state(&self) -> &State;
 
-    /// The time.
     fn now(&self) -> Instant;
 
     /// How many steps the scheduler has made.
@@ -139,7 +137,6 @@ pub trait Target {
 /// Something that happened.
 #[derive(Clone, Debug)]
 pub struct Happened {
-    /// What.
     pub event: RunEvent,
     /// The same as a line of the trace, without its time; empty for what comes from outside.
     pub text: String,
@@ -160,7 +157,6 @@ pub enum Advance {
     On,
     /// The limit has been reached.
     Limit,
-    /// The plan has ended.
     Ended,
 }
 

@@ -44,7 +44,6 @@ pub(super) struct Leaving {
     pub(super) part: Part,
     pub(super) severity: Option<Severity>,
     pub(super) at: layout::Exit,
-    /// The element's index.
     pub(super) to: usize,
     pub(super) class: Class,
 }

@@ -25,7 +25,6 @@ pub fn dot(outline: &Outline, options: &Options) -> String {
     text + "}\n"
 }
 
-/// One plan.
 struct Cluster<'a, 'v> {
     view: &'v View<'a>,
     /// What the names of its nodes begin with.

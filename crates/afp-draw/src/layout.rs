@@ -54,7 +54,6 @@ pub(super) struct Link {
 pub(super) enum Exit {
     /// Downwards.
     Below(f64, f64),
-    /// To the right.
     Right(f64, f64),
 }
 

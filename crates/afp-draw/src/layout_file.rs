@@ -104,7 +104,6 @@ impl Layout {
         self.placed.get(item).map(|placed| placed.position)
     }
 
-    /// Places an item.
     pub fn set(&mut self, item: Item, position: Position) {
         match self.placed.get_mut(&item) {
             Some(placed) => placed.position = position,

@@ -75,7 +75,6 @@ pub(super) struct Connector {
     pub(super) from: usize,
     /// The box that it leads to, by index.
     pub(super) to: usize,
-    /// Where it starts.
     pub(super) start: Point,
     pub(super) heading: Heading,
     /// Left and right end of where it may arrive.

@@ -54,13 +54,10 @@ pub struct Scene {
 /// One plan of a drawing, in coordinates of its own.
 #[derive(Clone, Debug)]
 pub struct PlanScene {
-    /// Which plan it is.
     pub plan: Item,
     /// The file that it stands in.
     pub file: u16,
-    /// Its name.
     pub name: String,
-    /// Its help.
     pub doc: String,
     /// Where its origin is in the picture with all plans.
     pub offset: Point,
@@ -96,11 +93,8 @@ pub struct ElementScene {
 /// A box, tab, port, exit or entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceScene {
-    /// The item.
     pub item: Item,
-    /// What of it.
     pub part: Part,
-    /// Where it is.
     pub rect: Rect,
     /// The worst that is wrong with it, where it is marked.
     pub severity: Option<Severity>,

@@ -56,7 +56,6 @@ pub(super) enum Anchor {
     End,
 }
 
-/// A line of text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
     pub(super) x: f64,
@@ -143,7 +142,6 @@ impl Arrow {
         Arrow { points, class, tip: Tip::Thick, joined: 0.0 }
     }
 
-    /// Flow of data.
     pub(super) fn data(points: Vec<(f64, f64)>) -> Arrow {
         Arrow { tip: Tip::Thin, ..Arrow::flow(points, "data".into()) }
     }

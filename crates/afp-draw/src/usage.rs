@@ -5,7 +5,6 @@ use afp_syntax::source::Span;
 /// How often the parts of plans were used.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
-    /// The plans.
     pub plans: Vec<PlanUsage>,
 }
 
@@ -25,7 +24,6 @@ pub struct PlanUsage {
 /// How often a component was used.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Its starts.
     pub starts: u64,
     /// How often each state was reached or event taken, by position.
     pub outcomes: Vec<u64>,
@@ -53,7 +51,6 @@ pub(super) enum Use {
     Whole,
     /// It was, but something that can come of it never came.
     Partly,
-    /// It never was.
     Never,
 }
 

@@ -122,7 +122,6 @@ impl<'a> View<'a> {
         View { outline, plan, options, usage }
     }
 
-    /// The plan's name.
     pub(super) fn name(&self) -> &'a str {
         self.plan.name.as_ref().map_or(self.plan.item.name(), |name| &name.text)
     }

@@ -40,7 +40,6 @@ pub(crate) struct Model<'a> {
 }
 
 impl Model<'_> {
-    /// A template by index.
     pub fn template(&self, id: TemplateId) -> &Template {
         &self.toolboxes[id.toolbox.index()].templates[usize::from(id.index)]
     }

@@ -26,11 +26,9 @@ pub(crate) struct PlanFile {
     pub path: String,
     /// The others by which it is used.
     pub further: Vec<String>,
-    /// Its text.
     pub source: Arc<Source>,
     /// What the parser has made of it.
     pub parse: Parse,
-    /// The tree of that.
     pub tree: File,
     /// Its index among the sources.
     pub index: u16,

@@ -33,7 +33,6 @@ pub type Goal = Target<u32, ()>;
 pub struct Graph {
     /// Sub-plans stand before the plans that use them.
     pub plans: Vec<Plan>,
-    /// The plan that runs.
     pub main: PlanId,
     /// The toolboxes in use, in the order in which the files name them.
     pub toolboxes: Vec<Arc<Toolbox>>,
@@ -54,7 +53,6 @@ pub struct Plan {
     pub file: Option<String>,
     /// Its `///` lines, without the slashes.
     pub doc: String,
-    /// Entries as written.
     pub entries: Vec<Entry>,
     /// Actors, computations and sub-plans as written.
     pub elements: Vec<Element>,
@@ -62,7 +60,6 @@ pub struct Plan {
     pub supervisors: Vec<Supervisor>,
     /// How many of [`Plan::supervisors`] are global.
     pub globals: u16,
-    /// The first element.
     pub start: ElementId,
     /// Why edges to `fail` end the plan: each text once.
     pub reasons: Vec<String>,
@@ -80,7 +77,6 @@ pub struct Plan {
 /// A named value of the configuration.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -105,7 +101,6 @@ pub struct Entry {
 /// An actor, a computation or a sub-plan.
 #[derive(Clone, Debug)]
 pub struct Element {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -146,9 +141,7 @@ pub struct EdgeSpans {
 /// What an element is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
-    /// An actor template.
     Actor(TemplateId),
-    /// A computation template.
     Computation(TemplateId),
     /// A plan used like an actor.
     SubPlan(PlanId),
@@ -157,7 +150,6 @@ pub enum Component {
 /// A template of a toolbox.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TemplateId {
-    /// Which toolbox.
     pub toolbox: ToolboxId,
     /// Which of [`Toolbox::templates`].
     pub index: u16,
@@ -166,7 +158,6 @@ pub struct TemplateId {
 /// A supervisor, global or local.
 #[derive(Clone, Debug)]
 pub struct Supervisor {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -202,7 +193,6 @@ pub struct Output {
     /// Index of the template's output port (of the sub-plan's `out` entries, counted among
     /// themselves).
     pub port: u16,
-    /// What it writes.
     pub entry: EntryId,
     /// How the port's value becomes the entry's.
     pub conversion: Option<Conversion>,
@@ -210,10 +200,8 @@ pub struct Output {
     pub span: Span,
 }
 
-/// A typed formula.
 #[derive(Clone, Debug)]
 pub struct Formula {
-    /// What it computes.
     pub kind: FormulaKind,
     /// The type of its value.
     pub ty: Type,
@@ -227,7 +215,6 @@ pub struct Formula {
 pub enum FormulaKind {
     /// `true` or `false`.
     Bool(bool),
-    /// An integer.
     Int(i64),
     /// A number or a quantity in SI units.
     Float(f64),
@@ -243,7 +230,6 @@ pub enum FormulaKind {
     Binary(Operator, Box<Formula>, Box<Formula>),
     /// A function of as many operands as it takes; those that take any number have two.
     Call(Function, Vec<Formula>),
-    /// A conversion.
     Convert(Conversion, Box<Formula>),
 }
 
@@ -255,12 +241,10 @@ impl Element {
 }
 
 impl Graph {
-    /// The plan that runs.
     pub fn main(&self) -> &Plan {
         &self.plans[self.main.index()]
     }
 
-    /// A plan by index.
     pub fn plan(&self, id: PlanId) -> &Plan {
         &self.plans[id.index()]
     }
@@ -270,7 +254,6 @@ impl Graph {
         &self.rows[id.index()]
     }
 
-    /// A template by index.
     pub fn template(&self, id: TemplateId) -> &Template {
         &self.toolboxes[id.toolbox.index()].templates[usize::from(id.index)]
     }

@@ -48,16 +48,13 @@ pub struct DefinitionId(pub u32);
 pub struct Name {
     /// Its place; of a file behind `use` with the quotes.
     pub span: Span,
-    /// What it means.
     pub meaning: Meaning,
 }
 
-/// What a name means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 // A tag as wide as what it carries: copies are of whole words.
 #[repr(u32)]
 pub enum Meaning {
-    /// It declares that definition.
     Declares(DefinitionId),
     /// It refers to that definition.
     Refers(DefinitionId),
@@ -87,7 +84,6 @@ pub struct Candidates(u32);
 /// Something that has a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
-    /// What it is.
     pub kind: DefinitionKind,
     /// Its own name.
     pub name: Span,
@@ -104,10 +100,8 @@ pub struct Definition {
     pub doc: String,
 }
 
-/// What a definition is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DefinitionKind {
-    /// A toolbox.
     Toolbox,
     /// A short name of a toolbox, behind `as`.
     Alias,
@@ -133,15 +127,12 @@ pub enum DefinitionKind {
     Amount,
     /// A signal of a device.
     Signal,
-    /// An enum.
     Enum,
     /// A value of an enum.
     Value,
-    /// A table.
     Table,
     /// A column of a table, which is an output of what reads it.
     Column,
-    /// A plan.
     Plan,
     /// An entry of a plan; `in` and `out` entries are the ports of its uses as a sub-plan.
     Entry(EntryKind),

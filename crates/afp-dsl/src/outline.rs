@@ -67,7 +67,6 @@ pub struct Outline {
     pub main: Option<PlanId>,
 }
 
-/// A plan file.
 #[derive(Clone, Debug, Default)]
 pub struct File {
     /// The file, as [`Span::file`] says it.
@@ -76,13 +75,9 @@ pub struct File {
     pub path: String,
     /// Its `use` lines as written.
     pub uses: Vec<Use>,
-    /// Its enums as written.
     pub enums: Vec<Enum>,
-    /// Its tables as written.
     pub tables: Vec<Table>,
-    /// Its plans as written.
     pub plans: Vec<PlanId>,
-    /// Its scenarios as written.
     pub scenarios: Vec<Scenario>,
     /// What there is to say about nothing smaller.
     pub findings: Findings,
@@ -91,9 +86,7 @@ pub struct File {
 /// `use carbot as c` or `use "other.afp"`
 #[derive(Clone, Debug)]
 pub struct Use {
-    /// The line.
     pub span: Span,
-    /// The toolbox's name.
     pub toolbox: Option<Name>,
     /// The short name behind `as`.
     pub alias: Option<Name>,
@@ -106,9 +99,7 @@ pub struct Use {
 /// An enum of a file.
 #[derive(Clone, Debug)]
 pub struct Enum {
-    /// Which item it is.
     pub item: Item,
-    /// Its name.
     pub name: Option<Name>,
     /// Its `///` lines.
     pub doc: String,
@@ -125,9 +116,7 @@ pub struct Enum {
 /// A table of a file, without its rows.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// Which item it is.
     pub item: Item,
-    /// Its name.
     pub name: Option<Name>,
     /// Its `///` lines.
     pub doc: String,
@@ -135,7 +124,6 @@ pub struct Table {
     pub note: String,
     /// The whole of it, without comments around it.
     pub span: Span,
-    /// Its columns.
     pub columns: Vec<Column>,
     /// What there is to say about it.
     pub findings: Findings,
@@ -144,7 +132,6 @@ pub struct Table {
 /// A column of a table.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// Its name.
     pub name: Name,
     /// Its `///` lines.
     pub doc: String,
@@ -167,12 +154,9 @@ pub struct Scenario {
     pub findings: Findings,
 }
 
-/// A plan.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Which item it is.
     pub item: Item,
-    /// Its name.
     pub name: Option<Name>,
     /// Its `///` lines.
     pub doc: String,
@@ -180,7 +164,6 @@ pub struct Plan {
     pub note: String,
     /// The whole of it, without comments around it.
     pub span: Span,
-    /// Entries as written.
     pub entries: Vec<Entry>,
     /// Its `start` lines; there should be one.
     pub starts: Vec<Start>,
@@ -200,7 +183,6 @@ pub struct Plan {
 /// `start first`
 #[derive(Clone, Debug)]
 pub struct Start {
-    /// The line.
     pub span: Span,
     /// Where it leads.
     pub target: Option<Target>,
@@ -211,13 +193,11 @@ pub struct Start {
 /// An entry of a plan.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Which item it is.
     pub item: Item,
     /// Who may set it.
     pub kind: EntryKind,
     /// Whether it is `in live`.
     pub live: bool,
-    /// Its name.
     pub name: Option<Name>,
     /// Its `///` lines.
     pub doc: String,
@@ -225,11 +205,9 @@ pub struct Entry {
     pub note: String,
     /// The whole of it, without comments around it.
     pub span: Span,
-    /// Its type as written.
     pub written_type: Option<Name>,
     /// Its type, written or that of its value, where it is known.
     pub ty: Option<Type>,
-    /// Its initial value.
     pub init: Option<Value>,
     /// Least and greatest value as written.
     pub range: Option<[Value; 2]>,
@@ -249,7 +227,6 @@ struct Found {
 }
 
 impl Findings {
-    /// The worst of it.
     pub fn worst(&self) -> Option<Severity> {
         self.0.as_ref().map(|found| found.worst)
     }

@@ -21,7 +21,6 @@ pub use comparison::Comparison;
 /// How long a scenario lasts unless it says otherwise, nanoseconds.
 pub const DEFAULT_UNTIL: u64 = 60_000_000_000;
 
-/// One scenario.
 #[derive(Clone, Debug)]
 pub struct Scenario {
     /// Its name; where it is over several seeds or worlds, with those of this run behind it.
@@ -79,7 +78,6 @@ impl Scenario {
 /// A scenario that cannot be run as it is written, or as its plan is now.
 #[derive(Clone, Debug)]
 pub struct InvalidScenario {
-    /// Its name.
     pub name: String,
     /// The name in the text.
     pub span: Span,
@@ -89,7 +87,6 @@ pub struct InvalidScenario {
     pub errors: Diagnostics,
 }
 
-/// Where the robot starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// Metres.
@@ -103,7 +100,6 @@ pub struct Start {
 /// An instant of a run by what holds or happens then for the first time.
 #[derive(Clone, Debug)]
 pub struct Moment {
-    /// What.
     pub claim: Claim,
     /// From when on: the start of the run, or another moment.
     pub from: Option<MomentId>,
@@ -126,9 +122,7 @@ pub struct Stimulus {
     pub from: Option<MomentId>,
     /// When, nanoseconds.
     pub at: u64,
-    /// What.
     pub action: Action,
-    /// The line as written.
     pub text: String,
     /// The line in the text.
     pub span: Span,
@@ -155,16 +149,13 @@ pub enum Action {
 /// A control, a fault or a signal of a device, by names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// The device.
     pub device: String,
-    /// What of it.
     pub name: String,
 }
 
 /// A fault, and how much of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// The fault.
     pub fault: Part,
     /// In SI units; without it as much as the declaration says.
     pub amount: Option<f64>,
@@ -186,7 +177,6 @@ pub enum Field {
 /// An outcome that does not come from its component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Injection {
-    /// The supervisor or actor.
     pub component: u32,
     /// Its event or state; the special one is `Error` of an actor, `DeadlineMissed` of a supervisor.
     pub outcome: Outcome,
@@ -194,18 +184,14 @@ pub struct Injection {
     pub outputs: Vec<(u16, Constant)>,
 }
 
-/// What is expected.
 #[derive(Clone, Debug)]
 pub struct Expectation {
-    /// The claim.
     pub claim: Claim,
     /// How often it has to hold.
     pub wanted: Wanted,
     /// What its window counts from; the start of the run without one.
     pub from: Option<MomentId>,
-    /// Where.
     pub window: Window,
-    /// The line as written.
     pub text: String,
     /// The line in the text.
     pub span: Span,
@@ -252,20 +238,15 @@ pub enum Claim {
     /// Something compares so with something of its type; an unset entry, or a signal that measured nothing, with
     /// nothing.
     Compare {
-        /// What.
         left: Subject,
-        /// How.
         comparison: Comparison,
-        /// With what.
         right: Operand,
     },
     /// The plan has not ended.
     Running,
-    /// The plan ends.
     End(Option<EndCause>),
     /// An actor or sub-plan is interrupted.
     Interrupt(u32),
-    /// An entry is written.
     Commit {
         /// The entry; any without one.
         of: Option<u32>,
@@ -277,7 +258,6 @@ pub enum Claim {
 /// What changes while a plan runs and can be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Subject {
-    /// An entry.
     Entry(u32),
     /// A signal of the robot, or a part of one.
     Signal(Part, Option<Field>),
@@ -286,7 +266,6 @@ pub enum Subject {
 /// What something is compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Operand {
-    /// A value.
     Value(Constant),
     /// What another one is at that time.
     Subject(Subject),
@@ -295,13 +274,11 @@ pub enum Operand {
 /// A component, or one of its outcomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cause {
-    /// The element or supervisor.
     pub component: u32,
     /// Its state or event; any without one.
     pub outcome: Option<Outcome>,
 }
 
-/// A state or event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// One of the template, by position.
@@ -347,7 +324,6 @@ impl Field {
         }
     }
 
-    /// How it is written.
     pub fn word(self) -> &'static str {
         match self {
             Field::X => "x",
@@ -359,7 +335,6 @@ impl Field {
 }
 
 impl MomentId {
-    /// Its position.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }

@@ -6,11 +6,9 @@ use afp_syntax::source::Span;
 /// A table as its file declares it.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// Its columns as written.
     pub columns: Vec<Column>,
     /// Its rows as written, each with a value for every column; those with errors are missing.
     pub rows: Vec<Vec<Cell>>,
@@ -21,7 +19,6 @@ pub struct Table {
 /// A column of a table.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,

@@ -34,7 +34,6 @@ pub use target::{BUILT_IN, Budgets, BuiltIn, Target};
 /// What is known of the time behaviour of a plan and its sub-plans.
 #[derive(Clone, Debug)]
 pub struct Timing {
-    /// The plan that runs.
     pub plan: String,
     /// The longest that one step may take, that which starts the plan too, budgets added up: supervisors, the active actor,
     /// and what is entered behind it. `Err` names the declaration that is missing.
@@ -130,7 +129,6 @@ pub enum Trust {
 }
 
 impl Trust {
-    /// The word for it.
     pub fn as_str(self) -> &'static str {
         match self {
             Trust::Proved => "proved",

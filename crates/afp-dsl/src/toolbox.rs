@@ -21,11 +21,8 @@ pub struct Toolbox {
     pub version: String,
     /// Its `///` lines.
     pub doc: String,
-    /// The devices as written.
     pub devices: Vec<Device>,
-    /// The templates as written.
     pub templates: Vec<Template>,
-    /// The enums as written.
     pub enums: Vec<Arc<Enum>>,
     /// The object types as written.
     pub objects: Vec<Arc<Object>>,
@@ -52,9 +49,7 @@ impl Toolbox {
 /// One actor, supervisor or computation that plans can use.
 #[derive(Clone, Debug, Default)]
 pub struct Template {
-    /// What it is.
     pub kind: TemplateKind,
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -62,9 +57,7 @@ pub struct Template {
     pub icon: Option<String>,
     /// The resources that it commands exclusively.
     pub uses: Vec<String>,
-    /// Input ports as written.
     pub inputs: Vec<InPort>,
-    /// Output ports as written.
     pub outputs: Vec<OutPort>,
     /// States, or a supervisor's events, as written.
     pub outcomes: Vec<Outcome>,
@@ -118,10 +111,8 @@ pub struct ReadsTable {
     pub table: Option<Arc<Table>>,
 }
 
-/// An input port.
 #[derive(Clone, Debug)]
 pub struct InPort {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -137,10 +128,8 @@ pub struct InPort {
     pub span: Span,
 }
 
-/// An output port.
 #[derive(Clone, Debug)]
 pub struct OutPort {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -155,7 +144,6 @@ pub struct OutPort {
 /// A state or an event.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,

@@ -40,7 +40,6 @@ pub enum Type {
 /// An enum of a toolbox or of a plan file.
 #[derive(Clone, Debug)]
 pub struct Enum {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -57,7 +56,6 @@ pub struct Enum {
 /// An opaque type of a toolbox.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,

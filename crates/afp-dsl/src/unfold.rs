@@ -23,7 +23,6 @@ pub use texts::{PlanTexts, TextPlace};
 pub struct ComponentNames {
     /// Dotted path from the outermost plan; the plan's own name for the outermost.
     pub path: String,
-    /// What it is.
     pub kind: ComponentKind,
     /// Name of its template or plan.
     pub template: String,
@@ -32,7 +31,6 @@ pub struct ComponentNames {
     /// Where its `Error` (elements) or `DeadlineMissed` (supervisors) leads; empty where
     /// unconnected.
     pub special: String,
-    /// Input ports, by position.
     pub inputs: Vec<PortNames>,
     /// The output ports that are bound, each with its position.
     pub outputs: Vec<(u16, PortNames)>,
@@ -43,7 +41,6 @@ pub struct ComponentNames {
 /// A port with the names that a trace needs.
 #[derive(Clone, Debug)]
 pub struct PortNames {
-    /// Its name.
     pub name: String,
     /// The type of its values.
     pub ty: Type,
@@ -71,7 +68,6 @@ pub struct EntryNames {
     pub path: String,
     /// Who may set it.
     pub kind: EntryKind,
-    /// Its type.
     pub ty: Type,
     /// Least and greatest value, in SI units.
     pub range: Option<(f64, f64)>,
@@ -86,9 +82,7 @@ pub struct EntryNames {
 /// All components and entries of a running plan, by number.
 #[derive(Clone, Debug, Default)]
 pub struct Unfolded {
-    /// The components.
     pub components: Vec<ComponentNames>,
-    /// The entries.
     pub entries: Vec<EntryNames>,
     /// The texts of the plans.
     pub texts: PlanTexts,

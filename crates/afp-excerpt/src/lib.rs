@@ -59,7 +59,6 @@ pub struct Report<'a> {
 pub struct Mark<'a> {
     /// The file's path as it is to be shown.
     pub path: &'a str,
-    /// The file's text.
     pub text: &'a str,
     /// Its lines, where they have been found for many reports; without them each one counts them anew.
     pub lines: Option<&'a LineTable<'a>>,

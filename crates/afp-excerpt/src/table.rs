@@ -19,12 +19,10 @@ struct Stop {
     /// From 0, as the column.
     line: usize,
     column: usize,
-    /// Where the line begins.
     start: usize,
 }
 
 impl<'t> LineTable<'t> {
-    /// Reads a text.
     pub fn new(text: &'t str) -> LineTable<'t> {
         let mut stops = vec![Stop::default()];
         let mut start = 0;
@@ -53,7 +51,6 @@ impl<'t> LineTable<'t> {
         (stop.line + 1, stop.column + self.text[stop.at..offset].chars().count() + 1)
     }
 
-    /// The text.
     pub fn text(&self) -> &'t str {
         self.text
     }

@@ -22,7 +22,6 @@ pub(super) struct Line {
 /// What the columns of a line are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Columns {
-    /// There are none.
     #[default]
     None,
     /// A comment on a line of its own.

@@ -13,10 +13,13 @@ use afp_syntax::{Node, Token};
 enum Gap {
     /// Nothing.
     Glue,
-    /// A blank.
     Blank,
     /// A new line; `closes` when it closes a body, `apart` when a blank line belongs above it.
-    Line { columns: Columns, closes: bool, apart: bool },
+    Line {
+        columns: Columns,
+        closes: bool,
+        apart: bool,
+    },
 }
 
 /// A comment that is not yet printed.

@@ -11,7 +11,6 @@ use afp_syntax::source::{Source, Span};
 pub struct Action {
     /// What it does, as an order: lower case.
     pub title: String,
-    /// What it is.
     pub kind: ActionKind,
     /// What it mends: an index into the diagnostics of the compilation.
     pub mends: Option<usize>,

@@ -13,7 +13,6 @@ use afp_syntax::units::Unit;
 /// Something that can stand there, or that cannot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Candidate {
-    /// What is written.
     pub text: String,
     /// Why it does not fit; `None` where it does.
     pub refused: Option<String>,
@@ -24,7 +23,6 @@ pub struct Candidate {
 pub struct PortCandidates {
     /// Entries, and values where there are few, those that fit first.
     pub list: Vec<Candidate>,
-    /// Its type.
     pub ty: String,
     /// What it is bound to.
     pub value: Option<String>,

@@ -27,11 +27,9 @@ use context::{Context, Place};
 pub struct Completion {
     /// Under which name it is offered and found.
     pub label: String,
-    /// What it is.
     pub kind: CompletionKind,
     /// How it is declared, in one line; may be empty.
     pub detail: String,
-    /// Its help.
     pub doc: String,
     /// What is written in place of [`Completion::replaces`], with holes to fill.
     pub insert: Vec<Piece>,
@@ -52,7 +50,6 @@ pub enum CompletionKind {
     Definition(DefinitionKind),
     /// A built-in type.
     Type,
-    /// A unit.
     Unit,
     /// A literal.
     Value,
@@ -111,7 +108,6 @@ pub fn completions(view: &View, offset: u32) -> Vec<Completion> {
     all
 }
 
-/// Completions in the making.
 struct List<'v, 'a> {
     view: &'v View<'a>,
     replaces: Span,

@@ -94,42 +94,23 @@ pub enum Change {
     /// Removes an item with its comments. With an element go the edges to it and a `start` that
     /// names it, with an entry the outputs that are bound to it.
     Remove {
-        /// The item.
         #[serde(with = "wire")]
         item: Item,
     },
     /// Gives an item another name wherever the files refer to it, scenarios included.
     Rename {
-        /// The item.
         #[serde(with = "wire")]
         item: Item,
-        /// Its new name.
         to: String,
     },
     /// Gives a column of a table another name wherever the files bind it.
-    RenameColumn {
-        /// The table.
-        table: String,
-        /// The column.
-        column: String,
-        /// Its new name.
-        to: String,
-    },
+    RenameColumn { table: String, column: String, to: String },
     /// Gives a value of an enum another name wherever the files refer to it.
-    RenameValue {
-        /// The enum.
-        enumeration: String,
-        /// The value.
-        value: String,
-        /// Its new name.
-        to: String,
-    },
+    RenameValue { enumeration: String, value: String, to: String },
     /// Connects a state or event, or leads its edge elsewhere.
     Connect {
-        /// The element or supervisor.
         #[serde(with = "wire")]
         from: Item,
-        /// The state or event.
         outcome: String,
         /// An element of the plan, `terminate`, `fail`, `fail "reason"`; for an event `ignore` or `resume`, for a
         /// computation `resume`.
@@ -137,22 +118,14 @@ pub enum Change {
     },
     /// Removes the edge of a state or event.
     Disconnect {
-        /// The element or supervisor.
         #[serde(with = "wire")]
         from: Item,
-        /// The state or event.
         outcome: String,
     },
     /// Lets the plan start with an element.
-    SetStart {
-        /// The plan.
-        plan: String,
-        /// The element.
-        to: String,
-    },
+    SetStart { plan: String, to: String },
     /// Moves an item above another one of its list, or below its like.
     Reorder {
-        /// The item.
         #[serde(with = "wire")]
         item: Item,
         /// The item that it shall stand above.
@@ -160,25 +133,20 @@ pub enum Change {
     },
     /// Binds a port, or changes what it is bound to.
     Bind {
-        /// The element or supervisor.
         #[serde(with = "wire")]
         component: Item,
-        /// The port.
         port: String,
         /// What it is bound to.
         to: Binding,
     },
     /// Removes the binding of a port.
     Unbind {
-        /// The element or supervisor.
         #[serde(with = "wire")]
         component: Item,
-        /// The port.
         port: String,
     },
     /// Makes an element or supervisor from another template; bindings and edges stay.
     SetTemplate {
-        /// The element or supervisor.
         #[serde(with = "wire")]
         component: Item,
         /// `Name` or `home.Name`
@@ -186,7 +154,6 @@ pub enum Change {
     },
     /// Sets, or without a value removes, `every` or `deadline` of a supervisor.
     SetTiming {
-        /// The supervisor.
         #[serde(with = "wire")]
         supervisor: Item,
         /// `every` or `deadline`
@@ -196,31 +163,24 @@ pub enum Change {
     },
     /// Makes an entry an `in`, `out`, `var` or `const`.
     SetEntryKind {
-        /// The entry.
         #[serde(with = "wire")]
         entry: Item,
-        /// The keyword.
         keyword: String,
     },
     /// Sets or removes the type of an entry.
     SetEntryType {
-        /// The entry.
         #[serde(with = "wire")]
         entry: Item,
-        /// The type.
         ty: Option<String>,
     },
     /// Sets or removes the initial value of an entry.
     SetEntryValue {
-        /// The entry.
         #[serde(with = "wire")]
         entry: Item,
-        /// A formula.
         value: Option<String>,
     },
     /// Sets or removes the help text above an item.
     SetDoc {
-        /// The item.
         #[serde(with = "wire")]
         item: Item,
         /// Its lines, without the slashes; empty for none.
@@ -228,7 +188,6 @@ pub enum Change {
     },
     /// Sets or removes the `//` lines above an item.
     SetNote {
-        /// The item.
         #[serde(with = "wire")]
         item: Item,
         /// Its lines, without the slashes; empty for none.
@@ -239,7 +198,6 @@ pub enum Change {
     /// Edges whose target is not in the new plan, and edges of the old plan to what has moved, are
     /// removed: their states and events are unconnected then.
     Move {
-        /// The item.
         #[serde(with = "wire")]
         item: Item,
         /// The plan that it is put into.
@@ -251,9 +209,7 @@ pub enum Change {
     ///
     /// What the elements write is visible outside when the sub-plan ends, no longer at once.
     Extract {
-        /// The plan.
         plan: String,
-        /// The elements.
         elements: Vec<String>,
         /// The name of the new plan.
         new_plan: String,
@@ -263,7 +219,6 @@ pub enum Change {
     /// Puts the elements of a sub-plan in its place; the plan that it was made from, which may stand
     /// in another file, stays. What its elements name is brought into view with `use` lines.
     Inline {
-        /// The plan.
         plan: String,
         /// The sub-plan.
         element: String,

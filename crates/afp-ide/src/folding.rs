@@ -11,16 +11,13 @@ use afp_syntax::{Node, Token};
 pub struct Fold {
     /// From the first byte that goes to the last one.
     pub span: Span,
-    /// What it is.
     pub kind: FoldKind,
 }
 
-/// What is folded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FoldKind {
     /// What stands between brackets.
     Body,
-    /// Lines of comments.
     Comment,
     /// `use` lines.
     Uses,

@@ -14,11 +14,9 @@ use afp_syntax::units::Unit;
 /// What is to be said of a word.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hover {
-    /// The word.
     pub span: Span,
     /// How it is declared, in one line; empty for words of the grammar.
     pub declaration: String,
-    /// Its help.
     pub doc: String,
     /// What else is known of it, a sentence or an item of a list each, in Markdown.
     pub facts: Vec<String>,

@@ -17,13 +17,11 @@ pub struct Lens {
 /// What can be done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LensAction {
-    /// Running a plan.
     Run,
     /// Running a plan step by step.
     Debug,
     /// Showing the drawing of a plan.
     Draw,
-    /// Running a scenario.
     Test,
 }
 

@@ -9,22 +9,17 @@ use crate::edit::Taken;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_dsl::outline::ComponentKind;
 
-/// A template or plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
-    /// Its name.
     pub name: String,
-    /// What it makes.
     pub kind: ComponentKind,
     /// Its toolbox; `None` for a plan.
     pub toolbox: Option<String>,
     /// The name of its icon.
     pub icon: Option<String>,
-    /// Its help.
     pub help: String,
     /// Its ports as they are declared.
     pub ports: Vec<String>,
-    /// Its states or events.
     pub exits: Vec<String>,
     /// The item that is written for it, with holes for its name, what it needs and where it leads.
     pub insert: Vec<Piece>,

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::{Device, Toolbox};
 
-/// A robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// The toolbox that declares it; empty where none does.
@@ -22,15 +21,12 @@ pub struct Robot {
 /// A device of a robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotDevice {
-    /// Its name.
     pub name: String,
-    /// What it is.
     pub help: String,
     /// What can be held down.
     pub stimuli: Vec<Stimulus>,
     /// How it can be broken.
     pub faults: Vec<Fault>,
-    /// What it signals.
     pub signals: Vec<Signal>,
 }
 
@@ -39,7 +35,6 @@ pub struct RobotDevice {
 pub struct Stimulus {
     /// As scenarios and `--press` name it: `bumper.left`.
     pub words: String,
-    /// What it is.
     pub help: String,
     /// Whether it is there to end what runs.
     pub stops: bool,
@@ -59,7 +54,6 @@ pub struct Fault {
 /// How much of a fault there can be, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Amount {
-    /// Its name.
     pub name: String,
     /// Its unit; empty for a plain number.
     pub unit: String,
@@ -76,7 +70,6 @@ pub struct Amount {
 pub struct Signal {
     /// As scenarios name it: `bumper.left`.
     pub words: String,
-    /// What it says.
     pub help: String,
     /// Whether only a judge may know it.
     pub truth: bool,

@@ -14,7 +14,6 @@ use afp_syntax::source::Span;
 pub struct Signature {
     /// All of it: `Forward(distance: length = 100 cm, driven => length)`.
     pub label: String,
-    /// Its help.
     pub doc: String,
     /// The ports in order.
     pub ports: Vec<Port>,
@@ -27,7 +26,6 @@ pub struct Signature {
 pub struct Port {
     /// Its place in the label, in bytes.
     pub label: Range<usize>,
-    /// Its help.
     pub doc: String,
 }
 

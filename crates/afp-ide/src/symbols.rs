@@ -10,7 +10,6 @@ use afp_syntax::source::Span;
 pub struct Symbol {
     /// Its name; of a scenario without the quotes.
     pub name: String,
-    /// What it is.
     pub kind: DefinitionKind,
     /// How it is declared, in one line.
     pub detail: String,

@@ -10,9 +10,7 @@ use afp_syntax::source::Span;
 /// A piece of text of one colour; none spans several lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour {
-    /// Its place.
     pub span: Span,
-    /// What it is.
     pub kind: ColourKind,
     /// Whether it declares a name.
     pub declares: bool,
@@ -47,7 +45,6 @@ kinds! {
     Keyword "keyword"
     /// A comment or a help text.
     Comment "comment"
-    /// A text.
     Text "string"
     /// A number, its unit included.
     Number "number"
@@ -57,19 +54,14 @@ kinds! {
     Toolbox "namespace"
     /// A type, a built-in one or an object type.
     Type "type"
-    /// An enum.
     Enum "enum"
     /// A value of an enum.
     Value "enumMember"
     /// A template or a plan.
     Template "class"
-    /// An element or supervisor.
     Component "function"
-    /// An entry.
     Entry "variable"
-    /// A port.
     Port "parameter"
-    /// A state or event.
     Outcome "event"
     /// A device, or something that belongs to one.
     Device "property"

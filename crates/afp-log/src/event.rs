@@ -127,7 +127,6 @@ impl PlanEvent {
     }
 }
 
-/// What a message says.
 pub(crate) fn decode(mut message: PlanEvent) -> RunEvent {
     let path = std::mem::take(&mut message.component);
     let component = component(path, message.component_id);

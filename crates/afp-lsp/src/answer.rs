@@ -54,7 +54,6 @@ pub(crate) fn ok(result: impl Serialize) -> Answer {
     serde_json::to_value(result).map_err(|error| Failure::Refused(error.to_string()))
 }
 
-/// Reads parameters.
 pub(crate) fn params<P: DeserializeOwned>(value: Value) -> Result<P, Failure> {
     serde_json::from_value(value).map_err(|error| Failure::Malformed(error.to_string()))
 }

@@ -37,7 +37,6 @@ impl<'t> Places<'t> {
     }
 }
 
-/// Edits of one file.
 pub(crate) struct FileEdits {
     pub path: String,
     /// The text that they are made on.

@@ -14,7 +14,6 @@ pub(crate) struct Document {
     pub language: String,
     /// The client's number of this state of it.
     pub version: i32,
-    /// Its text.
     pub text: String,
     /// Tells this state from all others of all documents.
     pub stamp: u64,

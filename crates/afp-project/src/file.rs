@@ -18,9 +18,7 @@ pub struct ProjectFile {
     pub folder: PathBuf,
     /// Whether there is such a file.
     pub exists: bool,
-    /// Its text.
     pub text: String,
-    /// What it says.
     pub project: Project,
 }
 
@@ -29,7 +27,6 @@ pub struct ProjectFile {
 pub struct ToolboxFile {
     /// What the project file says of it.
     pub toolbox: Toolbox,
-    /// Its file.
     pub path: PathBuf,
     /// The text of its file.
     pub text: String,
@@ -43,16 +40,13 @@ pub struct ToolboxFile {
 pub enum ProjectError {
     /// The project file cannot be read.
     Unreadable {
-        /// The file.
         path: PathBuf,
         /// Why not.
         error: io::Error,
     },
     /// The project file says something wrong.
     Wrong {
-        /// The file.
         path: PathBuf,
-        /// Its text.
         text: String,
         /// What is wrong, at least one thing, in the order of the text.
         mistakes: Vec<Mistake>,
@@ -93,7 +87,6 @@ impl ProjectFile {
         }
     }
 
-    /// The file itself.
     pub fn path(&self) -> PathBuf {
         self.folder.join(NAME)
     }

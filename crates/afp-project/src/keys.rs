@@ -3,7 +3,6 @@
 /// A key of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// Its name.
     pub name: &'static str,
     /// What it says, in a sentence.
     pub help: &'static str,

@@ -48,7 +48,6 @@ impl CrateLink {
 pub struct RobotLink {
     /// The toolbox of the project that declares its devices.
     pub toolbox: Option<String>,
-    /// The crate.
     pub krate: CrateLink,
     /// The type, seen from the crate's root.
     pub sim: String,
@@ -64,7 +63,6 @@ impl RobotLink {
 /// The type of the robot itself and the crate that holds it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HardwareLink {
-    /// The crate.
     pub krate: CrateLink,
     /// The type, seen from the crate's root.
     pub ty: String,

@@ -60,7 +60,6 @@ pub struct Robot {
     pub span: Range<usize>,
 }
 
-/// The robot itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hardware {
     /// The type that implements `afp_session::Hardware`, seen from the root of its crate.
@@ -88,7 +87,6 @@ pub struct Crate {
 /// A machine that runs plans, where it differs from the built-in one of its name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
-    /// Its name.
     pub name: String,
     /// The grain of its time in nanoseconds, more than 0.
     pub tick: Option<u64>,

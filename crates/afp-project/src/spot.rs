@@ -7,7 +7,6 @@ use std::ops::Range;
 pub struct Spot<'t> {
     /// The names that lead to the table.
     pub table: Vec<&'t str>,
-    /// What stands there.
     pub kind: SpotKind,
     /// The name there, empty where there is none yet.
     pub word: Range<usize>,

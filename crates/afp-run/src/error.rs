@@ -44,18 +44,15 @@ pub enum RunError {
     File {
         /// What was tried: `cannot read the world`.
         what: &'static str,
-        /// The file.
         path: PathBuf,
         /// Why not.
         error: io::Error,
     },
     /// A file says something wrong.
     Content {
-        /// The file.
         path: PathBuf,
         /// The bytes of its text, where known.
         span: Option<Range<usize>>,
-        /// The file's text.
         text: String,
         /// What is wrong.
         message: String,
@@ -64,7 +61,6 @@ pub enum RunError {
     },
     /// A run did not come out as it did before.
     Differs {
-        /// How.
         message: String,
         /// What may be the reason.
         help: String,

@@ -18,7 +18,6 @@ const LATE: Span = Span::from_millis(250);
 /// What waiting came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Waited {
-    /// The time has come.
     Due,
     /// The Escape key was pressed first.
     Escape,

@@ -136,7 +136,6 @@ impl Report {
         }
     }
 
-    /// Time has passed.
     pub(crate) fn pass(&mut self, now: Instant) {
         if self.progress.pass(now) {
             // A pipe sees the output while it grows.

@@ -148,7 +148,6 @@ fn measures(program: &Program<'_>, options: &RunOptions) -> Result<Vec<String>, 
 
 const STANDARD_OUTPUT: &str = "standard output";
 
-/// What was asked for.
 struct Setting<'a> {
     program: &'a Program<'a>,
     options: &'a RunOptions,

@@ -69,7 +69,6 @@ impl StopFlag {
         Ok(())
     }
 
-    /// Whether it was raised.
     pub fn is_raised(&self) -> bool {
         self.0.raised.load(Ordering::Relaxed)
     }

@@ -31,7 +31,6 @@ const LONGEST_PICTURE: u64 = 64 << 20;
 /// A world and its text.
 #[derive(Clone, Debug)]
 pub struct LoadedWorld {
-    /// The world.
     pub world: Arc<dyn AnyWorld>,
     /// The text of its file.
     pub text: String,

@@ -90,7 +90,6 @@ impl Sampling {
         matches!(self, Sampling::Following(_))
     }
 
-    /// Its grid.
     pub(crate) fn grid(self) -> Option<Duration> {
         match self {
             Sampling::Never => None,

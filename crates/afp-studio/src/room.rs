@@ -108,7 +108,6 @@ impl Room {
         }
     }
 
-    /// The folder.
     pub fn folder(&self) -> &Folder {
         &self.folder
     }
@@ -134,7 +133,6 @@ impl Room {
         }
     }
 
-    /// A client has come.
     pub fn join(&mut self, client: ClientId) {
         self.pen.get_or_insert(client);
         let (server, following) = (self.server(), Following::default());

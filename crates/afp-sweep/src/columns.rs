@@ -6,11 +6,9 @@ use crate::findings::Measure;
 use crate::grid::{Axis, Row, Sweep};
 use crate::outcome::{FIXED, Outcome, of_robot};
 
-/// A column.
 pub struct Column {
     /// Its name, with its unit.
     pub name: String,
-    /// What stands in it.
     pub cells: Cells,
 }
 
@@ -20,7 +18,6 @@ pub enum Cells {
     Counts(Vec<Option<u64>>),
     /// Numbers, where there is one.
     Numbers(Vec<Option<f64>>),
-    /// Texts.
     Texts(Vec<String>),
 }
 

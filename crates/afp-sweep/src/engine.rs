@@ -35,9 +35,7 @@ pub trait Watch: Sync {
 /// Does runs of a sweep.
 #[derive(Clone, Copy)]
 pub struct Engine<'a> {
-    /// The sweep.
     pub sweep: &'a Sweep,
-    /// Makes plans and robots.
     pub maker: Maker<'a>,
     /// How many threads there are; at least one.
     pub jobs: usize,

@@ -21,7 +21,6 @@ pub struct Findings {
 /// Something that robots touched.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Touched {
-    /// Its name.
     pub name: String,
     /// In how many runs.
     pub runs: u64,
@@ -34,15 +33,11 @@ pub struct Touched {
 /// Runs that ended alike.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
-    /// How.
     pub ending: Ending,
-    /// Where.
     pub place: String,
-    /// Why.
     pub why: String,
     /// How many.
     pub count: u64,
-    /// The first of them.
     pub run: u64,
 }
 
@@ -145,7 +140,6 @@ impl Findings {
         }
     }
 
-    /// Whether a run failed.
     pub fn has_failures(&self) -> bool {
         self.endings.iter().any(|(ending, _)| ending.is_failure())
     }

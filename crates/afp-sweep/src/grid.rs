@@ -23,7 +23,6 @@ pub struct Sweep {
     pub worlds: Vec<WorldChoice>,
     /// What is varied.
     pub axes: Vec<Axis>,
-    /// The seeds.
     pub seeds: Seeds,
     /// What is pressed in each run.
     pub presses: Vec<Press>,
@@ -51,7 +50,6 @@ pub enum WorldChoice {
 pub struct Axis {
     /// An entry of the plan, or `world.` and the way to a value of the world's file.
     pub name: String,
-    /// Its values.
     pub points: Vec<Point>,
 }
 
@@ -71,9 +69,7 @@ pub struct Row<'a> {
     pub run: u64,
     /// The place of its world among those of the sweep.
     pub world_number: usize,
-    /// Its world.
     pub world: &'a WorldChoice,
-    /// Its seed.
     pub seed: u64,
     /// The value of each axis.
     pub values: Vec<(&'a str, &'a Point)>,

@@ -24,13 +24,11 @@ pub(crate) const FIXED: [&str; 15] = [
     "took_s",
 ];
 
-/// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// By a state or a computation of the plan.
     Ok,
-    /// By an event.
     Interrupted,
     /// By the end of its time.
     TimeLimit,
@@ -53,7 +51,6 @@ impl Ending {
         Ending::Panicked,
     ];
 
-    /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Ending::Ok => "ok",
@@ -76,14 +73,12 @@ impl Ending {
 pub struct Outcome {
     /// The run's number in its sweep.
     pub run: u64,
-    /// How it ended.
     pub ending: Ending,
     /// Where: the path of the component that was active or failed last.
     #[serde(rename = "where")]
     pub place: String,
     /// Why: the state or event, the fault, or what was refused.
     pub why: String,
-    /// Simulated time, seconds.
     pub time_s: f64,
     /// The way that the robot went, metres.
     pub distance_m: f64,

@@ -16,7 +16,6 @@ const WHAT: &str = "cannot write the table";
 /// Where tables go unless told otherwise.
 const SWEEPS: &str = "target/afp/sweeps";
 
-/// What makes a table.
 pub type Make = fn(&Sweep, &[Outcome]) -> io::Result<Vec<u8>>;
 
 /// The formats of tables by their endings.
@@ -28,7 +27,6 @@ const FORMATS: &[(&str, Make)] = &[
 
 /// The files of a sweep.
 pub struct OutputFiles {
-    /// Outcomes as they come.
     pub journal: PathBuf,
     /// Tables, written whole.
     pub tables: Vec<(PathBuf, Make)>,

@@ -34,9 +34,7 @@ pub use toolbox::{InPort, OutPort, Outcome, Part, Template, TemplateKind, Timing
 /// A name and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
-    /// The name.
     pub text: String,
-    /// Its place.
     pub span: Span,
 }
 
@@ -78,7 +76,6 @@ pub(crate) use views;
 macro_rules! named {
     ($($name:ident)*) => {$(
         impl $name {
-            /// Its name.
             pub fn name(&self) -> Option<crate::ast::Name> {
                 crate::ast::token(&self.node, crate::kind::Kind::Name, self.file)
             }
@@ -93,15 +90,12 @@ macro_rules! named {
 pub(crate) use named;
 
 views! {
-    /// A file.
     File
     /// `use carbot as c` or `use "other.afp"`
     Use
-    /// An enum.
     Enum
     /// `object Map`
     Object
-    /// A type.
     Type
     /// `name` or `home.name`
     Ref
@@ -114,13 +108,9 @@ named! { Enum Object }
 pub enum Item {
     /// `use ...`
     Use(Use),
-    /// A plan.
     Plan(Plan),
-    /// A scenario.
     Scenario(Scenario),
-    /// An enum.
     Enum(Enum),
-    /// A table.
     Table(Table),
     /// The head of a toolbox.
     Toolbox(Toolbox),
@@ -184,7 +174,6 @@ impl Use {
         self.node.parent().is_some_and(|parent| parent.kind() == Kind::File)
     }
 
-    /// The toolbox's name.
     pub fn toolbox(&self) -> Option<Name> {
         token(&self.node, Kind::Name, self.file)
     }
@@ -244,11 +233,9 @@ pub struct Factor {
     pub reference: Option<Ref>,
     /// The number, which should be `1`.
     pub number: Option<Name>,
-    /// Whether it divides.
     pub divides: bool,
     /// The exponent as written, `1` without one; `None` when it does not fit 8 bits.
     pub exponent: Option<i8>,
-    /// Its place.
     pub span: Span,
 }
 

@@ -24,9 +24,7 @@ pub use shown::show_only_codes;
 /// Another place that explains the diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Label {
-    /// The place.
     span: Span,
-    /// What is there.
     text: Message,
 }
 
@@ -35,7 +33,6 @@ struct Label {
 pub struct Edit {
     /// The text to replace; an empty range inserts.
     pub span: Span,
-    /// The new text.
     pub text: String,
 }
 
@@ -51,7 +48,6 @@ pub enum Subject {
     Unknown {
         /// What it would be the name of.
         what: Sought,
-        /// The name.
         name: String,
         /// The plan in which it was sought, if the text names that.
         plan: Option<String>,
@@ -83,7 +79,6 @@ pub enum Sought {
     Element,
     /// A supervisor of a plan.
     Supervisor,
-    /// A toolbox.
     Toolbox,
 }
 
@@ -104,7 +99,6 @@ pub struct Diagnostic {
     found: Option<Box<Message>>,
     /// Other places that matter.
     notes: Vec<Label>,
-    /// What to do.
     help: Message,
     /// What that asks for.
     pub aim: Aim,
@@ -158,7 +152,6 @@ impl Diagnostic {
         self
     }
 
-    /// Says what to do.
     pub fn help(mut self, text: impl Into<Message>) -> Diagnostic {
         self.help = text.into();
         self
@@ -258,7 +251,6 @@ impl Diagnostics {
         self.note_all();
     }
 
-    /// Changes each of them.
     pub fn change(&mut self, change: impl FnMut(&mut Diagnostic)) {
         self.list.iter_mut().for_each(change);
         self.note_all();
@@ -301,7 +293,6 @@ impl Diagnostics {
         self.list.get(index as usize)
     }
 
-    /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter()
     }

@@ -21,7 +21,6 @@ impl Dimension {
     /// A plain number.
     pub const NONE: Dimension =
         Dimension { length: 0, mass: 0, time: 0, angle: 0, temperature: 0, voltage: 0 };
-    /// A span of time.
     pub const DURATION: Dimension = Dimension { time: 1, ..Dimension::NONE };
 }
 

@@ -5,26 +5,19 @@ use std::fmt;
 /// An item of a file, found by names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Item {
-    /// A plan.
     Plan {
-        /// Its name.
         name: String,
     },
-    /// An enum.
     Enum {
-        /// Its name.
         name: String,
     },
-    /// A table.
     Table {
-        /// Its name.
         name: String,
     },
     /// An entry, an element or a global supervisor, which share one scope.
     Inner {
         /// The plan that it is in.
         plan: String,
-        /// Its name.
         name: String,
     },
     /// A local supervisor, or the reactions to a supervisor of the plan.
@@ -42,17 +35,14 @@ pub enum Item {
 const ON: &str = "on ";
 
 impl Item {
-    /// A plan.
     pub fn plan(name: impl Into<String>) -> Item {
         Item::Plan { name: name.into() }
     }
 
-    /// An enum.
     pub fn enumeration(name: impl Into<String>) -> Item {
         Item::Enum { name: name.into() }
     }
 
-    /// A table.
     pub fn table(name: impl Into<String>) -> Item {
         Item::Table { name: name.into() }
     }

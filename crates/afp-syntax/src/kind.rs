@@ -103,7 +103,6 @@ kinds! {
     Use
     /// `as c`
     Alias
-    /// A plan.
     Plan
     /// `in`, `out`, `var`, `const`
     Entry
@@ -133,7 +132,6 @@ kinds! {
     Toolbox
     /// `object Map`
     Object
-    /// An enum.
     Enum
     /// A value of an enum.
     Variant
@@ -147,7 +145,6 @@ kinds! {
     Row
     /// A value of a row.
     Cell
-    /// A template.
     Template
     /// `icon "name"`
     Icon
@@ -177,7 +174,6 @@ kinds! {
     Range
     /// `on S | T`
     On
-    /// A scenario.
     Scenario
     /// `world "file"`
     World
@@ -205,7 +201,6 @@ kinds! {
     Moment
     /// `a.b.c`
     Path
-    /// A type.
     Type
     /// A factor of a type.
     Factor
@@ -217,7 +212,6 @@ kinds! {
     Product
     /// `-operand`
     Negation
-    /// A formula in brackets.
     Brackets
     /// `min(a, b)`
     Call

@@ -18,9 +18,7 @@ pub(super) use foreign::CHOICE;
 /// A piece of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Token<'t> {
-    /// What it is.
     pub kind: Kind,
-    /// Its text.
     pub text: &'t str,
     /// Where it starts in the file, in bytes.
     pub start: u32,
@@ -34,7 +32,6 @@ impl Token<'_> {
         self.breaks > 0
     }
 
-    /// Its place.
     pub(super) fn span(&self, file: u16) -> Span {
         let end = self.start + u32::try_from(self.text.len()).unwrap_or(0);
         Span { file, start: self.start, end }

@@ -45,7 +45,6 @@ impl Span {
 pub struct Source {
     /// The file's path as the user wrote it.
     pub name: String,
-    /// Its text.
     pub text: String,
 }
 

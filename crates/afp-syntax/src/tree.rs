@@ -15,7 +15,6 @@ pub type Node = rowan::SyntaxNode<Afp>;
 /// A token of the tree.
 pub type Token = rowan::SyntaxToken<Afp>;
 
-/// A parsed file.
 #[derive(Clone, Debug)]
 pub struct Parse {
     green: GreenNode,

@@ -77,7 +77,6 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// A supervisor.
     pub(crate) fn supervisor(&self, number: u32) -> Option<&Supervisor> {
         match self.part(number)? {
             (plan, Part { what: What::Supervisor(id), .. }) => plan.supervisors.get(id.index()),

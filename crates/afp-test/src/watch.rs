@@ -78,11 +78,9 @@ pub(crate) struct State {
     named: Vec<Datum>,
     /// The SI unit of each entry.
     units: Vec<String>,
-    /// How the plan ended.
     pub(crate) ending: Option<Ending>,
     /// What people are told of the last fault.
     why: String,
-    /// What the robot signals.
     pub(crate) signals: Signals,
 }
 
@@ -189,7 +187,6 @@ impl<'a> Watch<'a> {
         pairs.find(|(_, held, committed)| held != committed)
     }
 
-    /// What the robot signals.
     pub(crate) fn signals(&self) -> &Signals {
         &self.state.signals
     }

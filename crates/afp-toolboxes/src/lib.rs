@@ -20,7 +20,6 @@ pub struct Builtin {
     pub rust_path: &'static str,
 }
 
-/// Every built-in toolbox.
 pub const ALL: &[Builtin] = &[
     Builtin {
         name: "std",

@@ -19,7 +19,6 @@ use afp_syntax::source::Source;
 /// A project and the toolboxes that it has beyond the built-in ones.
 #[derive(Debug)]
 pub struct OwnToolboxes {
-    /// The project.
     pub project: ProjectFile,
     files: Vec<ToolboxFile>,
 }
@@ -27,13 +26,10 @@ pub struct OwnToolboxes {
 /// A toolbox of the project and the crate behind it.
 #[derive(Clone, Debug)]
 pub struct OwnToolbox {
-    /// Its name.
     pub name: String,
     /// Its file, as diagnostics show it, and the file's text.
     pub source: Source,
-    /// What its file declares.
     pub declared: Arc<Toolbox>,
-    /// Its crate.
     pub krate: CrateLink,
 }
 

@@ -23,9 +23,7 @@ pub struct Blame<'a> {
 
 /// A crate that was made from a plan.
 pub struct Generated<'a> {
-    /// Its folder.
     pub folder: &'a Path,
-    /// Its files.
     pub files: &'a [CrateFile],
     /// The texts that it was made from.
     pub sources: &'a Sources,

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-/// What the compiler says.
 #[derive(Debug, Default)]
 pub struct Message {
     /// Whether it is an error; else it is a warning.

@@ -11,7 +11,6 @@ use afp_run::RunError;
 /// What of a project holds runners where nothing else can.
 const IN_PROJECT: &str = "target/afp";
 
-/// The folders of runners.
 #[derive(Debug, PartialEq)]
 pub struct Folder {
     /// Holds the crates of runners.

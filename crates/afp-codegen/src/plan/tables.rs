@@ -131,7 +131,6 @@ fn reader(
                 End,
             }
 
-            /// Reads a row.
             #[derive(Clone, Copy, Debug)]
             pub struct Row;
 

@@ -25,7 +25,6 @@ pub(super) struct Found {
     pub what: What,
 }
 
-/// What a supervisor found.
 pub(super) enum What {
     /// An event to take, outputs staged, and where it leads.
     Event(Outcome, Target),

@@ -135,7 +135,6 @@ impl Fired {
         Fired::event(Outcome::DeadlineMissed.number(), Ok(()))
     }
 
-    /// The event.
     #[inline]
     pub(crate) fn outcome(&self) -> Option<Outcome> {
         // Made from 16 bits.

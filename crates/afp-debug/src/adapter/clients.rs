@@ -14,7 +14,6 @@ pub struct ClientId(u32);
 /// A message for a client.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Outgoing {
-    /// Who it is for.
     pub to: ClientId,
     /// The message, without a header.
     pub message: String,

@@ -221,7 +221,6 @@ impl Adapter<'_> {
         }
     }
 
-    /// What is run.
     fn begun(&mut self) -> Answer<Value> {
         let program = self.run()?.target.program();
         let plan = program.units.first();

@@ -27,7 +27,6 @@ pub(super) enum Group {
     Supervisors,
     /// Reports and deadlines of a supervisor.
     Timing,
-    /// What a component writes.
     Outputs,
 }
 

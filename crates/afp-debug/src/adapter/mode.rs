@@ -24,7 +24,6 @@ pub(super) enum Mode {
     Goto(ComponentId),
     /// Up to an instant, whatever happens.
     Seek(Instant),
-    /// The plan has ended.
     Over,
 }
 
@@ -38,7 +37,6 @@ impl Mode {
 /// Who or what ended a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum By {
-    /// The plan itself.
     Plan,
     /// The time that it was given.
     Until,

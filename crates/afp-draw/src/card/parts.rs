@@ -258,7 +258,6 @@ fn chip(card: &mut Card, of: &Component, rect: Rect, exit: &Exit, text: &str) {
     card.sketch.mark(exit.severity, (rect.x, rect.y));
 }
 
-/// Which exit it is.
 pub(super) fn part(exit: &Exit) -> Part {
     Part::Exit { name: exit.name.to_owned(), nth: exit.nth }
 }

@@ -148,7 +148,6 @@ fn free_lines(boxes: &[Bounds], anchors: &[Point], ends: Bounds, axis: Axis) -> 
     lines
 }
 
-/// From where to where.
 type Range = (f64, f64);
 
 /// The boxes that a whole line meets: where each begins, in that order, and where the last one of it and of those before ends.

@@ -125,7 +125,6 @@ impl Queue {
     }
 }
 
-/// Empties a bucket.
 fn empty(bucket: &mut Vec<Entry>) {
     bucket.clear();
     if bucket.capacity() > MOST_KEPT {

@@ -15,7 +15,6 @@ use afp_syntax::source::Span;
 
 /// Something of a name.
 struct Candidate<'a> {
-    /// What it is.
     signature: Rc<Signature>,
     /// The name that qualifies it.
     home: Option<&'a str>,
@@ -25,7 +24,6 @@ struct Candidate<'a> {
 
 /// What the keyword in front of a component asks for, and where it stands.
 pub(crate) struct Wanted {
-    /// The keyword.
     pub keyword: &'static str,
     /// Its place; `None` for `supervise`, which cannot be exchanged for another keyword.
     pub span: Option<Span>,

@@ -72,7 +72,6 @@ pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut D
 
 /// What cannot be read.
 struct Unread {
-    /// Where it stands.
     places: Vec<Span>,
     /// Those of names that are missing.
     nameless: Vec<Span>,

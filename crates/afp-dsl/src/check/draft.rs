@@ -25,16 +25,13 @@ use rustc_hash::FxHashMap;
 pub(crate) struct WrittenParts {
     /// What it is made from.
     pub template: Option<ast::Ref>,
-    /// Its bindings.
     pub binds: Vec<ast::Bind>,
-    /// Its edges.
     pub edges: Vec<WrittenEdge>,
 }
 
 /// What a component is made from, as far as that is known.
 #[derive(Default)]
 pub(crate) struct Made {
-    /// Its template or plan.
     pub signature: Option<Rc<Signature>>,
     /// The type that stands for `any` or `number`.
     pub generic: Option<Type>,

@@ -34,7 +34,6 @@ pub(crate) struct Connected {
     pub outcomes: Vec<Option<Target>>,
     /// The target of `Error` or `DeadlineMissed`.
     pub extra: Option<Target>,
-    /// Where they stand.
     pub spans: EdgeSpans,
 }
 
@@ -131,7 +130,6 @@ impl<'a> Elements<'a> {
         Some(ReasonId(u16::try_from(index).unwrap_or(u16::MAX)))
     }
 
-    /// Where which element stands.
     pub fn into_indices(self) -> Indices {
         self.indices
     }
@@ -155,9 +153,7 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// An edge as written.
 pub(crate) struct WrittenEdge {
-    /// The state or event.
     pub name: Name,
     /// Where it leads.
     pub target: Option<Name>,

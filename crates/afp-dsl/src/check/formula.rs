@@ -32,9 +32,7 @@ pub(crate) struct Scope<'a> {
     pub types: &'a Types,
     /// Tables of the file, which no formula reads.
     pub tables: &'a [Arc<Table>],
-    /// Entries of the plan.
     pub entries: &'a [EntryDraft],
-    /// Where they stand.
     pub indices: &'a Indices,
     /// Which of them can be read here, by place.
     pub readable: &'a dyn Fn(usize) -> bool,

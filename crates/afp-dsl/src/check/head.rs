@@ -8,15 +8,11 @@ use afp_syntax::source::Span;
 
 /// What other plans need to know of a plan.
 pub(crate) struct PlanHead {
-    /// The plan as written.
     pub node: ast::Plan,
-    /// Its name.
     pub name: Option<Name>,
     /// The file that it stands in.
     pub file: usize,
-    /// Its entries.
     pub entries: Vec<EntryDraft>,
-    /// Where the entries stand.
     pub indices: Indices,
     /// The edge by which it can end as `Interrupted`.
     pub interrupting: Option<Span>,
@@ -25,7 +21,6 @@ pub(crate) struct PlanHead {
 /// An entry, as far as it is understood.
 #[derive(Clone, Debug)]
 pub(crate) struct EntryDraft {
-    /// Its name.
     pub name: Name,
     /// Its `///` lines.
     pub doc: String,
@@ -35,7 +30,6 @@ pub(crate) struct EntryDraft {
     pub live: bool,
     /// Its type, where that is known.
     pub ty: Option<Type>,
-    /// Its initial value.
     pub init: Option<Formula>,
     /// Whether an initial value is written, right or wrong.
     pub has_init: bool,

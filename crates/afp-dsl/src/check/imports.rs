@@ -18,7 +18,6 @@ pub(crate) struct Import {
     pub qualifier: String,
     /// Where that name is declared: behind `as`, or in the toolbox.
     pub span: Span,
-    /// The toolbox.
     pub toolbox: Arc<Toolbox>,
     /// Its place among those that the files of the compilation use.
     pub id: ToolboxId,

@@ -20,11 +20,9 @@ use rustc_hash::FxHashMap;
 pub(crate) struct Material<'a> {
     /// Everything that was read.
     pub program: &'a Program<'a>,
-    /// The files.
     pub files: &'a [PlanFile],
     /// The components of each plan.
     pub members: Vec<Members>,
-    /// What names mean.
     pub meanings: &'a Meanings,
     /// The plan that was asked for.
     pub main: Option<usize>,
@@ -284,7 +282,6 @@ impl Places<'_> {
         }
     }
 
-    /// A formula.
     fn value(&self, formula: &ast::Formula) -> Value {
         let value = draft::value(self.text, formula);
         Value { entry: self.entry(value.span), ..value }

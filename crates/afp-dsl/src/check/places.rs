@@ -8,7 +8,6 @@ use crate::gather::PlanFile;
 use afp_syntax::source::{LineTable, Span};
 use rustc_hash::FxHashMap;
 
-/// The lines of files.
 pub(crate) struct Lines<'f>(FxHashMap<u16, LineTable<'f>>);
 
 impl<'f> Lines<'f> {
@@ -29,7 +28,6 @@ impl<'f> Lines<'f> {
     }
 }
 
-/// Places, by line.
 pub(crate) struct ByLine(BTreeMap<(u16, usize), (Range<usize>, Vec<Span>)>);
 
 impl ByLine {

@@ -35,7 +35,6 @@ pub(crate) struct CheckedPlan {
     pub plan: Option<graph::Plan>,
     /// Where there is none, the inputs of each element, as far as they are right.
     pub inputs: Vec<Vec<Formula>>,
-    /// What its components command.
     pub users: Users,
     /// What its components are called and made from.
     pub members: Members,
@@ -44,7 +43,6 @@ pub(crate) struct CheckedPlan {
 /// What the components of a plan are called and made from, all as written.
 #[derive(Default)]
 pub(crate) struct Members {
-    /// The global supervisors.
     pub globals: Vec<Component>,
     /// The elements, each with its supervisors and reactions.
     pub elements: Vec<Component>,
@@ -52,11 +50,9 @@ pub(crate) struct Members {
     pub of_supervisors: Vec<Option<Rc<Signature>>>,
     /// What each element is made from.
     pub of_elements: Vec<Option<Rc<Signature>>>,
-    /// Where which element stands.
     pub indices: Indices,
 }
 
-/// Checks a plan.
 pub(crate) fn check(program: &Program<'_>, index: usize, diags: &mut Diagnostics) -> CheckedPlan {
     let head = &program.plans[index];
     let context = Context { program, file: &program.files[head.file] };

@@ -21,7 +21,6 @@ pub(super) struct Watchers<'a> {
     pub globals: &'a [Component],
     /// What these are made from.
     pub signatures: &'a [Option<Rc<Signature>>],
-    /// Its elements.
     pub elements: &'a Elements<'a>,
     /// The text of the file.
     pub text: &'a str,

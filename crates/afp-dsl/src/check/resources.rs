@@ -13,9 +13,7 @@ use afp_syntax::source::Span;
 pub(crate) struct User {
     /// Its name in the plan.
     pub name: String,
-    /// Where its name stands.
     pub span: Span,
-    /// What it commands.
     pub uses: Vec<String>,
     /// The plan that it contains.
     pub plan: Option<usize>,
@@ -24,7 +22,6 @@ pub(crate) struct User {
 /// The components of a plan that command something.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Users {
-    /// Global supervisors.
     pub globals: Vec<User>,
     /// Elements, each with its supervisors.
     pub elements: Vec<(User, Vec<User>)>,

@@ -115,11 +115,8 @@ type Graphs = BTreeMap<usize, Option<Arc<graph::Graph>>>;
 
 /// A scenario in the making.
 struct Checker<'a> {
-    /// The scenario's file.
     context: Context<'a>,
-    /// The plan.
     paths: Paths<'a>,
-    /// What the robot has.
     robot: &'a Robot<'a>,
     head: &'a PlanHead,
 }

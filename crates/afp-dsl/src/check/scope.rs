@@ -35,9 +35,7 @@ pub(crate) struct Program<'a> {
 /// A compilation as one of its files sees it.
 #[derive(Clone, Copy)]
 pub(crate) struct Context<'a> {
-    /// All files.
     pub program: &'a Program<'a>,
-    /// This one.
     pub file: &'a FileScope<'a>,
 }
 
@@ -53,7 +51,6 @@ impl Context<'_> {
 pub(crate) struct FileScope<'a> {
     /// Its normalised path.
     pub path: &'a str,
-    /// Its text.
     pub text: &'a str,
     /// The file with its index among the sources.
     pub source: (u16, &'a Arc<Source>),

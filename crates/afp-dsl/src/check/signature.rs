@@ -13,9 +13,7 @@ use afp_syntax::source::Span;
 
 /// Ports and outcomes of a template or plan.
 pub(crate) struct Signature {
-    /// Its name.
     pub name: String,
-    /// What it is.
     pub kind: SignatureKind,
     /// Input ports in order.
     pub inputs: Vec<Input>,
@@ -34,13 +32,11 @@ pub(crate) struct Signature {
 /// What a signature belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SignatureKind {
-    /// A template.
     Template(TemplateKind),
     /// A plan, by its place in [`crate::check::Program::plans`].
     Plan(usize),
 }
 
-/// An input port.
 pub(crate) struct Input {
     /// Its name, which the outline has at each of its uses.
     pub name: Arc<str>,
@@ -56,9 +52,7 @@ pub(crate) struct Input {
     pub span: Span,
 }
 
-/// An output port.
 pub(crate) struct OutputPort {
-    /// Its name.
     pub name: Arc<str>,
     /// Its type; `None` when its declaration is broken.
     pub ty: Option<Type>,
@@ -68,7 +62,6 @@ pub(crate) struct OutputPort {
 
 /// The signatures of all that plans can use, made once.
 pub(crate) struct Signatures {
-    /// By toolbox and template.
     templates: Vec<Vec<Rc<Signature>>>,
     /// By place in [`crate::check::Program::plans`].
     plans: Vec<Rc<Signature>>,
@@ -122,7 +115,6 @@ impl Signatures {
         self.templates.get(toolbox.index())?.iter().find(is_it).cloned()
     }
 
-    /// That of a plan.
     pub fn plan(&self, index: usize) -> &Rc<Signature> {
         &self.plans[index]
     }

@@ -105,7 +105,6 @@ fn what(table: Table) -> &'static str {
     }
 }
 
-/// Plans are numbered, too.
 fn too_many_plans(program: &Program<'_>, diags: &mut Diagnostics) {
     let help = "leave out files whose plans are not needed";
     let names = program.plans.iter().filter_map(|head| Some(head.name.as_ref()?.span));

@@ -1,13 +1,11 @@
 //! Words that other languages have for ours.
 
-/// What names an element.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Leads {
     /// The start of the plan.
     Start,
     /// A state, or what is not known to be an event.
     Edge,
-    /// An event.
     Event,
 }
 

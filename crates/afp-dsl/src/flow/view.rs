@@ -45,7 +45,6 @@ pub(crate) enum Cause {
 pub(crate) struct Edge {
     /// What takes it.
     pub cause: Cause,
-    /// Where it begins.
     pub from: Node,
     /// Where it leads.
     pub to: Node,
@@ -55,7 +54,6 @@ pub(crate) struct Edge {
 
 /// A plan as a graph.
 pub(crate) struct View<'a> {
-    /// The plan.
     pub plan: &'a Plan,
     /// What it is part of.
     pub model: &'a Model<'a>,
@@ -252,7 +250,6 @@ impl<'a> View<'a> {
         self.plan.elements.get(node)
     }
 
-    /// A supervisor by index.
     pub fn supervisor(&self, id: SupervisorId) -> &'a Supervisor {
         &self.plan.supervisors[id.index()]
     }

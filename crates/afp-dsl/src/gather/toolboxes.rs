@@ -30,9 +30,7 @@ pub(crate) struct ToolboxFile {
     pub name: Option<Name>,
     /// Everything there is to say about it.
     pub diags: Diagnostics,
-    /// What its names mean.
     pub meanings: Meanings,
-    /// What it declares.
     pub declared: Vec<Declared>,
 }
 
@@ -122,7 +120,6 @@ impl Toolboxes {
         &self.meanings
     }
 
-    /// What the toolboxes declare.
     pub(crate) fn declared(&self) -> &[Declared] {
         &self.declared
     }

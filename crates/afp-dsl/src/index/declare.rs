@@ -10,7 +10,6 @@ use afp_syntax::source::Span;
 /// A definition before it has a number: others go by their names' places.
 #[derive(Clone, Debug)]
 pub(crate) struct Declared {
-    /// What it is.
     pub kind: DefinitionKind,
     /// Its own name.
     pub name: Span,

@@ -13,11 +13,9 @@ use afp_types::{Duration, Timing};
 /// An element or a supervisor.
 #[derive(Clone, Debug)]
 pub struct Component {
-    /// Which item it is.
     pub item: Item,
     /// What its keyword says.
     pub kind: ComponentKind,
-    /// Its name.
     pub name: Option<Name>,
     /// Its `///` lines.
     pub doc: String,
@@ -71,7 +69,6 @@ pub enum ComponentKind {
 pub struct TemplateUse {
     /// The name as written, with what qualifies it.
     pub text: String,
-    /// Its place.
     pub span: Span,
     /// The place of the name alone.
     pub name_span: Span,
@@ -84,19 +81,16 @@ pub struct TemplateUse {
 pub enum MadeFrom {
     /// A template of a toolbox.
     Template {
-        /// The toolbox.
         toolbox: Arc<Toolbox>,
         /// Which of [`Toolbox::templates`].
         index: usize,
     },
-    /// A plan.
     Plan(PlanId),
 }
 
 /// When a supervisor is polled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Times {
-    /// The times.
     pub timing: Timing,
     /// Where `every` is written, if it is.
     pub every_span: Option<Span>,
@@ -114,10 +108,8 @@ impl Times {
     }
 }
 
-/// An input port.
 #[derive(Clone, Debug)]
 pub struct Input {
-    /// The port's name.
     pub name: Arc<str>,
     /// Which binding of that port it is: 1, unless it is bound several times.
     pub nth: u16,
@@ -137,10 +129,8 @@ pub struct Input {
     pub findings: Findings,
 }
 
-/// An output port.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// The port's name.
     pub name: Arc<str>,
     /// Which binding of that port it is: 1, unless it is bound several times.
     pub nth: u16,
@@ -159,18 +149,15 @@ pub struct Output {
 pub struct Binding {
     /// The whole of it.
     pub span: Span,
-    /// The port's name.
     pub port_span: Span,
     /// The formula, or the entry that takes the value.
     pub value: Option<Value>,
 }
 
-/// A formula.
 #[derive(Clone, Debug)]
 pub struct Value {
     /// Its text as written, in one line and without comments.
     pub text: String,
-    /// Its place.
     pub span: Span,
     /// The entry, where it is one and nothing more.
     pub entry: Option<EntryId>,
@@ -179,11 +166,9 @@ pub struct Value {
 /// A way out of an element or supervisor.
 #[derive(Clone, Debug)]
 pub struct Exit {
-    /// The state or event.
     pub name: Arc<str>,
     /// Which edge of that name it is: 1, unless it is connected several times.
     pub nth: u16,
-    /// What it is.
     pub kind: ExitKind,
     /// Whether the component has it; unknown templates have none.
     pub known: bool,
@@ -191,7 +176,6 @@ pub struct Exit {
     pub declared: Option<Span>,
     /// Whether something is missing while it is not connected.
     pub required: bool,
-    /// The edge.
     pub edge: Option<Edge>,
     /// What there is to say about it.
     pub findings: Findings,
@@ -215,7 +199,6 @@ pub enum ExitKind {
 pub struct Edge {
     /// The whole of it.
     pub span: Span,
-    /// The state or event.
     pub name_span: Span,
     /// Where it leads; `None` while nothing stands there.
     pub target: Option<Target>,
@@ -226,9 +209,7 @@ pub struct Edge {
 pub struct Target {
     /// Its name as written; with the text behind `fail`.
     pub text: String,
-    /// Its place.
     pub span: Span,
-    /// What it means.
     pub to: Destination,
 }
 

@@ -9,36 +9,30 @@ use afp_syntax::source::Span;
 pub struct Identity {
     /// The file, as [`Span::file`] says it.
     pub file: u16,
-    /// The item.
     pub item: Item,
-    /// What of it.
     pub part: Part,
 }
 
 /// What of an item is meant.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Part {
-    /// All of it.
     Whole,
     /// The `start` line of a plan, the first or another one.
     Start(u16),
     /// What an input is bound to.
     Input {
-        /// The port.
         name: String,
         /// Which binding of it, from 1.
         nth: u16,
     },
     /// What an output is bound to.
     Output {
-        /// The port.
         name: String,
         /// Which binding of it, from 1.
         nth: u16,
     },
     /// The edge of a state or event.
     Exit {
-        /// The state or event.
         name: String,
         /// Which edge of it, from 1.
         nth: u16,
@@ -114,7 +108,6 @@ impl File {
 }
 
 impl Plan {
-    /// An element or supervisor.
     pub fn component(&self, item: &Item) -> Option<&Component> {
         self.components().find(|component| component.item == *item)
     }

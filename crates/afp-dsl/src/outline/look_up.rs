@@ -8,7 +8,6 @@ use afp_syntax::ast::ElementKind;
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 
 impl Outline {
-    /// A plan by index.
     pub fn plan(&self, id: PlanId) -> &Plan {
         &self.plans[id.index()]
     }

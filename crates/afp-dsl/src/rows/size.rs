@@ -15,11 +15,8 @@ pub(crate) const MAX_STATES: usize = MAX_ROWS - 1;
 /// A table of a plan, as people count it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Table {
-    /// Entries.
     Entries,
-    /// Elements.
     Elements,
-    /// Supervisors.
     Supervisors,
     /// Supervisors, the global ones once more for each element that their events lead to or that
     /// reacts to them.

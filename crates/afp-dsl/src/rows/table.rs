@@ -5,15 +5,12 @@ use afp_types::{ElementId, ElementRow, PlanTable, Range, SupervisorId, Superviso
 /// The tables of one plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rows {
-    /// The first element.
     pub start: ElementId,
     /// How many supervisors are global.
     pub globals: u16,
     /// How many entries there are.
     pub entries: u16,
-    /// The elements.
     pub elements: Vec<ElementRow>,
-    /// The supervisors.
     pub supervisors: Vec<SupervisorRow>,
     /// Why edges to `fail` end the plan.
     pub reasons: Vec<String>,

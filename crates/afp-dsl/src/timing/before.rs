@@ -18,7 +18,6 @@ use super::step::until_look;
 /// What comes before the poll of a supervisor in its step, on the level of its plan.
 #[derive(Clone)]
 pub(super) struct Before {
-    /// Polls of others.
     pub polls: Cost,
     /// What is interrupted and entered before it is asked.
     pub entered: Cost,

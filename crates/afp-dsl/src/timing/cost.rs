@@ -44,7 +44,6 @@ impl Cost {
         }
     }
 
-    /// One or the other.
     pub fn or(&self, other: &Cost) -> Cost {
         Cost {
             time: self.time.max(other.time),

@@ -13,7 +13,6 @@ use super::cost::Cost;
 pub(super) struct Level {
     /// One poll of each global supervisor.
     pub globals: Cost,
-    /// Entering the plan.
     pub entering: Cost,
     /// The longest step while it is active, the one that ends it included; not the one that starts it.
     pub longest_step: Cost,
@@ -34,7 +33,6 @@ pub(super) struct Level {
 
 /// The levels of all plans, by place.
 pub(super) struct Levels {
-    /// One for each plan.
     pub all: Vec<Level>,
 }
 

@@ -13,7 +13,6 @@ use afp_types::Duration;
 
 /// What holds for every supervisor of the plan that runs.
 pub(super) struct Bounds<'a> {
-    /// The longest step.
     pub longest_step: &'a Cost,
     /// An entry that makes it longer where it is written from outside.
     pub open: Option<&'a str>,

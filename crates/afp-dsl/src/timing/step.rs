@@ -35,7 +35,6 @@ pub(super) fn until_look(view: &View<'_>) -> Vec<Cost> {
 
 /// What entering one node takes.
 struct Once {
-    /// Its supervisors.
     look: Cost,
     /// Its own start.
     itself: Cost,
@@ -111,7 +110,6 @@ fn locals_of(view: &View<'_>, node: Node) -> Cost {
     element.map_or(Cost::ZERO, |element| locals(view, element))
 }
 
-/// Starting the element itself.
 fn itself(view: &View<'_>, levels: &[Level], node: Node) -> Cost {
     let Some(element) = view.element(node) else { return Cost::ZERO };
     match element.component {

@@ -12,7 +12,6 @@ const DEFAULT_CAPACITY: f64 = 0.7;
 /// A machine that runs plans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    /// Its name.
     pub name: String,
     /// The grain of its time in nanoseconds: nothing happens more often, and what is due may be
     /// noticed so much later. `None` where it is not known.
@@ -31,7 +30,6 @@ pub type Budgets = BTreeMap<String, BTreeMap<String, u64>>;
 /// A target that is known everywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct BuiltIn {
-    /// Its name.
     pub name: &'static str,
     tick: u64,
     slowdown: f64,

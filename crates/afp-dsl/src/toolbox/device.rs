@@ -10,10 +10,8 @@ pub use afp_syntax::ast::DeviceKind;
 /// What the robot as a whole is called among devices.
 pub const ROBOT: &str = "robot";
 
-/// A device.
 #[derive(Clone, Debug)]
 pub struct Device {
-    /// What it is.
     pub kind: DeviceKind,
     /// Its name; [`ROBOT`] for the robot as a whole.
     pub name: String,
@@ -32,7 +30,6 @@ pub struct Device {
 /// Something that can be held down and let go.
 #[derive(Clone, Debug)]
 pub struct Control {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -45,7 +42,6 @@ pub struct Control {
 /// A way in which a device can fail.
 #[derive(Clone, Debug)]
 pub struct Fault {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
@@ -58,7 +54,6 @@ pub struct Fault {
 /// How much of a fault there is, in SI units.
 #[derive(Clone, Debug)]
 pub struct Amount {
-    /// Its name.
     pub name: String,
     /// Its dimension; none for a plain number.
     pub dimension: Dimension,
@@ -75,11 +70,9 @@ pub struct Amount {
 /// Something that a device says.
 #[derive(Clone, Debug)]
 pub struct Signal {
-    /// Its name.
     pub name: String,
     /// Its `///` lines.
     pub doc: String,
-    /// What its values are.
     pub ty: SignalType,
     /// Whether only a judge may know it.
     pub truth: bool,

@@ -38,7 +38,6 @@ impl<'a> Ports<'a> {
 }
 
 impl Ports<'_> {
-    /// The inputs, by position.
     pub(super) fn inputs(&self, formulas: &[Formula]) -> Vec<PortNames> {
         let ports = self.inputs.iter().zip(formulas);
         let names = ports.map(|((name, range), formula)| PortNames {

@@ -10,7 +10,6 @@ use afp_dsl::toolbox::Template;
 /// A piece of what is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece {
-    /// Text.
     Text(String),
     /// A place to fill, with what stands there until then; may be empty.
     Hole(String),

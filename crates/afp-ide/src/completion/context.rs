@@ -19,9 +19,7 @@ pub(super) struct Context {
 /// What an edge belongs to, which decides where it can lead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
-    /// A supervisor.
     Event,
-    /// A computation.
     Computation,
     /// An actor or a sub-plan.
     Other,
@@ -32,15 +30,12 @@ pub(super) enum Origin {
 pub(super) enum Place {
     /// Nothing that could be foreseen.
     Nothing,
-    /// Items of a file.
     File,
     /// Toolboxes and files behind `use`.
     Uses,
-    /// Items of a plan.
     Plan(Node),
     /// Supervisors and edges of an element.
     Element(Node),
-    /// Edges of a supervisor.
     Supervisor(Node),
     /// Supervisors of the plan, behind `on`.
     Watchers(Node),
@@ -53,20 +48,21 @@ pub(super) enum Place {
     /// Ports of an element or supervisor.
     Ports(Node),
     /// Where an edge leads: the one of an event, a computation, or what ends by it.
-    Target { from: Origin },
-    /// The first element.
+    Target {
+        from: Origin,
+    },
     Start,
-    /// A type.
     Type,
     /// The entry that an output goes to.
-    Output { component: Node, port: String },
-    /// A value.
+    Output {
+        component: Node,
+        port: String,
+    },
     Value(Wanted),
     /// The unit of a number.
     Unit(Wanted),
     /// What belongs to something, behind a point.
     Member(Option<DefinitionId>),
-    /// Lines of a scenario.
     Scenario,
     /// Lines of a scenario that count from one of its moments.
     Moment,
@@ -90,11 +86,9 @@ pub(super) enum Place {
 pub(super) enum Wanted {
     /// A port of an element or supervisor.
     Port(Node, String),
-    /// An entry.
     Entry(Node),
     /// The entry that a path of a scenario names.
     Named(Node),
-    /// A time.
     Time,
     /// Something else.
     Unknown,

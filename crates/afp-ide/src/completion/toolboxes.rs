@@ -12,7 +12,6 @@ fn with_holes(parts: &[&str]) -> Vec<Piece> {
     parts.iter().enumerate().map(piece).collect()
 }
 
-/// Items of a toolbox.
 pub(super) fn of_file(list: &mut List) {
     list.keyword("toolbox", with_holes(&["toolbox ", "name", " version \"", "1.0", "\""]), 1);
     let state = " {\n    state ";

@@ -121,7 +121,6 @@ pub(super) fn items(
     place(buffer, &list, &lines, nodes[0].kind(), before)
 }
 
-/// Refuses supervisors on computations.
 pub(super) fn can_be_supervised(element: &Node) -> Result<(), Refused> {
     match tree::keyword(element) {
         Some(keyword) if keyword.text() == "computation" => {

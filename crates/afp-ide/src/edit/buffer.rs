@@ -50,14 +50,12 @@ impl Piece {
 }
 
 impl TextBuffer {
-    /// Begins with a text.
     pub fn new(text: &str, toolboxes: Rc<Toolboxes>) -> TextBuffer {
         let (root, syntax_errors) = tree(text);
         let pieces = vec![Piece::Kept(0..text.len())];
         TextBuffer { toolboxes, text: text.to_owned(), root, syntax_errors, pieces }
     }
 
-    /// The text so far.
     pub fn text(&self) -> &str {
         &self.text
     }

@@ -23,9 +23,7 @@ use flow::Flow;
 
 /// Elements of a plan that are to become a plan.
 pub(super) struct Selection {
-    /// The plan.
     pub plan: Node,
-    /// The elements as written.
     pub elements: Vec<Node>,
     /// The file that it stands in.
     project: Project,

@@ -18,7 +18,6 @@ use data::Data;
 
 /// A sub-plan that is to be replaced by its elements.
 struct Call {
-    /// The files.
     project: Project,
     /// The file that the plan inside stands in.
     from: usize,

@@ -20,7 +20,6 @@ pub(super) enum Place {
 
 /// A text and its tree.
 pub(super) struct Page<'t> {
-    /// The text.
     pub text: &'t str,
     /// Its tree.
     pub root: Node,

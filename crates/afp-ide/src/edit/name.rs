@@ -54,7 +54,6 @@ pub(super) fn fresh(name: &str, taken: &[String]) -> String {
 pub(crate) struct Taken(BTreeSet<String>);
 
 impl Taken {
-    /// Takes names.
     pub fn of<'n>(names: impl Iterator<Item = &'n str>) -> Taken {
         Taken(names.map(key).collect())
     }

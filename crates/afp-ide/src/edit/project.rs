@@ -40,7 +40,6 @@ pub(super) struct Project {
 }
 
 impl Project {
-    /// A file by itself.
     pub fn alone(buffer: &TextBuffer) -> Project {
         let source = Source::new("", buffer.text());
         let toolboxes = buffer.toolboxes.clone();

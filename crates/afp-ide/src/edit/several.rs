@@ -26,7 +26,6 @@ pub struct Made {
     pub changes: Vec<Change>,
     /// The names that were wished for and taken, with those given instead.
     pub given: Given,
-    /// What was added.
     pub added: Vec<Item>,
 }
 

@@ -23,7 +23,6 @@ pub(super) enum Scope {
 }
 
 impl Scope {
-    /// The names in it.
     pub fn names(&self) -> Vec<String> {
         let (node, kinds): (_, &[Kind]) = match self {
             Scope::Inside(node, kind) => {
@@ -51,13 +50,11 @@ pub(super) fn scope_of(root: &Node, item: &Item) -> Result<Scope, Refused> {
     })
 }
 
-/// A plan by name.
 pub(super) fn plan(root: &Node, name: &str) -> Result<Node, Refused> {
     let found = pick(children(root, Kind::Plan), name);
     found.ok_or_else(|| Refused::new(format!("there is no plan '{name}'")))
 }
 
-/// An element by name.
 pub(super) fn element(root: &Node, plan: &str, name: &str) -> Result<Node, Refused> {
     let node = self::plan(root, plan)?;
     let found = inner(&node, name).filter(|found| found.kind() == Kind::Element);

@@ -15,7 +15,6 @@ use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 use crate::workspace::Reads;
 
-/// A document.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Timing {

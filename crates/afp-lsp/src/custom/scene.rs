@@ -85,7 +85,6 @@ impl<'a> Shown<'a> {
         self.scene.map_or(Value::Null, |scene| rect(scene.bounds))
     }
 
-    /// All of it.
     pub fn whole(self) -> Value {
         let elements = self.elements().into_values().map(|one| self.element(one));
         let edges = self.edges().into_values().map(|one| (id(one), edge(one)));

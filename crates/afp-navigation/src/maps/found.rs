@@ -56,7 +56,6 @@ pub(crate) struct Finds {
 /// A ping in the frame of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Heard {
-    /// Where the sensor was.
     pub(crate) sensor: [f64; 2],
     /// Where it looked, against the x axis.
     pub(crate) direction: f64,

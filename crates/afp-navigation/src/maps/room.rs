@@ -45,7 +45,6 @@ pub(crate) mod tests {
         Body { front: half_length, rear: half_length, half_width }
     }
 
-    /// The Carbot's.
     pub(crate) fn carbot() -> Body {
         body(0.4, 0.35)
     }

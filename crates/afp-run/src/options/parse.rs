@@ -22,7 +22,6 @@ pub enum Speed {
 /// A control that is pressed at an instant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Press {
-    /// Which one.
     pub control: String,
     /// When.
     pub at: Instant,
@@ -33,7 +32,6 @@ pub struct Press {
 pub struct Failure {
     /// What breaks.
     pub device: String,
-    /// How.
     pub kind: String,
     /// By how much, as it is written.
     pub amount: Option<String>,
@@ -44,14 +42,12 @@ pub struct Failure {
 }
 
 impl fmt::Display for Press {
-    /// As it is written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}@{}s", self.control, self.at.as_secs_f64())
     }
 }
 
 impl fmt::Display for Failure {
-    /// As it is written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}.{}", self.device, self.kind)?;
         if let Some(amount) = &self.amount {
@@ -67,7 +63,6 @@ impl fmt::Display for Failure {
 pub enum Destination {
     /// Nowhere.
     None,
-    /// Into this file.
     File(PathBuf),
 }
 

@@ -4,7 +4,6 @@ use afp_core::rt::{Scale, Unit, parse_quantity};
 use afp_session::some_units;
 use afp_types::SingleUnit;
 
-/// What a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Measure {
     Length,

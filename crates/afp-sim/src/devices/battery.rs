@@ -19,7 +19,6 @@ const CURVE: [(f64, f64); 7] =
 const FULL_SPEED: f64 = 6.6;
 const CUT_OFF: f64 = 6.0;
 
-/// The battery.
 #[derive(Clone, Debug)]
 pub(crate) struct Battery {
     /// Joules that have been drawn.

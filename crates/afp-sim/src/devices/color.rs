@@ -13,7 +13,6 @@ const FORWARD: f64 = 0.15;
 /// Standard deviation of each colour.
 const NOISE: f64 = 0.01;
 
-/// The sensor.
 #[derive(Clone, Debug)]
 pub(crate) struct ColorSensor {
     noise: Noise,

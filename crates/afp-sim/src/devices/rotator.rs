@@ -9,7 +9,6 @@ const RATE: f64 = 300.0 / 180.0 * core::f64::consts::PI;
 /// Its telemetry rounds to this, radians.
 const RESOLUTION: f64 = 0.25 / 180.0 * core::f64::consts::PI;
 
-/// The rotator.
 #[derive(Clone, Debug)]
 pub(crate) struct Rotator {
     servo: Servo,

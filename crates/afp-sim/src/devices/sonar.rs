@@ -20,7 +20,6 @@ pub(crate) const RAYS: usize = 9;
 const SOUND: f64 = 343.0;
 /// The least that the sensor can measure, metres.
 const MIN: f64 = 0.03;
-/// The most.
 pub(crate) const MAX: f64 = CARBOT.most;
 /// A range sensor that listens to a cone of sound, and how it errs.
 #[derive(Clone, Copy, Debug, PartialEq)]

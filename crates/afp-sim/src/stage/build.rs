@@ -15,7 +15,6 @@ use rapier2d::prelude::{
 pub(crate) const HIGH: Group = Group::GROUP_1;
 /// What it looks over.
 const LOW: Group = Group::GROUP_2;
-/// The robot.
 pub(crate) const ROBOT: Group = Group::GROUP_3;
 
 /// What the engine knows of a world.

@@ -1,6 +1,5 @@
 //! A servo that moves towards its target at a limited rate.
 
-/// A position servo.
 #[derive(Clone, Debug)]
 pub(crate) struct Servo {
     position: f64,

@@ -7,7 +7,6 @@ use std::collections::VecDeque;
 /// The ends of the lines of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum LineEnds {
-    /// Every line ends so.
     All(&'static str),
     /// Each line has its own.
     Each(Vec<&'static str>),
@@ -32,7 +31,6 @@ pub(crate) fn with_newlines(text: &str) -> Cow<'_, str> {
 const MOST: usize = 10_000;
 
 impl LineEnds {
-    /// Those of a file.
     pub fn of(file: &str) -> LineEnds {
         let bytes = file.as_bytes();
         let ends = bytes.iter().enumerate().filter_map(|(at, byte)| match byte {

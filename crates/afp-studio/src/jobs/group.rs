@@ -32,7 +32,6 @@ impl Group {
         if std::mem::replace(&mut self.asked, true) { self.kill() } else { ask(&mut self.first) }
     }
 
-    /// Ends all of them.
     pub fn kill(&mut self) {
         kill(&mut self.first);
     }

@@ -18,16 +18,13 @@ views! {
     Fault
     /// How much there is of a fault.
     Amount
-    /// What a device signals.
     Signal
 }
 
 named! { Device Control Fault Signal }
 
-/// What a device is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DeviceKind {
-    /// A device.
     Device,
     /// A sensor: it also fails in the ways in which every sensor does.
     Sensor,
@@ -42,7 +39,6 @@ pub enum DevicePart {
     Press(Press),
     /// A way in which it fails.
     Fault(Fault),
-    /// What it signals.
     Signal(Signal),
 }
 
@@ -61,7 +57,6 @@ impl Device {
         keyword_token(&self.node, self.file)
     }
 
-    /// Its parts as written.
     pub fn parts(&self) -> Vec<DevicePart> {
         let file = self.file;
         let part = |node: crate::Node| {
@@ -102,12 +97,10 @@ impl Fault {
 }
 
 impl Amount {
-    /// Its name.
     pub fn name(&self) -> Option<Name> {
         token(&self.node, Kind::Name, self.file)
     }
 
-    /// Its type.
     pub fn ty(&self) -> Option<Type> {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
@@ -134,7 +127,6 @@ impl Signal {
         keyword_token(&self.node, self.file)
     }
 
-    /// Its type.
     pub fn ty(&self) -> Option<Type> {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }

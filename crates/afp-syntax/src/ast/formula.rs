@@ -7,11 +7,9 @@ use crate::source::Span;
 use rowan::Language;
 
 views! {
-    /// A formula.
     Formula
 }
 
-/// What a formula is.
 #[derive(Clone, Debug)]
 pub enum FormulaKind {
     /// Operands with signs between them, from left to right. Holes are `None`.
@@ -33,7 +31,6 @@ pub enum FormulaKind {
     Number {
         /// The digits.
         number: Name,
-        /// The unit.
         unit: Option<Name>,
         /// Whether it has neither point nor exponent.
         whole: bool,
@@ -55,7 +52,6 @@ pub enum FormulaKind {
 pub struct Sign {
     /// What it does.
     pub operator: Operator,
-    /// Where it stands.
     pub span: Span,
 }
 
@@ -117,7 +113,6 @@ impl Formula {
         u32::from(self.node.text_range().start()) <= byte
     }
 
-    /// What it is.
     pub fn kind(&self) -> FormulaKind {
         let only = || Formula::child_of(&self.node, self.file);
         match self.node.kind() {

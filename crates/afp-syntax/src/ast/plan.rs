@@ -11,7 +11,6 @@ use crate::{Node, node_span};
 use rowan::{GreenNodeData, NodeOrToken};
 
 views! {
-    /// A plan.
     Plan
     /// `in`, `out`, `var` or `const`
     Entry
@@ -19,7 +18,6 @@ views! {
     Start
     /// An actor, a computation or a sub-plan.
     Element
-    /// A supervisor.
     Guard
     /// `on keys { Start -> drive }`
     Reactions
@@ -45,7 +43,6 @@ pub enum ElementKind {
 pub enum Bind {
     /// `port = formula`
     In {
-        /// The port.
         port: Name,
         /// The `=`.
         sign: Span,
@@ -54,7 +51,6 @@ pub enum Bind {
     },
     /// `port => entry`
     Out {
-        /// The port.
         port: Name,
         /// The `=>`.
         sign: Span,
@@ -66,7 +62,6 @@ pub enum Bind {
 }
 
 impl Bind {
-    /// The port.
     pub fn port(&self) -> &Name {
         let (Bind::In { port, .. } | Bind::Out { port, .. }) = self;
         port
@@ -139,7 +134,6 @@ impl Plan {
         tokens.filter(|token| token.kind() == Kind::Name).map(|token| token.text().to_owned())
     }
 
-    /// Its entries as written.
     pub fn entries(&self) -> Vec<Entry> {
         children(&self.node, Kind::Entry).map(|node| Entry::new(node, self.file)).collect()
     }
@@ -154,7 +148,6 @@ impl Plan {
         guards(&self.node, self.file)
     }
 
-    /// Its elements as written.
     pub fn elements(&self) -> Vec<Element> {
         children(&self.node, Kind::Element).map(|node| Element::new(node, self.file)).collect()
     }
@@ -176,7 +169,6 @@ impl Entry {
         note(&self.node)
     }
 
-    /// Its type, where written.
     pub fn ty(&self) -> Option<Type> {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
@@ -198,7 +190,6 @@ impl Entry {
 }
 
 impl Start {
-    /// The first element.
     pub fn target(&self) -> Option<Name> {
         token(&self.node, Kind::Name, self.file)
     }
@@ -208,7 +199,6 @@ impl Start {
 macro_rules! components {
     ($($name:ident)*; $($made:ident)*) => {
         $(impl $name {
-            /// Its edges as written.
             pub fn edges(&self) -> Vec<Edge> {
                 edges(&self.node, self.file)
             }
@@ -225,7 +215,6 @@ macro_rules! components {
                 child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
             }
 
-            /// Its bindings as written.
             pub fn binds(&self) -> Vec<Bind> {
                 binds(&self.node, self.file)
             }

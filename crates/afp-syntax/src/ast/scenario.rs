@@ -7,7 +7,6 @@ use crate::kind::Kind;
 use afp_types::Target;
 
 views! {
-    /// A scenario.
     Scenario
     /// A line of a scenario.
     Line
@@ -42,9 +41,7 @@ pub enum LineKind {
     Expect {
         /// Whether it is `never`.
         never: bool,
-        /// The claim.
         claim: Option<Claim>,
-        /// Its bounds.
         bounds: Vec<Bound>,
     },
     /// `from claim { lines }`
@@ -53,7 +50,6 @@ pub enum LineKind {
     Until(Option<Formula>),
 }
 
-/// What a claim says.
 #[derive(Clone, Debug)]
 pub enum ClaimKind {
     /// `from -> to by cause`
@@ -79,7 +75,6 @@ pub enum ClaimKind {
     Commit {
         /// The entry that is written.
         of: Option<Path>,
-        /// Who writes.
         by: Option<Path>,
     },
     /// A state, an event or a fact of the world.
@@ -102,7 +97,6 @@ impl Scenario {
         child(&self.node, Kind::Ref).map(|node| Ref::new(node, self.file))
     }
 
-    /// Its lines as written.
     pub fn lines(&self) -> Vec<Line> {
         lines(&self.node, self.file)
     }
@@ -128,7 +122,6 @@ fn lines(node: &Node, file: u16) -> Vec<Line> {
 }
 
 impl Line {
-    /// What it is.
     pub fn kind(&self) -> LineKind {
         let first = || Formula::child_of(&self.node, self.file);
         match self.node.kind() {
@@ -209,12 +202,10 @@ impl Action {
 }
 
 impl Claim {
-    /// All paths in it.
     pub fn paths(&self) -> Vec<Path> {
         children(&self.node, Kind::Path).map(|node| Path::new(node, self.file)).collect()
     }
 
-    /// What it says.
     pub fn kind(&self) -> ClaimKind {
         let mut paths = children(&self.node, Kind::Path).map(|node| Path::new(node, self.file));
         let has = |word: &str| {
@@ -272,14 +263,12 @@ impl Bound {
         token(&self.node, Kind::Int, self.file)
     }
 
-    /// Its time.
     pub fn time(&self) -> Option<Formula> {
         Formula::child_of(&self.node, self.file)
     }
 }
 
 impl Path {
-    /// Its names.
     pub fn names(&self) -> Vec<Name> {
         tokens(&self.node, Kind::Name, self.file)
     }

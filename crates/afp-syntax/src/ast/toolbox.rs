@@ -10,11 +10,8 @@ use crate::source::Span;
 views! {
     /// The head of a toolbox.
     Toolbox
-    /// A template.
     Template
-    /// An input port.
     InPort
-    /// An output port.
     OutPort
     /// A state or an event.
     Outcome
@@ -24,7 +21,6 @@ views! {
 
 named! { Toolbox Template InPort OutPort Outcome }
 
-/// What a template is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TemplateKind {
     /// Acts over time, ends in a state.
@@ -43,15 +39,12 @@ pub enum Part {
     Icon(Option<Name>, Span),
     /// `uses navigator`
     Uses(Option<Name>, Span),
-    /// An input port.
     In(InPort),
-    /// An output port.
     Out(OutPort),
     /// A state or an event.
     Outcome(Outcome),
     /// `states of port`: the port, the place of `states`, and the help above it.
     StatesOf(Option<Name>, Span, String),
-    /// A time.
     Timing(Timing),
 }
 
@@ -72,7 +65,6 @@ impl Template {
         })
     }
 
-    /// Its parts as written.
     pub fn parts(&self) -> Vec<Part> {
         let file = self.file;
         let part = |node: crate::Node| {
@@ -99,7 +91,6 @@ impl InPort {
         live(&self.node, self.file)
     }
 
-    /// Its type.
     pub fn ty(&self) -> Option<Type> {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
@@ -121,7 +112,6 @@ impl InPort {
 }
 
 impl OutPort {
-    /// Its type.
     pub fn ty(&self) -> Option<Type> {
         child(&self.node, Kind::Type).map(|node| Type::new(node, self.file))
     }
@@ -152,7 +142,6 @@ impl Timing {
         keyword_token(&self.node, self.file)
     }
 
-    /// The time.
     pub fn value(&self) -> Option<Formula> {
         Formula::child_of(&self.node, self.file)
     }

@@ -126,7 +126,6 @@ impl From<&'static str> for Message {
 
 /// What a message can mention.
 pub trait ToArg {
-    /// The argument.
     fn to_arg(&self) -> Arg;
 }
 

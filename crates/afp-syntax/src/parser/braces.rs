@@ -48,7 +48,6 @@ struct Line {
 struct Opened {
     /// Its token.
     at: usize,
-    /// Its line.
     line: Line,
     /// Whether the lines in it are no farther to the right than its own; not known before the first of them.
     is_flat: Option<bool>,
@@ -217,7 +216,6 @@ struct Reader<'t, 's> {
     too_many: bool,
     /// The braces that are open.
     open: Vec<Opened>,
-    /// The lines so far.
     lines: Vec<Line>,
 }
 

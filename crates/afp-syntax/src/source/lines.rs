@@ -26,7 +26,6 @@ pub enum Encoding {
 #[derive(Clone, Debug)]
 pub struct Lines<'t> {
     text: &'t str,
-    /// Where each line starts.
     starts: Vec<usize>,
 }
 

@@ -53,7 +53,6 @@ impl Signals {
         Ok(Signals(all))
     }
 
-    /// Whether there are any.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -42,7 +42,6 @@ impl Injection {
         Ok(())
     }
 
-    /// Stages the outputs.
     pub(super) fn stage(&self, stage: &mut Stage<'_>) {
         for (port, value) in &self.outputs {
             stage.put(*port, value.clone());

@@ -23,7 +23,6 @@ struct Sounding {
     distance: f64,
 }
 
-/// The line.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     /// Direction of the wall, in the robot's way of driving.

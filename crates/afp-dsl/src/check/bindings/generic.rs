@@ -15,7 +15,6 @@ use afp_syntax::source::Span;
 pub(super) enum Generic {
     /// The template has no such port.
     None,
-    /// This type.
     Is(Type),
     /// Something is wrong, and reported.
     Unknown,

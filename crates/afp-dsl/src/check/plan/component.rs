@@ -26,7 +26,6 @@ use super::faults::{Faults, Owner, add_remarks};
 pub(super) struct Checked<T> {
     /// What the graph has of it; `None` where something is wrong.
     pub built: Option<T>,
-    /// What it commands.
     pub user: Option<User>,
     /// What it is made from.
     pub signature: Option<Rc<Signature>>,
@@ -50,7 +49,6 @@ impl<T> Parts<T> {
 
 /// What the components of one plan are checked against.
 pub(super) struct Components<'a> {
-    /// The file.
     pub context: Context<'a>,
     /// What formulas can name.
     pub scope: &'a Scope<'a>,

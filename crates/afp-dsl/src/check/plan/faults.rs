@@ -11,7 +11,6 @@ pub(super) enum Faults {
     Taken,
     /// No `Error` edge takes them, but one could.
     Unconnected,
-    /// They end the plan.
     EndPlan,
 }
 

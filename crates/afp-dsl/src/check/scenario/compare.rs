@@ -22,7 +22,6 @@ pub(super) struct Compared {
     pub subject: Subject,
     /// The type of its values.
     pub ty: Type,
-    /// Where it is declared.
     pub declared: Option<Span>,
 }
 

@@ -12,9 +12,7 @@ pub(super) use super::resolve::Part;
 
 /// The plan of a scenario, by names.
 pub(super) struct Paths<'a> {
-    /// Its graph.
     pub graph: &'a Graph,
-    /// What names mean.
     pub names: Resolver<'a>,
     /// The plan, by its index in [`crate::check::Program::plans`].
     pub main: usize,
@@ -32,17 +30,14 @@ pub(super) struct Instance {
     entries: u32,
 }
 
-/// A component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Found {
     /// The plan that it belongs to.
     pub instance: Instance,
-    /// What it is.
     pub part: Part,
 }
 
 impl Instance {
-    /// The plan.
     pub fn plan(self) -> PlanId {
         self.plan
     }
@@ -58,7 +53,6 @@ impl<'a> Paths<'a> {
         Paths { graph, names, main }
     }
 
-    /// The plan that runs.
     pub fn main(&self) -> Instance {
         Instance { plan_index: self.main, plan: self.graph.main, components: 1, entries: 0 }
     }
@@ -171,7 +165,6 @@ impl<'a> Paths<'a> {
         outputs.iter().map(|output| found.instance.entries + u32::from(output.entry.0)).collect()
     }
 
-    /// The component's name.
     pub fn name(&self, found: Found) -> &'a str {
         let plan = self.plan(found.instance);
         match found.part {

@@ -193,7 +193,6 @@ impl<'a> Resolver<'a> {
         u16::try_from(number).ok().map(SupervisorId).map(Part::Supervisor)
     }
 
-    /// The component itself.
     pub fn member(&self, plan: usize, part: Part) -> Option<&'a Component> {
         let members = &self.members[plan];
         match part {

@@ -30,7 +30,6 @@ pub(super) enum Found<'a, T> {
     Device(&'a Device),
     /// The first name alone, which several devices have.
     Several(Vec<&'a Device>),
-    /// Nothing.
     Nothing,
 }
 

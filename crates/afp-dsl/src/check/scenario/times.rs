@@ -14,7 +14,6 @@ pub(super) struct Stretch {
     pub from: Option<MomentId>,
     /// When it ends, nanoseconds.
     pub until: u64,
-    /// Where that is written.
     until_span: Option<Span>,
 }
 

@@ -97,7 +97,6 @@ pub(super) fn output(
     Some(OutPort { doc: node.doc(), on, span: name.span, name: name.text, ty })
 }
 
-/// Where ports are read.
 pub(super) struct Site<'a> {
     /// The types of the toolbox.
     pub types: &'a Types,

@@ -9,7 +9,6 @@ use crate::graph::{ElementId, EntryId};
 pub(crate) struct Counter {
     /// What it counts in.
     pub entry: EntryId,
-    /// Its limit.
     pub limit: i64,
     /// The least value that its entry has before anything counts in it: zero, which `Done` writes, or less.
     pub least: i64,

@@ -14,7 +14,6 @@ use afp_syntax::kind::Kind;
 
 /// What is written in place of the inner plan's entries.
 pub(super) struct Data {
-    /// In formulas.
     read: BTreeMap<String, String>,
     /// Behind `=>`.
     written: BTreeMap<String, String>,

@@ -15,7 +15,6 @@ struct Surroundings {
     plan: String,
     /// The name of an element in it.
     host: String,
-    /// The items.
     items: String,
     /// Their names, with those that were given.
     names: Vec<(Item, String)>,

@@ -60,7 +60,6 @@ pub(super) struct Cloud {
 }
 
 impl Cloud {
-    /// Around a place.
     pub(super) fn around(place: Pose2, noise: &mut Noise) -> Self {
         let particle = |_| Particle::new(near(place, START, noise), 1.0 / COUNT as f64);
         Cloud { particles: (0..COUNT).map(particle).collect(), drawn: Vec::with_capacity(COUNT) }

@@ -9,7 +9,6 @@ use crate::world::WorldError;
 
 /// A key of a table.
 pub(super) struct Key {
-    /// Its name.
     pub(super) name: &'static str,
     kind: Kind,
     /// Whether a table makes no sense without it.

@@ -33,11 +33,8 @@ const LOOK: Duration = Duration::from_millis(1);
 
 /// What comes from outside.
 enum Arrival {
-    /// A client.
     Client(TcpStream),
-    /// Bytes of one.
     Bytes(usize, Vec<u8>),
-    /// One has gone.
     Gone(usize),
 }
 

@@ -27,7 +27,6 @@ pub enum Kind {
 pub struct File {
     /// Its path below the project's folder, with '/'.
     pub path: String,
-    /// Its text.
     pub text: String,
 }
 

@@ -200,7 +200,6 @@ impl<'a> Reporter<'a> {
 }
 
 impl Bar {
-    /// A run is done.
     pub fn done(&self, outcome: &Outcome) {
         if outcome.ending.is_failure() {
             self.failed.set(self.failed.get() + 1);

@@ -21,7 +21,6 @@ pub(super) struct Wanted {
     pub filters: Vec<String>,
 }
 
-/// Tells files from words.
 pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
     let mut wanted = Wanted { files: Vec::new(), filters: Vec::new() };
     for argument in arguments {

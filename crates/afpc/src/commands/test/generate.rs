@@ -111,7 +111,6 @@ fn write(file: &Path, to: &Path, made: &Generated) -> Result<(), RunError> {
     write_whole("cannot write the scenarios", to, afp_format::format(&text).unwrap_or(text))
 }
 
-/// Scenarios for a plan.
 fn generate(file: &Path, graph: Graph, robot: &dyn Loader) -> Result<Generated, RunError> {
     let missing =
         |entry: &&afp_dsl::graph::Entry| entry.kind == EntryKind::In && entry.init.is_none();

@@ -19,7 +19,6 @@ use crate::plan_file::PlanFile;
 /// So many scenarios are named in a line of the table.
 const NAMED: usize = 3;
 
-/// What is wanted.
 pub(super) struct Wanted {
     /// Chooses among the ways to change something.
     pub seed: u64,

@@ -4,7 +4,6 @@ use afp_project::Origin;
 
 use super::Kind;
 
-/// Its text.
 pub(crate) fn text(name: &str, kind: Kind, afp: &Origin) -> String {
     let (needs, tests): (&[_], &[_]) = match kind {
         Kind::Robot => (
