@@ -15,7 +15,9 @@ use crate::toolbox::Asked;
 pub struct MacroInput {
     /// The path of `afp_core`, which a crate that re-exports it passes.
     pub core: TokenStream,
+    /// The file, as written.
     pub path: String,
+    /// Where that stands.
     span: Span,
     /// Toolboxes that are not built in: the file and the path of the module that implements it.
     pub toolboxes: Vec<(String, String)>,

@@ -35,6 +35,7 @@ pub struct CrateOptions {
     pub lib: bool,
 }
 
+/// The robot itself.
 #[derive(Clone, Debug)]
 pub struct Hardware {
     /// The path of its type.
@@ -48,6 +49,7 @@ pub struct Hardware {
 pub struct CrateFile {
     /// Its path below the crate's folder.
     pub path: String,
+    /// Its text.
     pub text: String,
     places: Places,
     whole: Span,

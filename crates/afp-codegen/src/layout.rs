@@ -184,6 +184,7 @@ mod tests {
         let span = |start| Span { file: 3, start, end: 90 };
         let [a, b, c, d] = [1, 2, 3, 4].map(|start| at(span(start)));
         let tokens = quote! {
+            /// Help.
             #a
             fn f(x: u8) -> P { P { #b one: x, #c two: x } }
             fn g() { match 1 { #d 1 => {} _ => {} } }

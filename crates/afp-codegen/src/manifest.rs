@@ -25,6 +25,7 @@ pub struct Dependency {
     pub package: String,
     /// Where it comes from; a path is that of the package.
     pub origin: Origin,
+    /// What it comes with.
     pub features: Features,
 }
 

@@ -43,6 +43,7 @@ pub struct Generated {
 /// One module of generated code.
 #[derive(Clone, Debug)]
 pub struct Module {
+    /// Its name.
     pub name: Ident,
     /// Its help, without slashes.
     pub doc: String,

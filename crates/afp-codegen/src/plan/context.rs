@@ -29,11 +29,15 @@ pub struct Context<'a> {
     pub shared: &'a Shared,
     pub plan: &'a Plan,
     pub rows: &'a Rows,
+    /// The module.
     pub module: Ident,
+    /// The plan's type.
     pub ty: Ident,
     /// Getters and fields of the entries.
     pub entries: Vec<Ident>,
+    /// The elements.
     pub elements: Vec<ComponentNames>,
+    /// The supervisors.
     pub supervisors: Vec<ComponentNames>,
     /// Whether a formula of the plan reads the entry.
     pub read: Vec<bool>,
@@ -55,6 +59,7 @@ pub struct ComponentNames {
     pub live: Ident,
     /// The function that stages its outputs.
     pub outputs: Ident,
+    /// Its number.
     pub number: Ident,
     /// Where its ids begin, for a sub-plan.
     pub place: Ident,
@@ -111,6 +116,7 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// A template by index.
     pub fn template(&self, id: TemplateId) -> &'a Template {
         self.graph.template(id)
     }

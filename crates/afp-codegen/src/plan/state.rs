@@ -68,6 +68,7 @@ pub fn entry_doc(entry: &Entry) -> TokenStream {
     }
 }
 
+/// What formulas read.
 fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
     let value = context.value_type(&entry.ty);
     let help = doc("", &format!("The value of `{}`.", entry.name));

@@ -131,6 +131,7 @@ fn reader(
                 End,
             }
 
+            /// Reads a row.
             #[derive(Clone, Copy, Debug)]
             pub struct Row;
 
