@@ -255,12 +255,17 @@ fn join(program: &Program<'_>, diags: &mut Diagnostics) {
             let end = head.node.span().end as usize;
             // Scenarios may use names of the plan, and are not read while it is wrong.
             let is_behind = |name: &str| last.get(name).is_some_and(|index| *index >= end);
-            let found = slip(program, head, &error);
-            let found = found.filter(|(_, used)| !others.is_empty() || is_behind(used));
-            found.filter(|(name, _)| !is_behind(&name.text))
+            let text = program.files.get(head.file)?.text;
+            let used = text.get(error.span.start as usize..error.span.end as usize)?;
+            // The search for a slip looks at all elements.
+            if others.is_empty() && !is_behind(used) {
+                return None;
+            }
+            let name = slip(head, error.code, used).filter(|name| !is_behind(&name.text))?;
+            Some((name, used))
         });
         diags.push(match slip {
-            Some((name, meant)) => at_declaration(&error, &others, &name, &meant),
+            Some((name, meant)) => at_declaration(&error, &others, &name, meant),
             None if said < MOST_EXPLAINED => also_at(meant::explain(program, plan, error), &others),
             None => also_at(error, &others),
         });
@@ -318,23 +323,20 @@ fn last_places<'a>(program: &Program<'a>, file: usize) -> FxHashMap<&'a str, usi
     words(text).map(|word| (word, place(word))).collect()
 }
 
-/// The name that is declared, used nowhere, and differs from one that is used and not there by a slip; and that one.
-fn slip(program: &Program<'_>, head: &PlanHead, error: &Diagnostic) -> Option<(Name, String)> {
-    let text = program.files.get(head.file)?.text;
-    let used = text.get(error.span.start as usize..error.span.end as usize)?;
+/// The name that is declared, used nowhere, and differs by a slip from a name that is used but unknown.
+fn slip(head: &PlanHead, code: Code, used: &str) -> Option<Name> {
     // One letter is like any other; and what is a unit is more likely meant for that.
     if used.chars().count() < 2 || Unit::parse(used).is_some() {
         return None;
     }
-    let declared: Vec<Name> = match error.code {
+    let declared: Vec<Name> = match code {
         Code::E0216 => head.node.elements().iter().filter_map(|element| element.name()).collect(),
         Code::E0209 => head.entries.iter().map(|entry| entry.name.clone()).collect(),
         _ => return None,
     };
     let meant = nearest(used, declared.iter().map(|name| &*name.text))?;
     let is_used = head.node.names().filter(|name| name == meant).count() > 1;
-    let name = declared.iter().find(|name| name.text == meant).filter(|_| !is_used)?;
-    Some((name.clone(), used.to_owned()))
+    declared.iter().find(|name| name.text == meant).filter(|_| !is_used).cloned()
 }
 
 /// Says it where the name is declared.

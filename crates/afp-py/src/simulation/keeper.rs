@@ -18,7 +18,6 @@ pub struct Keeper {
 
 /// One thing that happened.
 #[derive(Clone)]
-#[expect(clippy::large_enum_variant, reason = "records are many, requests few")]
 pub enum Happened {
     /// In the plan.
     Record(OwnedRecord),
