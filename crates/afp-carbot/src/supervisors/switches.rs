@@ -145,7 +145,7 @@ mod tests {
         after: u64,
     ) -> Result<Option<T::Event>, Fault> {
         let mut watch = Watch::<T, Held>::start(inputs, robot, robot.now)?;
-        robot.now = robot.now + Duration::from_millis(after);
+        robot.now += Duration::from_millis(after);
         let now = robot.now;
         Supervisor::<T, Fake>::poll(&mut watch, live, Events::from_bits(wanted), robot, now)
     }
