@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use afp::core::Platform;
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp::{Duration, Environment, Instant, Reading};
-use afp_session::frames::{BODY, WORLD};
 use afp_platform::{Grid, Line, Noise, VirtualClock};
+use afp_session::frames::{BODY, WORLD};
 use afp_session::{
     Active, Figure, FigureValue, Pose2, Refused, Robot, SampleRef, Samples, Simulated, Transform,
     WorldError,

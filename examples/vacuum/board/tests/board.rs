@@ -241,7 +241,7 @@ fn a_board_that_does_not_start_is_not_open() {
             write!(port, "{stopped}").unwrap();
         });
     });
-    let why = Board::open(&Settings::new([("port", &*path)])).err().unwrap();
+    let why = Board::open(&Settings::new([("port", &*path)])).err().unwrap().to_string();
     assert!(why.contains("stopped"), "{why}");
     far.join().unwrap();
 }
@@ -289,7 +289,7 @@ fn a_board_that_hears_but_is_not_heard_stands() {
 
 #[test]
 fn what_cannot_be_opened_says_why() {
-    let why = |settings: &Settings| Board::open(settings).err().unwrap();
+    let why = |settings: &Settings| Board::open(settings).err().unwrap().to_string();
     assert!(why(&Settings::default()).contains("'port'"));
     assert!(why(&Settings::new([("port", "/no/such/port")])).contains("/no/such/port"));
     assert!(why(&Settings::new([("port", "/dev/null"), ("baud", "9600")])).contains("38400"));
