@@ -1,4 +1,4 @@
-//! Dead reckoning, and what it remembers.
+//! Dead reckoning and its memory.
 
 use super::{Motion, Reading};
 use crate::helpers::trail::Trail;

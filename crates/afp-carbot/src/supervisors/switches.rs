@@ -31,7 +31,7 @@ pub struct Watch<T, R> {
 pub trait Switch<E: ?Sized>: SupervisorTemplate {
     /// The switch says nothing usable.
     const SILENT: Fault;
-    /// What is reported.
+    /// The reported event.
     const EVENT: Self::Event;
 
     /// Whether the switch is held down.
@@ -115,7 +115,7 @@ pub struct Press {
 }
 
 impl Report for Press {
-    /// What is held at the first reading was pressed before, and a reading that says nothing changes nothing.
+    /// A switch that is held at the first reading was pressed before. A failed reading changes nothing.
     fn is_due(&mut self, held: Option<bool>) -> bool {
         let begins = self.held == Some(false) && held == Some(true);
         self.held = held.or(self.held);
@@ -217,7 +217,7 @@ mod tests {
         let polls = [false, true, true, false, true].map(|held| (held, 1));
         let both = |reports: &[bool]| [Ok(reports.to_vec()), Ok(reports.to_vec())];
         assert_eq!(clicks(&polls), both(&[false, true, false, false, true]));
-        // What is held from the start on, and what was not wanted, is no press.
+        // A switch that is held from the start, or that nobody wanted, counts as not pressed.
         assert_eq!(clicks(&[(true, 1), (true, 1)]), both(&[false, false]));
         let unwanted = [(false, 1), (true, 0), (true, 1)];
         assert_eq!(clicks(&unwanted), both(&[false, false, false]));

@@ -4,7 +4,7 @@ use crate::clock::Clock;
 use crate::component::Environment;
 use crate::trace::Sink;
 
-/// What a plan runs with: the platform, the sink of the trace, and the clock that times polls.
+/// The surroundings of a running plan: the platform, the sink of the trace, and the clock that times polls.
 ///
 /// Three borrowed values in parentheses are a run. [`NoTrace`](crate::trace::NoTrace) and
 /// [`StillClock`](crate::StillClock) are for programs that need no trace and no deadlines:

@@ -1,4 +1,4 @@
-//! A sub-plan as an element: what its machine is given, and what its start and its step bring.
+//! A sub-plan as an element: its machine, its start and its step.
 
 use crate::fault::{BadValue, Fault};
 use crate::machine::Machine;
