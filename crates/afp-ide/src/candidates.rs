@@ -1,17 +1,17 @@
 //! What an exit can lead to and what a port can be bound to.
 
 use crate::View;
-use crate::describe::bound;
+use crate::describe::{bound, units};
 use afp_draw::formula::constant;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::outline::{Component, Entry, ExitKind, Input};
 use afp_dsl::types::{Dimension, Type};
 use afp_syntax::item::Item;
 use afp_syntax::literal::Literal;
-use afp_syntax::units::Unit;
+use serde::Serialize;
 
 /// Something that can stand there, or that cannot.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Candidate {
     pub text: String,
     /// Why it does not fit; `None` where it does.
@@ -19,10 +19,12 @@ pub struct Candidate {
 }
 
 /// What a port can be bound to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PortCandidates {
     /// Entries, and values where there are few, those that fit first.
+    #[serde(rename = "candidates")]
     pub list: Vec<Candidate>,
+    #[serde(rename = "type")]
     pub ty: String,
     /// What it is bound to.
     pub value: Option<String>,
@@ -137,19 +139,9 @@ fn of_input(entries: &[Entry], input: &Input) -> PortCandidates {
         default: input.default.as_ref().map(|default| constant(default, ty)),
         range: input.range.map(|(from, to)| (bound(from, ty), bound(to, ty))),
         step: step(input, &unit),
-        units: dimension.map(|it| units(it, &unit)).unwrap_or_default(),
+        units: dimension.map(units).unwrap_or_default(),
         unit,
     }
-}
-
-/// The usual unit, then all others.
-fn units(dimension: Dimension, usual: &str) -> Vec<String> {
-    let fits = |symbol: &&str| {
-        Unit::parse(symbol).is_some_and(|unit| unit.dimension == dimension) && **symbol != *usual
-    };
-    let others = Unit::symbols().filter(fits).map(str::to_owned);
-    let first = (!usual.is_empty()).then(|| usual.to_owned());
-    first.into_iter().chain(others).collect()
 }
 
 /// About a tenth of the default, at most a hundredth of the range, as 1, 2 or 5 of a power of ten.

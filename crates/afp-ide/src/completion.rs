@@ -145,6 +145,10 @@ impl List<'_, '_> {
         });
     }
 
+    fn definitions(&mut self, ids: impl IntoIterator<Item = DefinitionId>, rank: u8) {
+        ids.into_iter().for_each(|id| self.definition(id, rank));
+    }
+
     /// Adds something declared by its name.
     fn definition(&mut self, id: DefinitionId, rank: u8) {
         let name = self.view.name_of(id).to_owned();

@@ -4,8 +4,9 @@ use crate::View;
 use afp_dsl::index::{Definition, DefinitionId, DefinitionKind, Meaning, Word};
 use afp_dsl::outline::{Component, ComponentKind, Entry};
 use afp_dsl::toolbox::TemplateKind;
-use afp_dsl::types::Type;
 use afp_dsl::types::text::{number, quantity};
+use afp_dsl::types::{Dimension, Type};
+use afp_syntax::units::Unit;
 
 /// The declaration of a definition in one line, without its body.
 pub(crate) fn declaration(view: &View, id: DefinitionId) -> String {
@@ -101,6 +102,15 @@ pub(crate) fn component_kind(kind: TemplateKind) -> ComponentKind {
         TemplateKind::Supervisor => ComponentKind::Supervisor,
         TemplateKind::Computation => ComponentKind::Computation,
     }
+}
+
+/// The units of a dimension: the usual one, then all others.
+pub(crate) fn units(dimension: Dimension) -> Vec<String> {
+    let usual = Some(dimension.usual_unit()).filter(|usual| !usual.is_empty());
+    let is_of_it = |symbol: &str| Unit::parse(symbol).is_some_and(|it| it.dimension == dimension);
+    let others =
+        Unit::symbols().filter(|symbol| is_of_it(symbol) && Some(*symbol) != usual.as_deref());
+    usual.iter().cloned().chain(others.map(str::to_owned)).collect()
 }
 
 /// A bound in the spelling of literals.

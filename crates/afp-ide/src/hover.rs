@@ -3,13 +3,12 @@
 mod words;
 
 use crate::View;
-use crate::describe::{component, declaration, entry, word};
+use crate::describe::{self, component, declaration, entry, word};
 use afp_dsl::index::{Definition, DefinitionId, DefinitionKind, Meaning};
 use afp_dsl::timing::SupervisorTiming;
 use afp_dsl::types::{Dimension, Type};
 use afp_syntax::kind::Kind;
 use afp_syntax::source::Span;
-use afp_syntax::units::Unit;
 
 /// What is to be said of a word.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -145,17 +144,14 @@ fn ty(view: &View, definition: &Definition) -> Option<Type> {
 fn units(ty: &Type) -> Option<String> {
     let Type::Quantity(dimension) = ty else { return None };
     let usual = dimension.usual_unit();
-    if usual.is_empty() {
-        return None;
+    let all: Vec<_> = describe::units(*dimension).iter().map(|unit| format!("`{unit}`")).collect();
+    match &all[..] {
+        _ if usual.is_empty() => None,
+        [usual, others @ ..] if !others.is_empty() => {
+            Some(format!("Written in {usual}, or {}.", others.join(", ")))
+        }
+        _ => Some(format!("Written in `{usual}`.")),
     }
-    let fits = |symbol: &&str| {
-        let unit = Unit::parse(symbol);
-        **symbol != usual && unit.is_some_and(|unit| unit.dimension == *dimension)
-    };
-    let others: Vec<_> = Unit::symbols().filter(fits).map(|symbol| format!("`{symbol}`")).collect();
-    let others =
-        if others.is_empty() { String::new() } else { format!(", or {}", others.join(", ")) };
-    Some(format!("Written in `{usual}`{others}."))
 }
 
 /// How long after its condition the robot stands, of a supervisor without errors.

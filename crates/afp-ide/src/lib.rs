@@ -16,7 +16,6 @@ pub mod hover;
 pub mod lenses;
 pub mod palette;
 pub mod references;
-pub mod robot;
 pub mod selection;
 pub mod signature;
 pub mod symbols;

@@ -3,7 +3,7 @@
 
 use crate::View;
 use crate::completion::Piece;
-use crate::completion::bodies::{body_of_plan, body_of_template, instance_name};
+use crate::completion::bodies::{body_of_plan, body_of_template, component, instance_name};
 use crate::describe::{component_kind, declaration};
 use crate::edit::Taken;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
@@ -104,13 +104,7 @@ fn ports(view: &View, id: DefinitionId) -> Vec<String> {
 }
 
 fn item(kind: ComponentKind, template: &str, body: Vec<Piece>) -> Vec<Piece> {
-    let mut pieces = vec![
-        Piece::Text(format!("{} ", kind.keyword())),
-        Piece::Hole(instance_name(template, &Taken::default())),
-        Piece::Text(format!(": {template}")),
-    ];
-    pieces.extend(body);
-    pieces
+    component(kind, &instance_name(template, &Taken::default()), template, &body)
 }
 
 #[cfg(test)]

@@ -129,15 +129,8 @@ impl<'a> View<'a> {
 
     /// The last solid token that ends at or before a byte.
     pub(crate) fn solid_before(&self, offset: u32) -> Option<Token> {
-        let at = rowan::TextSize::from(offset.min(u32::from(self.root().text_range().end())));
-        let mut token = self.root().token_at_offset(at).left_biased();
-        while let Some(found) = token {
-            if !found.kind().is_trivia() && found.text_range().end() <= at {
-                return Some(found);
-            }
-            token = found.prev_token();
-        }
-        None
+        let mut all = std::iter::successors(self.token_at(offset), Token::prev_token);
+        all.find(|it| !it.kind().is_trivia() && u32::from(it.text_range().end()) <= offset)
     }
 
     /// The token that a byte lies in or ends.

@@ -1,5 +1,6 @@
 //! How requests end: a result, or an error of the protocol.
 
+use afp_ide::edit::Refused;
 use lsp_server::{RequestId, Response};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -18,35 +19,33 @@ pub(crate) enum Failure {
     NotInitialized,
     /// What it asks for cannot be: the reason, for people.
     Refused(String),
+    /// There is nothing to say, so the result is `null`.
+    Nothing,
 }
 
 /// What becomes of a request.
 pub(crate) type Answer = Result<Value, Failure>;
 
-impl Failure {
-    /// Code and message, as the protocol has them.
-    fn said(self) -> (i32, String) {
-        match self {
-            Failure::Unknown(method) => (-32601, format!("there is no request '{method}'")),
-            Failure::Malformed(reason) => {
-                (-32602, format!("the parameters cannot be read: {reason}"))
-            }
-            Failure::OutOfTurn(reason) => (-32600, reason.to_owned()),
-            Failure::NotInitialized => (-32002, "the first request is 'initialize'".to_owned()),
-            Failure::Refused(reason) => (-32803, reason),
-        }
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Failure {
+        Failure::Refused(refused.reason)
     }
 }
 
-/// The response to a request.
+/// The response to a request, with the protocol's code of a failure.
 pub(crate) fn response(id: RequestId, answer: Answer) -> Response {
-    match answer {
-        Ok(value) => Response::new_ok(id, value),
-        Err(failure) => {
-            let (code, message) = failure.said();
-            Response::new_err(id, code, message)
+    let (code, message) = match answer {
+        Ok(value) => return Response::new_ok(id, value),
+        Err(Failure::Nothing) => return Response::new_ok(id, Value::Null),
+        Err(Failure::Unknown(method)) => (-32601, format!("there is no request '{method}'")),
+        Err(Failure::Malformed(reason)) => {
+            (-32602, format!("the parameters cannot be read: {reason}"))
         }
-    }
+        Err(Failure::OutOfTurn(reason)) => (-32600, reason.to_owned()),
+        Err(Failure::NotInitialized) => (-32002, "the first request is 'initialize'".to_owned()),
+        Err(Failure::Refused(reason)) => (-32803, reason),
+    };
+    Response::new_err(id, code, message)
 }
 
 /// A result as JSON.

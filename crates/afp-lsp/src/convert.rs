@@ -2,11 +2,8 @@
 
 use afp_dsl::Compiled;
 use afp_ide::edit::TextEdit;
-use afp_syntax::source::{Encoding, LineColumn, Lines, Span};
-use gen_lsp_types::{
-    DocumentChange, Edit, Location, OptionalVersionedTextDocumentIdentifier, Position, Range,
-    TextDocumentEdit, TextDocumentIdentifier, Uri, WorkspaceEdit,
-};
+use afp_syntax::source::{Encoding, LineColumn, Lines, Source, Span};
+use gen_lsp_types::{Location, Position, Range, Uri};
 
 use crate::uri::uri;
 use crate::workspace::Workspace;
@@ -56,39 +53,25 @@ impl Workspace {
     pub fn uri(&self, path: &str) -> Uri {
         self.documents.get(path).map_or_else(|| uri(path), |document| document.uri.clone())
     }
+}
 
-    /// Edits of a compilation's files, each with the text that it is made on.
-    pub fn by_file(&self, compiled: &Compiled, edits: Vec<TextEdit>) -> Vec<FileEdits> {
-        let mut files: Vec<(u16, FileEdits)> = Vec::new();
-        for edit in edits {
-            let file = edit.span.file;
-            if let Some((_, known)) = files.iter_mut().find(|(known, _)| *known == file) {
-                known.edits.push(edit);
-            } else if let Some(source) = compiled.sources.get(file) {
-                let (path, text) = (source.name.clone(), source.text.clone());
-                files.push((file, FileEdits { path, text, edits: vec![edit] }));
+/// Edits by the file that they are made on.
+pub(crate) fn by_file<'s>(
+    source: impl Fn(u16) -> Option<&'s Source>,
+    edits: Vec<TextEdit>,
+) -> Vec<FileEdits> {
+    let mut all: Vec<FileEdits> = Vec::new();
+    for edit in edits {
+        let Some(Source { name, text }) = source(edit.span.file) else { continue };
+        match all.iter_mut().find(|file| file.path == *name) {
+            Some(file) => file.edits.push(edit),
+            None => {
+                let (path, text) = (name.clone(), text.clone());
+                all.push(FileEdits { path, text, edits: vec![edit] });
             }
         }
-        files.into_iter().map(|(_, file)| file).collect()
     }
-
-    /// Edits as the protocol has them, with the versions that they are made on.
-    pub fn edit(&self, files: &[FileEdits]) -> WorkspaceEdit {
-        let change = |file: &FileEdits| {
-            let places = Places::new(&file.text, self.encoding);
-            let edits = file.edits.iter().map(|edit| text_edit(&places, edit));
-            let id = TextDocumentIdentifier { uri: self.uri(&file.path) };
-            let version = self.documents.get(&file.path).map(|document| document.version);
-            let text_document =
-                OptionalVersionedTextDocumentIdentifier { version, text_document_identifier: id };
-            DocumentChange::TextDocumentEdit(TextDocumentEdit {
-                text_document,
-                edits: edits.map(Edit::TextEdit).collect(),
-            })
-        };
-        let changes = files.iter().map(change).collect();
-        WorkspaceEdit { document_changes: Some(changes), ..WorkspaceEdit::default() }
-    }
+    all
 }
 
 /// An edit of a text as the protocol has it.

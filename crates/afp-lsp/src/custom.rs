@@ -14,6 +14,7 @@ mod subscription;
 pub use drawings::Drawings;
 pub(crate) use subscription::Subscription;
 
+use gen_lsp_types::TextDocumentIdentifier as Document;
 use serde::Deserialize;
 
 /// Those that clients may ask for, by name.
@@ -33,8 +34,9 @@ pub(crate) const METHODS: &[&str] = &[
     "afp/explain",
 ];
 
-/// A document, by its address.
-#[derive(Clone, Debug, Deserialize)]
-pub(crate) struct Document {
-    pub uri: gen_lsp_types::Uri,
+/// A document and nothing else.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct WholeDocument {
+    text_document: Document,
 }

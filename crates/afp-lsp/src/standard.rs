@@ -14,36 +14,36 @@ pub(crate) use initialize::initialize;
 
 use std::sync::Arc;
 
-use gen_lsp_types::{Position, TextDocumentPositionParams, Uri};
+use gen_lsp_types::{TextDocumentPositionParams, Uri};
 
+use crate::answer::Failure;
 use crate::convert::Places;
 use crate::server::Server;
 use crate::uri;
 use crate::workspace::Analysis;
 
 impl Server {
-    /// What a document means; `None` for what is neither plan file nor toolbox, or not there.
-    pub(crate) fn analysis(&mut self, uri: &Uri) -> Option<Arc<Analysis>> {
+    /// What a document means.
+    ///
+    /// # Errors
+    /// [`Failure::Nothing`] if it is neither a plan file nor a toolbox, or does not exist.
+    pub(crate) fn analysis(&mut self, uri: &Uri) -> Result<Arc<Analysis>, Failure> {
         let path = uri::path(uri);
-        if path.ends_with(".toml") || path.ends_with(".layout") {
-            return None;
-        }
-        self.workspace.analysis(&path)
+        let may_be = !path.ends_with(".toml") && !path.ends_with(".layout");
+        may_be.then(|| self.workspace.analysis(&path)).flatten().ok_or(Failure::Nothing)
     }
 
     /// A document and a byte of it.
+    ///
+    /// # Errors
+    /// Those of [`Server::analysis`].
     pub(crate) fn at(
         &mut self,
         place: &TextDocumentPositionParams,
-    ) -> Option<(Arc<Analysis>, u32)> {
+    ) -> Result<(Arc<Analysis>, u32), Failure> {
         let analysis = self.analysis(&place.text_document.uri)?;
-        let offset = self.offset(&analysis, place.position);
-        Some((analysis, offset))
-    }
-
-    /// The byte of a position in the file of an analysis.
-    pub(crate) fn offset(&self, analysis: &Analysis, position: Position) -> u32 {
-        self.places(analysis).offset(position)
+        let offset = self.places(&analysis).offset(place.position);
+        Ok((analysis, offset))
     }
 
     /// The lines of the file of an analysis.

@@ -20,6 +20,29 @@ pub fn plain(text: &str) -> Vec<Piece> {
     vec![Piece::Text(text.to_owned())]
 }
 
+/// Text with holes, which are written in `‹›`.
+pub(crate) fn with_holes(text: &str) -> Vec<Piece> {
+    let parts = text.split(['‹', '›']).enumerate();
+    let parts = parts.filter(|(index, text)| index % 2 == 1 || !text.is_empty());
+    let piece = |(index, text): (usize, &str)| match index % 2 {
+        0 => Piece::Text(text.to_owned()),
+        _ => Piece::Hole(text.to_owned()),
+    };
+    parts.map(piece).collect()
+}
+
+/// What puts a component into a plan: its keyword, a hole with its name, what it is made from, and its body.
+pub(crate) fn component(
+    kind: ComponentKind,
+    name: &str,
+    made_from: &str,
+    body: &[Piece],
+) -> Vec<Piece> {
+    let mut pieces = with_holes(&format!("{} ‹{name}›: {made_from}", kind.keyword()));
+    pieces.extend_from_slice(body);
+    pieces
+}
+
 /// Bindings that must be there, and the exits.
 struct Parts<'a> {
     required: Vec<&'a str>,
@@ -50,26 +73,15 @@ pub(crate) fn body_of_plan(view: &View, plan: &Plan) -> Vec<Piece> {
 }
 
 fn body(parts: &Parts<'_>, kind: ComponentKind) -> Vec<Piece> {
-    let mut pieces = Vec::new();
-    for (index, port) in parts.required.iter().enumerate() {
-        let sign = if index == 0 { "(" } else { ", " };
-        pieces.push(Piece::Text(format!("{sign}{port} = ")));
-        pieces.push(Piece::Hole(String::new()));
-    }
-    let close = if parts.required.is_empty() { "" } else { ")" };
+    let ports: Vec<_> = parts.required.iter().map(|port| format!("{port} = ‹›")).collect();
+    let args = if ports.is_empty() { String::new() } else { format!("({})", ports.join(", ")) };
     let short = kind == ComponentKind::Supervisor && parts.exits.len() == 1;
-    let (open, gap, end) = if short { (" {", " ", " }") } else { (" {\n", "    ", "}") };
-    pieces.push(Piece::Text(format!("{close}{open}")));
+    let (open, end) = if short { (" {", " }") } else { (" {\n", "}") };
+    let (before, behind) = if short { (" ", "") } else { ("    ", "\n") };
     let width = parts.exits.iter().map(|exit| exit.len()).max().unwrap_or(0);
-    for exit in &parts.exits {
-        pieces.push(Piece::Text(format!("{gap}{exit:width$} -> ")));
-        pieces.push(Piece::Hole(String::new()));
-        if !short {
-            pieces.push(Piece::Text("\n".to_owned()));
-        }
-    }
-    pieces.push(Piece::Text(end.to_owned()));
-    pieces
+    let edge = |exit: &&str| format!("{before}{exit:width$} -> ‹›{behind}");
+    let exits: String = parts.exits.iter().map(edge).collect();
+    with_holes(&format!("{args}{open}{exits}{end}"))
 }
 
 /// A name for what is made from a template: its own with a small first letter, or with a number behind

@@ -1,7 +1,9 @@
 //! Items of files and plans, edges and where they lead.
 
 use super::List;
-use super::bodies::{Piece, body_of_plan, body_of_template, instance_name, plain};
+use super::bodies::{
+    Piece, body_of_plan, body_of_template, component, instance_name, plain, with_holes,
+};
 use super::context::Origin;
 use crate::edit::{Taken, edit_of_use};
 use crate::view::token;
@@ -13,43 +15,21 @@ use afp_syntax::kind::Kind;
 
 /// Items of a plan file.
 pub(super) fn of_file(list: &mut List) {
-    let text = |text: &str| Piece::Text(text.to_owned());
-    let hole = |text: &str| Piece::Hole(text.to_owned());
     list.keyword("use", plain("use "), 0);
-    let plan = [text("plan "), hole("Name"), text(" {\n    start "), hole(""), text("\n}")];
-    list.keyword("plan", plan.to_vec(), 0);
-    let choices = [text("enum "), hole("Name"), text(" { "), hole("first second"), text(" }")];
-    list.keyword("enum", choices.to_vec(), 1);
-    let table = [
-        text("table "),
-        hole("name"),
-        text("("),
-        hole("x: length, y: length"),
-        text(") {\n    ("),
-        hole("1 m, 2 m"),
-        text(")\n}"),
-    ];
-    list.keyword("table", table.to_vec(), 1);
-    let scenario = [
-        text("scenario \""),
-        hole("what it shows"),
-        text("\" for "),
-        hole("Plan"),
-        text(" {\n    expect "),
-        hole("end"),
-        text("\n    until "),
-        hole("60 s"),
-        text("\n}"),
-    ];
-    list.keyword("scenario", scenario.to_vec(), 1);
+    list.keyword("plan", with_holes("plan ‹Name› {\n    start ‹›\n}"), 0);
+    list.keyword("enum", with_holes("enum ‹Name› { ‹first second› }"), 1);
+    let table = "table ‹name›(‹x: length, y: length›) {\n    (‹1 m, 2 m›)\n}";
+    list.keyword("table", with_holes(table), 1);
+    let (head, body) =
+        ("scenario \"‹what it shows›\" for ‹Plan›", "expect ‹end›\n    until ‹60 s›");
+    list.keyword("scenario", with_holes(&format!("{head} {{\n    {body}\n}}")), 1);
 }
 
 /// Toolboxes behind `use`.
 pub(super) fn uses(list: &mut List) {
     let all = list.view.index().definitions();
     let all = all.filter(|(_, known)| known.kind == DefinitionKind::Toolbox);
-    let all: Vec<_> = all.map(|(id, _)| id).collect();
-    all.into_iter().for_each(|id| list.definition(id, 0));
+    list.definitions(all.map(|(id, _)| id), 0);
 }
 
 /// Items of a plan: words, and templates and plans with their whole bodies.
@@ -66,13 +46,7 @@ pub(super) fn items(list: &mut List, plan: Option<&Plan>, node: &Node) {
             continue;
         }
         let name = instance_name(list.view.name_of(made.id), &taken);
-        let mut insert = vec![
-            Piece::Text(format!("{} ", made.kind.keyword())),
-            Piece::Hole(name),
-            Piece::Text(format!(": {}", made.written)),
-        ];
-        insert.extend(made.body.clone());
-        add_made(list, &made, insert, 2);
+        add_made(list, &made, component(made.kind, &name, &made.written, &made.body), 2);
     }
 }
 
@@ -212,20 +186,14 @@ pub(super) fn of_component(list: &mut List, component: Option<&Component>, is_el
                 continue;
             }
             let name = instance_name(list.view.name_of(made.id), &taken);
-            let mut insert = vec![
-                Piece::Text("supervise ".to_owned()),
-                Piece::Hole(name),
-                Piece::Text(format!(": {}", made.written)),
-            ];
-            insert.extend(made.body.clone());
-            add_made(list, &made, insert, 3);
+            add_made(list, &made, self::component(made.kind, &name, &made.written, &made.body), 3);
         }
     }
 }
 
 /// An edge whose target is still to come.
 pub(super) fn edge(name: &str) -> Vec<Piece> {
-    vec![Piece::Text(format!("{name} -> ")), Piece::Hole(String::new())]
+    with_holes(&format!("{name} -> ‹›"))
 }
 
 /// Where an edge can lead.
@@ -245,8 +213,8 @@ pub(super) fn targets(list: &mut List, offset: u32, from: Origin) {
 pub(super) fn elements(list: &mut List, offset: u32) {
     let Some(plan) = list.view.plan_at(offset) else { return };
     let names = plan.elements.iter().filter_map(|element| element.name.as_ref());
-    let ids: Vec<_> = names.filter_map(|name| list.view.index().declared_at(name.span)).collect();
-    ids.into_iter().for_each(|id| list.definition(id, 0));
+    let index = list.view.index();
+    list.definitions(names.filter_map(|name| index.declared_at(name.span)), 0);
 }
 
 /// The plans in view.
@@ -261,6 +229,5 @@ pub(super) fn tables(list: &mut List, offset: u32) {
 
 fn visible(list: &mut List, offset: u32, kind: DefinitionKind) {
     let view = list.view;
-    let ids = view.index().visible(view.file, offset, |known| known == kind);
-    ids.into_iter().for_each(|id| list.definition(id, 0));
+    list.definitions(view.index().visible(view.file, offset, |known| known == kind), 0);
 }

@@ -1,19 +1,14 @@
 //! `on`: the supervisors of the plan that an element can react to, and their events.
 
 use super::List;
-use super::bodies::Piece;
+use super::bodies::with_holes;
 use super::plans::edge;
 use afp_dsl::outline::{Component, ComponentKind};
 
 /// Whole reactions, for each supervisor of the plan to which an element does not react yet.
 pub(super) fn whole(list: &mut List, element: Option<&Component>, offset: u32) {
     for name in free(list, element, offset) {
-        let insert = vec![
-            Piece::Text(format!("on {name} {{ ")),
-            Piece::Hole(String::new()),
-            Piece::Text(" }".to_owned()),
-        ];
-        list.keyword(&format!("on {name}"), insert, 2);
+        list.keyword(&format!("on {name}"), with_holes(&format!("on {name} {{ ‹› }}")), 2);
     }
 }
 

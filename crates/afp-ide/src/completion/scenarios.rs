@@ -1,7 +1,7 @@
 //! Lines of scenarios, what they name, and what belongs to something behind a point.
 
 use super::List;
-use super::bodies::{Piece, plain};
+use super::bodies::{plain, with_holes};
 use afp_dsl::VERBS;
 use afp_dsl::graph::EntryKind;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
@@ -12,23 +12,19 @@ use afp_syntax::kind::Kind;
 
 /// Lines of a scenario, or those of them that may count from one of its moments.
 pub(super) fn lines(list: &mut List, of_whole_run: bool) {
-    let line = |start: &str, hole: &str, end: &str| {
-        let texts = [Piece::Text(start.to_owned()), Piece::Hole(hole.to_owned())];
-        texts.into_iter().chain((!end.is_empty()).then(|| Piece::Text(end.to_owned()))).collect()
-    };
-    list.keyword("at", line("at ", "1 s", ": "), 0);
+    list.keyword("at", with_holes("at ‹1 s›: "), 0);
     list.keywords(&["expect", "never"], 0);
     list.keywords(&["from"], 1);
-    list.keyword("until", line("until ", "60 s", ""), 1);
+    list.keyword("until", with_holes("until ‹60 s›"), 1);
     if !of_whole_run {
         return;
     }
-    list.keyword("world", line("world \"", "room.toml", "\""), 1);
-    list.keyword("seed", line("seed ", "1", ""), 1);
-    list.keyword("over seeds", line("over seeds ", "0..20", ""), 1);
-    list.keyword("over worlds", line("over worlds \"", "room.toml", "\""), 1);
+    list.keyword("world", with_holes("world \"‹room.toml›\""), 1);
+    list.keyword("seed", with_holes("seed ‹1›"), 1);
+    list.keyword("over seeds", with_holes("over seeds ‹0..20›"), 1);
+    list.keyword("over worlds", with_holes("over worlds \"‹room.toml›\""), 1);
     list.keywords(&["set"], 1);
-    list.keyword("robot", line("robot at (", "0 m, 0 m", ") heading 0 deg"), 1);
+    list.keyword("robot", with_holes("robot at (‹0 m, 0 m›) heading 0 deg"), 1);
 }
 
 /// What can be named behind a word of a scenario.
@@ -80,15 +76,13 @@ pub(super) fn causes(list: &mut List, claim: &Node, offset: u32) {
     let definition = index.definition(element);
     for owner in [Some(element), definition.owner].into_iter().flatten() {
         let members = index.members(owner).filter(|(_, known)| is_component(known.kind, true));
-        let members: Vec<_> = members.map(|(id, _)| id).collect();
-        members.into_iter().for_each(|id| list.definition(id, 0));
+        list.definitions(members.map(|(id, _)| id), 0);
     }
     let made = definition.made_from;
     let of_plan = made.is_some_and(|made| index.definition(made).kind == DefinitionKind::Plan);
     let states = made.into_iter().flat_map(|made| index.members(made));
     let states = states.filter(|(_, known)| known.kind == DefinitionKind::State);
-    let states: Vec<_> = states.map(|(id, _)| id).collect();
-    states.into_iter().for_each(|id| list.definition(id, 1));
+    list.definitions(states.map(|(id, _)| id), 1);
     if of_plan {
         list.keywords_alone(&["OK", "Interrupted"], 1);
     }
@@ -119,9 +113,8 @@ fn of_plan(list: &mut List, offset: u32, fits: fn(DefinitionKind) -> bool) {
 /// What the devices of all toolboxes have.
 fn devices(list: &mut List, kinds: &[DefinitionKind]) {
     let all = list.view.index().definitions();
-    let all: Vec<_> =
-        all.filter(|(_, known)| kinds.contains(&known.kind)).map(|(id, _)| id).collect();
-    all.into_iter().for_each(|id| list.definition(id, 3));
+    let all = all.filter(|(_, known)| kinds.contains(&known.kind));
+    list.definitions(all.map(|(id, _)| id), 3);
 }
 
 /// What belongs to something: the templates of a toolbox, the values of an enum, the supervisors and
@@ -129,11 +122,9 @@ fn devices(list: &mut List, kinds: &[DefinitionKind]) {
 pub(super) fn members(list: &mut List, home: Option<DefinitionId>) {
     let Some(home) = home else { return };
     let index = list.view.index();
-    let ids: Vec<_> = index.members(home).map(|(id, _)| id).collect();
-    ids.into_iter().for_each(|id| list.definition(id, 0));
+    list.definitions(index.members(home).map(|(id, _)| id), 0);
     let definition = index.definition(home);
     if let (DefinitionKind::Component(_), Some(made)) = (definition.kind, definition.made_from) {
-        let ids: Vec<_> = index.members(made).map(|(id, _)| id).collect();
-        ids.into_iter().for_each(|id| list.definition(id, 1));
+        list.definitions(index.members(made).map(|(id, _)| id), 1);
     }
 }

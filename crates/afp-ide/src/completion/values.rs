@@ -1,6 +1,6 @@
 //! Ports, formulas, units and types.
 
-use super::bodies::{Piece, plain};
+use super::bodies::{plain, with_holes};
 use super::context::Wanted;
 use super::{CompletionKind, List};
 use crate::View;
@@ -102,32 +102,25 @@ pub(super) fn ports(list: &mut List, component: Option<&Component>) {
         binding.as_ref().is_none_or(|binding| binding.port_span.start == word.start)
     };
     for input in component.inputs.iter().filter(|port| is_open(&port.binding)) {
-        let insert = vec![Piece::Text(format!("{} = ", input.name)), Piece::Hole(String::new())];
-        port(
-            list,
-            &input.name,
-            insert,
-            input.declared,
-            u8::from(!input.required),
-            input_text(input),
-        );
+        let (insert, rank) = (format!("{} = ‹›", input.name), u8::from(!input.required));
+        port(list, &input.name, &insert, input.declared, rank, input_text(input));
     }
     for output in component.outputs.iter().filter(|port| is_open(&port.binding)) {
-        let insert = vec![Piece::Text(format!("{} => ", output.name)), Piece::Hole(String::new())];
-        port(list, &output.name, insert, output.declared, 2, output_text(output));
+        let insert = format!("{} => ‹›", output.name);
+        port(list, &output.name, &insert, output.declared, 2, output_text(output));
     }
 }
 
 fn port(
     list: &mut List,
     name: &str,
-    insert: Vec<Piece>,
+    insert: &str,
     declared: Option<Span>,
     rank: u8,
     detail: String,
 ) {
     let Some(id) = declared.and_then(|span| list.view.index().declared_at(span)) else { return };
-    list.definition_as(id, name, insert, rank);
+    list.definition_as(id, name, with_holes(insert), rank);
     if let Some(last) = list.all.last_mut() {
         last.detail = detail;
     }
@@ -180,7 +173,7 @@ fn literals(list: &mut List, expected: &Expected) {
             if expected.default.is_none() && *dimension != Dimension::NONE =>
         {
             let unit = dimension.usual_unit();
-            let insert = vec![Piece::Hole("1".to_owned()), Piece::Text(format!(" {unit}"))];
+            let insert = with_holes(&format!("‹1› {unit}"));
             list.add(&format!("1 {unit}"), CompletionKind::Value, insert, 1);
         }
         _ => {}
@@ -256,7 +249,7 @@ pub(super) fn types(list: &mut List, offset: u32) {
         true => view.index().visible(view.file, offset, is_type),
         false => of_file.map(|(id, _)| id).collect(),
     };
-    visible.into_iter().for_each(|id| list.definition(id, 0));
+    list.definitions(visible, 0);
     if !view.is_plan_file() {
         for name in ["any", "number"] {
             list.add(name, CompletionKind::Type, plain(name), 2);

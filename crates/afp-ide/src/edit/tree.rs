@@ -275,41 +275,23 @@ pub(super) fn own_range(node: &Node) -> Range<usize> {
 
 /// Whether a line break, or nothing at all, stands between a token and the solid one before it.
 fn is_below(token: &Token) -> bool {
-    let mut before = token.prev_token();
-    while let Some(token) = before {
-        if !token.kind().is_trivia() {
-            return false;
-        }
-        if token.text().contains('\n') {
-            return true;
-        }
-        before = token.prev_token();
-    }
-    true
+    let mut before = std::iter::successors(token.prev_token(), Token::prev_token);
+    let found = before.find(|token| !token.kind().is_trivia() || token.text().contains('\n'));
+    found.is_none_or(|token| token.kind().is_trivia())
 }
 
 /// The last solid token before a place.
 pub(super) fn solid_before(root: &Node, at: usize) -> Option<Token> {
-    let mut token = root.token_at_offset(offset(at)).left_biased();
-    while let Some(found) = token {
-        if !found.kind().is_trivia() && range(&found).end <= at {
-            return Some(found);
-        }
-        token = found.prev_token();
-    }
-    None
+    let first = root.token_at_offset(offset(at)).left_biased();
+    let mut all = std::iter::successors(first, Token::prev_token);
+    all.find(|token| !token.kind().is_trivia() && range(token).end <= at)
 }
 
 /// The first solid token behind a place.
 pub(super) fn solid_after(root: &Node, at: usize) -> Option<Token> {
-    let mut token = root.token_at_offset(offset(at)).right_biased();
-    while let Some(found) = token {
-        if !found.kind().is_trivia() && range(&found).start >= at {
-            return Some(found);
-        }
-        token = found.next_token();
-    }
-    None
+    let first = root.token_at_offset(offset(at)).right_biased();
+    let mut all = std::iter::successors(first, Token::next_token);
+    all.find(|token| !token.kind().is_trivia() && range(token).start >= at)
 }
 
 fn offset(at: usize) -> rowan::TextSize {

@@ -27,13 +27,11 @@ use crate::workspace::{Analysis, Reads, Workspace};
 pub(crate) struct Drawing {
     text_document: Document,
     /// Without one, the first plan.
-    #[serde(default)]
     plan: Option<String>,
     /// What is drawn without its details: elements, or the start tag, `Plan.start`. What is not there is none of it.
     #[serde(default)]
     folded: Vec<String>,
     /// Whether the client wants to hear what changes; `false` ends that.
-    #[serde(default)]
     subscribe: Option<bool>,
 }
 
@@ -90,8 +88,7 @@ fn draw(
     before: Option<&Scene>,
 ) -> Result<Drawn, Failure> {
     let analysis = server.workspace.analysis(path);
-    let analysis =
-        analysis.ok_or_else(|| Failure::Refused("there is no such plan file".to_owned()))?;
+    let analysis = analysis.ok_or_else(no_file)?;
     let outline = &analysis.compiled.outline;
     let id = find(outline, analysis.file, plan)?;
     let mut reads = Reads::default();
@@ -126,6 +123,11 @@ fn draw(
     let plan = main.map(|plan| plan.item.name().to_owned());
     let made_from = MadeFrom { reads: reads.into_inner(), analysis: Arc::clone(&analysis) };
     Ok(Drawn { scene, facts, plan, plans, symbols, made_from })
+}
+
+/// The refusal if a document is no plan file.
+pub(super) fn no_file() -> Failure {
+    Failure::Refused("there is no such plan file".to_owned())
 }
 
 /// A plan of a file by name, its first one without a name.

@@ -12,10 +12,10 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::Document;
-use super::drawing::find;
+use super::drawing::{find, no_file};
 use super::items::no_item;
 use crate::answer::{Answer, Failure, ok};
-use crate::convert::FileEdits;
+use crate::convert::{FileEdits, by_file};
 use crate::server::Server;
 use crate::uri;
 
@@ -45,17 +45,14 @@ fn changed(
     places: &Places,
 ) -> Answer {
     let home_path = uri::path(&document.uri);
-    let analysis = server.analysis(&document.uri);
-    let analysis =
-        analysis.ok_or_else(|| Failure::Refused("there is no such plan file".to_owned()))?;
+    let analysis = server.analysis(&document.uri).map_err(|_| no_file())?;
     let files = server.sources(&analysis, &home_path, changes);
     let home = files.iter().position(|file| file.name == home_path);
     let home =
         home.ok_or_else(|| Failure::Refused("a toolbox has no plans to change".to_owned()))?;
-    let made = edit_all(&files, &analysis.set.toolboxes, home, changes);
-    let made = made.map_err(|refused| Failure::Refused(refused.reason))?;
+    let made = edit_all(&files, &analysis.set.toolboxes, home, changes)?;
     let Made { edits, changes: done, given, added } = made;
-    let mut all = server.grouped(&files, edits);
+    let mut all = by_file(|file| files.get(usize::from(file)), edits);
     let placed = positions(places, &given)?;
     all.extend(server.placed(&home_path, |layout| {
         done.iter().for_each(|change| afp_ide::edit::follow(layout, change));
@@ -154,11 +151,9 @@ pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
 pub(crate) struct Paste {
     text_document: Document,
     plan: String,
-    #[serde(default)]
     owner: Option<String>,
     text: String,
     /// The place of the first item.
-    #[serde(default)]
     at: Option<[f64; 2]>,
 }
 
@@ -221,7 +216,7 @@ fn start(text: String) -> (Option<String>, String) {
 impl Server {
     /// Whether a plan of a document says what it starts with.
     fn starts(&mut self, document: &Document, plan: &str) -> bool {
-        let Some(analysis) = self.analysis(&document.uri) else { return false };
+        let Ok(analysis) = self.analysis(&document.uri) else { return false };
         let outline = &analysis.compiled.outline;
         let id = find(outline, analysis.file, Some(plan)).ok().flatten();
         id.is_some_and(|id| !outline.plan(id).starts.is_empty())

@@ -7,24 +7,18 @@ use afp_dsl::toolbox::Toolbox;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::Document;
 use super::drawing::find;
+use super::{Document, WholeDocument};
 use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 use crate::workspace::Reads;
 
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(crate) struct Timing {
-    text_document: Document,
-}
-
 /// The bounds of the first plan and of all that it uses, as `afpc check --timing --json` has them; while there are
 /// errors, of what is without.
-pub(crate) fn timing(server: &mut Server, params: Timing) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+pub(crate) fn timing(server: &mut Server, params: WholeDocument) -> Answer {
+    let analysis = server.analysis(&params.text_document.uri)?;
     ok(analysis.compiled.timing().map(|timing| timing.json()))
 }
 
@@ -33,7 +27,6 @@ pub(crate) fn timing(server: &mut Server, params: Timing) -> Answer {
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Export {
     text_document: Document,
-    #[serde(default)]
     plan: Option<String>,
     format: String,
     /// Without one, that of the reader's system.
@@ -54,7 +47,7 @@ enum Colours {
 /// A plan of a document as a picture or for another program; as `css` the style sheet of what `afp/drawing`
 /// answers.
 pub(crate) fn export(server: &mut Server, params: Export) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let reads = RefCell::new(Reads::default());
     let icons = |toolbox: &Toolbox, name: &str| {
         server.workspace.icon(&analysis.set, toolbox, name, &mut reads.borrow_mut())

@@ -14,7 +14,7 @@ use crate::server::Server;
 
 /// The smallest item, or part of one, at a place of the text.
 pub(crate) fn item_at(server: &mut Server, params: lsp::TextDocumentPositionParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params) else { return Ok(Value::Null) };
+    let (analysis, offset) = server.at(&params)?;
     let found = analysis.compiled.outline.identity_at(analysis.file, offset);
     ok(found.map(|found| json!({ "item": path(&found.item), "part": part(&found.part) })))
 }
@@ -25,7 +25,6 @@ pub(crate) fn item_at(server: &mut Server, params: lsp::TextDocumentPositionPara
 pub(crate) struct SpanOf {
     text_document: Document,
     item: String,
-    #[serde(default)]
     part: Option<PartOf>,
     /// The comments that belong to the item, too, as whoever copies it wants them.
     #[serde(default)]
@@ -49,7 +48,7 @@ fn first() -> u16 {
 
 /// The place of an item or part.
 pub(crate) fn span_of(server: &mut Server, params: SpanOf) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
     if params.comments {
         let span = with_comments(analysis.file, analysis.view().text(), &item);
@@ -72,7 +71,7 @@ pub(crate) struct Uses {
 
 /// What of the document reads or writes an entry, each once, in the order of the text.
 pub(crate) fn uses(server: &mut Server, params: Uses) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
     let Compiled { outline, index, .. } = &analysis.compiled;
     let entries = outline

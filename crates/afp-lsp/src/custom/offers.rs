@@ -1,10 +1,10 @@
 //! What a plan can be made of, and what fits an exit or port.
 
-use afp_ide::candidates::{Candidate, of_exit, of_port};
+use afp_ide::candidates::{of_exit, of_port};
 use afp_ide::edit::item;
 use afp_ide::palette::Offer;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::{Document, items::no_item};
 use crate::answer::{Answer, Failure, ok};
@@ -23,7 +23,7 @@ pub(crate) struct Palette {
 
 /// Templates and plans, best first.
 pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let offers = afp_ide::palette::palette(&analysis.view(), &params.query);
     let shown = |offer: &Offer| {
         let toolbox = offer.toolbox.as_ref().and_then(|name| analysis.set.toolboxes.get(name));
@@ -53,40 +53,22 @@ pub(crate) fn palette(server: &mut Server, params: Palette) -> Answer {
 pub(crate) struct Candidates {
     text_document: Document,
     item: String,
-    #[serde(default)]
     outcome: Option<String>,
-    #[serde(default)]
     port: Option<String>,
 }
 
 /// What fits, best first, and what does not with the reason.
 pub(crate) fn candidates(server: &mut Server, params: Candidates) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let view = analysis.view();
     let item = item(&params.item).ok_or_else(|| no_item(&params.item))?;
     let none = |what: &str| Failure::Refused(format!("'{}' has no '{what}'", params.item));
     match (&params.outcome, &params.port) {
         (Some(outcome), None) => {
             let list = of_exit(&view, &item, outcome).ok_or_else(|| none(outcome))?;
-            ok(json!({ "candidates": list.iter().map(shown).collect::<Vec<_>>() }))
+            ok(json!({ "candidates": list }))
         }
-        (None, Some(port)) => {
-            let found = of_port(&view, &item, port).ok_or_else(|| none(port))?;
-            ok(json!({
-                "candidates": found.list.iter().map(shown).collect::<Vec<_>>(),
-                "type": found.ty,
-                "value": found.value,
-                "default": found.default,
-                "range": found.range,
-                "step": found.step,
-                "unit": found.unit,
-                "units": found.units,
-            }))
-        }
+        (None, Some(port)) => ok(of_port(&view, &item, port).ok_or_else(|| none(port))?),
         _ => Err(Failure::Malformed("name either 'outcome' or 'port'".to_owned())),
     }
-}
-
-fn shown(candidate: &Candidate) -> Value {
-    json!({ "text": candidate.text, "refused": candidate.refused })
 }

@@ -1,50 +1,94 @@
-//! The robot of a plan: what can be pressed and broken.
+//! The robot of a plan: what can be pressed and broken, and what it signals.
+//!
+//! All of a robot's words come from the toolbox that declares it, so nothing need be built or linked to show them.
 
-use afp_ide::robot::{Fault, RobotDevice, Signal, Stimulus};
-use serde::Deserialize;
+use afp_dsl::Toolboxes;
+use afp_dsl::toolbox::Device;
 use serde_json::{Value, json};
 
-use super::Document;
+use super::WholeDocument;
 use crate::answer::{Answer, ok};
 use crate::server::Server;
 
-/// The robot of a document.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub(crate) struct Robot {
-    text_document: Document,
+/// Its devices by the words of scenarios, without what only a judge may know.
+pub(crate) fn robot(server: &mut Server, params: WholeDocument) -> Answer {
+    let analysis = server.analysis(&params.text_document.uri)?;
+    ok(described(&analysis.set.toolboxes))
 }
 
-/// Its devices by the words of scenarios.
-pub(crate) fn robot(server: &mut Server, params: Robot) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
-    let robot = afp_ide::robot::robot(&analysis.set.toolboxes, &[], Vec::new());
-    let devices: Vec<_> = robot.devices.iter().map(device).collect();
-    ok(json!({ "platform": robot.platform, "devices": devices }))
+fn described(toolboxes: &Toolboxes) -> Value {
+    let platform = toolboxes.robot(&[]).map_or("", |toolbox| &*toolbox.name);
+    let devices: Vec<_> = toolboxes.devices(&[]).into_iter().map(device).collect();
+    json!({ "platform": platform, "devices": devices })
 }
 
-fn device(device: &RobotDevice) -> Value {
+fn device(device: &Device) -> Value {
+    let words = |name: &str| format!("{}.{name}", device.name);
+    let stimuli = device.controls.iter();
+    let stimuli =
+        stimuli.map(|it| json!({ "words": words(&it.name), "help": it.doc, "stops": it.stops }));
+    let signals = device.signals.iter().filter(|it| !it.truth);
+    let signals = signals.map(|it| json!({ "words": words(&it.name), "help": it.doc }));
+    let faults = device.faults.iter().map(|it| {
+        // A bound that is infinite is `null`.
+        let amount = it.amount.as_ref().map(|of| {
+            let (unit, range) = (of.dimension.si_unit(), [of.from, of.to]);
+            json!({ "name": of.name, "unit": unit, "default": of.default, "range": range })
+        });
+        json!({ "words": words(&it.name), "help": it.doc, "amount": amount })
+    });
     json!({
         "name": device.name,
-        "help": device.help,
-        "stimuli": device.stimuli.iter().map(stimulus).collect::<Vec<_>>(),
-        "signals": device.signals.iter().filter(|it| !it.truth).map(signal).collect::<Vec<_>>(),
-        "faults": device.faults.iter().map(fault).collect::<Vec<_>>(),
+        "help": device.doc,
+        "stimuli": stimuli.collect::<Vec<_>>(),
+        "signals": signals.collect::<Vec<_>>(),
+        "faults": faults.collect::<Vec<_>>(),
     })
 }
 
-fn stimulus(it: &Stimulus) -> Value {
-    json!({ "words": it.words, "help": it.help, "stops": it.stops })
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afp_syntax::source::Source;
 
-fn signal(it: &Signal) -> Value {
-    json!({ "words": it.words, "help": it.help })
-}
+    const VACUUM: &str = include_str!("../../../../examples/vacuum/vacuum.afp");
 
-fn fault(it: &Fault) -> Value {
-    let amount = it.amount.as_ref().map(|amount| {
-        let range = [amount.from, amount.to];
-        json!({ "name": amount.name, "unit": amount.unit, "default": amount.default, "range": range })
-    });
-    json!({ "words": it.words, "help": it.help, "amount": amount })
+    /// The words of a list of all devices.
+    fn words(robot: &Value, list: &str, wanted: impl Fn(&Value) -> bool) -> String {
+        let devices = robot["devices"].as_array().into_iter().flatten();
+        let all = devices.flat_map(|device| device[list].as_array().into_iter().flatten());
+        let all = all.filter(|it| wanted(it)).filter_map(|it| it["words"].as_str());
+        all.collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn a_project_shows_its_own_robot() {
+        let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
+        toolboxes.add(Source::new("vacuum.afp", VACUUM), "vacuum");
+        toolboxes.set_robot("vacuum");
+        let robot = described(&toolboxes);
+        assert_eq!(robot["platform"], "vacuum");
+        assert_eq!(words(&robot, "stimuli", |_| true), "bumper.left bumper.right button.halt");
+        assert_eq!(words(&robot, "stimuli", |it| it["stops"] == true), "button.halt");
+        let faults = &robot["devices"][0]["faults"];
+        assert_eq!(faults.as_array().map(Vec::len), Some(2));
+        assert_eq!([&faults[0]["words"], &faults[1]["words"]], ["wheels.blocked", "wheels.slip"]);
+        let share = json!({ "name": "share", "unit": "", "default": 0.5, "range": [0.0, 1.0] });
+        assert_eq!(faults[1]["amount"], share);
+        let signals = words(&robot, "signals", |_| true);
+        for truth in ["robot.pose", "robot.cleaned", "robot.fallen"] {
+            assert!(!signals.contains(truth), "{signals}");
+        }
+        let devices = robot["devices"].as_array().into_iter().flatten();
+        let bumper = devices.clone().find(|device| device["name"] == "bumper").unwrap();
+        assert!(words(&robot, "faults", |_| true).contains("bumper.frozen"));
+        assert_eq!(bumper["help"], "The bumper in front, with a switch on either side.");
+    }
+
+    #[test]
+    fn without_a_project_it_is_the_built_in_robot() {
+        let robot = described(&afp_toolboxes::sources().collect());
+        assert_eq!(robot["platform"], "carbot");
+        assert!(!words(&robot, "stimuli", |it| it["stops"] == true).is_empty());
+    }
 }

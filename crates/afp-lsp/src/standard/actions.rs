@@ -3,16 +3,16 @@
 use afp_ide::actions::{Action, ActionKind, actions as of_place};
 use afp_syntax::source::Span;
 use gen_lsp_types as lsp;
-use serde_json::Value;
 
 use crate::answer::{Answer, ok};
+use crate::convert::by_file;
 use crate::diagnostics;
 use crate::server::Server;
 use crate::workspace::Analysis;
 
 /// Everything that can be done about a selection, of the kinds that the client wants.
 pub(crate) fn actions(server: &mut Server, params: lsp::CodeActionParams) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let places = server.places(&analysis);
     let (start, end) = (places.offset(params.range.start), places.offset(params.range.end));
     let place = Span { file: analysis.file, start, end: end.max(start) };
@@ -36,7 +36,7 @@ fn shown(server: &Server, analysis: &Analysis, action: Action) -> lsp::CodeActio
     let places = server.places(analysis);
     let mended = action.mends.and_then(|place| analysis.compiled.diags.iter().nth(place));
     let mended = mended.map(|it| diagnostics::one(&server.workspace, analysis, &places, it));
-    let files = server.workspace.by_file(&analysis.compiled, action.edits);
+    let files = by_file(|file| analysis.compiled.sources.get(file), action.edits);
     lsp::CodeAction {
         title: action.title,
         kind: Some(kind(action.kind)),

@@ -3,9 +3,8 @@
 use afp_dsl::index::DefinitionKind;
 use afp_ide::completion::{Completion, CompletionKind, Piece, completions};
 use gen_lsp_types as lsp;
-use serde_json::Value;
 
-use crate::answer::{Answer, ok};
+use crate::answer::{Answer, Failure, ok};
 use crate::convert::{Places, text_edit};
 use crate::server::Server;
 use crate::standard::project;
@@ -16,9 +15,7 @@ pub(crate) fn completion(server: &mut Server, params: lsp::CompletionParams) -> 
     if let Some(text) = project::text(server, &at.text_document.uri) {
         return project::completion(server, &text, at.position);
     }
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let view = analysis.view();
     let places = server.places(&analysis);
     let all = completions(&view, offset);
@@ -107,12 +104,9 @@ fn kind(kind: CompletionKind) -> lsp::CompletionItemKind {
 
 /// The ports of what is being bound.
 pub(crate) fn signature(server: &mut Server, params: lsp::SignatureHelpParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
-    let Some(found) = afp_ide::signature::signature(&analysis.view(), offset) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
+    let found = afp_ide::signature::signature(&analysis.view(), offset);
+    let found = found.ok_or(Failure::Nothing)?;
     let units = |at: usize| {
         let before = found.label.get(..at).unwrap_or_default();
         u32::try_from(before.encode_utf16().count()).unwrap_or(u32::MAX)

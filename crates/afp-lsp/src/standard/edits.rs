@@ -11,7 +11,7 @@ use gen_lsp_types as lsp;
 use serde_json::{Value, json};
 
 use crate::answer::{Answer, Failure, ok};
-use crate::convert::{FileEdits, Places, text_edit};
+use crate::convert::{FileEdits, Places, by_file, text_edit};
 use crate::server::Server;
 use crate::uri;
 use crate::workspace::Analysis;
@@ -40,13 +40,9 @@ impl What {
 
 /// The word that would be renamed.
 pub(crate) fn prepare_rename(server: &mut Server, params: lsp::PrepareRenameParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     renamed(&analysis, offset)?;
-    let Some(name) = analysis.compiled.index.at(analysis.file, offset) else {
-        return Ok(Value::Null);
-    };
+    let name = analysis.compiled.index.at(analysis.file, offset).ok_or(Failure::Nothing)?;
     let placeholder = analysis.compiled.sources.text(name.span);
     ok(json!({ "range": server.places(&analysis).range(name.span), "placeholder": placeholder }))
 }
@@ -94,18 +90,15 @@ fn what(analysis: &Analysis, id: DefinitionId) -> Option<What> {
 
 /// Gives something another name, in all plan files that the client works on and in the positions.
 pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let Renamed { what, path } = renamed(&analysis, offset)?;
     let change = what.renamed(params.new_name);
     let files = server.sources(&analysis, &path, std::slice::from_ref(&change));
     let home = files.iter().position(|file| file.name == path);
     let home = home.ok_or_else(|| Failure::Refused("its file cannot be read".to_owned()))?;
-    let edits = afp_ide::edit::edit(&files, &analysis.set.toolboxes, home, &change);
-    let edits = edits.map_err(|refused| Failure::Refused(refused.reason))?;
-    let mut all = server.grouped(&files, edits);
-    all.extend(server.moved_positions(&path, std::slice::from_ref(&change)));
+    let edits = afp_ide::edit::edit(&files, &analysis.set.toolboxes, home, &change)?;
+    let mut all = by_file(|file| files.get(usize::from(file)), edits);
+    all.extend(server.placed(&path, |layout| follow(layout, &change)));
     ok(server.edit(&all))
 }
 
@@ -164,32 +157,6 @@ impl Server {
         }
     }
 
-    /// Edits by the file that they are made on.
-    pub(crate) fn grouped(
-        &self,
-        files: &[Source],
-        edits: Vec<afp_ide::edit::TextEdit>,
-    ) -> Vec<FileEdits> {
-        let mut all: Vec<FileEdits> = Vec::new();
-        for edit in edits {
-            let Some(source) = files.get(usize::from(edit.span.file)) else { continue };
-            match all.iter_mut().find(|file| file.path == source.name) {
-                Some(file) => file.edits.push(edit),
-                None => all.push(FileEdits {
-                    path: source.name.clone(),
-                    text: source.text.clone(),
-                    edits: vec![edit],
-                }),
-            }
-        }
-        all
-    }
-
-    /// The edit of the positions of a file that follows changes of it; `None` where there is none.
-    pub(crate) fn moved_positions(&self, path: &str, changes: &[Change]) -> Option<FileEdits> {
-        self.placed(path, |layout| changes.iter().for_each(|change| follow(layout, change)))
-    }
-
     /// The edit that changes the positions of a file; `None` where it changes nothing.
     pub(crate) fn placed(&self, path: &str, change: impl FnOnce(&mut Layout)) -> Option<FileEdits> {
         let path = format!("{path}.layout");
@@ -206,16 +173,27 @@ impl Server {
 
     /// Edits as the client takes them: with versions, or as a plain list.
     pub(crate) fn edit(&self, files: &[FileEdits]) -> lsp::WorkspaceEdit {
-        if self.client.versions {
-            return self.workspace.edit(files);
-        }
+        let workspace = &self.workspace;
         let change = |file: &FileEdits| {
-            let places = Places::new(&file.text, self.workspace.encoding);
-            let edits = file.edits.iter().map(|edit| text_edit(&places, edit)).collect();
-            (self.workspace.uri(&file.path), edits)
+            let places = Places::new(&file.text, workspace.encoding);
+            let edits: Vec<_> = file.edits.iter().map(|edit| text_edit(&places, edit)).collect();
+            (workspace.uri(&file.path), edits)
         };
-        let changes = files.iter().map(change).collect();
-        lsp::WorkspaceEdit { changes: Some(changes), ..lsp::WorkspaceEdit::default() }
+        if !self.client.versions {
+            let changes = Some(files.iter().map(change).collect());
+            return lsp::WorkspaceEdit { changes, ..lsp::WorkspaceEdit::default() };
+        }
+        let versioned = |file: &FileEdits| {
+            let (uri, edits) = change(file);
+            let text_document = lsp::OptionalVersionedTextDocumentIdentifier {
+                version: workspace.documents.get(&file.path).map(|document| document.version),
+                text_document_identifier: lsp::TextDocumentIdentifier { uri },
+            };
+            let edits = edits.into_iter().map(lsp::Edit::TextEdit).collect();
+            lsp::DocumentChange::TextDocumentEdit(lsp::TextDocumentEdit { text_document, edits })
+        };
+        let document_changes = Some(files.iter().map(versioned).collect());
+        lsp::WorkspaceEdit { document_changes, ..lsp::WorkspaceEdit::default() }
     }
 }
 

@@ -2,7 +2,6 @@
 
 use afp_dsl::outline::{Component, Plan};
 use gen_lsp_types as lsp;
-use serde_json::Value;
 
 use crate::answer::{Answer, ok};
 use crate::server::Server;
@@ -10,9 +9,7 @@ use crate::workspace::Analysis;
 
 /// The plan that a name means, or that a place lies in.
 pub(crate) fn prepare(server: &mut Server, params: lsp::CallHierarchyPrepareParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let outline = &analysis.compiled.outline;
     let named = analysis.compiled.index.at(analysis.file, offset);
     let named = named.and_then(|name| name.meaning.definition());
@@ -68,7 +65,7 @@ pub(crate) fn outgoing(
     server: &mut Server,
     params: lsp::CallHierarchyOutgoingCallsParams,
 ) -> Answer {
-    let Some(analysis) = server.analysis(&params.item.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.item.uri)?;
     let mut calls: Vec<lsp::CallHierarchyOutgoingCall> = Vec::new();
     for (from, at, to) in uses(server, &analysis) {
         if !is_same(&from, &params.item) {

@@ -4,9 +4,9 @@ use afp_ide::folding::{FoldKind, folds};
 use afp_ide::lenses::{Lens, LensAction};
 use afp_ide::tokens::{Colour, ColourKind, colours};
 use gen_lsp_types as lsp;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use crate::answer::{Answer, ok};
+use crate::answer::{Answer, Failure, ok};
 use crate::convert::Places;
 use crate::server::Server;
 use crate::standard::project;
@@ -17,12 +17,8 @@ pub(crate) fn hover(server: &mut Server, params: lsp::HoverParams) -> Answer {
     if let Some(text) = project::text(server, &at.text_document.uri) {
         return project::hover(server, &text, at.position);
     }
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
-    let Some(found) = afp_ide::hover::hover(&analysis.view(), offset) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
+    let found = afp_ide::hover::hover(&analysis.view(), offset).ok_or(Failure::Nothing)?;
     let range = server.places(&analysis).range(found.span);
     let value = found.markdown();
     let contents = lsp::MarkupContent { kind: lsp::MarkupKind::Markdown, value };
@@ -31,7 +27,7 @@ pub(crate) fn hover(server: &mut Server, params: lsp::HoverParams) -> Answer {
 
 /// What can be folded away.
 pub(crate) fn folding(server: &mut Server, params: lsp::FoldingRangeParams) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let view = analysis.view();
     let places = server.places(&analysis);
     let range = |fold: &afp_ide::folding::Fold| {
@@ -56,7 +52,7 @@ pub(crate) fn folding(server: &mut Server, params: lsp::FoldingRangeParams) -> A
 
 /// What selections grow to.
 pub(crate) fn selection(server: &mut Server, params: lsp::SelectionRangeParams) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let view = analysis.view();
     let places = server.places(&analysis);
     let around = |position: &lsp::Position| {
@@ -71,7 +67,7 @@ pub(crate) fn selection(server: &mut Server, params: lsp::SelectionRangeParams) 
 
 /// Colours by meaning.
 pub(crate) fn tokens(server: &mut Server, params: lsp::SemanticTokensParams) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let places = server.places(&analysis);
     let mut before = lsp::Position::default();
     let token = |colour: &Colour| {
@@ -94,7 +90,7 @@ pub(crate) fn tokens(server: &mut Server, params: lsp::SemanticTokensParams) -> 
 
 /// The bound of each supervisor.
 pub(crate) fn hints(server: &mut Server, params: lsp::InlayHintParams) -> Answer {
-    let Some(analysis) = server.analysis(&params.text_document.uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&params.text_document.uri)?;
     let places = server.places(&analysis);
     let all = afp_ide::hints::hints(&analysis.view());
     let shown = all.iter().filter_map(|hint| {
@@ -117,7 +113,7 @@ pub(crate) fn hints(server: &mut Server, params: lsp::InlayHintParams) -> Answer
 /// What can be done with plans and scenarios, of what the client has commands for.
 pub(crate) fn lenses(server: &mut Server, params: lsp::CodeLensParams) -> Answer {
     let uri = &params.text_document.uri;
-    let Some(analysis) = server.analysis(uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(uri)?;
     let places = server.places(&analysis);
     let all = afp_ide::lenses::lenses(&analysis.view());
     let shown = all.iter().filter_map(|lens| shown(server, lens, &places, uri));

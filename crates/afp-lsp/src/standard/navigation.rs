@@ -9,7 +9,7 @@ use afp_ide::symbols::Symbol;
 use gen_lsp_types as lsp;
 use serde_json::{Value, json};
 
-use crate::answer::{Answer, ok};
+use crate::answer::{Answer, Failure, ok};
 use crate::convert::Places;
 use crate::server::Server;
 use crate::standard::project;
@@ -17,22 +17,18 @@ use crate::workspace::Analysis;
 
 /// Where a name is declared.
 pub(crate) fn definition(server: &mut Server, params: lsp::DefinitionParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     locations(server, &analysis, afp_ide::definition::definition(&analysis.view(), offset))
 }
 
 /// What it is made from.
 pub(crate) fn type_definition(server: &mut Server, params: lsp::TypeDefinitionParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     locations(server, &analysis, afp_ide::definition::type_definition(&analysis.view(), offset))
 }
 
 fn locations(server: &Server, analysis: &Analysis, found: Option<Definitions>) -> Answer {
-    let Some(found) = found else { return Ok(Value::Null) };
+    let found = found.ok_or(Failure::Nothing)?;
     let location = |target: &afp_ide::definition::Target| {
         server.workspace.location(&analysis.compiled, target.name)
     };
@@ -41,22 +37,15 @@ fn locations(server: &Server, analysis: &Analysis, found: Option<Definitions>) -
 
 /// Who refers to what a name means, in all plan files that the client works on.
 pub(crate) fn references(server: &mut Server, params: lsp::ReferenceParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let view = analysis.view();
     let found = afp_ide::definition::definition(&view, offset);
-    let Some(target) = found.and_then(|found| found.targets.first().copied()) else {
-        return Ok(Value::Null);
-    };
-    let Some(home) = analysis.compiled.sources.get(target.name.file).map(|it| it.name.clone())
-    else {
-        return Ok(Value::Null);
-    };
+    let target = found.and_then(|found| found.targets.first().copied()).ok_or(Failure::Nothing)?;
+    let home = analysis.compiled.sources.get(target.name.file).ok_or(Failure::Nothing)?;
     let mut all = BTreeSet::new();
     let mut add = |server: &Server, analysis: &Analysis| {
         let sources = &analysis.compiled.sources;
-        let file = sources.iter().position(|source| source.name == home);
+        let file = sources.iter().position(|source| source.name == home.name);
         let Some(file) = file.and_then(|file| u16::try_from(file).ok()) else { return };
         let name = afp_syntax::source::Span { file, ..target.name };
         for span in references::references_to(&analysis.view(), name) {
@@ -81,9 +70,7 @@ pub(crate) fn references(server: &mut Server, params: lsp::ReferenceParams) -> A
 
 /// Who refers to it in the document.
 pub(crate) fn highlights(server: &mut Server, params: lsp::DocumentHighlightParams) -> Answer {
-    let Some((analysis, offset)) = server.at(&params.text_document_position_params) else {
-        return Ok(Value::Null);
-    };
+    let (analysis, offset) = server.at(&params.text_document_position_params)?;
     let places = server.places(&analysis);
     let all = references::highlights(&analysis.view(), offset);
     let highlight = |span| lsp::DocumentHighlight { range: places.range(span), kind: None };
@@ -96,7 +83,7 @@ pub(crate) fn symbols(server: &mut Server, params: lsp::DocumentSymbolParams) ->
     if let Some(text) = project::text(server, &uri) {
         return project::symbols(server, &text, &uri);
     }
-    let Some(analysis) = server.analysis(&uri) else { return Ok(Value::Null) };
+    let analysis = server.analysis(&uri)?;
     let places = server.places(&analysis);
     let all = afp_ide::symbols::symbols(&analysis.view());
     if server.client.nests {
