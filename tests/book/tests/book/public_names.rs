@@ -75,12 +75,17 @@ fn listed() -> BTreeSet<String> {
     rows.flat_map(|row| words(row).collect::<Vec<_>>()).collect()
 }
 
-/// The words of all other pages.
+/// The words in the code of all other pages.
 fn told() -> BTreeSet<String> {
     let pages = fs::read_dir(docs()).unwrap().map(|page| page.unwrap().path());
     let pages = pages.filter(|page| page.extension().is_some_and(|ending| ending == "md"));
     let pages = pages.filter(|page| !page.ends_with(PAGE));
-    pages.flat_map(|page| words(&fs::read_to_string(page).unwrap()).collect::<Vec<_>>()).collect()
+    pages.flat_map(|page| code(&fs::read_to_string(page).unwrap())).collect()
+}
+
+/// The words between backticks, blocks included: every other piece of the page.
+fn code(page: &str) -> Vec<String> {
+    page.split('`').skip(1).step_by(2).flat_map(words).collect()
 }
 
 fn words(text: &str) -> impl Iterator<Item = String> {
