@@ -102,7 +102,7 @@ fn section(shown: &Shown) -> Result<String, Failure> {
     let _ = write!(text, "\n![A run, seed 0]({})\n", picture("-run.svg"));
     if *sees {
         output(afpc().arg("log").arg(&log).arg("--film").arg(file("-film.png")))?;
-        let _ = write!(text, "\n![What the camera saw]({})\n", picture("-film.png"));
+        let _ = write!(text, "\n![The camera's view]({})\n", picture("-film.png"));
     }
     let table = made(&format!("{name}.csv"));
     let sweep = ["sweep", &plan, "--seeds", SEEDS, "--until", until, "--restart", "-o"];
