@@ -113,25 +113,46 @@ pub fn run(suites: &[Suite], names: &[String]) -> Result<(), Failure> {
     let mut account = Vec::new();
     for (name, suite) in wanted {
         eprintln!("\n== {name}");
-        let start = Instant::now();
+        let (start, cpu_before) = (Instant::now(), cpu_seconds());
         let done = suite();
         if let Err(Failure(why)) = &done {
             eprintln!("{why}");
         }
-        account.push((*name, start.elapsed(), done.is_ok()));
+        let cpu = cpu_seconds().zip(cpu_before).map(|(after, before)| after - before);
+        account.push(Account { name, took: start.elapsed(), cpu, passed: done.is_ok() });
     }
     conclude(&account)
 }
 
+/// How a suite went.
+struct Account {
+    name: &'static str,
+    took: Duration,
+    /// Processor seconds of everything that the suite started, if the system counts them.
+    cpu: Option<f64>,
+    passed: bool,
+}
+
+/// Processor seconds of all processes that have been started and have ended; `None` outside Linux.
+fn cpu_seconds() -> Option<f64> {
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The name of the program is in brackets and may have spaces: `cutime` and `cstime` are 13 and 14 after it.
+    let fields: Vec<&str> = stat.rsplit(") ").next()?.split(' ').collect();
+    let ticks = |field: usize| fields.get(field)?.parse::<f64>().ok();
+    Some((ticks(13)? + ticks(14)?) / TICKS_PER_SECOND)
+}
+
 /// Prints the account.
-fn conclude(account: &[(&str, Duration, bool)]) -> Result<(), Failure> {
+fn conclude(account: &[Account]) -> Result<(), Failure> {
     println!();
-    for (name, took, passed) in account {
+    for Account { name, took, cpu, passed } in account {
         let verdict = if *passed { "ok" } else { "FAILED" };
-        println!("{name:<14} {:>7.1} s  {verdict}", took.as_secs_f64());
+        let cpu = cpu.map_or_else(String::new, |cpu| format!("{cpu:>8.1} s of CPU"));
+        println!("{name:<14} {:>7.1} s {cpu}  {verdict}", took.as_secs_f64());
     }
     let failed: Vec<&str> =
-        account.iter().filter(|(_, _, passed)| !passed).map(|(name, ..)| *name).collect();
+        account.iter().filter(|suite| !suite.passed).map(|suite| suite.name).collect();
     if failed.is_empty() {
         return Ok(());
     }

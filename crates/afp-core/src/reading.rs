@@ -15,6 +15,8 @@ pub enum Invalid {
     NoAnswer,
     /// The sensor says exactly the same over and over, which what it measures cannot do.
     Frozen,
+    /// The controller that reads the sensor has restarted since the run began.
+    Restarted,
 }
 
 /// What a sensor says: a value or why there is none, and when that was measured.

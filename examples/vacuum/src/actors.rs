@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use afp::quantity::{AngularSpeed, Speed};
 use afp::{Actor, Duration, Fault, Instant, Poll, Reason};
 
+use crate::supervisors::current;
 use crate::templates::{self, roll, spin, spiral, suction};
 use crate::{Nozzle, Way, Wheels};
 
@@ -25,8 +26,8 @@ struct Counted {
 }
 
 impl Counted {
-    fn new(env: &(impl Wheels + ?Sized), now: Instant) -> Self {
-        Counted { from: env.way(), last: 0.0, since: now }
+    fn new(env: &(impl Wheels + ?Sized), now: Instant) -> Result<Self, Fault> {
+        Ok(Counted { from: current(env.way(), now)?, last: 0.0, since: now })
     }
 
     /// The way and the angle so far; a fault when `which` of them has not changed for too long.
@@ -36,7 +37,7 @@ impl Counted {
         which: fn(Way) -> f64,
         now: Instant,
     ) -> Result<f64, Fault> {
-        let so_far = which(env.way()) - which(self.from);
+        let so_far = which(current(env.way(), now)?) - which(self.from);
         if (so_far - self.last).abs() > PROGRESS {
             (self.last, self.since) = (so_far, now);
         }
@@ -53,7 +54,7 @@ pub struct Roll {
 
 impl<E: Wheels + ?Sized> Actor<templates::Roll, E> for Roll {
     fn start(inputs: roll::Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        Ok(Roll { inputs, counted: Counted::new(env, now) })
+        Ok(Roll { inputs, counted: Counted::new(env, now)? })
     }
 
     fn poll(
@@ -90,7 +91,7 @@ pub struct Spin {
 
 impl<E: Wheels + ?Sized> Actor<templates::Spin, E> for Spin {
     fn start(inputs: spin::Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        Ok(Spin { inputs, counted: Counted::new(env, now) })
+        Ok(Spin { inputs, counted: Counted::new(env, now)? })
     }
 
     fn poll(
@@ -130,7 +131,7 @@ pub struct Spiral {
 
 impl<E: Wheels + ?Sized> Actor<templates::Spiral, E> for Spiral {
     fn start(inputs: spiral::Inputs, env: &mut E, now: Instant) -> Result<Self, Fault> {
-        Ok(Spiral { inputs, counted: Counted::new(env, now) })
+        Ok(Spiral { inputs, counted: Counted::new(env, now)? })
     }
 
     fn poll(

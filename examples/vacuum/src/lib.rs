@@ -36,7 +36,7 @@ pub trait Wheels {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed);
 
     /// What the counters say.
-    fn way(&self) -> Way;
+    fn way(&self) -> Reading<Way>;
 
     /// Asks for a standstill.
     fn halt(&mut self) {

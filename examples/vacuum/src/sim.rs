@@ -158,8 +158,10 @@ impl Wheels for Vacuum {
         self.asked = if asked.iter().all(|number| number.is_finite()) { asked } else { [0.0; 2] };
     }
 
-    fn way(&self) -> Way {
-        Way { ahead: Length::from_si(self.way[0]), turned: Angle::from_si(self.way[1]) }
+    fn way(&self) -> Reading<Way> {
+        let [ahead, turned] = self.way;
+        let way = Way { ahead: Length::from_si(ahead), turned: Angle::from_si(turned) };
+        Reading::valid(way, self.now)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the robot watches. A sensor that does not answer is a fault, not "all is well".
 
+use afp::core::Invalid;
 use afp::{Duration, Events, Fault, Instant, Reading, Reason, Supervisor};
 
 use crate::Senses;
@@ -7,11 +8,17 @@ use crate::templates::{self, check_bumper, check_button, check_cliff, check_dirt
 
 const SILENT: Fault =
     Fault::new(&Reason { code: "sensor-silent", text: "a sensor gives no current value" });
+const RESTARTED: Fault =
+    Fault::new(&Reason { code: "controller-restarted", text: "the controller has restarted" });
 /// A value that is older says nothing of now.
 const MAX_AGE: Duration = Duration::from_millis(100);
 
-fn current<T: Copy>(reading: Reading<T>, now: Instant) -> Result<T, Fault> {
-    reading.fresh(now, MAX_AGE).ok_or(SILENT)
+/// The value of a reading that is not older than 100 ms.
+pub(crate) fn current<T: Copy>(reading: Reading<T>, now: Instant) -> Result<T, Fault> {
+    match reading.value {
+        Err(Invalid::Restarted) => Err(RESTARTED),
+        _ => reading.fresh(now, MAX_AGE).ok_or(SILENT),
+    }
 }
 
 /// Implements a supervisor that keeps nothing: its events, the first one before others, and whether each holds now.

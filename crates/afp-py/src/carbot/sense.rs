@@ -61,5 +61,8 @@ fn said<T>(name: &str, reading: Reading<T>, take: impl FnOnce(T) -> Sensed) -> P
         Err(Invalid::NotFinite) => {
             Err(error(format!("the sensor of '{name}' says what is no number")))
         }
+        Err(Invalid::Restarted) => {
+            Err(error(format!("the controller of '{name}' has restarted since the run began")))
+        }
     }
 }

@@ -1,52 +1,65 @@
-//! Stands in for the board where there is none: says at which port it is, and then what a board says that stands free on
-//! an endless floor. It prints what it is told, once for each change.
+//! A stand-in for the board: prints the path of its port, and reports the movements of a robot on an endless floor. It prints
+//! each new command.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
-use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, Instant};
-use std::{fs, thread};
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::sync::mpsc::{Receiver as Bytes, channel};
+use std::thread;
+use std::time::Duration;
 
+use afp_platform::RealTime;
+use afp_wire::{COMMAND_TIMEOUT, Received, Receiver, Rejected, Sender};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
-use vacuum_protocol::{Command, Line, Report};
+use vacuum_protocol::{Command, LONGEST, Report, VERSION};
 
 /// What the board says and hears.
 pub struct Firmware {
     port: File,
-    heard: Receiver<String>,
-    /// Speed ahead and turn rate, as told.
+    heard: Bytes<u8>,
+    time: RealTime,
+    sender: Sender,
+    receiver: Receiver<LONGEST>,
+    /// Speed ahead and turn rate, as commanded.
     motion: [f64; 2],
     suction: bool,
     way: [f64; 2],
-    /// Told to stop, and not yet to start again.
+    /// Whether it obeys no command before `Start`.
     stopped: bool,
-    told: Instant,
-    /// Whether nobody hears what it says.
+    /// Whether its wire to the computer is broken.
     mute: bool,
 }
 
-/// A period of what it says.
+/// A period of its reports.
 const PERIOD: Duration = Duration::from_millis(20);
-/// Without a word for so long it stops the motors.
-const PATIENCE: Duration = Duration::from_millis(200);
 
 impl Firmware {
     /// A board, and the path of its port.
     pub fn new() -> io::Result<(Firmware, String)> {
         let (port, end, path) = Firmware::port()?;
-        let (lines, (tell, heard)) = (BufReader::new(port.try_clone()?), channel());
+        let (mut line, (tell, heard)) = (port.try_clone()?, channel());
         thread::spawn(move || {
-            // The port stays while somebody holds this end of it.
+            // The port exists while somebody holds this end of it.
             let _end = end;
-            // What is no text is noise; what ends the line ends this.
-            lines.split(b'\n').map_while(Result::ok).for_each(|line| {
-                drop(tell.send(String::from_utf8_lossy(&line).into_owned()));
-            });
+            let mut buffer = [0; 256];
+            while let Ok(read) = line.read(&mut buffer) {
+                if buffer[..read].iter().any(|byte| tell.send(*byte).is_err()) {
+                    break;
+                }
+            }
         });
-        let (motion, way) = ([0.0; 2], [0.0; 2]);
-        let told = Instant::now();
-        let (suction, stopped, mute) = (false, false, false);
-        Ok((Firmware { port, heard, motion, suction, way, stopped, told, mute }, path))
+        let firmware = Firmware {
+            port,
+            heard,
+            time: RealTime::start(),
+            sender: Sender::new(1, VERSION),
+            receiver: Receiver::new(VERSION),
+            motion: [0.0; 2],
+            suction: false,
+            way: [0.0; 2],
+            stopped: true,
+            mute: false,
+        };
+        Ok((firmware, path))
     }
 
     /// A port, what holds its other end open, and the path of that.
@@ -59,7 +72,7 @@ impl Firmware {
         Ok((File::from(port), end, path))
     }
 
-    /// Whether it was told to stop, and not yet to start again.
+    /// Whether it obeys no command before `Start`.
     pub fn is_stopped(&self) -> bool {
         self.stopped
     }
@@ -69,36 +82,64 @@ impl Firmware {
         self.motion != [0.0; 2]
     }
 
-    /// From now on it hears, but is not heard: the wire from the board is broken.
+    /// Breaks its wire to the computer.
     pub fn mute(&mut self) {
         self.mute = true;
     }
 
-    /// One period; gives what it was told and had not been told before.
+    /// Restarts it, as a loss of power would: with another boot id and counters of zero. It is `stopped` or obeys at once.
+    pub fn restart(&mut self, stopped: bool) {
+        self.sender = Sender::new(2, VERSION);
+        (self.motion, self.way, self.suction) = ([0.0; 2], [0.0; 2], false);
+        self.stopped = stopped;
+    }
+
+    /// Runs one period and returns the commands that changed something.
     pub fn step(&mut self) -> io::Result<Vec<Command>> {
         thread::sleep(PERIOD);
         let mut new = Vec::new();
-        while let Ok(line) = self.heard.try_recv() {
-            // What is noise or was cut keeps no motor going.
-            let Some(command) = Command::read(&line) else { continue };
-            let before = (self.motion, self.suction, self.stopped);
-            self.obey(command);
-            self.told = Instant::now();
-            if before != (self.motion, self.suction, self.stopped) {
-                new.push(command);
+        while let Ok(byte) = self.heard.try_recv() {
+            match self.receiver.receive::<Command>(byte, self.time.now()) {
+                Some(Ok(Received::Hello)) => self.greet()?,
+                Some(Ok(Received::Message { message, .. })) if message.is_possible() => {
+                    let before = (self.motion, self.suction, self.stopped);
+                    self.obey(message);
+                    if before != (self.motion, self.suction, self.stopped) {
+                        new.push(message);
+                    }
+                }
+                // Another program begins: nothing moves before its `Start`.
+                Some(Err(Rejected::Restarted)) => {
+                    self.receiver.forget();
+                    self.stopped = true;
+                }
+                _ => {}
             }
         }
-        if self.stopped || self.told.elapsed() > PATIENCE {
+        if self.stopped || self.receiver.is_silent(self.time.now(), COMMAND_TIMEOUT) {
             (self.motion, self.suction) = ([0.0; 2], false);
         }
         for (way, speed) in self.way.iter_mut().zip(self.motion) {
             *way += speed * PERIOD.as_secs_f64();
         }
-        if !self.mute {
-            let report = Report { way: self.way, stopped: self.stopped, ..Report::default() };
-            write!(self.port, "{}", Line(report))?;
-        }
+        self.report()?;
         Ok(new)
+    }
+
+    fn greet(&mut self) -> io::Result<()> {
+        let mut buffer = [0; LONGEST];
+        let frame = self.sender.hello(&mut buffer).map_err(io::Error::other)?;
+        self.port.write_all(frame)
+    }
+
+    fn report(&mut self) -> io::Result<()> {
+        if self.mute {
+            return Ok(());
+        }
+        let report = Report { way: self.way, stopped: self.stopped, ..Report::default() };
+        let mut buffer = [0; LONGEST];
+        let frame = self.sender.send(&report, &mut buffer).map_err(io::Error::other)?;
+        self.port.write_all(frame)
     }
 
     fn obey(&mut self, command: Command) {
@@ -115,10 +156,12 @@ impl Firmware {
 fn main() -> io::Result<()> {
     let (mut firmware, path) = Firmware::new()?;
     println!("{path}");
-    while !firmware.is_stopped() {
+    let mut has_started = false;
+    while !(has_started && firmware.is_stopped()) {
         for command in firmware.step()? {
-            println!("{command}");
+            println!("{command:?}");
         }
+        has_started |= !firmware.is_stopped();
     }
     Ok(())
 }

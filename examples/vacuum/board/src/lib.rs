@@ -1,14 +1,15 @@
-//! The vacuum cleaner itself: a board that drives motors and reads sensors, spoken to over a serial line.
+//! The vacuum cleaner itself: a board on a serial line drives the motors and reads the sensors.
 //!
-//! [`vacuum_protocol`] is what is said there. A board that has heard nothing for 200 ms stops the motors by itself; so what is asked
-//! for is said every 20 ms, whether it has changed or not, and takes 20 % of 115,200 baud. Standing still alone is said at once, before
-//! whatever waits on the line. While the board says nothing, standing still is all that is asked for.
+//! [`vacuum_protocol`] has the messages. The board stops the motors after 200 ms without a command, so the driver repeats its
+//! commands every 20 ms, which takes 15 % of 115,200 baud. A standstill is sent at once, before everything that waits on the
+//! line. While the board is silent, the driver only sends standstill. After a restart of the board the driver sends nothing
+//! but stop: its counters and its state are those of another life.
 
 mod line;
 
 use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
-use std::{io, thread};
+use std::{io, mem, thread};
 
 use afp::core::{Invalid, Platform};
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
@@ -19,65 +20,80 @@ use vacuum::templates::signal;
 use vacuum::{Nozzle, Senses, Way, Wheels};
 use vacuum_protocol::{Command, Report};
 
-use line::{Ear, Line};
+use line::{Ear, Heard, Line};
 
-/// Of the serial line, unless 'baud' in the settings says another one.
+/// Speed of the serial line, unless the settings have another 'baud'.
 const BAUD: &str = "115200";
 
-/// What the board has not said for so long is not known any more.
+/// Reports are discarded after this time.
 const STALE: Duration = Duration::from_millis(100);
-/// The board hears from us this often.
+/// Commands are repeated this often.
 const OFTEN: Duration = Duration::from_millis(20);
-/// A slower line, in baud, would not carry that: 45 bytes of ten bits every 20 ms.
+/// The slowest line in baud that carries 45 bytes of ten bits every 20 ms.
 const SLOWEST: u32 = 38_400;
-/// How long to wait for what the board says.
+/// Time between two looks at the line.
 const GLANCE: std::time::Duration = std::time::Duration::from_millis(2);
 
 /// The robot.
 pub struct Board {
     time: RealTime,
     line: Line,
-    /// What the board said last, and when.
-    heard: Arc<Mutex<Option<(Report, Instant)>>>,
+    /// What the board said last.
+    heard: Arc<Mutex<Option<Heard>>>,
     asked: [f64; 2],
     suction: bool,
-    /// When it was said last what is asked for.
+    /// When the commands were sent last.
     told: Instant,
 }
 
 impl Board {
-    /// What the board said last, unless that was too long ago.
-    fn said(&self) -> Option<(Report, Instant)> {
-        let heard = *self.heard.lock().unwrap_or_else(PoisonError::into_inner);
-        heard.filter(|(_, at)| self.time.now().since(*at) < STALE)
+    fn heard(&self) -> Option<Heard> {
+        *self.heard.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A sensor's reading; lost where the board says nothing any more.
-    fn sense<T: Copy>(&self, of: impl Fn(&Report) -> T) -> Reading<T> {
-        match self.said() {
-            Some((said, at)) => Reading::valid(of(&said), at),
-            None => Reading::invalid(Invalid::NoAnswer, self.time.now()),
+    /// The last report, or why there is none.
+    fn report(&self) -> Result<(Report, Instant), Invalid> {
+        match self.heard() {
+            Some(Heard::Report(report, at)) if self.time.now().since(at) < STALE => {
+                Ok((report, at))
+            }
+            Some(Heard::Restarted) => Err(Invalid::Restarted),
+            _ => Err(Invalid::NoAnswer),
         }
     }
 
-    /// Says what is asked for, where the board has not heard from us for a while.
+    /// A sensor's reading, from the last report.
+    fn sense<T: Copy>(&self, of: impl Fn(&Report) -> T) -> Reading<T> {
+        match self.report() {
+            Ok((report, at)) => Reading::valid(of(&report), at),
+            Err(why) => Reading::invalid(why, self.time.now()),
+        }
+    }
+
+    /// Repeats the commands if it is time to.
     fn tell_again(&mut self) {
         if self.time.now().since(self.told) >= OFTEN {
             self.tell();
         }
     }
 
-    /// Tells the board to start, again and again, since a word may be lost, until it says that it obeys.
-    fn begin(&mut self) -> Result<(), &'static str> {
+    /// Connects and starts the board. Frames may be lost, so both are repeated until the board obeys.
+    fn begin(&mut self) -> Result<(), String> {
         let patience = self.time.now() + Duration::from_secs(1);
         loop {
+            self.line.hello();
             self.line.say(&[Command::Start]);
             self.time.sleep_until(self.time.now() + OFTEN);
-            match self.said() {
-                Some((Report { stopped: false, .. }, _)) => return Ok(()),
+            match self.heard() {
+                Some(Heard::Report(Report { stopped: false, .. }, _)) => return Ok(()),
+                Some(Heard::Version(theirs)) => {
+                    let ours = vacuum_protocol::VERSION;
+                    return Err(format!("the board speaks version {theirs} of the protocol, this program version {ours}"));
+                }
                 _ if self.time.now() <= patience => {}
-                Some(_) => return Err("the board says that it is stopped, whatever it is told"),
-                None => return Err("the board says nothing"),
+                Some(Heard::Report(..)) => return Err("the board does not start".to_owned()),
+                Some(Heard::Restarted) => return Err("the board restarts".to_owned()),
+                None => return Err("the board does not answer".to_owned()),
             }
         }
     }
@@ -92,20 +108,29 @@ impl Board {
         self.line.say_at_once(&self.wanted());
     }
 
-    /// What is asked for; while the board is not heard, to stand still: as long as it hears, it would not stop by itself.
-    fn wanted(&self) -> [Command; 2] {
-        let heard = self.said().is_some();
-        let [speed, turn] = if heard { self.asked } else { [0.0; 2] };
-        [Command::Drive { speed, turn }, Command::Suck(heard && self.suction)]
+    /// The commands: standstill while the board is silent, because a board that still hears would not stop by itself; stop after
+    /// a restart.
+    fn wanted(&self) -> Vec<Command> {
+        match self.report() {
+            Ok(_) => {
+                let [speed, turn] = self.asked;
+                vec![Command::Drive { speed, turn }, Command::Suck(self.suction)]
+            }
+            Err(Invalid::Restarted) => vec![Command::Stop],
+            Err(_) => vec![Command::Drive { speed: 0.0, turn: 0.0 }, Command::Suck(false)],
+        }
     }
 }
 
-/// Keeps what the board says, until the line ends or nobody asks for it any more.
-fn listen(mut ear: Ear, time: RealTime, heard: Weak<Mutex<Option<(Report, Instant)>>>) {
+/// Keeps what the board says, until the line or the driver ends. Nothing follows a restart.
+fn listen(mut ear: Ear, time: RealTime, heard: Weak<Mutex<Option<Heard>>>) {
     while let Some(heard) = heard.upgrade() {
-        match ear.hear() {
+        match ear.hear(&time) {
             Ok(said) => {
-                *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some((said, time.now()));
+                let mut heard = heard.lock().unwrap_or_else(PoisonError::into_inner);
+                if *heard != Some(Heard::Restarted) {
+                    *heard = Some(said);
+                }
             }
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => thread::sleep(GLANCE),
             Err(_) => return,
@@ -181,18 +206,17 @@ impl Platform for Board {
 impl Wheels for Board {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed) {
         let asked = [speed.si(), turn.si()];
-        let stands = asked == [0.0; 2] && asked != self.asked;
-        self.asked = asked;
-        if stands {
+        let before = mem::replace(&mut self.asked, asked);
+        if asked == [0.0; 2] && asked != before {
             self.tell_at_once();
         }
     }
 
-    fn way(&self) -> Way {
-        // Counters that are not known any more stand still, and soon so do the wheels: the board has stopped them, or is told to.
-        let heard = *self.heard.lock().unwrap_or_else(PoisonError::into_inner);
-        let way = heard.map_or([0.0; 2], |(said, _)| said.way);
-        Way { ahead: Length::from_si(way[0]), turned: Angle::from_si(way[1]) }
+    fn way(&self) -> Reading<Way> {
+        self.sense(|report| {
+            let [ahead, turned] = report.way;
+            Way { ahead: Length::from_si(ahead), turned: Angle::from_si(turned) }
+        })
     }
 }
 
@@ -204,19 +228,19 @@ impl Nozzle for Board {
 
 impl Senses for Board {
     fn bumper(&self) -> Reading<[bool; 2]> {
-        self.sense(|said| said.bumper)
+        self.sense(|report| report.bumper)
     }
 
     fn drop(&self) -> Reading<bool> {
-        self.sense(|said| said.drop)
+        self.sense(|report| report.drop)
     }
 
     fn dirt(&self) -> Reading<f64> {
-        self.sense(|said| said.dirt)
+        self.sense(|report| report.dirt)
     }
 
     fn button(&self) -> Reading<bool> {
-        self.sense(|said| said.button)
+        self.sense(|report| report.button)
     }
 }
 
@@ -226,13 +250,13 @@ impl Robot for Board {
     const LACKS: &'static [&'static str] = &["robot"];
 
     fn sample(&self, to: &mut Samples<'_, '_>) {
-        let Some((said, _)) = self.said() else { return };
-        let [left, right] = said.bumper;
+        let Ok((report, _)) = self.report() else { return };
+        let [left, right] = report.bumper;
         to.put(signal::BUMPER_LEFT, SampleRef::Bool(left));
         to.put(signal::BUMPER_RIGHT, SampleRef::Bool(right));
-        to.put(signal::CLIFF_DROP, SampleRef::Bool(said.drop));
-        to.put(signal::DIRT_LEVEL, SampleRef::Float(said.dirt));
-        to.put(signal::BUTTON_HALT, SampleRef::Bool(said.button));
+        to.put(signal::CLIFF_DROP, SampleRef::Bool(report.drop));
+        to.put(signal::DIRT_LEVEL, SampleRef::Float(report.dirt));
+        to.put(signal::BUTTON_HALT, SampleRef::Bool(report.button));
         to.put(signal::SUCTION_ON, SampleRef::Bool(self.suction));
     }
 }

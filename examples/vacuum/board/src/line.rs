@@ -1,36 +1,42 @@
-//! The serial line: what is said on it waits for nothing, and what is heard on it is whole.
+//! The serial line. Writing never waits, and reading returns whole reports.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Write};
-use std::mem;
+use std::hash::{BuildHasher, RandomState};
+use std::io::{self, BufReader, Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
 
-use afp_platform::LastResort;
+use afp::Instant;
+use afp_platform::{LastResort, RealTime};
+use afp_wire::{Received, Receiver, Rejected, Sender};
 use rustix::fs::OFlags;
 use rustix::termios::{OptionalActions, QueueSelector, isatty, tcflush, tcgetattr, tcsetattr};
-use vacuum_protocol::{Command, Report};
+use vacuum_protocol::{Command, LONGEST, Report, VERSION};
 
-/// No line of the board's is longer, bytes.
-const LONGEST: u64 = 200;
-
-/// The way to the board. Saying something never waits: what the line does not take at once is lost.
+/// The direction to the board. Writing never waits: bytes that the line does not take at once are lost.
 pub struct Line {
     port: File,
-    /// Whether the last thing was said to its end.
+    sender: Sender,
+    /// Whether the last write was complete.
     whole: bool,
 }
 
-/// The way from the board.
+/// The direction from the board.
 pub struct Ear {
     port: BufReader<File>,
-    /// What has come of a line.
-    line: Vec<u8>,
-    /// Whether that is its beginning.
-    at_beginning: bool,
+    receiver: Receiver<LONGEST>,
 }
 
-/// Opens a port for both ways, neither of which is waited for. A serial line gets that speed in baud, and nothing on it is edited
-/// or sent back.
+/// What the board says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Heard {
+    Report(Report, Instant),
+    /// The board has restarted since the port was opened, so that it is in an unknown state.
+    Restarted,
+    /// The board speaks another version of the protocol.
+    Version(u16),
+}
+
+/// Opens a port in both directions, without waiting. A serial line gets the speed in baud, and does not edit or echo.
 pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
     // It must not become the terminal that this process belongs to.
     let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits() as i32;
@@ -41,56 +47,83 @@ pub fn open(port: &str, baud: u32) -> io::Result<(Line, Ear)> {
         modes.make_raw();
         modes.set_speed(baud)?;
         tcsetattr(&to, OptionalActions::Now, &modes)?;
-        // What the board said before is over.
+        // Earlier reports do not count.
         tcflush(&to, QueueSelector::IFlush)?;
     }
-    let ear = Ear { port: from, line: Vec::new(), at_beginning: false };
-    Ok((Line { port: to, whole: false }, ear))
+    Ok((Line::new(to), Ear { port: from, receiver: Receiver::new(VERSION) }))
 }
 
 impl Line {
-    /// Says a line for each command. Where the line is broken or full, nothing can be said: the board stops, and what it does
-    /// not say is noticed.
-    pub fn say(&mut self, commands: &[Command]) {
-        // What was cut must not run into this, and is no command any more: none ends with this.
-        let mut text = if self.whole { String::new() } else { "?\n".to_owned() };
-        text.extend(commands.iter().map(|command| vacuum_protocol::Line(command).to_string()));
-        self.whole =
-            matches!(self.port.write(text.as_bytes()), Ok(written) if written == text.len());
+    fn new(port: File) -> Line {
+        // The keys of a hasher are random, and differ at each call.
+        let boot = RandomState::new().hash_one(std::process::id()) as u32;
+        Line { port, sender: Sender::new(boot, VERSION), whole: false }
     }
 
-    /// Says what must not wait behind anything that was said before.
+    /// Begins a connection.
+    pub fn hello(&mut self) {
+        let mut buffer = [0; LONGEST];
+        if let Ok(frame) = self.sender.hello(&mut buffer) {
+            let bytes = frame.to_vec();
+            self.write(&bytes);
+        }
+    }
+
+    /// Sends commands. If the line is broken or full, nothing is sent: the board stops, and its silence is noticed.
+    pub fn say(&mut self, commands: &[Command]) {
+        let mut bytes = Vec::with_capacity(LONGEST * commands.len());
+        let mut buffer = [0; LONGEST];
+        for command in commands {
+            bytes.extend(self.sender.send(command, &mut buffer).unwrap_or_default());
+        }
+        self.write(&bytes);
+    }
+
+    fn write(&mut self, frames: &[u8]) {
+        // A frame that was cut ends here, damaged, and does not run into the next one.
+        let end: &[u8] = if self.whole { &[] } else { &[0] };
+        let bytes = [end, frames].concat();
+        self.whole = matches!(self.port.write(&bytes), Ok(written) if written == bytes.len());
+    }
+
+    /// Sends commands before everything that waits on the line.
     pub fn say_at_once(&mut self, commands: &[Command]) {
-        // Of a line that has no queue nothing waits.
+        // A line without a queue has nothing that waits.
         let _ = tcflush(&self.port, QueueSelector::OFlush);
         self.whole = false;
         self.say(commands);
     }
 
-    /// Stops the board while whoever says lines may hang in the middle of one.
+    /// Stops the board even if the thread that sends commands hangs: a board that hears another life of the computer stops.
     pub fn last_resort(&self) -> Option<LastResort> {
-        let mut line = Line { port: self.port.try_clone().ok()?, whole: false };
-        Some(Box::new(move || line.say_at_once(&[Command::Stop])))
+        let mut line = Line::new(self.port.try_clone().ok()?);
+        Some(Box::new(move || {
+            line.say_at_once(&[]);
+            line.hello();
+        }))
     }
 }
 
 impl Ear {
-    /// What the board says next; what is cut or disturbed is passed over.
+    /// Reads what the board says next. Damaged frames do not count.
     ///
     /// # Errors
-    /// [`WouldBlock`](io::ErrorKind::WouldBlock) where it has said nothing more yet; the line has ended.
-    pub fn hear(&mut self) -> io::Result<Report> {
+    /// [`WouldBlock`](io::ErrorKind::WouldBlock) if there is nothing new; [`UnexpectedEof`](io::ErrorKind::UnexpectedEof) or
+    /// another error if the line has ended.
+    pub fn hear(&mut self, time: &RealTime) -> io::Result<Heard> {
         loop {
-            let room = LONGEST - self.line.len() as u64;
-            if (&mut self.port).take(room).read_until(b'\n', &mut self.line)? == 0 {
+            let mut byte = [0];
+            if self.port.read(&mut byte)? == 0 {
                 return Err(io::ErrorKind::UnexpectedEof.into());
             }
-            let line = mem::take(&mut self.line);
-            let (begins, ends) = (self.at_beginning, line.ends_with(b"\n"));
-            self.at_beginning = ends;
-            let text = std::str::from_utf8(&line).ok().filter(|_| begins && ends);
-            if let Some(report) = text.and_then(Report::read) {
-                return Ok(report);
+            let now = time.now();
+            match self.receiver.receive::<Report>(byte[0], now) {
+                Some(Ok(Received::Message { message, .. })) if message.is_possible() => {
+                    return Ok(Heard::Report(message, now));
+                }
+                Some(Err(Rejected::Restarted)) => return Ok(Heard::Restarted),
+                Some(Err(Rejected::Version { theirs })) => return Ok(Heard::Version(theirs)),
+                _ => {}
             }
         }
     }
@@ -101,33 +134,37 @@ mod tests {
     use super::*;
 
     #[test]
-    fn noise_costs_its_line_alone() {
-        let folder = std::env::temp_dir().join(format!("vacuum-board-{}", std::process::id()));
-        let says = |ahead| {
+    fn noise_costs_only_the_frames_that_it_touches() {
+        let path = std::env::temp_dir().join(format!("vacuum-board-{}", std::process::id()));
+        let mut sender = Sender::new(1, VERSION);
+        let hello = sender.hello(&mut [0; LONGEST]).unwrap().to_vec();
+        let mut says = |ahead| {
             let report = Report { way: [ahead, 0.0], ..Report::default() };
-            vacuum_protocol::Line(report).to_string()
+            sender.send(&report, &mut [0; LONGEST]).unwrap().to_vec()
         };
-        let (one, noise) = (says(1.0), "7".repeat(3 * LONGEST as usize));
-        let (_, cut) = one.split_at(1);
-        let text = [
-            // What was on its way when the port was opened.
-            &*says(5.0),
-            &one,
-            "\u{e9}",
-            &one,
-            // Its point is lost, so that it would be another number.
-            &says(1.5).replace("1.5", "15"),
-            &noise,
-            cut,
-            &says(2.0),
-            says(3.0).trim_end(),
-        ]
-        .concat();
-        std::fs::write(&folder, text).unwrap();
-        let (_, mut ear) = open(folder.to_str().unwrap(), 115_200).unwrap();
-        let heard: Vec<_> =
-            std::iter::from_fn(|| ear.hear().ok()).map(|report| report.way[0]).collect();
-        std::fs::remove_file(&folder).unwrap();
-        assert_eq!(heard, [1.0, 2.0]);
+        let cut = |frame: Vec<u8>| frame[..frame.len() / 2].to_vec();
+        let bytes = [
+            // A report of before the hello.
+            says(5.0),
+            hello,
+            says(1.0),
+            vec![7; 3 * LONGEST],
+            says(6.0),
+            cut(says(7.0)),
+            says(8.0),
+            says(2.0),
+            says(f64::NAN),
+            cut(says(3.0)),
+        ];
+        std::fs::write(&path, bytes.concat()).unwrap();
+        let (_, mut ear) = open(path.to_str().unwrap(), 115_200).unwrap();
+        let time = RealTime::start();
+        let heard: Vec<_> = std::iter::from_fn(|| ear.hear(&time).ok()).collect();
+        std::fs::remove_file(&path).unwrap();
+        let ahead = |heard: &Heard| match heard {
+            Heard::Report(report, _) => Some(report.way[0]),
+            _ => None,
+        };
+        assert_eq!(heard.iter().map(ahead).collect::<Vec<_>>(), [Some(1.0), Some(2.0)]);
     }
 }

@@ -1,17 +1,18 @@
 //! The robot over its serial line, with a stand-in at the other end.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::thread;
 
-use afp::core::Platform;
+use afp::core::{Invalid, Platform};
 use afp::quantity::{AngularSpeed, Speed};
 use afp::{Duration, Environment};
 use afp_platform::{Hardware, Settings};
 use vacuum::{Nozzle, Senses, Wheels};
 use vacuum_board::Board;
-use vacuum_protocol::{Command, Line, Report};
+use afp_wire::{Received, Receiver, Sender};
+use vacuum_protocol::{Command, LONGEST, Report, VERSION};
 
 #[path = "../examples/firmware.rs"]
 #[allow(dead_code)]
@@ -27,10 +28,12 @@ fn begin() -> (Board, thread::JoinHandle<Firmware>) {
 
 fn opened(mut firmware: Firmware, path: &str) -> (Board, thread::JoinHandle<Firmware>) {
     let far = thread::spawn(move || {
+        let mut has_started = false;
         for _ in 0..500 {
-            if firmware.is_stopped() || firmware.step().is_err() {
+            if has_started && firmware.is_stopped() || firmware.step().is_err() {
                 break;
             }
+            has_started |= !firmware.is_stopped();
         }
         firmware
     });
@@ -49,7 +52,7 @@ fn commands_go_there_and_sensors_come_back() {
     board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.5));
     board.suck(true);
     pass(&mut board, 400);
-    let way = board.way();
+    let way = board.way().value.unwrap();
     assert!(way.ahead.si() > 0.01 && way.turned.si() > 0.02, "{way:?}");
     assert_eq!(board.bumper().value, Ok([false; 2]));
     assert_eq!(board.drop().value, Ok(false));
@@ -63,9 +66,12 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     let (mut port, _end, path) = Firmware::port().unwrap();
     let mut says = port.try_clone().unwrap();
     let says = thread::spawn(move || {
+        let mut sender = Sender::new(1, VERSION);
         for _ in 0..20 {
             thread::sleep(std::time::Duration::from_millis(10));
-            write!(says, "{}", Line(Report::default())).unwrap();
+            says.write_all(sender.hello(&mut [0; LONGEST]).unwrap()).unwrap();
+            let report = Report::default();
+            says.write_all(sender.send(&report, &mut [0; LONGEST]).unwrap()).unwrap();
         }
     });
     let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
@@ -76,37 +82,78 @@ fn a_line_that_nobody_reads_holds_nobody_up_and_a_stop_passes_what_waits() {
     pass(&mut board, 100);
     board.emergency_stop();
     assert!(began.elapsed().as_secs_f64() < 5.0, "{:?}", began.elapsed());
-    // What this end of a terminal has taken already cannot be taken back.
-    let mut told = Vec::new();
-    while !told.ends_with(b"?\nstop*7AC7\n") {
+    // This end of a terminal has taken some bytes already, which cannot be taken back.
+    let (mut receiver, mut told) = (Receiver::<LONGEST>::new(VERSION), 0);
+    let mut heard = None;
+    while heard != Some(Ok(Received::Message { message: Command::Stop, lost: 0 })) {
         let mut part = [0; 1 << 12];
         let read = port.read(&mut part).unwrap();
-        told.extend_from_slice(&part[..read]);
-        assert!(told.len() < 20_000, "it waits behind what was said before");
+        for byte in &part[..read] {
+            let received = receiver.receive::<Command>(*byte, afp::Instant::ZERO);
+            heard = received.map(|frame| frame.map(without_losses)).or(heard);
+        }
+        told += read;
+        assert!(told < 20_000, "it waits behind earlier commands");
     }
 }
 
-/// Says something on a port.
-fn tell(path: &str, text: &str) {
-    File::options().write(true).open(path).unwrap().write_all(text.as_bytes()).unwrap();
+fn without_losses(received: Received<Command>) -> Received<Command> {
+    match received {
+        Received::Message { message, .. } => Received::Message { message, lost: 0 },
+        Received::Hello => Received::Hello,
+    }
 }
 
-/// Says lines on a port until it takes no more.
+/// Writes bytes to a port.
+fn tell(path: &str, bytes: &[u8]) {
+    File::options().write(true).open(path).unwrap().write_all(bytes).unwrap();
+}
+
+/// Writes to a port until it takes no more.
 fn full(path: &str) {
     let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
     let mut port = File::options().write(true).custom_flags(flags).open(path).unwrap();
-    let line = Line(Command::Drive { speed: 0.1, turn: 0.1 }).to_string();
-    while port.write(line.as_bytes()).is_ok() {}
+    while port.write(&[7; LONGEST]).is_ok() {}
 }
 
 #[test]
-fn what_was_cut_is_no_command() {
+fn a_command_that_was_cut_does_not_count() {
     let (mut firmware, path) = Firmware::new().unwrap();
-    tell(&path, "drive 0.2 -1");
+    let mut sender = Sender::new(5, VERSION);
+    let hello = sender.hello(&mut [0; LONGEST]).unwrap().to_vec();
+    let drive = Command::Drive { speed: 0.2, turn: -1.0 };
+    let frame = sender.send(&drive, &mut [0; LONGEST]).unwrap().to_vec();
+    tell(&path, &[&hello[..], &frame[..frame.len() / 2]].concat());
     let far = thread::spawn(move || (0..10).for_each(|_| drop(firmware.step().unwrap())));
     let board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+    let way = board.way().value.unwrap();
     far.join().unwrap();
-    assert_eq!((board.way().ahead.si(), board.way().turned.si()), (0.0, 0.0));
+    assert_eq!((way.ahead.si(), way.turned.si()), (0.0, 0.0));
+}
+
+#[test]
+fn a_board_that_restarts_is_reported_by_name_and_is_not_driven() {
+    for stopped in [true, false] {
+        let (mut firmware, path) = Firmware::new().unwrap();
+        let far = thread::spawn(move || {
+            (0..10).for_each(|_| drop(firmware.step().unwrap()));
+            let moved = firmware.is_moving();
+            firmware.restart(stopped);
+            let after: Vec<_> = (0..20).flat_map(|_| firmware.step().unwrap()).collect();
+            (moved, after, firmware)
+        });
+        let mut board = Board::open(&Settings::new([("port", &*path)])).unwrap();
+        board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
+        while !far.is_finished() {
+            pass(&mut board, 10);
+        }
+        let (moved, after, firmware) = far.join().unwrap();
+        assert!(moved && !firmware.is_moving() && firmware.is_stopped());
+        let drives = after.iter().filter(|command| matches!(command, Command::Drive { .. }));
+        assert!(drives.count() <= 1, "{after:?}");
+        assert_eq!(board.bumper().value, Err(Invalid::Restarted));
+        assert_eq!(board.way().value, Err(Invalid::Restarted));
+    }
 }
 
 #[test]
@@ -126,7 +173,8 @@ fn time_that_passes_in_one_piece_is_no_silence() {
     let (mut board, far) = begin();
     board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
     board.advance(board.now() + Duration::from_secs(1));
-    assert!(board.way().ahead.si() > 0.1, "{:?}", board.way());
+    let way = board.way().value.unwrap();
+    assert!(way.ahead.si() > 0.1, "{way:?}");
     board.emergency_stop();
     far.join().unwrap();
 }
@@ -196,32 +244,48 @@ fn after_a_stop_another_run_begins_with_start() {
     let mut board = Board::open(&settings).unwrap();
     board.drive(Speed::from_si(0.2), AngularSpeed::from_si(0.0));
     pass(&mut board, 200);
-    assert!(board.way().ahead.si() > 0.005, "{:?}", board.way());
+    let way = board.way().value.unwrap();
+    assert!(way.ahead.si() > 0.005, "{way:?}");
+    // The first run stops it, and so does the hello of the second one, which changes nothing.
     assert_eq!(far.join().unwrap(), 1);
 }
 
 #[test]
-fn what_is_told_twice_at_once_is_new_once() {
+fn a_command_that_comes_twice_is_new_once() {
     let (mut firmware, path) = Firmware::new().unwrap();
-    tell(&path, &Line(Command::Stop).to_string().repeat(2));
+    let mut sender = Sender::new(5, VERSION);
+    let mut bytes = sender.hello(&mut [0; LONGEST]).unwrap().to_vec();
+    for _ in 0..2 {
+        bytes.extend(sender.send(&Command::Start, &mut [0; LONGEST]).unwrap());
+    }
+    tell(&path, &bytes);
     thread::sleep(std::time::Duration::from_millis(100));
-    assert_eq!(firmware.step().unwrap(), [Command::Stop]);
+    assert_eq!(firmware.step().unwrap(), [Command::Start]);
 }
 
 #[test]
-fn start_is_said_until_the_board_says_that_it_obeys() {
+fn start_is_repeated_until_the_board_obeys() {
     let (mut port, _end, path) = Firmware::port().unwrap();
-    let lines = BufReader::new(port.try_clone().unwrap());
+    let mut line = port.try_clone().unwrap();
     let far = thread::spawn(move || {
-        let told = lines.lines().map_while(Result::ok).filter_map(|line| Command::read(&line));
-        let mut starts = 0;
-        for command in told {
-            starts += u32::from(command == Command::Start);
-            // It hears the third one alone.
-            let report = Report { stopped: starts < 3, ..Report::default() };
-            write!(port, "{}", Line(report)).unwrap();
-            if command == Command::Stop {
-                break;
+        let (mut sender, mut receiver) = (Sender::new(1, VERSION), Receiver::<LONGEST>::new(VERSION));
+        let (mut starts, mut byte) = (0, [0]);
+        while line.read(&mut byte).is_ok_and(|read| read == 1) {
+            let heard = receiver.receive::<Command>(byte[0], afp::Instant::ZERO);
+            match heard {
+                Some(Ok(Received::Hello)) => {
+                    port.write_all(sender.hello(&mut [0; LONGEST]).unwrap()).unwrap();
+                }
+                Some(Ok(Received::Message { message, .. })) => {
+                    starts += u32::from(message == Command::Start);
+                    // It obeys only the third one.
+                    let report = Report { stopped: starts < 3, ..Report::default() };
+                    port.write_all(sender.send(&report, &mut [0; LONGEST]).unwrap()).unwrap();
+                    if message == Command::Stop {
+                        break;
+                    }
+                }
+                _ => {}
             }
         }
         starts
@@ -232,18 +296,22 @@ fn start_is_said_until_the_board_says_that_it_obeys() {
 }
 
 #[test]
-fn a_board_that_does_not_start_is_not_open() {
-    let (mut port, _end, path) = Firmware::port().unwrap();
-    let far = thread::spawn(move || {
-        let stopped = Line(Report { stopped: true, ..Report::default() });
-        (0..70).for_each(|_| {
-            thread::sleep(std::time::Duration::from_millis(20));
-            write!(port, "{stopped}").unwrap();
+fn a_board_that_does_not_start_or_has_another_version_is_not_open() {
+    for (version, text) in [(VERSION, "start"), (VERSION + 1, "version")] {
+        let (mut port, _end, path) = Firmware::port().unwrap();
+        let far = thread::spawn(move || {
+            let mut sender = Sender::new(1, version);
+            (0..70).for_each(|_| {
+                thread::sleep(std::time::Duration::from_millis(20));
+                port.write_all(sender.hello(&mut [0; LONGEST]).unwrap()).unwrap();
+                let stopped = Report { stopped: true, ..Report::default() };
+                port.write_all(sender.send(&stopped, &mut [0; LONGEST]).unwrap()).unwrap();
+            });
         });
-    });
-    let why = Board::open(&Settings::new([("port", &*path)])).err().unwrap().to_string();
-    assert!(why.contains("stopped"), "{why}");
-    far.join().unwrap();
+        let why = Board::open(&Settings::new([("port", &*path)])).err().unwrap().to_string();
+        assert!(why.contains(text), "{why}");
+        far.join().unwrap();
+    }
 }
 
 #[test]
