@@ -5,12 +5,14 @@
 
 mod debugger;
 mod edits;
+mod frames;
 mod messages;
 mod names;
 mod text;
 
 pub use debugger::debugger;
 pub use edits::edits;
+pub use frames::frames;
 pub use messages::messages;
 pub use text::{checker, formatter, layout, map, parser, scenario, settings, world};
 
@@ -25,6 +27,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("edits", edits),
     ("messages", messages),
     ("debugger", debugger),
+    ("frames", frames),
     ("settings", settings),
     ("layout", layout),
     ("world", world),
