@@ -95,8 +95,8 @@ fn on_the_board(command: &mut Command) -> Result<(), Failure> {
             .into_iter()
             .try_for_each(|mut out| out.read_to_string(&mut told).map(drop))?;
         board.wait()?;
-        let moved = told.lines().any(|line| line.starts_with("drive 0.2"));
-        if ended != Some(code) || !moved || !told.ends_with("stop\n") {
+        let moved = told.lines().any(|line| line.starts_with("Drive { speed: 0.2"));
+        if ended != Some(code) || !moved || !told.ends_with("Stop\n") {
             return Err(
                 format!("error: it ended with {ended:?}, the board was told\n{told}").into()
             );
