@@ -23,7 +23,9 @@ pub(crate) struct Frame<T> {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Packet<T> {
     /// Begins a connection.
-    Hello { version: u16 },
+    Hello {
+        version: u16,
+    },
     Message(T),
 }
 

@@ -118,8 +118,7 @@ impl Sender {
         packet: Packet<T>,
         buffer: &'b mut [u8],
     ) -> Result<&'b [u8], TooLong> {
-        let bytes =
-            frame::write(&Frame { boot: self.boot, sequence: self.next, packet }, buffer)?;
+        let bytes = frame::write(&Frame { boot: self.boot, sequence: self.next, packet }, buffer)?;
         self.next = self.next.wrapping_add(1);
         Ok(bytes)
     }
