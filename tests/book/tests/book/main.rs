@@ -8,6 +8,7 @@ mod gallery;
 mod grammar;
 mod lists;
 mod pages;
+mod prose;
 mod public_names;
 mod rust_blocks;
 mod toml_blocks;
