@@ -111,8 +111,7 @@ pub(super) fn element<'a>(
     card.rect = rect;
     let severity = view.severity(element.findings.worst());
     let item = element.item.clone();
-    card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
-    card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));
+    card.sketch.piece(Piece { item, part: Part::Whole, rect, severity }, 2.0);
     hung.attach(view, &mut card, rect);
     card
 }
@@ -229,15 +228,8 @@ fn heading<'a>(
         icon,
         fallback: Glyph::of(element.kind),
     });
-    let label = |text: &str, y, size, bold, class| Label {
-        x: rect.x + 46.0,
-        y,
-        text: text.to_owned(),
-        size,
-        bold,
-        anchor: Anchor::Start,
-        class: Class::from(class),
-    };
-    card.sketch.labels.push(label(name(element), 22.0, NAME, true, "name"));
-    card.sketch.labels.push(label(template, 37.0, TEMPLATE, false, "template"));
+    let x = rect.x + 46.0;
+    let named = Label::new((x, 22.0), name(element), NAME, "name");
+    card.sketch.labels.push(Label { bold: true, ..named });
+    card.sketch.labels.push(Label::new((x, 37.0), template, TEMPLATE, "template"));
 }

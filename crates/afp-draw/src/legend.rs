@@ -1,7 +1,7 @@
 //! What the colours of a drawing by use mean.
 
 use super::metrics::width;
-use super::sketch::{Anchor, Frame, Label, Rect, Shape, Sketch};
+use super::sketch::{Anchor, Label, Rect, Shape, Sketch};
 use super::usage::{Class, Use};
 
 /// Size of texts in pixels.
@@ -24,19 +24,12 @@ pub(super) fn legend<'a>() -> (Sketch<'a>, f64, f64) {
     for (usage, sample, text) in LINES {
         let class = Class { name: "sample", usage: Some(usage) };
         let rect = Rect { x, y: 0.0, width: SAMPLE.0, height: SAMPLE.1 };
-        sketch.frames.push(Frame { rect, shape: Shape::Round(5.0), class, title: String::new() });
-        let label = |x, text: &str, anchor| Label {
-            x,
-            y: SAMPLE.1 / 2.0 + 0.36 * SIZE,
-            text: text.to_owned(),
-            size: SIZE,
-            bold: false,
-            anchor,
-            class: "name".into(),
-        };
-        sketch.labels.push(label(x + SAMPLE.0 / 2.0, sample, Anchor::Middle));
+        sketch.frame(rect, Shape::Round(5.0), class);
+        let label = |x, text| Label::new((x, SAMPLE.1 / 2.0 + 0.36 * SIZE), text, SIZE, "name");
+        let sample = label(x + SAMPLE.0 / 2.0, sample);
+        sketch.labels.push(Label { anchor: Anchor::Middle, ..sample });
         x += SAMPLE.0 + GAP.0;
-        sketch.labels.push(label(x, text, Anchor::Start));
+        sketch.labels.push(label(x, text));
         x += width(text, SIZE, false) + GAP.1;
     }
     (sketch, x - GAP.1, SAMPLE.1)

@@ -113,14 +113,7 @@ impl fmt::Debug for Options<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Options")
             .field("plan", &self.plan)
-            .field("warnings", &self.warnings)
-            .field("icons", &self.icons.is_some())
-            .field("positions", &self.positions.len())
             .field("theme", &self.theme)
-            .field("sub_plans", &self.sub_plans)
-            .field("data", &self.data)
-            .field("folded", &self.folded)
-            .field("usage", &self.usage.is_some())
-            .finish()
+            .finish_non_exhaustive()
     }
 }

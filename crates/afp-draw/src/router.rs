@@ -23,6 +23,7 @@ mod tree;
 #[cfg(test)]
 mod tests;
 
+use super::polyline::distance;
 use bundle::Trees;
 pub(super) use bundle::bundles;
 use lay::Laid;
@@ -129,6 +130,26 @@ impl Bounds {
         }
     }
 
+    /// Both together.
+    pub(super) fn with(self, other: Bounds) -> Bounds {
+        Bounds {
+            left: self.left.min(other.left),
+            top: self.top.min(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+
+    /// From left to right.
+    pub(super) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    /// From top to bottom.
+    pub(super) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
     /// Larger by so much on each side.
     fn grown(&self, by: f64) -> Bounds {
         Bounds {
@@ -214,10 +235,7 @@ fn route_within(
         return Routes { corners, ..Routes::default() };
     }
     // Short edges first: long ones find their way around them.
-    let length = |connector: usize| {
-        let (from, to) = (connectors[connector].start, connectors[connector].gate());
-        (from.0 - to.0).abs() + (from.1 - to.1).abs()
-    };
+    let length = |edge: usize| distance(connectors[edge].start, connectors[edge].gate());
     order.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
     let mut routes = Routes { corners, ..Routes::default() };
     let mut parts = vec![order];

@@ -180,6 +180,12 @@ impl Rect {
 }
 
 impl Label {
+    /// A plain text that begins at a place.
+    pub(super) fn new((x, y): (f64, f64), text: &str, size: f64, class: impl Into<Class>) -> Label {
+        let (text, class) = (text.to_owned(), class.into());
+        Label { x, y, text, size, bold: false, anchor: Anchor::Start, class }
+    }
+
     /// The room it takes.
     #[cfg(test)]
     pub(super) fn rect(&self) -> Rect {
@@ -238,8 +244,14 @@ impl<'a> Sketch<'a> {
         }));
     }
 
+    /// Adds something that has an identity, with a sign so far inside of its corner where something is wrong.
+    pub(super) fn piece(&mut self, piece: Piece, inset: f64) {
+        self.mark(piece.severity, (piece.rect.x + inset, piece.rect.y + inset));
+        self.pieces.push(piece);
+    }
+
     /// Adds a frame without tooltip.
-    pub(super) fn frame(&mut self, rect: Rect, shape: Shape, class: &'static str) {
+    pub(super) fn frame(&mut self, rect: Rect, shape: Shape, class: impl Into<Class>) {
         let class = class.into();
         self.frames.push(Frame { rect, shape, class, title: String::new() });
     }
@@ -249,14 +261,8 @@ impl<'a> Sketch<'a> {
         let class = class.into();
         let title = if metrics::shorten(text) == text { String::new() } else { text.to_owned() };
         self.frames.push(Frame { rect, shape: Shape::Round(rect.height / 2.0), class, title });
-        self.labels.push(Label {
-            x: rect.x + rect.width / 2.0,
-            y: rect.y + rect.height / 2.0 + 0.36 * size,
-            text: metrics::shorten(text),
-            size,
-            bold: false,
-            anchor: Anchor::Middle,
-            class,
-        });
+        let place = (rect.x + rect.width / 2.0, rect.y + rect.height / 2.0 + 0.36 * size);
+        let label = Label::new(place, &metrics::shorten(text), size, class);
+        self.labels.push(Label { anchor: Anchor::Middle, ..label });
     }
 }

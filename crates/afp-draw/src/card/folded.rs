@@ -3,7 +3,7 @@
 
 use super::super::layout;
 use super::super::metrics::width;
-use super::super::sketch::{Anchor, Frame, Label, Piece, Rect, Shape};
+use super::super::sketch::{Frame, Label, Piece, Rect, Shape};
 use super::super::view::{Exit, View, name};
 use super::Card;
 use super::parts::leave;
@@ -82,16 +82,9 @@ impl<'a> Tab<'a> {
         let shape = Shape::Leaning(8.0);
         let (class, title) = ("supervisor".into(), self.title(view));
         card.sketch.frames.push(Frame { rect: tab, shape, class, title });
-        card.sketch.labels.push(Label {
-            x: tab.x + INSET,
-            y: tab.y + tab.height / 2.0 + 0.36 * SIZE,
-            text,
-            size: SIZE,
-            bold: false,
-            anchor: Anchor::Start,
-            // No icon stands before it, into whose place it could grow.
-            class: "name bare".into(),
-        });
+        let place = (tab.x + INSET, tab.y + tab.height / 2.0 + 0.36 * SIZE);
+        // No icon is before it, into whose place it could grow.
+        card.sketch.labels.push(Label::new(place, &text, SIZE, "name bare"));
         // What is hidden is marked at the tab that hides it.
         let mut worst = None;
         for (each, exits) in &self.supervisors {

@@ -174,15 +174,8 @@ fn data(
 
 fn port(sketch: &mut Sketch, (x, y): (f64, f64), name: &str, side: Anchor) {
     let inset = if side == Anchor::Start { 10.0 } else { -10.0 };
-    sketch.labels.push(Label {
-        x: x + inset,
-        y: y + 0.36 * PORT_SIZE,
-        text: name.to_owned(),
-        size: PORT_SIZE,
-        bold: false,
-        anchor: side,
-        class: "port".into(),
-    });
+    let label = Label::new((x + inset, y + 0.36 * PORT_SIZE), name, PORT_SIZE, "port");
+    sketch.labels.push(Label { anchor: side, ..label });
 }
 
 /// A state on the lower border of a box, in the middle of its room at `at`, with its tag or its arrow back.
@@ -199,7 +192,7 @@ pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
         let (turn, up) = (bottom + OUT, rect.right() + BESIDE - 5.0);
         back(card, exit, vec![(x, bottom), (x, turn), (up, turn), (up, y)]);
         let base = turn + APART + 0.8 * CHIP_SIZE;
-        resume_label(card, (rect.x, base));
+        card.sketch.labels.push(Label::new((rect.x, base), RESUME, CHIP_SIZE, "resume"));
         card.height = card.height.max(base + 0.2 * CHIP_SIZE);
         return;
     }
@@ -225,7 +218,8 @@ pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
     if exit.to == Some(Target::Resume) {
         let (turn, below) = (right + OUT, y + BESIDE);
         back(card, exit, vec![(right, y), (turn, y), (turn, below), (x, below)]);
-        resume_label(card, (turn + APART, y + BESIDE / 2.0 + 0.36 * CHIP_SIZE));
+        let place = (turn + APART, y + BESIDE / 2.0 + 0.36 * CHIP_SIZE);
+        card.sketch.labels.push(Label::new(place, RESUME, CHIP_SIZE, "resume"));
         return;
     }
     let Some(tag) = Tag::of(exit.to) else {
@@ -243,19 +237,12 @@ fn back(card: &mut Card, exit: &Exit, points: Vec<(f64, f64)>) {
     card.sketch.arrows.push(Arrow { tip: Tip::Hollow, ..Arrow::flow(points, exit_class(exit)) });
 }
 
-fn resume_label(card: &mut Card, (x, y): (f64, f64)) {
-    let (text, class) = (RESUME.to_owned(), "resume".into());
-    let (size, bold, anchor) = (CHIP_SIZE, false, Anchor::Start);
-    card.sketch.labels.push(Label { x, y, text, size, bold, anchor, class });
-}
-
 /// The exit itself: hollow when it leads nowhere.
 fn chip(card: &mut Card, of: &Component, rect: Rect, exit: &Exit, text: &str) {
     let class = if exit.to.is_none() { "open".into() } else { exit_class(exit) };
     card.sketch.pill(rect, class, text, CHIP_SIZE);
     let (part, severity) = (part(exit), exit.severity);
-    card.sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity });
-    card.sketch.mark(exit.severity, (rect.x, rect.y));
+    card.sketch.piece(Piece { item: of.item.clone(), part, rect, severity }, 0.0);
 }
 
 pub(super) fn part(exit: &Exit) -> Part {

@@ -2,9 +2,7 @@
 
 use super::super::layout;
 use super::super::metrics::{shorten, width};
-use super::super::sketch::{
-    Anchor, Arrow, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch,
-};
+use super::super::sketch::{Arrow, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};
 use super::super::usage::{Class, Use, times};
 use super::super::view::{View, entry_name, entry_type, to};
 use super::parts::{PORT_SIZE, ROW, pill_width};
@@ -51,18 +49,17 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
         fallback: Glyph::Start,
     });
     let base = middle + 0.36 * NAME - if plan.forever { 0.5 * PORT_SIZE } else { 0.0 };
-    let named = label((rect.x + 46.0, base), view.name(), NAME, "start");
+    let named = Label::new((rect.x + 46.0, base), view.name(), NAME, "start");
     card.sketch.labels.push(Label { bold: true, ..named });
     if plan.forever {
         let place = (rect.x + 46.0, base + 1.4 * PORT_SIZE);
-        card.sketch.labels.push(label(place, below, PORT_SIZE, "start"));
+        card.sketch.labels.push(Label::new(place, below, PORT_SIZE, "start"));
     }
     card.width = rect.right();
     card.height = rect.bottom().max(table.height);
     card.rect = rect;
     let severity = view.severity(plan.findings.worst());
-    card.sketch.pieces.push(Piece { item: plan.item.clone(), part: Part::Whole, rect, severity });
-    card.sketch.mark(severity, (rect.x + 4.0, rect.y + 4.0));
+    card.sketch.piece(Piece { item: plan.item.clone(), part: Part::Whole, rect, severity }, 4.0);
     leave(view, &mut card, rect);
     card.entry = (rect.x, rect.right());
     hung.attach(view, &mut card, rect);
@@ -94,8 +91,7 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
                 let top = rect.bottom() + STUB;
                 let tag = Rect { x: x - width / 2.0, y: top, width, height: 18.0 };
                 card.sketch.pill(tag, class, text, PORT_SIZE);
-                card.sketch.pieces.push(Piece { item, part, rect: tag, severity });
-                card.sketch.mark(severity, (tag.x, tag.y));
+                card.sketch.piece(Piece { item, part, rect: tag, severity }, 0.0);
                 card.height = card.height.max(tag.bottom());
             }
         }
@@ -106,34 +102,29 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
 fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
     let entries = view.entries();
     if entries.is_empty() {
-        return Rect { x: 0.0, y: 0.0, width: 0.0, height: 0.0 };
+        return Rect::default();
     }
     let pills: Vec<_> = (0..).zip(entries).map(|(id, entry)| pill(view, id, entry)).collect();
     let names = pills.iter().map(|(text, _)| pill_width(text)).fold(0.0, f64::max);
     let texts: Vec<_> = entries.iter().map(declaration).collect();
     let right = texts.iter().map(|text| width(text, PORT_SIZE, false)).fold(0.0, f64::max);
     let inner = KIND + names + 10.0 + right;
-    let rect = Rect {
-        x: 0.0,
-        y: 0.0,
-        width: inner.max(120.0) + 24.0,
-        height: 30.0 + entries.len() as f64 * ROW + 4.0,
-    };
+    let height = 30.0 + entries.len() as f64 * ROW + 4.0;
+    let rect = Rect { width: inner.max(120.0) + 24.0, height, ..Rect::default() };
     sketch.frame(rect, Shape::Round(9.0), "configuration");
-    sketch.labels.push(label((12.0, 19.0), "Configuration", PORT_SIZE, "template"));
+    sketch.labels.push(Label::new((12.0, 19.0), "Configuration", PORT_SIZE, "template"));
     for (index, (entry, text)) in entries.iter().zip(&texts).enumerate() {
         let y = 30.0 + (index as f64 + 0.5) * ROW;
         let base = y + 0.36 * PORT_SIZE;
-        sketch.labels.push(label((12.0, base), keyword(entry), PORT_SIZE, "port"));
+        sketch.labels.push(Label::new((12.0, base), keyword(entry), PORT_SIZE, "port"));
         let (text_in_pill, class) = &pills[index];
         let width = pill_width(text_in_pill);
         let pill = Rect { x: 12.0 + KIND, y: y - 9.0, width, height: 18.0 };
         sketch.pill(pill, *class, text_in_pill, PORT_SIZE);
         let (item, severity) = (entry.item.clone(), view.severity(entry.findings.worst()));
-        sketch.pieces.push(Piece { item, part: Part::Whole, rect: pill, severity });
-        sketch.mark(severity, (pill.x, pill.y));
+        sketch.piece(Piece { item, part: Part::Whole, rect: pill, severity }, 0.0);
         let place = (22.0 + KIND + names, base);
-        sketch.labels.push(label(place, text, PORT_SIZE, "port declared"));
+        sketch.labels.push(Label::new(place, text, PORT_SIZE, "port declared"));
     }
     rect
 }
@@ -164,16 +155,4 @@ fn declaration(entry: &Entry) -> String {
         text += &format!(" from {} to {}", shorten(&least.text), shorten(&greatest.text));
     }
     text
-}
-
-fn label((x, y): (f64, f64), text: &str, size: f64, class: &'static str) -> Label {
-    Label {
-        x,
-        y,
-        text: text.to_owned(),
-        size,
-        bold: false,
-        anchor: Anchor::Start,
-        class: class.into(),
-    }
 }

@@ -80,15 +80,9 @@ impl<'a> Stack<'a> {
                 width: 2.0,
                 height: beyond + 9.0,
             };
-            card.sketch.frames.insert(
-                0,
-                Frame {
-                    rect: spine,
-                    shape: Shape::Round(1.0),
-                    class: "spine".into(),
-                    title: String::new(),
-                },
-            );
+            card.sketch.frame(spine, Shape::Round(1.0), "spine");
+            // Everything else is drawn over it.
+            card.sketch.frames.rotate_right(1);
         }
     }
 }
@@ -159,8 +153,7 @@ impl<'a> Row<'a> {
         self.heading(view, &mut card.sketch, rect);
         let severity = view.severity(self.supervisor.findings.worst());
         let item = self.supervisor.item.clone();
-        card.sketch.pieces.push(Piece { item, part: Part::Whole, rect, severity });
-        card.sketch.mark(severity, (rect.x + 2.0, rect.y + 2.0));
+        card.sketch.piece(Piece { item, part: Part::Whole, rect, severity }, 2.0);
         let single = self.events.len() == 1 && self.inputs.is_empty() && self.outputs.is_empty();
         let events: f64 = self.events.iter().map(exit_height).sum();
         let above = if single { (rect.height - events) / 2.0 } else { 4.0 };
@@ -202,16 +195,9 @@ impl<'a> Row<'a> {
             icon: view.icon(view.watcher(self.supervisor)),
             fallback: Glyph::Supervisor,
         });
-        let label = |text: &str, y, size, bold, class| Label {
-            x: rect.x + 38.0,
-            y: rect.y + y,
-            text: text.to_owned(),
-            size,
-            bold,
-            anchor: Anchor::Start,
-            class: Class::from(class),
-        };
-        sketch.labels.push(label(&self.name, 20.0, NAME, true, "name"));
-        sketch.labels.push(label(&self.template, 34.0, TEMPLATE, false, "template"));
+        let place = |y| (rect.x + 38.0, rect.y + y);
+        let named = Label::new(place(20.0), &self.name, NAME, "name");
+        sketch.labels.push(Label { bold: true, ..named });
+        sketch.labels.push(Label::new(place(34.0), &self.template, TEMPLATE, "template"));
     }
 }

@@ -4,7 +4,7 @@
 //! columns then.
 
 use super::super::arrange::WANTED;
-use super::super::router::{PITCH, Point};
+use super::super::router::{Bounds, PITCH, Point};
 use super::Node;
 use super::grid::Grid;
 
@@ -29,19 +29,10 @@ struct Cut {
     passing: usize,
 }
 
-/// From where to where a layer or several ones reach.
-#[derive(Clone, Copy, Debug)]
-struct Extent {
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
-}
-
 /// The corners of the nodes with the layers in columns; nothing where one column is best.
 pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec<Point>> {
     let layers = extents(grid, nodes, corners);
-    let whole = layers.iter().copied().reduce(Extent::with)?;
+    let whole = layers.iter().copied().reduce(Bounds::with)?;
     if whole.height() <= TALL * whole.width() {
         return None;
     }
@@ -71,19 +62,19 @@ pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec
 }
 
 /// Where each layer reaches, with the dummy nodes that pass it.
-fn extents(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Vec<Extent> {
+fn extents(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Vec<Bounds> {
     let of = |item: &usize| {
         let item = &grid.items[*item];
         let (left, right) = (item.x, item.x + item.width);
         match item.node {
             Some(node) => {
                 let top = corners[node].1;
-                Extent { left, right, top, bottom: top + nodes[node].height }
+                Bounds { left, right, top, bottom: top + nodes[node].height }
             }
-            None => Extent { left, right, top: f64::INFINITY, bottom: f64::NEG_INFINITY },
+            None => Bounds { left, right, top: f64::INFINITY, bottom: f64::NEG_INFINITY },
         }
     };
-    grid.layers.iter().filter_map(|layer| layer.iter().map(of).reduce(Extent::with)).collect()
+    grid.layers.iter().filter_map(|layer| layer.iter().map(of).reduce(Bounds::with)).collect()
 }
 
 /// How many edges pass from above a layer into it or past it.
@@ -93,7 +84,7 @@ fn passing(grid: &Grid, layer: usize) -> usize {
 }
 
 /// Where so many columns or fewer begin behind the first one, about equally high.
-fn chosen(layers: &[Extent], cuts: &[Cut], count: usize) -> Vec<Cut> {
+fn chosen(layers: &[Bounds], cuts: &[Cut], count: usize) -> Vec<Cut> {
     let (top, bottom) = (layers[0].top, layers[layers.len() - 1].bottom);
     let height = (bottom - top) / count as f64;
     let mut chosen: Vec<Cut> = Vec::new();
@@ -117,17 +108,17 @@ fn chosen(layers: &[Extent], cuts: &[Cut], count: usize) -> Vec<Cut> {
 struct Column {
     /// The first of its layers.
     first: usize,
-    extent: Extent,
+    extent: Bounds,
     /// How much room is left before it.
     gap: f64,
 }
 
-fn columns(layers: &[Extent], cuts: &[Cut]) -> Vec<Column> {
+fn columns(layers: &[Bounds], cuts: &[Cut]) -> Vec<Column> {
     let starts = [Cut { layer: 0, passing: 0 }].into_iter().chain(cuts.iter().copied());
     let ends = cuts.iter().map(|cut| cut.layer).chain([layers.len()]);
     let column = |(start, end): (Cut, usize)| {
         let first = layers[start.layer];
-        let extent = layers[start.layer..end].iter().copied().fold(first, Extent::with);
+        let extent = layers[start.layer..end].iter().copied().fold(first, Bounds::with);
         let gap = APART + start.passing as f64 * PITCH;
         Column { first: start.layer, extent, gap: if start.layer == 0 { 0.0 } else { gap } }
     };
@@ -139,23 +130,4 @@ fn ratio(columns: &[Column]) -> f64 {
     let width: f64 = columns.iter().map(|column| column.gap + column.extent.width()).sum();
     let height = columns.iter().map(|column| column.extent.height()).fold(0.0, f64::max);
     width.max(1.0) / height.max(1.0)
-}
-
-impl Extent {
-    fn with(self, other: Extent) -> Extent {
-        Extent {
-            left: self.left.min(other.left),
-            right: self.right.max(other.right),
-            top: self.top.min(other.top),
-            bottom: self.bottom.max(other.bottom),
-        }
-    }
-
-    fn width(&self) -> f64 {
-        self.right - self.left
-    }
-
-    fn height(&self) -> f64 {
-        self.bottom - self.top
-    }
 }

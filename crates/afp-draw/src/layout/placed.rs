@@ -224,10 +224,5 @@ fn obstacle(
             || bottom + gap <= y;
         (!apart).then_some(Bounds { left, top, right, bottom })
     };
-    (0..nodes.len()).filter_map(meets).reduce(|a, b| Bounds {
-        left: a.left.min(b.left),
-        top: a.top.min(b.top),
-        right: a.right.max(b.right),
-        bottom: a.bottom.max(b.bottom),
-    })
+    (0..nodes.len()).filter_map(meets).reduce(Bounds::with)
 }

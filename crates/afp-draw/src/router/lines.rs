@@ -109,13 +109,7 @@ impl Lines {
 /// A little more than all boxes take, so that edges can go around them.
 fn extent(boxes: &[Bounds]) -> Bounds {
     let none = Bounds { left: 0.0, top: 0.0, right: 0.0, bottom: 0.0 };
-    let all = boxes.iter().copied().reduce(|a, b| Bounds {
-        left: a.left.min(b.left),
-        top: a.top.min(b.top),
-        right: a.right.max(b.right),
-        bottom: a.bottom.max(b.bottom),
-    });
-    all.unwrap_or(none)
+    boxes.iter().copied().reduce(Bounds::with).unwrap_or(none)
 }
 
 /// The line of an axis through each anchor that lies in no box.

@@ -6,6 +6,7 @@
 
 use super::super::sketch::Glyph;
 use afp_dsl::outline::ComponentKind;
+use roxmltree::{Attribute, Document, Node};
 
 /// Elements that an icon may consist of.
 const ELEMENTS: &[&str] =
@@ -45,7 +46,7 @@ const WORDS: &[&str] =
 const TRANSFORM: &str = "transform";
 
 /// Attributes of the icon's root that are left out, since they mean nothing in a symbol.
-const FRAME: &[&str] = &["xmlns", "width", "height", "x", "y", "id", "class", "version", "role"];
+const FRAME: &[&str] = &["width", "height", "x", "y", "id", "class", "version", "role"];
 
 /// More than this is no icon.
 const LONGEST: usize = 64 * 1024;
@@ -54,57 +55,51 @@ const DEEPEST: usize = 16;
 /// The icon as a `symbol` element with an id; `None` when it holds more than plain shapes.
 pub(super) fn symbol(svg: &str, id: &str) -> Option<String> {
     let svg = svg.trim();
-    if svg.len() > LONGEST {
+    // Nothing comes before the root, as nothing but shapes is in it.
+    if svg.len() > LONGEST || svg.starts_with("<?") {
         return None;
     }
-    let mut reader = Reader { rest: svg };
-    let root = reader.tag()?;
-    if root.name != "svg" || root.kind != TagKind::Opening {
+    let document = Document::parse(svg).ok()?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" || document.root().children().count() > 1 {
         return None;
     }
-    let view_box = root.attributes.iter().find(|(name, _)| *name == "viewBox")?.1;
-    is_view_box(view_box).then_some(())?;
+    let view_box = root.attribute("viewBox").filter(|it| is_view_box(it))?;
     let frame = |name: &str| name == "viewBox" || FRAME.contains(&name);
-    let own = root.attributes.iter().filter(|(name, _)| !frame(name));
+    let own = root.attributes().filter(|it| !frame(it.name()));
     let own = own.map(attribute).collect::<Option<String>>()?;
-    let content = content(&mut reader)?;
+    let content = content(root, 0).filter(|content| !content.is_empty())?;
     let open = format!("<symbol id=\"{id}\" viewBox=\"{view_box}\">");
-    reader.rest.is_empty().then(|| format!("{open}<g{own}>{content}</g></symbol>"))
+    Some(format!("{open}<g{own}>{content}</g></symbol>"))
 }
 
-/// What stands in the root, written anew up to its end.
-fn content(reader: &mut Reader) -> Option<String> {
-    let mut out = String::new();
-    let mut open: Vec<&str> = Vec::new();
-    loop {
-        reader.rest = reader.rest.trim_start();
-        let tag = reader.tag()?;
-        if tag.kind == TagKind::Closing {
-            match open.pop() {
-                Some(name) if name == tag.name => out += &format!("</{name}>"),
-                None if tag.name == "svg" => return Some(out),
-                _ => return None,
-            }
-            continue;
-        }
-        if !ELEMENTS.contains(&tag.name) || open.len() >= DEEPEST {
+/// What is in an element, written anew.
+fn content(of: Node, depth: usize) -> Option<String> {
+    let is_blank =
+        |node: &Node| node.is_text() && node.text().is_some_and(|it| it.trim().is_empty());
+    let shape = |node: Node| {
+        // Comments, instructions and text have no name.
+        let name = node.tag_name().name();
+        if !ELEMENTS.contains(&name) || depth == DEEPEST {
             return None;
         }
-        let attributes = tag.attributes.iter().map(attribute).collect::<Option<String>>()?;
-        let empty = tag.kind == TagKind::Empty;
-        out += &format!("<{}{attributes}{}>", tag.name, if empty { "/" } else { "" });
-        if !empty {
-            open.push(tag.name);
-        }
-    }
+        let attributes = node.attributes().map(attribute).collect::<Option<String>>()?;
+        let inner = content(node, depth + 1)?;
+        Some(match &*inner {
+            "" => format!("<{name}{attributes}/>"),
+            _ => format!("<{name}{attributes}>{inner}</{name}>"),
+        })
+    };
+    of.children().filter(|node| !is_blank(node)).map(shape).collect()
 }
 
 /// A listed attribute with a plain value, written anew.
-fn attribute((name, value): &(&str, &str)) -> Option<String> {
+fn attribute(attribute: Attribute) -> Option<String> {
+    let (name, value) = (attribute.name(), attribute.value());
     let plain =
         |more: &str| value.chars().all(|each| each.is_ascii_alphanumeric() || more.contains(each));
-    let fits = match *name {
-        name if GEOMETRY.contains(&name) => plain(" .,-+%\n\t"),
+    let fits = match name {
+        name if GEOMETRY.contains(&name) => plain(" .,-+%"),
         name if WORDS.contains(&name) => plain("#-"),
         TRANSFORM => plain(" .,-+()"),
         _ => false,
@@ -118,76 +113,6 @@ fn is_view_box(text: &str) -> bool {
     let plain = text.chars().all(|each| each.is_ascii_digit() || " .-".contains(each));
     plain
         && matches!(numbers.as_deref(), Some([_, _, width, height]) if *width > 0.0 && *height > 0.0)
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum TagKind {
-    Opening,
-    Closing,
-    /// Without content.
-    Empty,
-}
-
-struct Tag<'t> {
-    name: &'t str,
-    kind: TagKind,
-    attributes: Vec<(&'t str, &'t str)>,
-}
-
-/// Reads tags and nothing else: comments, instructions and text are no part of an icon.
-struct Reader<'t> {
-    rest: &'t str,
-}
-
-impl<'t> Reader<'t> {
-    fn tag(&mut self) -> Option<Tag<'t>> {
-        self.rest = self.rest.strip_prefix('<')?;
-        let closing = self.eat("/");
-        let name = self.word();
-        let mut attributes = Vec::new();
-        loop {
-            self.rest = self.rest.trim_start();
-            if self.eat(">") {
-                let kind = if closing { TagKind::Closing } else { TagKind::Opening };
-                return (attributes.is_empty() || !closing).then_some(Tag {
-                    name,
-                    kind,
-                    attributes,
-                });
-            }
-            if self.eat("/>") {
-                return (!closing).then_some(Tag { name, kind: TagKind::Empty, attributes });
-            }
-            let pair = self.pair()?;
-            if attributes.iter().any(|(known, _)| *known == pair.0) {
-                return None;
-            }
-            attributes.push(pair);
-        }
-    }
-
-    fn pair(&mut self) -> Option<(&'t str, &'t str)> {
-        let name = self.word();
-        self.rest = self.rest.trim_start().strip_prefix('=')?.trim_start();
-        let quote = self.rest.chars().next().filter(|mark| matches!(mark, '"' | '\''))?;
-        let (value, after) = self.rest[1..].split_once(quote)?;
-        self.rest = after;
-        (!name.is_empty()).then_some((name, value))
-    }
-
-    fn word(&mut self) -> &'t str {
-        let is_part = |each: char| each.is_ascii_alphanumeric() || matches!(each, '-' | ':' | '_');
-        let end = self.rest.find(|each| !is_part(each)).unwrap_or(self.rest.len());
-        let (word, rest) = self.rest.split_at(end);
-        self.rest = rest;
-        word
-    }
-
-    fn eat(&mut self, text: &str) -> bool {
-        let rest = self.rest.strip_prefix(text);
-        self.rest = rest.unwrap_or(self.rest);
-        rest.is_some()
-    }
 }
 
 /// The icon, as a whole `svg`, of what is made from a template that has none.
