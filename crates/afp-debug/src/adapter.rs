@@ -25,7 +25,8 @@ use std::time::Duration as Wall;
 use afp_core::Instant;
 use afp_session::{Drawing, Droppable};
 use afp_token::Token;
-use dapts::{IRequest, event, request};
+use dapts::event;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
@@ -214,62 +215,49 @@ impl<'h> Adapter<'h> {
         self.check_part(command)?;
         self.may(command, now)?;
         match command {
-            request::Initialize::COMMAND => {
-                self.on::<request::Initialize>(arguments, Self::initialize)
-            }
-            "launch" => self.launch(parse(arguments)?, now),
-            "attach" => self.attach(parse(arguments)?, now),
-            "restart" => self.restart(&arguments, now),
-            request::ConfigurationDone::COMMAND => self.configured(now),
-            "terminate" => self.terminate(),
-            request::Disconnect::COMMAND => {
-                let asked: dapts::DisconnectArguments = parse(arguments)?;
-                self.disconnect(&asked)
-            }
-            request::SetBreakpoints::COMMAND => {
-                self.on::<request::SetBreakpoints>(arguments, Self::set_breakpoints)
-            }
-            request::SetFunctionBreakpoints::COMMAND => {
-                self.on::<request::SetFunctionBreakpoints>(arguments, Self::set_functions)
-            }
-            request::DataBreakpointInfo::COMMAND => {
-                self.on::<request::DataBreakpointInfo>(arguments, Self::data_info)
-            }
-            request::SetDataBreakpoints::COMMAND => {
-                self.on::<request::SetDataBreakpoints>(arguments, Self::set_data)
-            }
-            request::SetExceptionBreakpoints::COMMAND => {
-                let asked: dapts::SetExceptionBreakpointsArguments = parse(arguments)?;
-                self.set_filters(&asked)
-            }
-            request::BreakpointLocations::COMMAND => {
-                self.on::<request::BreakpointLocations>(arguments, Self::locations)
-            }
-            request::Source::COMMAND => self.on::<request::Source>(arguments, Self::source),
-            request::ExceptionInfo::COMMAND => {
-                self.on::<request::ExceptionInfo>(arguments, |me, _| me.exception_info())
-            }
-            "threads" => self.threads(),
-            request::StackTrace::COMMAND => {
-                self.on::<request::StackTrace>(arguments, Self::stack_trace)
-            }
-            request::Scopes::COMMAND => self.on::<request::Scopes>(arguments, Self::scopes),
-            request::Variables::COMMAND => {
-                self.on::<request::Variables>(arguments, Self::variables)
-            }
-            request::SetVariable::COMMAND => {
-                self.on::<request::SetVariable>(arguments, Self::set_variable)
-            }
-            request::SetExpression::COMMAND => {
-                self.on::<request::SetExpression>(arguments, Self::set_expression)
-            }
-            request::GotoTargets::COMMAND => {
-                self.on::<request::GotoTargets>(arguments, Self::goto_targets)
-            }
-            request::Evaluate::COMMAND => {
-                self.on::<request::Evaluate>(arguments, |me, asked| me.evaluate(asked, now))
-            }
-            _ => self.steer(command, arguments, now),
+            "initialize" => said(self.initialize(parse(arguments)?)),
+            "launch" => said(self.launch(parse(arguments)?, now)),
+            "attach" => said(self.attach(parse(arguments)?, now)),
+            "restart" => said(self.restart(&arguments, now)),
+            "configurationDone" => said(self.configured(now)),
+            "terminate" => said(self.terminate()),
+            "disconnect" => said(self.disconnect(parse(arguments)?)),
+            "setBreakpoints" => said(self.set_breakpoints(parse(arguments)?)),
+            "setFunctionBreakpoints" => said(self.set_functions(parse(arguments)?)),
+            "dataBreakpointInfo" => said(self.data_info(parse(arguments)?)),
+            "setDataBreakpoints" => said(self.set_data(parse(arguments)?)),
+            "setExceptionBreakpoints" => said(self.set_filters(parse(arguments)?)),
+            "breakpointLocations" => said(self.locations(parse(arguments)?)),
+            "source" => said(self.source(parse(arguments)?)),
+            "exceptionInfo" => said(self.exception_info(parse(arguments)?)),
+            "threads" => said(self.threads()),
+            "stackTrace" => said(self.stack_trace(parse(arguments)?)),
+            "scopes" => said(self.scopes(parse(arguments)?)),
+            "variables" => said(self.variables(parse(arguments)?)),
+            "setVariable" => said(self.set_variable(parse(arguments)?)),
+            "setExpression" => said(self.set_expression(parse(arguments)?)),
+            "gotoTargets" => said(self.goto_targets(parse(arguments)?)),
+            "evaluate" => said(self.evaluate(parse(arguments)?, now)),
+            "continue" => said(self.go_on(now)),
+            "next" | "stepIn" | "stepOut" => said(self.step(command, parse(arguments)?, now)),
+            "pause" => said(self.pause()),
+            "stepBack" => said(self.back(parse(arguments)?)),
+            "reverseContinue" => said(self.reverse()),
+            "goto" => said(self.goto(parse(arguments)?, now)),
+            "afp/press" => said(self.press(parse(arguments)?)),
+            "afp/fault" => said(self.fault(parse(arguments)?)),
+            "afp/move" => said(self.carry(parse(arguments)?)),
+            "afp/drop" => said(self.drop_into(parse(arguments)?)),
+            "afp/picture" => said(self.picture()),
+            "afp/force" => said(self.force(parse(arguments)?)),
+            "afp/release" => said(self.release(parse(arguments)?)),
+            "afp/role" => said(self.role(parse(arguments)?, now)),
+            "afp/why" => said(self.why(parse(arguments)?)),
+            "afp/speed" => said(self.speed(parse(arguments)?, now)),
+            "afp/seek" => said(self.seek(parse(arguments)?)),
+            "afp/world" => said(self.world(parse(arguments)?)),
+            "afp/subscribe" => said(self.subscribe(parse(arguments)?)),
+            other => Err(Refusal(format!("this release does not know the request '{other}'"))),
         }
     }
 
@@ -289,16 +277,6 @@ impl<'h> Adapter<'h> {
 
     fn takes_part(&self) -> bool {
         self.clients.get(&self.asker).is_some_and(|client| client.attached)
-    }
-
-    /// Answers a request of the protocol.
-    fn on<R: IRequest>(
-        &mut self,
-        arguments: Value,
-        answer: impl FnOnce(&mut Self, R::Arguments) -> Answer<R::Response>,
-    ) -> Answer<Value> {
-        let response = answer(self, parse(arguments)?)?;
-        serde_json::to_value(response).map_err(|why| Refusal(why.to_string()))
     }
 
     fn run(&mut self) -> Answer<&mut Run<'h>> {
@@ -321,6 +299,11 @@ fn output(category: &str, text: &str) -> dapts::OutputEvent {
     };
     let (category, output) = (Some(category), text.to_owned());
     dapts::OutputEvent { category, output, ..dapts::OutputEvent::default() }
+}
+
+/// The body of an answer.
+fn said(answer: Answer<impl Serialize>) -> Answer<Value> {
+    serde_json::to_value(answer?).map_err(|why| Refusal(why.to_string()))
 }
 
 /// The arguments of a request; a client may leave out what is empty.

@@ -20,8 +20,8 @@ pub(crate) use wanted::{At, Wanted};
 #[derive(Debug, Default)]
 pub(crate) struct Breakpoints {
     sets: BTreeMap<(ClientId, Set), Vec<Breakpoint>>,
-    /// What goes wrong.
-    filters: BTreeMap<ClientId, Filters>,
+    /// What goes wrong that a run is to stand still at, by the names that clients know.
+    filters: BTreeMap<ClientId, BTreeSet<&'static str>>,
     at: HashMap<Spot, Vec<u64>>,
     made: u64,
 }
@@ -66,19 +66,6 @@ pub(crate) enum Kind {
     Data,
 }
 
-/// What goes wrong that a run is to stand still at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Filters {
-    /// A component fails.
-    pub fault: bool,
-    pub deadline_missed: bool,
-    pub interruption: bool,
-    /// Edge after edge is taken without time passing.
-    pub livelock: bool,
-    /// The robot touches something, where that is known.
-    pub collision: bool,
-}
-
 /// What an event comes to.
 #[derive(Debug, Default)]
 pub(crate) struct Hits {
@@ -115,13 +102,13 @@ impl Breakpoints {
     }
 
     /// What goes wrong that a client wants to see.
-    pub fn set_filters(&mut self, owner: ClientId, filters: Filters) {
+    pub fn set_filters(&mut self, owner: ClientId, filters: BTreeSet<&'static str>) {
         self.filters.insert(owner, filters);
     }
 
     /// Whether somebody wants to see the robot touch something.
     pub fn looks_for_collisions(&self) -> bool {
-        self.filters.values().any(|filters| filters.collision)
+        self.filters.values().any(|filters| filters.contains("collision"))
     }
 
     /// Forgets all of a client; gives them.
@@ -182,7 +169,7 @@ impl Breakpoints {
 
     /// What an event comes to, as the next hit of those that are set there; so many steps are over before it.
     pub fn hits(&mut self, event: &RunEvent, steps: u64, program: &Program, state: &State) -> Hits {
-        let exception = self.filters.values().find_map(|filters| filters.exception(event));
+        let exception = self.filters.values().find_map(|filters| exception(filters, event));
         let mut hits = Hits { exception, ..Hits::default() };
         let mut there = BTreeSet::new();
         let at: Vec<_> = spots(event, program)
@@ -216,20 +203,17 @@ impl Breakpoint {
     }
 }
 
-impl Filters {
-    fn exception(self, event: &RunEvent) -> Option<&'static str> {
-        match event.kind {
-            EventKind::Faulted(ref fault) | EventKind::Ended { ref fault, .. }
-                if self.livelock && fault.code == Fault::LIVELOCK.code() =>
-            {
-                Some("livelock")
-            }
-            EventKind::Faulted(_) if self.fault => Some("fault"),
-            EventKind::Missed(_) if self.deadline_missed => Some("deadlineMissed"),
-            EventKind::Interrupted if self.interruption => Some("interruption"),
-            _ => None,
-        }
-    }
+/// What goes wrong in an event, of what is looked for.
+fn exception(filters: &BTreeSet<&'static str>, event: &RunEvent) -> Option<&'static str> {
+    let names: &[&str] = match &event.kind {
+        EventKind::Faulted(fault) if fault.code == Fault::LIVELOCK.code() => &["livelock", "fault"],
+        EventKind::Ended { fault, .. } if fault.code == Fault::LIVELOCK.code() => &["livelock"],
+        EventKind::Faulted(_) => &["fault"],
+        EventKind::Missed(_) => &["deadlineMissed"],
+        EventKind::Interrupted => &["interruption"],
+        _ => &[],
+    };
+    names.iter().find_map(|name| filters.get(name).copied())
 }
 
 /// Where an event happens.

@@ -108,6 +108,18 @@ pub enum Spot {
     Commit(TraceEntryId),
 }
 
+impl Unit {
+    /// A state or event of it, by name.
+    pub(crate) fn outcome(&self, name: &str) -> Option<Outcome> {
+        match (self.outcomes.iter().position(|(known, _)| known == name), name) {
+            (Some(number), _) => u16::try_from(number).ok().map(Outcome::Declared),
+            (None, "Error") => Some(Outcome::Error),
+            (None, "DeadlineMissed") => Some(Outcome::DeadlineMissed),
+            _ => None,
+        }
+    }
+}
+
 impl Program {
     /// The program that a graph is; `sources` has the texts that its spans belong to, `path` says how a client names
     /// a file.
@@ -224,6 +236,11 @@ impl Program {
         }
     }
 
+    /// All components but the plan itself.
+    pub fn parts(&self) -> impl Iterator<Item = (ComponentId, &Unit)> {
+        (0..).map(ComponentId).zip(&self.units).skip(1)
+    }
+
     /// The component of that number.
     pub fn unit(&self, id: ComponentId) -> Option<&Unit> {
         self.units.get(id.0 as usize)
@@ -260,8 +277,7 @@ impl Program {
     /// before the place, where there is one.
     pub fn around(&self, at: Place) -> Vec<(ComponentId, Option<ComponentId>)> {
         let is_before = |place: &Place| place.file == at.file && *place <= at;
-        let units = || (0..).map(ComponentId).zip(&self.units).skip(1);
-        let units = || units().filter(|(_, unit)| is_before(&unit.at));
+        let units = || self.parts().filter(|(_, unit)| is_before(&unit.at));
         let entries = || self.entries.iter().filter(|entry| is_before(&entry.at));
         let plans = || self.plans.iter().filter(|place| is_before(place));
         let last = units().map(|(_, unit)| unit.at).chain(entries().map(|entry| entry.at));
@@ -307,26 +323,17 @@ impl Program {
     /// What a path means: an element (`patrol.avoid`), a supervisor, one of its states or events
     /// (`patrol.avoid.touch.TouchSensorPressed`), that the plan itself fails (`Patrol.Error`).
     pub fn find(&self, path: &str) -> Option<Spot> {
-        let unit = |path: &str| self.units.iter().skip(1).position(|unit| unit.path == path);
-        if let Some(at) = unit(path) {
-            return Some(first(ComponentId(at as u32 + 1), self.units[at + 1].kind));
+        let part = |path: &str| self.parts().find(|(_, unit)| unit.path == path);
+        if let Some((id, unit)) = part(path) {
+            return Some(first(id, unit.kind));
         }
         let (component, outcome) = path.rsplit_once('.')?;
-        let Some(at) = unit(component) else {
-            let plan = self.units.first().filter(|plan| plan.path == component);
-            return plan
-                .filter(|_| outcome == "Error")
-                .map(|_| Spot::Outcome(ComponentId(0), Outcome::Error));
+        let Some((id, unit)) = part(component) else {
+            let is_plan = self.units.first().is_some_and(|plan| plan.path == component);
+            let fails = is_plan && outcome == "Error";
+            return fails.then_some(Spot::Outcome(ComponentId(0), Outcome::Error));
         };
-        let at = at + 1;
-        let known = self.units[at].outcomes.iter().position(|(name, _)| name == outcome);
-        let outcome = match (known, outcome) {
-            (Some(number), _) => Outcome::Declared(u16::try_from(number).ok()?),
-            (None, "Error") => Outcome::Error,
-            (None, "DeadlineMissed") => Outcome::DeadlineMissed,
-            _ => return None,
-        };
-        Some(Spot::Outcome(ComponentId(at as u32), outcome))
+        Some(Spot::Outcome(id, unit.outcome(outcome)?))
     }
 
     /// The entry that a name means inside a plan; a whole path finds it from everywhere.

@@ -142,6 +142,15 @@ impl<'m> SessionTarget<'m> {
         Ok(())
     }
 
+    /// What a signal of the robot says, if it says something.
+    fn read<T>(&self, signal: &str, take: impl Fn(SampleRef<'_>) -> T) -> Option<T> {
+        let session = &self.run.session;
+        let mut taken = None;
+        let signal = find_signal(session.devices(), "robot", signal)?;
+        session.read(signal, &mut |sample| taken = Some(take(sample)));
+        taken
+    }
+
     /// Notes when what was asked for just now was.
     fn note_asked(&mut self) {
         self.asked.resize(self.run.session.requests().len(), self.run.session.now());
@@ -223,34 +232,20 @@ impl Target for SessionTarget<'_> {
     }
 
     fn contact(&self) -> Option<String> {
-        let session = &self.run.session;
-        let mut touches = false;
-        session.read(find_signal(session.devices(), "robot", "collision")?, &mut |sample| {
-            touches = matches!(sample, SampleRef::Bool(true));
-        });
-        let mut thing = String::new();
-        if let Some(contact) =
-            find_signal(session.devices(), "robot", "contact").filter(|_| touches)
-        {
-            session.read(contact, &mut |sample| {
-                if let SampleRef::Text(text) = sample {
-                    text.clone_into(&mut thing);
-                }
-            });
-        }
-        touches.then_some(thing)
+        let touches = self.read("collision", |sample| matches!(sample, SampleRef::Bool(true)))?;
+        let thing = |sample: SampleRef<'_>| match sample {
+            SampleRef::Text(text) => text.to_owned(),
+            _ => String::new(),
+        };
+        touches.then(|| self.read("contact", thing).unwrap_or_default())
     }
 
     fn pose(&self) -> Option<Pose2> {
-        let session = &self.run.session;
-        let signal = find_signal(session.devices(), "robot", "pose")?;
-        let mut pose = None;
-        session.read(signal, &mut |sample| {
-            if let SampleRef::Pose(frame) = sample {
-                pose = Some(frame.pose);
-            }
-        });
-        pose
+        let pose = |sample: SampleRef<'_>| match sample {
+            SampleRef::Pose(frame) => Some(frame.pose),
+            _ => None,
+        };
+        self.read("pose", pose)?
     }
 
     fn moving(&self) -> Vec<(String, Vec<[f64; 2]>)> {

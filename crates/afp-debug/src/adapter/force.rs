@@ -68,21 +68,27 @@ impl Adapter<'_> {
         };
         run.forces.retain(|known| known.path != path);
         run.forces.push(Force { path, what, until });
-        Ok(run.forced())
+        self.say_forced()
     }
 
     /// Lets go of what is forced; gives what still is. Entries keep their values.
-    pub(super) fn release(&mut self, release: &Release) -> Answer<Value> {
+    pub(super) fn release(&mut self, release: Release) -> Answer<Value> {
         let run = self.run()?;
         let stays = |force: &Force| release.path.as_ref().is_some_and(|path| *path != force.path);
         run.forces.retain(stays);
-        Ok(run.forced())
+        self.say_forced()
+    }
+
+    fn say_forced(&mut self) -> Answer<Value> {
+        let forced = self.run()?.forced();
+        self.send_state();
+        Ok(json!({"forced": forced}))
     }
 }
 
 impl Run<'_> {
     /// What is forced, and until when.
-    pub(super) fn forced(&self) -> Value {
+    pub(super) fn forced(&self) -> Vec<Value> {
         let shown = |force: &Force| {
             let mut shown = json!({"path": force.path, "until": force.until.as_secs_f64()});
             if let What::Value(value) = &force.what {
@@ -90,7 +96,7 @@ impl Run<'_> {
             }
             shown
         };
-        json!({"forced": self.forces.iter().map(shown).collect::<Vec<_>>()})
+        self.forces.iter().map(shown).collect()
     }
 
     /// The state or event of a path.

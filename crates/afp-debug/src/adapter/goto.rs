@@ -10,11 +10,10 @@ use std::time::Duration as Wall;
 use afp_core::trace::{ComponentId, Outcome};
 use afp_dsl::unfold::ComponentKind;
 use afp_session::EventKind;
-use serde_json::Value;
 
 use super::mode::Mode;
 use super::{Adapter, Answer, Refusal, Run};
-use crate::program::{Program, Spot};
+use crate::program::{Program, Spot, Unit};
 use crate::target::Happened;
 
 /// What a component has to report.
@@ -56,7 +55,7 @@ impl Adapter<'_> {
     }
 
     /// Goes to an element, along edges.
-    pub(super) fn goto(&mut self, asked: &dapts::GotoArguments, now: Wall) -> Answer<Value> {
+    pub(super) fn goto(&mut self, asked: dapts::GotoArguments, now: Wall) -> Answer<()> {
         let run = self.run()?;
         if run.target.is_recorded() {
             return Err("a log shows what was: launch its plan to go somewhere else".into());
@@ -64,8 +63,7 @@ impl Adapter<'_> {
         let id = u32::try_from(asked.target_id).map(ComponentId);
         let id = id.map_err(|_| Refusal("there is no such target".to_owned()))?;
         run.lead(id)?;
-        self.go(Mode::Goto(id), now)?;
-        Ok(Value::Null)
+        self.go(Mode::Goto(id), now)
     }
 }
 
@@ -121,12 +119,9 @@ pub(super) fn is_there(happened: &[Happened], to: ComponentId) -> bool {
 
 /// The first report on a shortest way from one element of a plan to another one.
 fn way(program: &Program, plan: ComponentId, from: ComponentId, to: &str) -> Option<Report> {
-    let number = |name: &str| {
-        let mut all = program.units.iter().skip(1);
-        let found =
-            all.position(|unit| unit.plan == plan && unit.owner.is_none() && unit.name == name);
-        found.map(|at| ComponentId(at as u32 + 1))
-    };
+    let is_it =
+        |unit: &Unit, name: &str| unit.plan == plan && unit.owner.is_none() && unit.name == name;
+    let number = |name: &str| program.parts().find(|(_, unit)| is_it(unit, name)).map(|it| it.0);
     let mut first: BTreeMap<ComponentId, Option<Report>> = [(from, None)].into();
     let mut open = VecDeque::from([from]);
     while let Some(here) = open.pop_front() {
@@ -154,7 +149,7 @@ fn edges(program: &Program, plan: ComponentId, here: ComponentId) -> Vec<(Report
     if unit.kind == ComponentKind::Actor {
         all.extend(unit.outcomes.iter().map(|(name, target)| (report(here, name), &**target)));
     }
-    let watchers = (0..).map(ComponentId).zip(&program.units).skip(1).filter(|(_, it)| {
+    let watchers = program.parts().filter(|(_, it)| {
         it.kind == ComponentKind::Supervisor
             && it.plan == plan
             && it.owner.is_none_or(|owner| owner == here)

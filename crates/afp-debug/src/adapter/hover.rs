@@ -2,7 +2,7 @@
 //! element is active, what a supervisor reported, when an edge was taken.
 
 use afp_core::Instant;
-use afp_core::trace::{ComponentId, Outcome};
+use afp_core::trace::ComponentId;
 use afp_dsl::unfold::ComponentKind;
 
 use super::look::{Group, component, said};
@@ -143,7 +143,7 @@ impl Word<'_> {
             Some(Spot::Reaction(id, watcher, event)) => self.state.reacted(*id, *watcher, *event),
             Some(Spot::Outcome(id, outcome)) => self.state.reached(*id, *outcome),
             _ => {
-                let number = |unit| outcome_of(unit, self.text);
+                let number = |unit: &Unit| unit.outcome(self.text);
                 let mut all = self.units().filter_map(|(id, unit)| Some((id, number(unit)?)));
                 let (id, number) = all.next()?;
                 self.state.reached(id, number)
@@ -156,8 +156,10 @@ impl Word<'_> {
 
     /// What an element or a supervisor does.
     fn component(&self) -> Option<HoverText> {
-        let all = (0..).map(ComponentId).zip(&self.program.units).skip(1);
-        let same = all.filter(|(_, unit)| unit.plan == self.plan && unit.name == self.text);
+        let same = self
+            .program
+            .parts()
+            .filter(|(_, unit)| unit.plan == self.plan && unit.name == self.text);
         let same: Vec<_> = same.collect();
         let owners: Vec<_> = self.units().map(|(id, _)| id).collect();
         // An element's own supervisors hide nothing, but two elements may have supervisors of one name.
@@ -187,17 +189,6 @@ impl Word<'_> {
 /// Whether a text goes on with what binds a port.
 fn binds(behind: &str) -> bool {
     behind.strip_prefix('=').is_some_and(|rest| !rest.starts_with('='))
-}
-
-/// A state or event of a component.
-fn outcome_of(unit: &Unit, name: &str) -> Option<Outcome> {
-    match name {
-        "Error" => return Some(Outcome::Error),
-        "DeadlineMissed" => return Some(Outcome::DeadlineMissed),
-        _ => {}
-    }
-    let index = unit.outcomes.iter().position(|(known, _)| known == name)?;
-    u16::try_from(index).ok().map(Outcome::Declared)
 }
 
 fn time(at: Instant) -> String {

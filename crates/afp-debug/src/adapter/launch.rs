@@ -13,58 +13,44 @@ use super::clients::Counting;
 use super::mode::{By, Mode, Pace};
 use super::stop::stopped_event;
 use super::{Adapter, Answer, Guard, Refusal, Run, parse};
-use crate::breakpoints::Filters;
 
 /// What is to be run, and how.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(default, rename_all = "camelCase")]
 pub struct Launch {
     /// The plan's file; `FILE:Plan` for another than its first.
-    #[serde(default)]
     pub program: String,
     /// The log of a run that is over, to be looked at in place of a run.
-    #[serde(default)]
     pub log: Option<String>,
     /// The world; without one that of the plan.
-    #[serde(default)]
     pub world: Option<String>,
     /// Where the robot starts, metres and radians; without it where the world says.
-    #[serde(default)]
     pub start: Option<[f64; 3]>,
     /// The seed of all noise; 0 without one.
-    #[serde(default)]
     pub seed: Option<u64>,
     /// Values for `in` entries as people write them, `"30 cm"`.
-    #[serde(default)]
     pub set: BTreeMap<String, String>,
     /// When the plan is stopped at the latest, seconds from the start; never without it.
-    #[serde(default)]
     pub until: Option<f64>,
     /// How fast time passes, as a multiple of that on the wall; without it as fast as it can be computed.
-    #[serde(default)]
     pub speed: Option<f64>,
     /// Whether the run stands still before its first step.
-    #[serde(default)]
     pub stop_on_entry: bool,
     /// Whether breakpoints hold it.
-    #[serde(default)]
     pub no_debug: bool,
     /// What a client has to know that was not started by the same person.
-    #[serde(default)]
     pub token: Option<String>,
 }
 
 /// What joins a run of another client.
 #[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
 pub(super) struct Attach {
     /// What a client has to know that was not started by the same person.
-    #[serde(default)]
     token: Option<String>,
     /// `operator` takes over; without it the client watches.
-    #[serde(default)]
     role: Option<String>,
     /// Whether it answers for its role.
-    #[serde(default)]
     lease: bool,
 }
 
@@ -251,7 +237,7 @@ impl Adapter<'_> {
     }
 
     /// A client has set what it wants to set: its run begins; one that has joined is told whether it stands still.
-    pub(super) fn configured(&mut self, now: Wall) -> Answer<Value> {
+    pub(super) fn configured(&mut self, now: Wall) -> Answer<()> {
         let (asker, is_operator) = (self.asker, self.operator == Some(self.asker));
         let run = self.run()?;
         if run.has_begun {
@@ -260,13 +246,9 @@ impl Adapter<'_> {
                 let body = stopped_event(Reason::Pause, "held", at, Vec::new());
                 self.event_to::<event::Stopped>(asker, &body);
             }
-            return Ok(Value::Null);
+            return Ok(());
         }
-        if !is_operator {
-            return Ok(Value::Null);
-        }
-        self.start(now)?;
-        Ok(Value::Null)
+        if is_operator { self.start(now) } else { Ok(()) }
     }
 
     fn start(&mut self, now: Wall) -> Answer<()> {
@@ -287,7 +269,7 @@ impl Adapter<'_> {
     }
 
     /// Begins again, with the text as it is now; a client may say with what else.
-    pub(super) fn restart(&mut self, arguments: &Value, now: Wall) -> Answer<Value> {
+    pub(super) fn restart(&mut self, arguments: &Value, now: Wall) -> Answer<()> {
         let run = self.run()?;
         let traced = run.traced.is_some();
         let launch = again(arguments)?.unwrap_or_else(|| run.launch.clone());
@@ -297,13 +279,12 @@ impl Adapter<'_> {
         run.traced = traced.then(Vec::new);
         let program = run.target.program().clone();
         self.find_breakpoints(&program);
-        self.start(now)?;
-        Ok(Value::Null)
+        self.start(now)
     }
 
     /// Ends the plan, the robot stops, and everybody is told how it ended.
-    pub(super) fn terminate(&mut self) -> Answer<Value> {
-        let Some(mut run) = self.run.take() else { return Ok(Value::Null) };
+    pub(super) fn terminate(&mut self) -> Answer<()> {
+        let Some(mut run) = self.run.take() else { return Ok(()) };
         let mut said = Vec::new();
         run.target.stop(&mut |happened, _| said.push(happened.clone()));
         if run.mode != Mode::Over {
@@ -315,11 +296,11 @@ impl Adapter<'_> {
         }
         self.operator = None;
         self.clients.values_mut().for_each(|client| client.attached = false);
-        Ok(Value::Null)
+        Ok(())
     }
 
     /// A client says goodbye; the run goes on for the others, unless it wants it to end and takes part in it.
-    pub(super) fn disconnect(&mut self, asked: &dapts::DisconnectArguments) -> Answer<Value> {
+    pub(super) fn disconnect(&mut self, asked: dapts::DisconnectArguments) -> Answer<()> {
         let asker = self.asker;
         // Whoever reaches the port may say goodbye; it takes the token to end the run.
         let may_end = self.guard.is_none() || self.takes_part();
@@ -330,29 +311,21 @@ impl Adapter<'_> {
         if asked.terminate_debuggee == Some(true) && may_end {
             self.terminate()?;
         }
-        Ok(Value::Null)
+        Ok(())
     }
 
     pub(super) fn set_filters(
         &mut self,
-        asked: &dapts::SetExceptionBreakpointsArguments,
-    ) -> Answer<Value> {
-        let mut filters = Filters::default();
-        for name in &asked.filters {
-            match &**name {
-                "fault" => filters.fault = true,
-                "deadlineMissed" => filters.deadline_missed = true,
-                "interruption" => filters.interruption = true,
-                "livelock" => filters.livelock = true,
-                "collision" => filters.collision = true,
-                other => {
-                    let known = FILTERS.map(|(name, ..)| name).join(", ");
-                    return Err(Refusal(format!("nothing is called '{other}'; there are {known}")));
-                }
-            }
-        }
+        asked: dapts::SetExceptionBreakpointsArguments,
+    ) -> Answer<()> {
+        let names = FILTERS.map(|(name, ..)| name);
+        let known = |asked: &String| {
+            let unknown = || format!("nothing is called '{asked}'; there are {}", names.join(", "));
+            names.into_iter().find(|name| *name == asked).ok_or_else(unknown)
+        };
+        let filters = asked.filters.iter().map(known).collect::<Result<_, _>>()?;
         self.breakpoints.set_filters(self.asker, filters);
-        Ok(Value::Null)
+        Ok(())
     }
 }
 

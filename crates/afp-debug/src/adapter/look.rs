@@ -6,12 +6,10 @@ use afp_core::trace::{ComponentId, TraceEntryId};
 use afp_dsl::graph::EntryKind;
 use afp_dsl::types::text::duration;
 use afp_dsl::unfold::ComponentKind;
-use dapts::{IRequest, request};
-use serde_json::Value;
 
 use super::launch::FLOW;
 use super::stop::source;
-use super::{Adapter, Answer, Refusal};
+use super::{Adapter, Answer};
 use crate::program::Unit;
 use crate::state::State;
 use crate::watched::Watched;
@@ -48,7 +46,7 @@ impl Group {
 }
 
 impl Adapter<'_> {
-    pub(super) fn threads(&mut self) -> Answer<Value> {
+    pub(super) fn threads(&mut self) -> Answer<dapts::ThreadsResponse> {
         let run = self.run()?;
         let program = run.target.program();
         let thread = |id: ComponentId| {
@@ -57,8 +55,7 @@ impl Adapter<'_> {
         };
         let watching = run.target.state().watching();
         let threads: Vec<_> = std::iter::once(FLOW).chain(watching).map(thread).collect();
-        serde_json::to_value(dapts::ThreadsResponse { threads })
-            .map_err(|why| Refusal(why.to_string()))
+        Ok(dapts::ThreadsResponse { threads })
     }
 
     pub(super) fn stack_trace(
@@ -326,7 +323,7 @@ impl Adapter<'_> {
             if let Some(Context::Watch | Context::Clipboard | Context::Variables) = asked.context {
                 return Err("nothing is written from here: '==' compares".into());
             }
-            self.may(request::SetExpression::COMMAND, now)?;
+            self.may("setExpression", now)?;
             let result = self.assign(asked.frame_id, name, value)?;
             return Ok(dapts::EvaluateResponse { result, ..dapts::EvaluateResponse::default() });
         }

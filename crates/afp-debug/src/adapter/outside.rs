@@ -56,17 +56,17 @@ impl<'h> Adapter<'h> {
         }
     }
 
-    pub(super) fn press(&mut self, press: &Press) -> Answer<Value> {
+    pub(super) fn press(&mut self, press: Press) -> Answer<()> {
         let target = self.changeable()?;
         let devices = target.devices();
         let unknown = || Refusal(format!("the robot has no control '{}'", press.control));
         let id = find_control(devices, &press.control).ok_or_else(unknown)?;
         let hold = Request::Hold(id, HOLD);
         target.ask(Duration::ZERO, press.held.map_or(hold, |held| Request::Press(id, held)))?;
-        Ok(Value::Null)
+        Ok(())
     }
 
-    pub(super) fn fault(&mut self, fault: &Break) -> Answer<Value> {
+    pub(super) fn fault(&mut self, fault: Break) -> Answer<()> {
         let target = self.changeable()?;
         let named = fault.fault.split_once('.');
         let found = named.and_then(|(device, name)| find_fault(target.devices(), device, name));
@@ -78,16 +78,16 @@ impl<'h> Adapter<'h> {
             Some(_) => return Err("'seconds' is a number above 0".into()),
         };
         target.ask(Duration::ZERO, Request::Break(id, fault.amount, lasting))?;
-        Ok(Value::Null)
+        Ok(())
     }
 
     /// Puts the robot or a thing of its world somewhere else.
-    pub(super) fn carry(&mut self, wanted: Move) -> Answer<Value> {
+    pub(super) fn carry(&mut self, wanted: Move) -> Answer<()> {
         self.put(wanted.thing.map_or(Put::Robot, Put::Thing), wanted.to)
     }
 
     /// Puts something into the world that was not there.
-    pub(super) fn drop_into(&mut self, wanted: Drop) -> Answer<Value> {
+    pub(super) fn drop_into(&mut self, wanted: Drop) -> Answer<()> {
         self.put(Put::New(wanted.shape), wanted.to)
     }
 
@@ -99,18 +99,18 @@ impl<'h> Adapter<'h> {
         Ok(json!({"at": at, "width": width, "height": height, "rgb": STANDARD.encode(rgb)}))
     }
 
-    fn put(&mut self, what: Put, [x, y, heading]: [f64; 3]) -> Answer<Value> {
+    fn put(&mut self, what: Put, [x, y, heading]: [f64; 3]) -> Answer<()> {
         let at = Pose2 { x, y, heading };
         self.changeable()?.ask(Duration::ZERO, Request::Put(what, at))?;
-        Ok(Value::Null)
+        Ok(())
     }
 
-    pub(super) fn speed(&mut self, speed: &Speed, now: Wall) -> Answer<Value> {
+    pub(super) fn speed(&mut self, speed: Speed, now: Wall) -> Answer<()> {
         if speed.factor.is_some_and(|factor| !(factor > 0.0 && factor.is_finite())) {
             return Err("'factor' is a number above 0; leave it out for as fast as can be".into());
         }
         let run = self.run()?;
         run.pace = Pace::new(speed.factor, run.target.now(), now);
-        Ok(Value::Null)
+        Ok(())
     }
 }

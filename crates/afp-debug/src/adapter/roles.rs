@@ -45,21 +45,20 @@ const STEERS: &[&str] = &[
     "stepOut",
 ];
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
+#[serde(default)]
 pub(super) struct Wanted {
     /// The role.
     take: Option<String>,
     /// Gives it away.
-    #[serde(default)]
     release: bool,
     /// Whether it answers for it.
-    #[serde(default)]
     lease: bool,
 }
 
 impl Adapter<'_> {
     /// Takes the role of who steers, or gives it away; who has which.
-    pub(super) fn role(&mut self, wanted: &Wanted, now: Wall) -> Answer<Value> {
+    pub(super) fn role(&mut self, wanted: Wanted, now: Wall) -> Answer<Value> {
         self.run()?;
         match wanted.take.as_deref() {
             Some("operator") => self.take_role(wanted.lease, now),

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::goto::is_there;
 use super::mode::{By, Mode, Pace};
-use super::{Adapter, Answer, Refusal, Run, parse};
+use super::{Adapter, Answer, Run};
 use crate::breakpoints::Hits;
 use crate::program::Program;
 use crate::target::{Advance, Happened};
@@ -26,62 +26,25 @@ pub(super) struct Step {
     pub granularity: Option<SteppingGranularity>,
 }
 
-#[derive(Deserialize)]
-struct Subscribe {
-    #[serde(default)]
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Subscribe {
     state: bool,
-    #[serde(default)]
     sensed: bool,
-    #[serde(default)]
     trace: bool,
 }
 
 impl Adapter<'_> {
-    /// What lets time pass, or makes something happen.
-    pub(super) fn steer(&mut self, command: &str, arguments: Value, now: Wall) -> Answer<Value> {
-        match command {
-            "continue" => {
-                self.go(Mode::On, now)?;
-                Ok(json!({"allThreadsContinued": true}))
-            }
-            "next" | "stepIn" | "stepOut" => self.step(command, &parse(arguments)?, now),
-            "pause" => self.pause(),
-            "stepBack" => self.back(&parse(arguments)?),
-            "reverseContinue" => self.reverse(),
-            "afp/press" => self.press(&parse(arguments)?),
-            "afp/fault" => self.fault(&parse(arguments)?),
-            "afp/move" => self.carry(parse(arguments)?),
-            "afp/drop" => self.drop_into(parse(arguments)?),
-            "afp/picture" => self.picture(),
-            "afp/force" => {
-                let forced = self.force(parse(arguments)?)?;
-                self.send_state();
-                Ok(forced)
-            }
-            "afp/release" => {
-                let forced = self.release(&parse(arguments)?)?;
-                self.send_state();
-                Ok(forced)
-            }
-            "goto" => self.goto(&parse(arguments)?, now),
-            "afp/role" => self.role(&parse(arguments)?, now),
-            "afp/why" => self.why(&parse(arguments)?),
-            "afp/speed" => self.speed(&parse(arguments)?, now),
-            "afp/seek" => self.seek(&parse(arguments)?),
-            "afp/world" => self.world(parse(arguments)?),
-            "afp/subscribe" => {
-                let Subscribe { state, sensed, trace } = parse(arguments)?;
-                self.run()?;
-                if let Some(client) = self.clients.get_mut(&self.asker) {
-                    (client.state, client.sensed) = (state, sensed);
-                }
-                self.trace(trace)?;
-                self.send_state();
-                self.send_roles();
-                Ok(Value::Null)
-            }
-            other => Err(Refusal(format!("this release does not know the request '{other}'"))),
+    /// Begins to tell the client that asks what is the case and what happens, or ends that.
+    pub(super) fn subscribe(&mut self, asked: Subscribe) -> Answer<()> {
+        self.run()?;
+        if let Some(client) = self.clients.get_mut(&self.asker) {
+            (client.state, client.sensed) = (asked.state, asked.sensed);
         }
+        self.trace(asked.trace)?;
+        self.send_state();
+        self.send_roles();
+        Ok(())
     }
 
     /// How long the run can wait until time has to pass again; none where it waits for the client.
@@ -110,7 +73,12 @@ impl Adapter<'_> {
         Ok(())
     }
 
-    fn step(&mut self, command: &str, step: &Step, now: Wall) -> Answer<Value> {
+    pub(super) fn go_on(&mut self, now: Wall) -> Answer<Value> {
+        self.go(Mode::On, now)?;
+        Ok(json!({"allThreadsContinued": true}))
+    }
+
+    pub(super) fn step(&mut self, command: &str, step: Step, now: Wall) -> Answer<()> {
         let stack = self.run()?.target.state().stack();
         let program = self.run()?.target.program().clone();
         let plan =
@@ -121,16 +89,15 @@ impl Adapter<'_> {
             ("stepIn", _) => Mode::Into,
             _ => Mode::Out(plan),
         };
-        self.go(mode, now)?;
-        Ok(Value::Null)
+        self.go(mode, now)
     }
 
-    fn pause(&mut self) -> Answer<Value> {
+    pub(super) fn pause(&mut self) -> Answer<()> {
         let run = self.run()?;
         if !matches!(run.mode, Mode::Held | Mode::Over) {
             self.stopped(Reason::Pause, "paused", Vec::new());
         }
-        Ok(Value::Null)
+        Ok(())
     }
 
     /// Lets time pass until something holds the run, the time on the wall is reached, or enough was done for once.

@@ -81,7 +81,10 @@ impl Adapter<'_> {
     }
 
     /// What went wrong last.
-    pub(super) fn exception_info(&mut self) -> Answer<dapts::ExceptionInfoResponse> {
+    pub(super) fn exception_info(
+        &mut self,
+        _: dapts::ExceptionInfoArguments,
+    ) -> Answer<dapts::ExceptionInfoResponse> {
         let (name, text) = self.run()?.exception.clone().ok_or("nothing went wrong here")?;
         Ok(dapts::ExceptionInfoResponse {
             break_mode: dapts::ExceptionBreakMode::Always,
@@ -140,19 +143,13 @@ impl Adapter<'_> {
         let watching: Vec<_> = state.watching().map(path).collect();
         let held = matches!(run.mode, Mode::Held | Mode::Over);
         let at = run.target.now().as_secs_f64();
-        let mut body = run.forced();
-        for (name, value) in [
-            ("at", json!(at)),
-            ("stack", json!(stack)),
-            ("watching", json!(watching)),
-            ("entries", json!(entries)),
-            ("held", json!(held)),
-            ("sources", json!(program.hashes().collect::<BTreeMap<_, _>>())),
-            ("moving", json!(run.target.moving().into_iter().map(outline).collect::<Vec<_>>())),
-            ("pose", json!(run.target.pose().map(|it| [it.x, it.y, it.heading].map(rounded)))),
-        ] {
-            body[name] = value;
-        }
+        let body = json!({
+            "forced": run.forced(), "at": at, "stack": stack, "watching": watching, "entries": entries,
+            "held": held,
+            "sources": program.hashes().collect::<BTreeMap<_, _>>(),
+            "moving": run.target.moving().into_iter().map(outline).collect::<Vec<_>>(),
+            "pose": run.target.pose().map(|it| [it.x, it.y, it.heading].map(rounded)),
+        });
         self.send_event_where(|client| client.attached && client.state, "afp/state", &body);
     }
 

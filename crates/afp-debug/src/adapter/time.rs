@@ -3,7 +3,6 @@
 use afp_core::{Duration, Instant};
 use dapts::{SteppingGranularity, StoppedEventReason as Reason};
 use serde::Deserialize;
-use serde_json::Value;
 
 use super::mode::Mode;
 use super::steer::{BATCH, Step, is_transition};
@@ -18,7 +17,7 @@ pub(super) struct Seek {
 
 impl Adapter<'_> {
     /// To before the last transition, or the last step.
-    pub(super) fn back(&mut self, step: &Step) -> Answer<Value> {
+    pub(super) fn back(&mut self, step: Step) -> Answer<()> {
         let run = self.run()?;
         let now = run.target.steps();
         let to = match step.granularity {
@@ -28,11 +27,11 @@ impl Adapter<'_> {
         self.go_back(Position::Step(to))?;
         let reason = if to == 0 { Reason::Entry } else { Reason::Step };
         self.stopped(reason, "stepped back", Vec::new());
-        Ok(Value::Null)
+        Ok(())
     }
 
     /// To the last breakpoint before, or the start.
-    pub(super) fn reverse(&mut self) -> Answer<Value> {
+    pub(super) fn reverse(&mut self) -> Answer<()> {
         let (run, breakpoints) = (self.run.as_mut(), &mut self.breakpoints);
         let run = run.ok_or("nothing runs yet: 'launch' comes first")?;
         let end = run.target.steps();
@@ -60,12 +59,12 @@ impl Adapter<'_> {
         let reason = if to == 0 { Reason::Entry } else { Reason::Breakpoint };
         let ids = hits.into_iter().map(|(id, _)| id).collect();
         self.stopped(reason, "went back", ids);
-        Ok(Value::Null)
+        Ok(())
     }
 
     /// Goes to an instant. What lies behind is there at once, but for what is run again from a keyframe; what lies
     /// ahead is run as fast as it can be computed, and `pause` holds it on its way.
-    pub(super) fn seek(&mut self, seek: &Seek) -> Answer<Value> {
+    pub(super) fn seek(&mut self, seek: Seek) -> Answer<()> {
         if !(seek.at >= 0.0 && seek.at < 1e9) {
             return Err("'at' is a time in seconds from the start".into());
         }
@@ -74,17 +73,17 @@ impl Adapter<'_> {
         let now = run.target.now();
         match run.mode {
             // Nothing comes after the end.
-            Mode::Over if at >= now => return Ok(Value::Null),
+            Mode::Over if at >= now => return Ok(()),
             _ if at > now => {
                 run.forces.clear();
                 run.mode = Mode::Seek(at);
-                return Ok(Value::Null);
+                return Ok(());
             }
             _ if at < now => self.go_back(Position::At(at))?,
             _ => run.forces.clear(),
         }
         self.stopped(Reason::Goto, "went to another time", Vec::new());
-        Ok(Value::Null)
+        Ok(())
     }
 
     /// Takes the run back: what came later has not been yet.

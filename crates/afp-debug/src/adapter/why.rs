@@ -21,15 +21,14 @@ pub(super) struct Why {
 impl Adapter<'_> {
     /// When an element became active last and by which edge, and every edge that leads to it: when it was taken last,
     /// whether its component looks now, and what that read.
-    pub(super) fn why(&mut self, why: &Why) -> Answer<Value> {
+    pub(super) fn why(&mut self, why: Why) -> Answer<Value> {
         let run = self.run()?;
         let past = why.at.map(|at| run.past(at)).transpose()?;
         let (program, now) = (run.target.program(), run.target.state());
         let state = past.as_ref().unwrap_or(now);
-        let found = program.units.iter().skip(1).position(|unit| unit.path == why.path);
         let unknown = || Refusal(format!("the plan has no element '{}'", why.path));
-        let found = ComponentId(found.ok_or_else(unknown)? as u32 + 1);
-        let unit = program.unit(found).ok_or_else(unknown)?;
+        let found = program.parts().find(|(_, unit)| unit.path == why.path);
+        let (found, unit) = found.ok_or_else(unknown)?;
         let id = unit.owner.filter(|_| unit.kind == ComponentKind::Supervisor).unwrap_or(found);
         let unit = program.unit(id).ok_or_else(unknown)?;
         let mut answer = json!({
@@ -47,7 +46,7 @@ impl Adapter<'_> {
 
     /// The same as people read it, a line for each edge.
     pub(super) fn why_in_words(&mut self, path: &str) -> Answer<String> {
-        let told = self.why(&Why { path: path.to_owned(), at: None })?;
+        let told = self.why(Why { path: path.to_owned(), at: None })?;
         let word = |value: &Value, key: &str| value[key].as_str().unwrap_or_default().to_owned();
         let second = |value: &Value| value.as_f64().map(|at| format!("{at:.3} s"));
         let mut text = match (told["active"] == true, second(&told["since"])) {
@@ -101,8 +100,7 @@ impl Run<'_> {
 
 /// All edges of a plan that lead to an element.
 fn edges(program: &Program, state: &State, plan: ComponentId, name: &str) -> Vec<Value> {
-    let inside = (0..).map(ComponentId).zip(&program.units).skip(1);
-    let inside = inside.filter(|(_, unit)| unit.plan == plan);
+    let inside = program.parts().filter(|(_, unit)| unit.plan == plan);
     let mut edges = Vec::new();
     for (id, unit) in inside {
         let known = unit.outcomes.iter().map(|(name, target)| (&**name, &**target));
