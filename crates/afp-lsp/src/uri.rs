@@ -5,6 +5,11 @@
 
 use afp_dsl::files::normalised;
 use gen_lsp_types::Uri;
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
+
+/// The characters that an address escapes.
+const ESCAPED: &AsciiSet =
+    &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'_').remove(b'.').remove(b'~');
 
 /// The scheme of built-in toolboxes that lie in no file.
 pub(crate) const BUILT_IN: &str = "afp:";
@@ -14,7 +19,7 @@ pub(crate) fn path(uri: &Uri) -> String {
     let Some(rest) = uri.0.strip_prefix("file://") else { return uri.0.clone() };
     // A host is not looked at: it is this machine.
     let rest = &rest[rest.find('/').unwrap_or(0)..];
-    let path = decoded(rest);
+    let path = percent_decode_str(rest).decode_utf8_lossy();
     // `/C:/x` is `C:/x` there.
     let drive = path.as_bytes().get(2) == Some(&b':') && path.as_bytes()[1].is_ascii_alphabetic();
     normalised(if drive { &path[1..] } else { &path })
@@ -27,7 +32,7 @@ pub(crate) fn uri(path: &str) -> Uri {
         return Uri(path.to_owned());
     }
     let root = if path.starts_with('/') { "" } else { "/" };
-    Uri(format!("file://{root}{}", encoded(path)))
+    Uri(format!("file://{root}{}", utf8_percent_encode(path, ESCAPED)))
 }
 
 /// The path that an address stands for, as [`Host`](crate::Host) gets it.
@@ -38,38 +43,6 @@ pub fn path_of(uri: &str) -> String {
 /// The address of a path.
 pub fn uri_of(path: &str) -> String {
     uri(path).0
-}
-
-fn decoded(text: &str) -> String {
-    let bytes = text.as_bytes();
-    let mut plain = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    while let Some(byte) = bytes.get(at) {
-        let digits = text.get(at + 1..at + 3).filter(|_| *byte == b'%');
-        match digits.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
-            Some(value) => {
-                plain.push(value);
-                at += 3;
-            }
-            None => {
-                plain.push(*byte);
-                at += 1;
-            }
-        }
-    }
-    String::from_utf8_lossy(&plain).into_owned()
-}
-
-fn encoded(path: &str) -> String {
-    let mut text = String::with_capacity(path.len());
-    for byte in path.bytes() {
-        let plain = byte.is_ascii_alphanumeric() || b"/-_.~".contains(&byte);
-        match plain {
-            true => text.push(char::from(byte)),
-            false => text += &format!("%{byte:02X}"),
-        }
-    }
-    text
 }
 
 #[cfg(test)]

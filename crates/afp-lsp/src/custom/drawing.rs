@@ -11,11 +11,11 @@ use afp_ide::edit::item;
 use afp_syntax::item::Item;
 use lsp_server::{Message, Notification};
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::Document;
-use super::scene::{Facts, Shown};
-use super::subscription::{MadeFrom, Subscription, plans};
+use super::scene::Facts;
+use super::subscription::{Drawn, Subscription, plans};
 use crate::answer::{Answer, Failure, ok};
 use crate::server::Server;
 use crate::uri;
@@ -40,7 +40,7 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     let path = uri::path(&params.text_document.uri);
     let known = server.subscriptions.remove(&path);
     let before =
-        known.as_ref().filter(|known| known.plan == params.plan).map(|known| &*known.scene);
+        known.as_ref().filter(|known| known.plan == params.plan).map(|known| &*known.drawn.scene);
     let folded: Vec<_> = params.folded.iter().filter_map(|path| item(path)).collect();
     let drawn = match draw(server, &path, params.plan.as_deref(), &folded, before) {
         Ok(drawn) => drawn,
@@ -52,32 +52,11 @@ pub(crate) fn drawing(server: &mut Server, params: Drawing) -> Answer {
     };
     let version = server.workspace.documents.get(&path).map(|document| document.version);
     let mut answer = drawn.shown().whole();
-    answer["version"] = json!(version);
-    let Drawn { scene, facts, plan, plans, symbols, made_from } = drawn;
-    answer["plan"] = json!(plan);
-    answer["plans"] = json!(plans);
-    answer["symbols"] = symbols;
+    drawn.tell(&mut answer, version);
     if params.subscribe.unwrap_or(known.is_some()) {
-        let subscription =
-            Subscription { plan: params.plan, plans, folded, scene, facts, made_from };
-        server.subscriptions.insert(path, subscription);
+        server.subscriptions.insert(path, Subscription { plan: params.plan, folded, drawn });
     }
     ok(answer)
-}
-
-struct Drawn {
-    scene: Arc<Scene>,
-    facts: Facts,
-    plan: Option<String>,
-    plans: Vec<String>,
-    symbols: Value,
-    made_from: MadeFrom,
-}
-
-impl Drawn {
-    fn shown(&self) -> Shown<'_> {
-        Shown { scene: self.scene.plans.first(), facts: &self.facts }
-    }
 }
 
 fn draw(
@@ -119,10 +98,9 @@ fn draw(
     };
     let facts = main.map(|plan| Facts::new(plan, outline, folded)).unwrap_or_default();
     let plans = plans(&analysis);
-    let symbols = scene.symbols.iter().map(|it| json!({ "id": it.id, "svg": it.svg })).collect();
     let plan = main.map(|plan| plan.item.name().to_owned());
-    let made_from = MadeFrom { reads: reads.into_inner(), analysis: Arc::clone(&analysis) };
-    Ok(Drawn { scene, facts, plan, plans, symbols, made_from })
+    let (analysis, reads) = (Arc::clone(&analysis), reads.into_inner());
+    Ok(Drawn { scene, facts, plan, plans, analysis, reads })
 }
 
 /// The refusal if a document is no plan file.
@@ -167,7 +145,7 @@ impl Server {
     pub(crate) fn changed_drawings(&mut self) -> Vec<Message> {
         let workspace = &mut self.workspace;
         let stale = |(path, known): (&String, &Subscription)| {
-            (!known.made_from.is_current(workspace, path)).then(|| path.clone())
+            (!known.drawn.is_current(workspace, path)).then(|| path.clone())
         };
         let stale: Vec<_> = self.subscriptions.iter().filter_map(stale).collect();
         stale.into_iter().filter_map(|path| self.changed_drawing(&path)).collect()
@@ -178,27 +156,22 @@ impl Server {
         if let Some(analysis) = self.workspace.analysis(path) {
             known.follow(&analysis);
         }
-        let drawn = draw(self, path, known.plan.as_deref(), &known.folded, Some(&known.scene));
+        let drawn =
+            draw(self, path, known.plan.as_deref(), &known.folded, Some(&known.drawn.scene));
         // A plan that is gone while its name is typed comes back.
         let Ok(drawn) = drawn else {
             self.subscriptions.insert(path.to_owned(), known);
             return None;
         };
-        let before = Shown { scene: known.scene.plans.first(), facts: &known.facts };
-        let changed = drawn.shown().since(before, drawn.plans == known.plans);
-        let Drawn { scene, facts, plan, plans, symbols, made_from } = drawn;
+        let same_plans = drawn.plans == known.drawn.plans;
+        let changed = drawn.shown().since(known.drawn.shown(), same_plans);
         let message = changed.map(|mut params| {
             let document = self.workspace.documents.get(path);
             params["textDocument"] = json!({ "uri": self.workspace.uri(path) });
-            params["version"] = json!(document.map(|document| document.version));
-            params["plan"] = json!(plan);
-            params["plans"] = json!(plans);
-            params["symbols"] = symbols;
+            drawn.tell(&mut params, document.map(|document| document.version));
             Notification::new("afp/drawingChanged".to_owned(), params).into()
         });
-        let Subscription { plan, folded, .. } = known;
-        let subscription = Subscription { plan, plans, folded, scene, facts, made_from };
-        self.subscriptions.insert(path.to_owned(), subscription);
+        self.subscriptions.insert(path.to_owned(), Subscription { drawn, ..known });
         message
     }
 }

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use afp_draw::Scene;
 use afp_syntax::item::Item;
 use afp_syntax::source::Span;
+use serde_json::{Value, json};
 
-use super::scene::Facts;
+use super::scene::{Facts, Shown};
 use crate::workspace::{Analysis, Reads, Workspace};
 
 /// A drawing that a client has and hears the changes of.
@@ -14,25 +15,41 @@ use crate::workspace::{Analysis, Reads, Workspace};
 pub(crate) struct Subscription {
     /// The plan that is wanted: without one, the first of the file.
     pub(super) plan: Option<String>,
-    /// The plans of the file, as the client was told.
-    pub(super) plans: Vec<String>,
     pub(super) folded: Vec<Item>,
+    pub(super) drawn: Drawn,
+}
+
+/// A drawing that the server has sent.
+#[derive(Debug)]
+pub(super) struct Drawn {
     /// The scene, from which the next one is made.
     pub(super) scene: Arc<Scene>,
     pub(super) facts: Facts,
-    pub(super) made_from: MadeFrom,
-}
-
-/// What a drawing was made from.
-#[derive(Debug)]
-pub(super) struct MadeFrom {
+    /// The name of its plan.
+    pub(super) plan: Option<String>,
+    /// The plans of the file.
+    pub(super) plans: Vec<String>,
+    /// The texts that it was made from.
     pub(super) analysis: Arc<Analysis>,
-    /// Positions and icons.
+    /// The positions and icons that it was made from.
     pub(super) reads: Reads,
 }
 
-impl MadeFrom {
-    /// Whether a drawing of a document would be the same again.
+impl Drawn {
+    pub(super) fn shown(&self) -> Shown<'_> {
+        Shown { scene: self.scene.plans.first(), facts: &self.facts }
+    }
+
+    /// Adds the version, the plans and the symbols to a message.
+    pub(super) fn tell(&self, message: &mut Value, version: Option<i32>) {
+        let symbols = self.scene.symbols.iter().map(|it| json!({ "id": it.id, "svg": it.svg }));
+        message["version"] = json!(version);
+        message["plan"] = json!(self.plan);
+        message["plans"] = json!(self.plans);
+        message["symbols"] = symbols.collect();
+    }
+
+    /// Whether the drawing of a document would be the same again.
     pub(super) fn is_current(&self, workspace: &mut Workspace, path: &str) -> bool {
         let analysis = workspace.analysis(path);
         analysis.is_some_and(|now| Arc::ptr_eq(&now, &self.analysis)) && self.reads.hold(workspace)
@@ -55,12 +72,13 @@ impl Subscription {
         if now.contains(gone) || now.iter().any(|name| name.contains('#')) {
             return;
         }
-        let place = self.plans.iter().position(|name| name == gone);
-        let there = place.filter(|_| now.len() == self.plans.len()).and_then(|at| now.get(at));
+        let place = self.drawn.plans.iter().position(|name| name == gone);
+        let there =
+            place.filter(|_| now.len() == self.drawn.plans.len()).and_then(|at| now.get(at));
         let file = Span { file: analysis.file, start: 0, end: u32::MAX };
         let is_readable = || analysis.compiled.diags.syntax_errors_within(file).next().is_none();
         match there {
-            Some(name) if !self.plans.contains(name) => self.plan = Some(name.clone()),
+            Some(name) if !self.drawn.plans.contains(name) => self.plan = Some(name.clone()),
             _ if is_readable() => self.plan = None,
             _ => {}
         }

@@ -5,7 +5,6 @@ use afp_dsl::files::normalised;
 use afp_dsl::index::{DefinitionId, DefinitionKind};
 use afp_dsl::outline::Part;
 use afp_ide::edit::{Change, difference, follow, used_files};
-use afp_syntax::item::Item;
 use afp_syntax::source::{Source, Span};
 use gen_lsp_types as lsp;
 use serde_json::{Value, json};
@@ -16,39 +15,17 @@ use crate::server::Server;
 use crate::uri;
 use crate::workspace::Analysis;
 
-/// What can get another name: what is declared, and the path of its file.
-struct Renamed {
-    what: What,
-    path: String,
-}
-
-enum What {
-    Item(Item),
-    Column { table: String, column: String },
-    Value { enumeration: String, value: String },
-}
-
-impl What {
-    fn renamed(self, to: String) -> Change {
-        match self {
-            What::Item(item) => Change::Rename { item, to },
-            What::Column { table, column } => Change::RenameColumn { table, column, to },
-            What::Value { enumeration, value } => Change::RenameValue { enumeration, value, to },
-        }
-    }
-}
-
 /// The word that would be renamed.
 pub(crate) fn prepare_rename(server: &mut Server, params: lsp::PrepareRenameParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
-    renamed(&analysis, offset)?;
+    renamed(&analysis, offset, String::new())?;
     let name = analysis.compiled.index.at(analysis.file, offset).ok_or(Failure::Nothing)?;
     let placeholder = analysis.compiled.sources.text(name.span);
     ok(json!({ "range": server.places(&analysis).range(name.span), "placeholder": placeholder }))
 }
 
-/// What the name at a byte declares, as an item that can be renamed.
-fn renamed(analysis: &Analysis, offset: u32) -> Result<Renamed, Failure> {
+/// The change that renames the definition of the name at a byte, and the path of the file with that definition.
+fn renamed(analysis: &Analysis, offset: u32, to: String) -> Result<(Change, String), Failure> {
     let index = &analysis.compiled.index;
     let refused = |reason: &str| Failure::Refused(reason.to_owned());
     let name = index.at(analysis.file, offset).ok_or_else(|| refused("no name stands here"))?;
@@ -59,11 +36,11 @@ fn renamed(analysis: &Analysis, offset: u32) -> Result<Renamed, Failure> {
     }
     let source = analysis.compiled.sources.get(definition.name.file);
     let path = source.map(|source| source.name.clone()).unwrap_or_default();
-    let what = what(analysis, id).ok_or_else(|| refused("this name cannot be changed here"))?;
-    Ok(Renamed { what, path })
+    let change = change(analysis, id, to);
+    Ok((change.ok_or_else(|| refused("this name cannot be changed here"))?, path))
 }
 
-fn what(analysis: &Analysis, id: DefinitionId) -> Option<What> {
+fn change(analysis: &Analysis, id: DefinitionId, to: String) -> Option<Change> {
     let (index, sources) = (&analysis.compiled.index, &analysis.compiled.sources);
     let definition = index.definition(id);
     let Span { file, start, .. } = definition.name;
@@ -73,8 +50,8 @@ fn what(analysis: &Analysis, id: DefinitionId) -> Option<What> {
             let owner = text(index.definition(definition.owner?).name);
             let name = text(definition.name);
             return Some(match definition.kind {
-                DefinitionKind::Column => What::Column { table: owner, column: name },
-                _ => What::Value { enumeration: owner, value: name },
+                DefinitionKind::Column => Change::RenameColumn { table: owner, column: name, to },
+                _ => Change::RenameValue { enumeration: owner, value: name, to },
             });
         }
         DefinitionKind::Plan
@@ -85,14 +62,13 @@ fn what(analysis: &Analysis, id: DefinitionId) -> Option<What> {
         _ => return None,
     }
     let found = analysis.compiled.outline.identity_at(file, start)?;
-    (found.part == Part::Whole).then_some(What::Item(found.item))
+    (found.part == Part::Whole).then_some(Change::Rename { item: found.item, to })
 }
 
 /// Gives something another name, in all plan files that the client works on and in the positions.
 pub(crate) fn rename(server: &mut Server, params: lsp::RenameParams) -> Answer {
     let (analysis, offset) = server.at(&params.text_document_position_params)?;
-    let Renamed { what, path } = renamed(&analysis, offset)?;
-    let change = what.renamed(params.new_name);
+    let (change, path) = renamed(&analysis, offset, params.new_name)?;
     let files = server.sources(&analysis, &path, std::slice::from_ref(&change));
     let home = files.iter().position(|file| file.name == path);
     let home = home.ok_or_else(|| Failure::Refused("its file cannot be read".to_owned()))?;

@@ -36,15 +36,13 @@ pub(crate) fn folding(server: &mut Server, params: lsp::FoldingRangeParams) -> A
         let last = if fold.kind == FoldKind::Body { end.line.saturating_sub(1) } else { end.line };
         (last > start.line).then_some(lsp::FoldingRange {
             start_line: start.line,
-            start_character: None,
             end_line: last,
-            end_character: None,
             kind: match fold.kind {
                 FoldKind::Body => None,
                 FoldKind::Comment => Some(lsp::FoldingRangeKind::Comment),
                 FoldKind::Uses => Some(lsp::FoldingRangeKind::Imports),
             },
-            collapsed_text: None,
+            ..lsp::FoldingRange::default()
         })
     };
     ok(folds(&view).iter().filter_map(range).collect::<Vec<_>>())
