@@ -224,9 +224,17 @@ fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunErr
         help: error.help,
     };
     let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong)?);
-    let bytes = read_file(&picture, LONGEST_PICTURE)
-        .map_err(RunError::file("cannot read the map's picture", &picture))?;
+    let bytes =
+        read_file(&picture, LONGEST_PICTURE).map_err(|error| no_picture(&picture, path, error))?;
     robot.text_of_map(&stem(path), &yaml, &bytes).map_err(wrong)
+}
+
+/// A picture that cannot be read, as an error of the map that names it.
+fn no_picture(picture: &Path, map: &Path, error: std::io::Error) -> RunError {
+    let message = format!("cannot read the map's picture '{}': {error}", picture.display());
+    let help =
+        format!("check 'image' in '{}'; its path begins in the folder of that file", map.display());
+    RunError::Missing { message, help }
 }
 
 /// The world of a text, which `path` is called in errors; it has a `name` where the text has none.
@@ -316,13 +324,15 @@ mod tests {
         assert_eq!(typed(&room), World::random(7));
         let folder = tempfile::tempdir().unwrap();
         let yaml = folder.path().join("hall.yaml");
-        let text =
-            "image: hall.pgm\nresolution: 1\norigin: [-1.5, -1.5, 0]\noccupied_thresh: 0.6\n";
+        let text = "image: hall.pgm\nresolution: 1\norigin: [-1.5, -1.5, 0]\noccupied_thresh: 0.6\nfree_thresh: 0.2\nnegate: 0\n";
         fs::write(&yaml, text).unwrap();
         let missing = find(Some(&yaml), Path::new("plan.afp"), &kind::<Simulation>())
             .unwrap_err()
             .to_string();
-        assert!(missing.contains("hall.pgm"), "{missing}");
+        assert!(
+            missing.contains("hall.pgm") && missing.contains("the folder of that file"),
+            "{missing}"
+        );
         fs::write(folder.path().join("hall.pgm"), "P2 4 4 1\n0 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1")
             .unwrap();
         let map = find(Some(&yaml), Path::new("plan.afp"), &kind::<Simulation>()).unwrap();

@@ -9,13 +9,17 @@ pub(crate) mod signals;
 mod tests;
 
 use afp_core::devices::SignalId;
-use afp_core::trace::{self, Author, ComponentId, Ending, Names, Record, TraceEntryId};
+use afp_core::trace::{self, Author, ComponentId, ComponentKind, Ending};
+use afp_core::trace::{Names, Record, TraceEntryId};
 use afp_core::{Instant, Value, ValueOf, ValueRef};
-use afp_dsl::scenario::{Cause, Claim, EndCause, Expectation, Outcome, Scenario, Subject};
+use afp_dsl::scenario::{
+    Cause, Claim, EndCause, Expectation, Operand, Outcome, Scenario, Subject, Wanted,
+};
 use afp_dsl::unfold::{Goal, Place, places};
 
 use afp_session::{Datum, Holder, SampleRef};
 use afp_syntax::source::Span;
+use afp_types::{Measured, Quantity};
 
 use expected::Expected;
 use hits::Hits;
@@ -37,6 +41,8 @@ pub(crate) struct Watch<'a> {
     /// What the edge out of the outermost plan belongs to.
     last: Option<Cause>,
     expected: Vec<Expected<'a>>,
+    /// Whether a line expects that the plan ends in `Error`.
+    expects_error: bool,
     pub(crate) moments: Moments<'a>,
     pub(crate) hits: Hits,
 }
@@ -115,6 +121,7 @@ impl<'a> Watch<'a> {
             },
             hits: Hits::new(&scenario.graph),
             expected: scenario.expectations.iter().map(Expected::new).collect(),
+            expects_error: scenario.expectations.iter().any(|line| expects_error(line, names)),
             moments: Moments::new(&scenario.moments),
             scenario,
             since: vec![None; places.len()],
@@ -225,16 +232,17 @@ impl<'a> Watch<'a> {
         broken
     }
 
-    /// A plan that ends in `Error` without anybody expecting it to end.
+    /// A plan that ends in `Error` although no expectation names that.
     fn unexpected_error(&self, end: u64) -> Option<Broken> {
-        let expected = |each: &Expectation| matches!(each.claim, Claim::End(_));
         let Some(ending @ Ending::Error(_)) = self.state.ending else { return None };
-        let told = self.scenario.expectations.iter().any(expected);
-        (!told).then(|| Broken {
-            text: "(a plan must not end in Error unless an end is expected)".to_owned(),
+        (!self.expects_error).then(|| Broken {
+            text: "(a plan that ends in Error fails its scenario)".to_owned(),
             span: self.scenario.span,
             at: Instant::from_nanos(self.hits.ended.unwrap_or(end)),
-            why: format!("the plan ended in {}", self.state.word(ending)),
+            why: format!(
+                "the plan ended in {}; if it must, write 'expect end by Error'",
+                self.state.word(ending)
+            ),
         })
     }
 
@@ -363,18 +371,41 @@ impl State {
         }
     }
 
-    /// The same for people; none where there is nothing to tell.
-    fn shown(&self, subject: &Subject) -> Option<String> {
+    /// The same for what something is compared with.
+    fn operand(&self, operand: &Operand) -> Option<Option<Held>> {
+        match operand {
+            Operand::Value(value) => Some(held(value)),
+            Operand::Subject(subject) => self.held(subject),
+        }
+    }
+
+    /// The same for people, so that it does not read like another value; none where there is nothing to tell.
+    fn shown(&self, subject: &Subject, other: Option<&Held>) -> Option<String> {
         match subject {
-            Subject::Signal(signal, field) => self.signals.shown(signal, *field),
+            Subject::Signal(signal, field) => self.signals.shown(signal, *field, other),
             Subject::Entry(entry) => {
                 let unit = self.units.get(*entry as usize).map_or("", String::as_str);
                 match self.named.get(*entry as usize)? {
                     Datum::Unset => None,
-                    value => Some(value.in_unit(unit).to_string()),
+                    Datum::Float(number) => Some(apart(*number, unit, other)),
+                    value => Some(value.to_string()),
                 }
             }
         }
+    }
+}
+
+/// A number as people write it; to its last digit if it would read like the other value.
+fn apart(number: f64, unit: &str, other: Option<&Held>) -> String {
+    let misleads = |other: f64| Measured::misleads(number, other, unit);
+    let is_misleading = match other {
+        Some(Held::Float(other)) => misleads(*other),
+        Some(Held::Int(other)) => misleads(*other as f64),
+        _ => false,
+    };
+    match is_misleading {
+        true => Quantity { value: number, unit }.to_string(),
+        false => Measured::new(number, unit).to_string(),
     }
 }
 
@@ -397,6 +428,19 @@ fn cause(component: ComponentId, outcome: trace::Outcome) -> Cause {
 fn fits(wanted: &Cause, by: Cause) -> bool {
     wanted.component == by.component
         && wanted.outcome.is_none_or(|outcome| Some(outcome) == by.outcome)
+}
+
+/// Whether a line expects that the plan ends in `Error`, or by that of an element.
+fn expects_error(line: &Expectation, names: &dyn Names) -> bool {
+    let is_named = match line.claim {
+        Claim::End(Some(EndCause::Error)) => true,
+        Claim::End(Some(EndCause::Cause(Cause { component, outcome }))) => {
+            let kind = names.component(ComponentId(component)).kind;
+            outcome == Some(Outcome::Special) && kind != ComponentKind::Supervisor
+        }
+        _ => false,
+    };
+    is_named && line.wanted != Wanted::Never
 }
 
 /// Whether the plan ended as a scenario says.

@@ -41,6 +41,11 @@ impl<'a> Measured<'a> {
         ((shown.value - value).abs() <= value.abs() * RESIDUE).then_some(shown)
     }
 
+    /// Whether a number reads like another number that it is not: then only [`crate::Quantity`] tells them apart.
+    pub fn misleads(number: f64, other: f64, unit: &str) -> bool {
+        number != other && Measured::new(number, unit) == Measured::new(other, unit)
+    }
+
     /// Zero in the unit of another number that it is read with; any other number as it is.
     pub fn beside(self, other: Self) -> Self {
         match self.value == 0.0 {

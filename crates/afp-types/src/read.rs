@@ -26,9 +26,11 @@ pub struct Quantity<'a> {
 
 impl fmt::Display for Quantity<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Both zeros read the same.
+        let value = self.value + 0.0;
         match self.unit {
-            "" => write!(f, "{}", self.value),
-            unit => write!(f, "{} {unit}", self.value),
+            "" => write!(f, "{value}"),
+            unit => write!(f, "{value} {unit}"),
         }
     }
 }

@@ -173,7 +173,7 @@ impl<T, C, O> ValueOf<T, C, O> {
             ValueOf::Unset => f.write_str("unset"),
             ValueOf::Bool(value) => write!(f, "{value}"),
             ValueOf::Int(value) => write!(f, "{value}"),
-            ValueOf::Float(value) => write!(f, "{value}"),
+            ValueOf::Float(value) => write!(f, "{}", value + 0.0),
             ValueOf::Text(value) => write!(f, "{:?}", value.as_ref()),
             ValueOf::Choice(value) => choice(value, f),
             ValueOf::Object(value) => object(value, f),

@@ -188,12 +188,11 @@ impl<'a> Shown<'a> {
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Shown { value, unit, range } = *self;
-        let shown = Measured::new(value, unit);
-        let misleads = |bound: f64| bound != value && Measured::new(bound, unit) == shown;
+        let misleads = |bound| Measured::misleads(value, bound, unit);
         if range.is_some_and(|(least, greatest)| misleads(least) || misleads(greatest)) {
             Quantity { value, unit }.fmt(f)
         } else {
-            shown.fmt(f)
+            Measured::new(value, unit).fmt(f)
         }
     }
 }

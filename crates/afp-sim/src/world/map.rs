@@ -10,7 +10,7 @@ mod settings;
 use super::{FARTHEST, World, WorldError};
 use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
 use boxes::{Cells, Rectangle};
-use picture::Grey;
+use picture::Grid;
 use settings::{Cell, Settings};
 use std::fmt::Write;
 
@@ -37,18 +37,19 @@ impl World {
     /// cells or no place for the robot.
     pub fn map_text(name: &str, yaml: &str, picture: &[u8]) -> Result<String, WorldError> {
         let settings = Settings::read(yaml)?;
-        let grey = picture::read(picture).map_err(|message| WorldError::new(None, message))?;
-        if !is_near(&settings, [grey.width, grey.height].map(|cells| cells as f64)) {
+        let known = picture::read(picture, |pixel| settings.cell(pixel));
+        let known = known.map_err(|message| WorldError::new(None, message))?;
+        if !is_near(&settings, [known.width, known.height].map(|cells| cells as f64)) {
             let message = format!("the map reaches farther than {FARTHEST} m");
             return Err(WorldError::new(None, message));
         }
-        let cells = Cells::new(&grey, |value| settings.is_wall(value));
+        let cells = Cells::new(&known, |cell| settings.is_wall(cell));
         if cells.is_empty() {
             let message =
                 "no cell of the map is occupied: look at 'mode', 'negate' and 'occupied_thresh'";
             return Err(WorldError::new(None, message));
         }
-        let start = start(&settings, &cells, &grey).ok_or_else(|| {
+        let start = start(&settings, &cells, &known).ok_or_else(|| {
             WorldError::new(None, "the map has no free place that is large enough for the robot")
         })?;
         let boxes = cells.boxes();
@@ -70,14 +71,14 @@ fn is_near(settings: &Settings, [width, height]: [f64; 2]) -> bool {
 
 /// The middle of the cell nearest to the origin whose surroundings are not occupied: of one that is known to be free and
 /// cannot be reached from beyond the map, else of one that is known to be free, else of any.
-fn start(settings: &Settings, cells: &Cells, grey: &Grey) -> Option<[f64; 2]> {
+fn start(settings: &Settings, cells: &Cells, known: &Grid<Cell>) -> Option<[f64; 2]> {
     let radius = libm::hypot(HALF_LENGTH, HALF_WIDTH) + ROOM;
     let reach = libm::ceil(radius / settings.resolution) as usize;
     let far = |at: [f64; 2]| at[0] * at[0] + at[1] * at[1];
     let outside = cells.outside();
     let rank = |row: usize, column: usize| {
         let at = row * cells.width + column;
-        let free = grey.values.get(at).is_some_and(|value| settings.cell(*value) == Cell::Free);
+        let free = known.values.get(at) == Some(&Cell::Free);
         let inside = outside.get(at) == Some(&false);
         u8::from(!free) + u8::from(!(free && inside))
     };

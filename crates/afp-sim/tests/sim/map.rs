@@ -92,11 +92,16 @@ fn what_is_wrong_with_a_map_is_said() {
             YAML.replace("trinary", "5"),
             "line 2, column 1: mode: is to be 'trinary' or 'scale' or 'raw'",
         ),
-        (YAML.replace("negate: 0", "negate: 2"), "line 5, column 1: negate: is to be 0 or 1"),
+        (YAML.replace("negate: 0", "negate: some"), "line 5, column 1: negate: is to be 0 or 1"),
+        (YAML.replace("[-1.0,", "[a, -1.0,"), "line 4, column 1: origin: is to be three"),
         (YAML.replace("0.65", "1.5"), "occupied_thresh: is not within 0 and 1"),
         (YAML.replace("0.196", "0.7"), "free_thresh: is more than 'occupied_thresh'"),
         (YAML.replace("0.65", "1.0"), "no cell of the map is occupied"),
-        (YAML.replace("image: room.pgm\n", ""), "image: is to name a picture"),
+        (YAML.replace("image: room.pgm", "image: ''"), "line 1, column 1: image: is to name a"),
+        (
+            YAML.replace("image: room.pgm", "images: a"),
+            "image: is to name a picture, and is missing",
+        ),
         (YAML.replace("resolution: 0.1", "resolution: 0.01"), "no free place"),
         (YAML.replace("[-1.0", "[998"), "the map reaches farther than 1000 m"),
         ("a: [".to_owned(), "line 1, column "),
@@ -155,6 +160,43 @@ fn each_mode_has_its_walls_and_unknown_cells_are_what_the_map_says() {
     ];
     for (settings, greys, expected) in cases {
         assert_eq!(walls(settings, greys), expected, "{settings:?}");
+    }
+}
+
+#[test]
+fn every_key_but_the_mode_must_be_there() {
+    for line in YAML.lines().filter(|line| !line.starts_with("mode")) {
+        let (key, _) = line.split_once(':').unwrap();
+        let without = YAML.replace(&format!("{line}\n"), "");
+        let message = placed(&without, &World::map_text("m", &without, &room()).unwrap_err());
+        assert!(message.starts_with(&format!("line 1, column 1: {key}: is to")), "{message}");
+        assert!(message.contains(", and is missing"), "{message}");
+    }
+    // Words and quotes as other readers of YAML take them.
+    let words = YAML.replace("negate: 0", "negate: no").replace("0.65", "'0.65'");
+    let words = words.replace("mode: trinary", "\"mode\" : Trinary");
+    assert_eq!(World::map_text("m", &words, &room()), World::map_text("m", YAML, &room()));
+}
+
+#[test]
+fn a_png_may_say_how_opaque_its_cells_are() {
+    // Black walls around floor; a black cell that is clear, and a dark one that is opaque.
+    let cells = room().split_off(room().len() - 40 * 50);
+    let mut pixels: Vec<[u8; 2]> = cells.iter().map(|grey| [*grey, 255]).collect();
+    (pixels[25 * 40 + 5], pixels[25 * 40 + 9]) = ([0, 0], [80, 255]);
+    let mut picture = Vec::new();
+    let mut encoder = png::Encoder::new(&mut picture, 40, 50);
+    encoder.set_color(png::ColorType::GrayscaleAlpha);
+    encoder.write_header().unwrap().write_image_data(pixels.as_flattened()).unwrap();
+    for (mode, unknown, count) in [
+        ("trinary", "free", 5),
+        ("trinary", "walls", 6),
+        ("scale", "free", 5),
+        ("scale", "walls", 6),
+    ] {
+        let yaml = format!("{}unknown: {unknown}\n", YAML.replace("trinary", mode));
+        let world = World::parse(&World::map_text("m", &yaml, &picture).unwrap()).unwrap();
+        assert_eq!(world.obstacles.len(), count, "{mode} {unknown}");
     }
 }
 

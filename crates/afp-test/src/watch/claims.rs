@@ -1,9 +1,9 @@
 //! Whether a claim of a scenario is true of an occurrence or a state.
 
 use afp_core::trace::{Author, ComponentId};
-use afp_dsl::scenario::{Claim, Operand};
+use afp_dsl::scenario::Claim;
 
-use super::{Occurrence, State, ends, fits, held};
+use super::{Occurrence, State, ends, fits};
 
 /// Whether a claim is about this.
 pub(super) fn happens(claim: &Claim, occurrence: &Occurrence) -> bool {
@@ -29,12 +29,7 @@ pub(super) fn holds(claim: &Claim, state: &State) -> Option<bool> {
         Claim::Active(id) => Some(state.active.get(*id as usize) == Some(&true)),
         Claim::Running => Some(state.ending.is_none()),
         Claim::Compare { left, comparison, right } => {
-            let left = state.held(left)?;
-            let right = match right {
-                Operand::Value(value) => held(value),
-                Operand::Subject(other) => state.held(other)?,
-            };
-            let both = left.zip(right);
+            let both = state.held(left)?.zip(state.operand(right)?);
             Some(both.is_some_and(|(left, right)| comparison.holds(&left, &right)))
         }
         Claim::Transition { .. }

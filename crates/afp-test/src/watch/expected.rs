@@ -91,15 +91,13 @@ impl<'a> Expected<'a> {
         state: &State,
         moments: &Moments<'_>,
     ) -> Option<Broken> {
-        // The last state holds to the end of the scenario, even if the run was cut short.
+        // The last state holds to the end of the run.
         self.pass(u64::MAX, moments);
         let expectation = self.expectation;
         // That its moment has not come is told of the moment.
         let window = self.window(moments)?;
         let unsaid = self.now.is_none() && is_about_signal(&expectation.claim);
-        // How the robot was left stays so, which is all that 'always' says of that time.
-        let stays = self.outlives_the_run() || expectation.wanted == Wanted::Always;
-        let never_came = window.from > end && !stays;
+        let never_came = window.from > end;
         // That it happened at another time says more.
         let elsewhere = expectation.wanted == Wanted::Once && self.outside.is_some();
         let (at, why) = match expectation.wanted {
@@ -121,15 +119,6 @@ impl<'a> Expected<'a> {
         };
         let (text, span) = (expectation.text.clone(), expectation.span);
         Some(Broken { text, span, at: Instant::from_nanos(at), why })
-    }
-
-    /// Whether the claim says something of the time when the run is over: how the plan was left stays so.
-    fn outlives_the_run(&self) -> bool {
-        match &self.expectation.claim {
-            Claim::Active(_) | Claim::Running => true,
-            claim @ Claim::Compare { .. } => !is_about_signal(claim),
-            _ => false,
-        }
     }
 
     /// How often it happened.
@@ -167,7 +156,8 @@ impl<'a> Expected<'a> {
 
 /// Why a comparison broke: what both sides are in the end.
 fn compared(left: &Subject, right: &Operand, state: &State) -> String {
-    let shown = match (left, state.shown(left)) {
+    let (is, other) = (state.held(left).flatten(), state.operand(right).flatten());
+    let shown = match (left, state.shown(left, other.as_ref())) {
         (Subject::Entry(_), None) => return "it was never written".to_owned(),
         (Subject::Signal(signal, _), None) => {
             return format!("the robot never said what '{signal}' is");
@@ -179,7 +169,7 @@ fn compared(left: &Subject, right: &Operand, state: &State) -> String {
         Operand::Value(Value::Bool(_)) => "it was not so".to_owned(),
         Operand::Value(_) => format!("it was otherwise; in the end it is {shown}"),
         Operand::Subject(other) => {
-            let other = state.shown(other).unwrap_or_else(|| "nothing".to_owned());
+            let other = state.shown(other, is.as_ref()).unwrap_or_else(|| "nothing".to_owned());
             format!("it was otherwise; in the end it is {shown}, compared with {other}")
         }
     }

@@ -4,7 +4,7 @@ use afp_core::devices::{DeviceRow, SignalId, SignalType, find_signal, signals};
 use afp_dsl::scenario::{Claim, Field, Operand, Part, Scenario, Subject};
 use afp_session::SampleRef;
 
-use super::Held;
+use super::{Held, apart};
 
 /// The signals that expectations and moments are about, with what they say.
 #[derive(Default)]
@@ -89,14 +89,21 @@ impl Signals {
         }
     }
 
-    /// What a signal says in the end, for people; `None` where it never said anything.
-    pub(super) fn shown(&self, signal: &Part, field: Option<Field>) -> Option<String> {
+    /// What a signal says in the end, for people, so that it does not read like another value; `None` where it never said
+    /// anything.
+    pub(super) fn shown(
+        &self,
+        signal: &Part,
+        field: Option<Field>,
+        other: Option<&Held>,
+    ) -> Option<String> {
         let each = self.find(signal, field)?;
         Some(match &each.said {
             Said::Nothing => return None,
             Said::Empty => "nothing".to_owned(),
             Said::Value(Held::Text(text)) => format!("\"{text}\""),
-            Said::Value(value) => value.in_unit(each.unit).to_string(),
+            Said::Value(Held::Float(number)) => apart(*number, each.unit, other),
+            Said::Value(value) => value.to_string(),
         })
     }
 

@@ -19,10 +19,9 @@ fn a_plan_may_be_expected_to_fail() {
     let verdict = |lines: &str| run(FAILS, &format!("{FREE}{lines}"));
     let pressed = "at 500 ms: press touch until 5 s";
     for lines in [
-        format!("expect go -> fail by touch expect end by go.touch {pressed}"),
+        format!("expect go -> fail by touch expect end by go.touch expect end by Error {pressed}"),
         format!("expect end by Error {pressed}"),
-        "expect go -> fail by ForwardSuccessful expect end by go.ForwardSuccessful until 5 s"
-            .into(),
+        "expect end by go.ForwardSuccessful expect end by Error until 5 s".into(),
     ] {
         let verdict = verdict(&lines);
         assert!(verdict.passed(), "{lines}: {}", verdict.report());

@@ -1,6 +1,6 @@
 //! Occupied cells gathered into boxes.
 
-use super::picture::Grey;
+use super::picture::Grid;
 use std::ops::Range;
 
 /// Which cells are occupied; row 0 is the uppermost.
@@ -22,8 +22,8 @@ pub(super) struct Rectangle {
 }
 
 impl Cells {
-    pub(super) fn new(grey: &Grey, is_occupied: impl Fn(u8) -> bool) -> Self {
-        let Grey { width, height, ref values } = *grey;
+    pub(super) fn new<T: Copy>(grid: &Grid<T>, is_occupied: impl Fn(T) -> bool) -> Self {
+        let Grid { width, height, ref values } = *grid;
         let occupied: Vec<bool> = values.iter().map(|value| is_occupied(*value)).collect();
         let mut sums = vec![0; (width + 1) * (height + 1)];
         for row in 0..height {
@@ -160,7 +160,7 @@ mod tests {
 
     fn cells(rows: &[&str]) -> Cells {
         let values = rows.iter().flat_map(|row| row.bytes()).collect();
-        Cells::new(&Grey { width: rows[0].len(), height: rows.len(), values }, |v| v == b'#')
+        Cells::new(&Grid { width: rows[0].len(), height: rows.len(), values }, |v| v == b'#')
     }
 
     #[test]
@@ -197,7 +197,7 @@ mod tests {
             (state >> 33) % 10 < tenths
         };
         let values = (0..23 * 17).map(|_| if occupied() { b'#' } else { b'.' }).collect();
-        Cells::new(&Grey { width: 23, height: 17, values }, |v| v == b'#')
+        Cells::new(&Grid { width: 23, height: 17, values }, |v| v == b'#')
     }
 
     #[test]
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn an_open_map_keeps_few_runs_waiting() {
         let values = vec![b'.'; 1000 * 1000];
-        let cells = Cells::new(&Grey { width: 1000, height: 1000, values }, |v| v == b'#');
+        let cells = Cells::new(&Grid { width: 1000, height: 1000, values }, |v| v == b'#');
         let flood = cells.flood();
         assert!(flood.reached.iter().all(|reached| *reached));
         assert!(flood.waiting.capacity() <= 2048, "{}", flood.waiting.capacity());

@@ -5,24 +5,33 @@ use std::io::Cursor;
 /// A map has at most this many cells.
 const MOST: usize = 1 << 26;
 
-/// Grey values row by row from the top, 0 black to 255 white.
-pub(super) struct Grey {
+/// A value for each cell, row by row from the top.
+pub(super) struct Grid<T> {
     pub(super) width: usize,
     pub(super) height: usize,
-    pub(super) values: Vec<u8>,
+    pub(super) values: Vec<T>,
 }
 
-/// Reads a picture; the message says what is wrong with it.
-pub(super) fn read(bytes: &[u8]) -> Result<Grey, String> {
+/// A cell of a picture, from 0 black to 65535 white.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pixel {
+    /// Red, green and blue.
+    pub(super) colors: [u16; 3],
+    /// How opaque it is, in a picture that says so.
+    pub(super) alpha: Option<u16>,
+}
+
+/// Reads a picture, each of its pixels with `read`; the message says what is wrong with it.
+pub(super) fn read<T>(bytes: &[u8], read: impl Fn(Pixel) -> T) -> Result<Grid<T>, String> {
     match bytes {
-        [b'P', b'5', ..] => pgm(bytes, true),
-        [b'P', b'2', ..] => pgm(bytes, false),
-        [0x89, b'P', b'N', b'G', ..] => png(bytes),
+        [b'P', b'5', ..] => pgm(bytes, true, read),
+        [b'P', b'2', ..] => pgm(bytes, false, read),
+        [0x89, b'P', b'N', b'G', ..] => png(bytes, read),
         _ => Err("the map's picture is neither PGM nor PNG".to_owned()),
     }
 }
 
-fn pgm(bytes: &[u8], binary: bool) -> Result<Grey, String> {
+fn pgm<T>(bytes: &[u8], binary: bool, read: impl Fn(Pixel) -> T) -> Result<Grid<T>, String> {
     let mut numbers = Numbers { bytes, at: 2 };
     let mut next = || numbers.next().ok_or("the map's PGM ends too early");
     let (width, height, most) = (next()?, next()?, next()?);
@@ -30,8 +39,11 @@ fn pgm(bytes: &[u8], binary: bool) -> Result<Grey, String> {
     if !(1..=65535).contains(&most) || cells == 0 {
         return Err(format!("a PGM of {width} by {height} with values up to {most} is no map"));
     }
-    let scale = |value: usize| (value.min(most) * 255 / most) as u8;
-    let values: Vec<u8> = if binary {
+    let scale = |value: usize| {
+        let grey = (value.min(most) * 65535 + most / 2) / most;
+        read(Pixel { colors: [grey as u16; 3], alpha: None })
+    };
+    let values: Vec<T> = if binary {
         let data = bytes.get(numbers.at + 1..).unwrap_or_default();
         // Above 255 a value has two bytes, the higher one first.
         let size = if most > 255 { 2 } else { 1 };
@@ -43,7 +55,7 @@ fn pgm(bytes: &[u8], binary: bool) -> Result<Grey, String> {
     if values.len() < cells {
         return Err("the map's PGM ends too early".to_owned());
     }
-    Ok(Grey { width, height, values })
+    Ok(Grid { width, height, values })
 }
 
 /// How many cells a map of that size has, unless those are too many.
@@ -79,51 +91,68 @@ impl Numbers<'_> {
     }
 }
 
-fn png(bytes: &[u8]) -> Result<Grey, String> {
+fn png<T>(bytes: &[u8], read: impl Fn(Pixel) -> T) -> Result<Grid<T>, String> {
     let wrong = |why: png::DecodingError| format!("the map's PNG is broken: {why}");
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
-    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(wrong)?;
     let (width, height) = reader.info().size();
     let size = cells(width as usize, height as usize).and(reader.output_buffer_size());
     let mut data = vec![0; size.ok_or("the map's PNG is too large")?];
     let info = reader.next_frame(&mut data).map_err(wrong)?;
     let samples = info.color_type.samples();
-    // Colours count by their mean; what is transparent counts like what is not.
-    let colors = if samples >= 3 { 3 } else { 1 };
-    let mean = |pixel: &[u8]| {
-        (pixel[..colors].iter().map(|part| usize::from(*part)).sum::<usize>() / colors) as u8
+    let size = if info.bit_depth == png::BitDepth::Sixteen { 2 } else { 1 };
+    let sample = |bytes: &[u8]| match bytes {
+        [high, low] => u16::from_be_bytes([*high, *low]),
+        bytes => u16::from(bytes.first().copied().unwrap_or_default()) * 257,
     };
-    let values = data[..info.buffer_size()].chunks_exact(samples).map(mean).collect();
-    Ok(Grey { width: info.width as usize, height: info.height as usize, values })
+    let pixel = |bytes: &[u8]| {
+        let mut all = bytes.chunks(size).map(sample);
+        let mut next = || all.next().unwrap_or_default();
+        let colors = if samples >= 3 { [next(), next(), next()] } else { [next(); 3] };
+        read(Pixel { colors, alpha: samples.is_multiple_of(2).then(next) })
+    };
+    let values = data[..info.buffer_size()].chunks_exact(samples * size).map(pixel).collect();
+    Ok(Grid { width: info.width as usize, height: info.height as usize, values })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The greys of a picture, and how opaque each is.
+    fn read(bytes: &[u8]) -> Result<Grid<(u16, Option<u16>)>, String> {
+        super::read(bytes, |pixel| (pixel.colors[0], pixel.alpha))
+    }
+
     #[test]
     fn plain_and_binary_pgm_are_the_same() {
         let plain = read(b"P2 # made by hand\n3 2\n# grey\n100\n0 50 100 100 50 0\n").unwrap();
         let binary = read(b"P5\n3 2\n100\n\x00\x32\x64\x64\x32\x00").unwrap();
-        assert_eq!(plain.values, [0, 127, 255, 255, 127, 0]);
+        let greys = [0, 32768, 65535, 65535, 32768, 0].map(|grey| (grey, None));
+        assert_eq!(plain.values, greys);
         assert_eq!((plain.width, plain.height), (3, 2));
         assert_eq!(plain.values, binary.values);
         let wide = read(b"P5\n2 1\n65535\n\xff\xff\x7f\xff").unwrap();
-        assert_eq!(wide.values, [255, 127]);
+        assert_eq!(wide.values, [(65535, None), (0x7fff, None)]);
     }
 
     #[test]
     fn a_png_is_read_in_grey_and_in_colour() {
-        for (color, data) in [
-            (png::ColorType::Grayscale, &[0u8, 255][..]),
-            (png::ColorType::Rgba, &[0, 0, 0, 255, 255, 255, 255, 0]),
+        use png::BitDepth::{Eight, Sixteen};
+        use png::ColorType::{Grayscale, GrayscaleAlpha, Rgba};
+        for (color, depth, data, pixels) in [
+            (Grayscale, Eight, &[1u8, 255][..], [(257, None), (65535, None)]),
+            (Grayscale, Sixteen, &[1, 2, 3, 4], [(0x0102, None), (0x0304, None)]),
+            (GrayscaleAlpha, Eight, &[0, 255, 1, 0], [(0, Some(65535)), (257, Some(0))]),
+            (Rgba, Eight, &[2, 0, 0, 1, 1, 0, 0, 0], [(514, Some(257)), (257, Some(0))]),
         ] {
             let mut file = Vec::new();
             let mut encoder = png::Encoder::new(&mut file, 2, 1);
             encoder.set_color(color);
+            encoder.set_depth(depth);
             encoder.write_header().unwrap().write_image_data(data).unwrap();
-            assert_eq!(read(&file).unwrap().values, [0, 255]);
+            assert_eq!(read(&file).unwrap().values, pixels);
         }
     }
 

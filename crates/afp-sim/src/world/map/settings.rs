@@ -1,12 +1,10 @@
-//! What a map's `.yaml` file says.
+//! What a map's `.yaml` file says, and how it reads the cells of the picture: both as nav2's `map_server` does.
 
 use std::ops::Range;
 
+use super::picture::Pixel;
 use crate::world::WorldError;
 use saphyr::{LoadableYamlNode, Yaml};
-
-/// What is free where a map does not say from where on, as `map_server` has it.
-const FREE: f64 = 0.196;
 
 /// Where and how large the cells are, and which of them are occupied.
 #[derive(Debug, PartialEq)]
@@ -35,15 +33,18 @@ pub(super) struct Settings {
 pub(super) enum Cell {
     Occupied,
     Free,
+    /// Between the two thresholds in mode `scale`: a share that makes no wall.
+    Partly,
     Unknown,
 }
 
 /// How greys are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mode {
-    /// By how dark they are; what is between the thresholds is unknown. So in mode `scale`, where it is a share that
-    /// makes no wall.
-    Dark,
+    /// By how dark they are, with how opaque they are as a fourth colour; between the thresholds a cell is unknown.
+    Trinary,
+    /// By how dark they are; a cell that is not opaque is unknown.
+    Scale,
     /// A value up to 100 says how occupied the cell is in percent, a larger one that nobody knows.
     Raw,
 }
@@ -54,10 +55,10 @@ impl Settings {
             WorldError::new(Some(empty(byte(yaml, error.marker().index()))), error.info())
         })?;
         let keys = Keys { text: yaml, map: documents.first() };
-        let image = keys.get("image").and_then(Yaml::as_str);
+        let image = keys.get("image").and_then(Yaml::as_str).filter(|image| !image.is_empty());
         let image = image.ok_or_else(|| keys.error("image", "is to name a picture"))?.to_owned();
-        let modes = [("trinary", Mode::Dark), ("scale", Mode::Dark), ("raw", Mode::Raw)];
-        let mode = keys.one_of("mode", &modes)?.unwrap_or(Mode::Dark);
+        let modes = [("trinary", Mode::Trinary), ("scale", Mode::Scale), ("raw", Mode::Raw)];
+        let mode = keys.one_of("mode", &modes)?.unwrap_or(Mode::Trinary);
         let unknown_is_wall =
             keys.one_of("unknown", &[("free", false), ("walls", true)])?.unwrap_or(false);
         let resolution = keys.number("resolution")?;
@@ -67,18 +68,9 @@ impl Settings {
         let [x, y, yaw] = keys.origin()?;
         // Once for all who ask: of many turns each would find another rest.
         let yaw = yaw % core::f64::consts::TAU;
-        let negate = match keys.get("negate") {
-            None => false,
-            Some(value) => value
-                .as_bool()
-                .or_else(|| value.as_integer().filter(|n| (0..=1).contains(n)).map(|n| n == 1))
-                .ok_or_else(|| keys.error("negate", "is to be 0 or 1"))?,
-        };
-        let threshold = keys.share("occupied_thresh")?;
-        let free = match keys.get("free_thresh") {
-            Some(_) => keys.share("free_thresh")?,
-            None => FREE.min(threshold),
-        };
+        let negate = keys.get("negate").and_then(truth);
+        let negate = negate.ok_or_else(|| keys.error("negate", "is to be 0 or 1"))?;
+        let (threshold, free) = (keys.share("occupied_thresh")?, keys.share("free_thresh")?);
         if free > threshold {
             return Err(keys.error("free_thresh", "is more than 'occupied_thresh'"));
         }
@@ -96,27 +88,36 @@ impl Settings {
         })
     }
 
-    /// What is known of a cell of this grey.
-    pub(super) fn cell(&self, grey: u8) -> Cell {
+    /// What is known of a cell that looks so: as nav2's `map_io.cpp` has it.
+    pub(super) fn cell(&self, Pixel { colors, alpha }: Pixel) -> Cell {
+        let counted = alpha.filter(|_| self.mode == Mode::Trinary);
+        let sum = colors.into_iter().chain(counted).map(f64::from).sum::<f64>();
+        let shade = sum / if counted.is_some() { 4.0 } else { 3.0 } / f64::from(u16::MAX);
         let occupied = match self.mode {
-            Mode::Raw if grey > 100 => return Cell::Unknown,
-            Mode::Raw => f64::from(grey) / 100.0,
-            Mode::Dark => f64::from(if self.negate { grey } else { 255 - grey }) / 255.0,
+            Mode::Scale if alpha.is_some_and(|alpha| alpha < u16::MAX) => return Cell::Unknown,
+            Mode::Raw => match libm::round(shade * 255.0) {
+                percent if percent > 100.0 => return Cell::Unknown,
+                percent => percent / 100.0,
+            },
+            Mode::Trinary | Mode::Scale if self.negate => shade,
+            Mode::Trinary | Mode::Scale => 1.0 - shade,
         };
         if occupied > self.threshold {
             Cell::Occupied
         } else if occupied < self.free {
             Cell::Free
+        } else if self.mode == Mode::Scale {
+            Cell::Partly
         } else {
             Cell::Unknown
         }
     }
 
-    /// Whether a cell of this grey is a wall.
-    pub(super) fn is_wall(&self, grey: u8) -> bool {
-        match self.cell(grey) {
+    /// Whether such a cell is a wall.
+    pub(super) fn is_wall(&self, cell: Cell) -> bool {
+        match cell {
             Cell::Occupied => true,
-            Cell::Free => false,
+            Cell::Free | Cell::Partly => false,
             Cell::Unknown => self.unknown_is_wall,
         }
     }
@@ -148,7 +149,8 @@ impl<'a, 'b> Keys<'a, 'b> {
     fn one_of<T: Copy>(&self, key: &str, known: &[(&str, T)]) -> Result<Option<T>, WorldError> {
         let Some(value) = self.get(key) else { return Ok(None) };
         let word = value.as_str();
-        if let Some((_, meant)) = known.iter().find(|(name, _)| Some(*name) == word) {
+        let is_meant = |name: &str| word.is_some_and(|word| word.eq_ignore_ascii_case(name));
+        if let Some((_, meant)) = known.iter().find(|(name, _)| is_meant(name)) {
             return Ok(Some(*meant));
         }
         let names: Vec<_> = known.iter().map(|(name, _)| format!("'{name}'")).collect();
@@ -172,20 +174,28 @@ impl<'a, 'b> Keys<'a, 'b> {
 
     fn origin(&self) -> Result<[f64; 3], WorldError> {
         let values = self.get("origin").and_then(|origin| origin.as_vec());
-        let numbers: Vec<f64> = values.into_iter().flatten().filter_map(number).collect();
-        let wrong = |_| self.error("origin", "is to be three numbers: x, y and yaw");
-        <[f64; 3]>::try_from(numbers).map_err(wrong)
+        let numbers = values.and_then(|all| all.iter().map(number).collect::<Option<Vec<f64>>>());
+        let numbers = numbers.and_then(|all| <[f64; 3]>::try_from(all).ok());
+        numbers.ok_or_else(|| self.error("origin", "is to be three numbers: x, y and yaw"))
     }
 
-    /// An error at the line of a key.
+    /// An error at the line of a key; at the start of the file if the key is missing.
     fn error(&self, key: &str, what: &str) -> WorldError {
         let mut start = 0;
         let mut lines = self.text.split_inclusive('\n').map(|line| {
             start += line.len();
             (start - line.len(), line)
         });
-        let line = lines.find(|(_, line)| line.trim_start().starts_with(key));
-        WorldError::new(line.map(|(start, _)| empty(start)), format!("{key}: {what}"))
+        let is_of_key = |line: &str| {
+            let rest = line.trim_start().trim_start_matches(['"', '\'']).strip_prefix(key);
+            rest.is_some_and(|rest| rest.trim_start_matches(['"', '\'', ' ']).starts_with(':'))
+        };
+        let start = lines.find(|(_, line)| is_of_key(line)).map_or(0, |(start, _)| start);
+        let message = match self.get(key) {
+            Some(_) => format!("{key}: {what}"),
+            None => format!("{key}: {what}, and is missing"),
+        };
+        WorldError::new(Some(empty(start)), message)
     }
 }
 
@@ -198,7 +208,125 @@ fn empty(at: usize) -> Range<usize> {
     at..at
 }
 
+/// A number, in quotes too.
 fn number(value: &Yaml<'_>) -> Option<f64> {
     let whole = value.as_integer().map(|n| n as f64);
-    value.as_floating_point().or(whole).filter(|number| number.is_finite())
+    let quoted = || value.as_str().and_then(|text| text.parse().ok());
+    let number = value.as_floating_point().or(whole).or_else(quoted);
+    number.filter(|number| number.is_finite())
+}
+
+/// A whole number other than 0 is true, and so are the words that YAML has for it.
+fn truth(value: &Yaml<'_>) -> Option<bool> {
+    let word = |text: &str| match text.to_ascii_lowercase().as_str() {
+        "true" | "yes" | "on" | "y" => Some(true),
+        "false" | "no" | "off" | "n" => Some(false),
+        text => text.parse().ok().map(|number: i64| number != 0),
+    };
+    let number = value.as_integer().map(|number| number != 0);
+    value.as_bool().or(number).or_else(|| value.as_str().and_then(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cell::{Free, Occupied, Partly, Unknown};
+    use super::*;
+
+    /// The cells of nav2's `map_io.cpp`: `OCC_GRID_OCCUPIED`, `OCC_GRID_FREE`, shares and `OCC_GRID_UNKNOWN`.
+    #[test]
+    fn cells_are_those_of_nav2() {
+        // Each case: mode and 'negate', greys of 8 bit with how opaque they are, and what they are.
+        let (clear, opaque) = (Some(0), Some(255));
+        let cases: [(&str, u8, &[(u8, Option<u16>, Cell)]); 9] = [
+            (
+                "trinary",
+                0,
+                &[
+                    (255, None, Free),
+                    (206, None, Free),
+                    (205, None, Unknown),
+                    (90, None, Unknown),
+                    (89, None, Occupied),
+                    (0, None, Occupied),
+                ],
+            ),
+            (
+                "trinary",
+                1,
+                &[
+                    (255, None, Occupied),
+                    (166, None, Occupied),
+                    (165, None, Unknown),
+                    (49, None, Free),
+                    (0, None, Free),
+                ],
+            ),
+            // How opaque it is counts as a fourth colour.
+            (
+                "trinary",
+                0,
+                &[
+                    (80, opaque, Unknown),
+                    (34, opaque, Unknown),
+                    (33, opaque, Occupied),
+                    (0, opaque, Occupied),
+                    (189, opaque, Free),
+                    (188, opaque, Unknown),
+                    (255, clear, Unknown),
+                    (119, clear, Unknown),
+                    (118, clear, Occupied),
+                    (255, Some(128), Free),
+                ],
+            ),
+            ("trinary", 1, &[(255, opaque, Occupied), (0, opaque, Unknown), (0, clear, Free)]),
+            (
+                "scale",
+                0,
+                &[
+                    (255, None, Free),
+                    (206, None, Free),
+                    (205, None, Partly),
+                    (90, None, Partly),
+                    (89, None, Occupied),
+                    (0, opaque, Occupied),
+                    (205, opaque, Partly),
+                    (0, clear, Unknown),
+                    (0, Some(254), Unknown),
+                    (255, clear, Unknown),
+                ],
+            ),
+            ("scale", 1, &[(255, opaque, Occupied), (0, opaque, Free), (255, Some(1), Unknown)]),
+            // A percentage, whatever 'negate' and how opaque it is.
+            (
+                "raw",
+                0,
+                &[
+                    (0, None, Free),
+                    (19, None, Free),
+                    (20, None, Unknown),
+                    (65, None, Unknown),
+                    (66, None, Occupied),
+                    (100, None, Occupied),
+                    (101, None, Unknown),
+                    (255, None, Unknown),
+                ],
+            ),
+            ("raw", 1, &[(0, None, Free), (100, None, Occupied), (255, None, Unknown)]),
+            ("raw", 0, &[(0, clear, Free), (100, clear, Occupied), (100, opaque, Occupied)]),
+        ];
+        for (mode, negate, cells) in cases {
+            for mode in [mode.to_owned(), mode.to_uppercase()] {
+                let yaml = format!(
+                    "image: a.png\nmode: {mode}\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: {negate}\n\
+                     occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+                );
+                let settings = Settings::read(&yaml).unwrap();
+                for (grey, alpha, cell) in cells {
+                    let alpha = alpha.map(|alpha: u16| alpha * 257);
+                    let pixel = Pixel { colors: [u16::from(*grey) * 257; 3], alpha };
+                    assert_eq!(settings.cell(pixel), *cell, "{mode} {negate} {grey} {alpha:?}");
+                }
+            }
+        }
+    }
 }
