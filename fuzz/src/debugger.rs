@@ -5,11 +5,11 @@ use std::time::Duration as Wall;
 
 use afp_core::Instant;
 use afp_core::trace::{ComponentId, Outcome};
-use afp_debug::wire::Frames;
 use afp_debug::{Adapter, Host, Launch, LogTarget, Outgoing, Program, Target};
 use afp_dsl::Toolboxes;
 use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
+use afp_output::frames::Frames;
 use afp_session::{Datum, EventKind, NamedComponent, NamedOutcome, RunEvent};
 use afp_syntax::source::Source;
 use serde_json::Value;

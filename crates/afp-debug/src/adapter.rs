@@ -23,6 +23,7 @@ use std::collections::BTreeMap;
 use std::time::Duration as Wall;
 
 use afp_core::Instant;
+use afp_dsl::files::path_of;
 use afp_session::{Drawing, Droppable};
 use afp_token::Token;
 use dapts::event;
@@ -165,7 +166,12 @@ impl<'h> Adapter<'h> {
         self.asker = from;
         self.listen_for_lease(now);
         // Of a key that is there twice the last one counts, whatever is read of the message.
-        let message = serde_json::from_str::<Value>(message);
+        let mut message = serde_json::from_str::<Value>(message);
+        if let Ok(message) = &mut message
+            && self.clients.get(&from).is_some_and(|client| client.names_uris)
+        {
+            clients::rename_sources(message, path_of);
+        }
         let is_answer = message.as_ref().is_ok_and(|it| it["type"] == "response");
         match message.and_then(serde_json::from_value::<dapts::Request>) {
             // What it says does not matter: that it comes does.

@@ -24,7 +24,6 @@ mod state;
 mod target;
 mod text;
 mod watched;
-pub mod wire;
 
 pub use adapter::{Adapter, ClientId, Host, Launch, Outgoing, Surroundings};
 pub use log_target::LogTarget;

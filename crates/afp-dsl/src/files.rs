@@ -3,11 +3,14 @@
 //! The compiler reads nothing itself. Whoever calls it hands over [`Files`]: the [`Disk`], texts that
 //! an editor has not saved yet, or texts that a program carries along.
 
+mod uri;
+
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::PathBuf;
 
 pub use afp_output::{read_text, read_text_file};
+pub use uri::{path_of, uri_of};
 
 /// Where the texts of used plan files come from.
 pub trait Files {

@@ -26,10 +26,41 @@ pub fn a(name: &str) -> String {
 /// ```
 pub fn shell_word(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "._-+=:/,@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
+    // A 'z' shell looks up a word that begins with '='.
+    match !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
         true => word.to_owned(),
         false => format!("'{}'", word.replace('\'', r"'\''")),
     }
+}
+
+/// The name of a file as a shell takes it: with its path if it looks like an option.
+pub fn shell_file(name: &str) -> String {
+    match name.starts_with('-') {
+        true => shell_word(&format!("./{name}")),
+        false => shell_word(name),
+    }
+}
+
+/// The name and the value of a setting, such as `distance=35cm`; none without a name. Spaces around both do not count, and the value
+/// may be in quotes.
+pub fn read_setting(text: &str) -> Option<(&str, &str)> {
+    let (name, value) = text.split_once('=')?;
+    let name = Some(name.trim()).filter(|name| !name.is_empty())?;
+    Some((name, unquoted(value.trim())))
+}
+
+/// A setting as [`read_setting`] reads it, and a shell takes it: in quotes if some of the value would not count.
+pub fn shell_setting(name: &str, value: &str) -> String {
+    let plain = format!("{name}={value}");
+    match read_setting(&plain) == Some((name, value)) && !value.is_empty() {
+        true => shell_word(&plain),
+        false => shell_word(&format!("{name}=\"{value}\"")),
+    }
+}
+
+/// A value without the quotes that it may be in.
+pub fn unquoted(value: &str) -> &str {
+    value.strip_prefix('"').and_then(|it| it.strip_suffix('"')).unwrap_or(value)
 }
 
 /// What to write instead of a name that nothing has: the one of `known` that was probably meant, or that there are those.

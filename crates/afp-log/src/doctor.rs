@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use mcap::Summary;
 use mcap::records::{MessageHeader, Record, Statistics};
 
 use crate::error::LogError;
 use crate::read::read_all;
-use crate::scan::{load, scan};
+use crate::scan::{behind, load, scan};
 
 /// Everything that is wrong with a log; empty for a sound one.
 ///
@@ -28,6 +29,19 @@ pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
         (Some(cut), _) => doctor.found.push(cut),
         (None, Err(error)) => doctor.found.push(error.to_string()),
         (None, Ok(())) => doctor.compare(),
+    }
+    doctor.find_index(&bytes);
+    match behind(&bytes) {
+        [] => {}
+        rest if rest.starts_with(mcap::MAGIC) => {
+            doctor
+                .found
+                .push("another log follows its end; readers see only one of both".to_owned());
+        }
+        rest => {
+            let count = rest.len();
+            doctor.found.push(format!("{count} bytes that are not part of it follow its end"));
+        }
     }
     if lost > 0 {
         doctor.found.push(format!("{lost} records were lost while it was written"));
@@ -98,6 +112,20 @@ impl Doctor {
             self.found.push(format!("time goes back on {}", channel.topic));
         }
         channel.last = header.log_time;
+    }
+
+    /// What readers that go by the index would not find.
+    fn find_index(&mut self, bytes: &[u8]) {
+        // That there is no summary, or none that can be read, has been said.
+        let Ok(Some(summary)) = Summary::read(bytes) else { return };
+        let broken = summary.chunk_indexes.iter().filter(|index| {
+            let messages = summary.stream_chunk(bytes, index);
+            messages.is_err() || messages.is_ok_and(|mut all| all.any(|message| message.is_err()))
+        });
+        let count = broken.count();
+        if count > 0 {
+            self.found.push(format!("its index leads to {count} chunks that cannot be read"));
+        }
     }
 
     /// The summary against what the file holds.

@@ -77,10 +77,18 @@ impl LogError {
             LogError::Create { error, .. } if error.kind() == io::ErrorKind::NotFound => {
                 afp_output::ELSEWHERE
             }
+            LogError::Create { error, .. } if is_forbidden(error) => {
+                "name another place with '--log' and '--svg', or write none: '--log none --svg none'"
+            }
             LogError::Create { .. } | LogError::Open { .. } | LogError::Writer => "",
         };
         help.into()
     }
+}
+
+/// Whether nothing can be written to a place.
+fn is_forbidden(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }
 
 impl fmt::Display for LogError {

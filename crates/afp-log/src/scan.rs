@@ -72,6 +72,18 @@ fn walk(
     Ok(())
 }
 
+/// The bytes that follow the end of a log: none where it has no end.
+pub(crate) fn behind(bytes: &[u8]) -> &[u8] {
+    let mut at = mcap::MAGIC.len();
+    while let Some((code, record)) = bytes.get(at..).and_then(record) {
+        at += record.len();
+        if code == op::FOOTER {
+            return bytes.get(at + mcap::MAGIC.len()..).unwrap_or_default();
+        }
+    }
+    &[]
+}
+
 /// Whether the head of an attachment ends inside it: two times, two names, how long it is. What parses it takes that for
 /// granted.
 fn has_head(attachment: &[u8]) -> bool {
@@ -151,10 +163,15 @@ fn chunks(summary: &Summary) -> BTreeMap<usize, usize> {
 /// The first record of some bytes with its code, which is a chunk of that length where one is; none where its head is
 /// damaged or its end is missing.
 fn framed<'a>(bytes: &'a [u8], chunk: Option<&usize>) -> Option<(u8, &'a [u8])> {
-    let (head, _) = bytes.split_first_chunk::<9>()?;
-    let (code, length) = (head[0], u64::from_le_bytes(head[1..].try_into().ok()?));
-    let whole = bytes.get(..usize::try_from(length).ok()?.checked_add(head.len())?)?;
+    let (code, whole) = record(bytes)?;
     let is_known = (op::HEADER..=op::DATA_END).contains(&code) || code >= 0x80;
     let fits = chunk.is_none_or(|length| code == op::CHUNK && *length == whole.len());
     (is_known && fits).then_some((code, whole))
+}
+
+/// The first record of some bytes with its code; none where its end is missing.
+fn record(bytes: &[u8]) -> Option<(u8, &[u8])> {
+    let (head, _) = bytes.split_first_chunk::<9>()?;
+    let (code, length) = (head[0], u64::from_le_bytes(head[1..].try_into().ok()?));
+    Some((code, bytes.get(..usize::try_from(length).ok()?.checked_add(head.len())?)?))
 }

@@ -1,10 +1,10 @@
 //! How requests end: a result, or an error of the protocol.
 
 use afp_ide::edit::Refused;
-use lsp_server::{RequestId, Response};
+use lsp_server::{Message, RequestId, Response};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Why a request has no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +29,26 @@ pub(crate) type Answer = Result<Value, Failure>;
 impl From<Refused> for Failure {
     fn from(refused: Refused) -> Failure {
         Failure::Refused(refused.reason)
+    }
+}
+
+/// The message of a text.
+///
+/// # Errors
+/// It is none: the text of the response that says so.
+pub fn read_message(text: &str) -> Result<Message, String> {
+    let refusal = |id: Value, code: i32, why: &str| {
+        json!({"jsonrpc": "2.0", "id": id, "error": {"code": code, "message": why}}).to_string()
+    };
+    let value: Value = serde_json::from_str(text)
+        .map_err(|why| refusal(Value::Null, -32700, &format!("this is no JSON: {why}")))?;
+    let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned();
+    match serde_json::from_value(value) {
+        Ok(Message::Notification(_)) if id.is_some() => {
+            Err(refusal(id.into(), -32600, "an id is a whole number of 32 bit, or a text"))
+        }
+        Ok(message) => Ok(message),
+        Err(_) => Err(refusal(id.into(), -32600, "this is no request, response or notification")),
     }
 }
 

@@ -22,6 +22,7 @@ mod standard;
 mod uri;
 mod workspace;
 
+pub use answer::read_message;
 pub use custom::Drawings;
 pub use host::{Host, NoFiles};
 pub use lsp_server::Message;

@@ -9,6 +9,7 @@
 //! instead. So does a file in a folder that takes no new ones, whose new bytes are kept among the
 //! temporary files until then.
 
+pub mod frames;
 mod part;
 mod read;
 mod target;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use afp_dsl::Compiled;
 use afp_dsl::scenario::{InvalidScenario, Scenario as Checked};
-use afp_excerpt::words::shell_word;
+use afp_excerpt::words::{shell_file, shell_word};
 use afp_run::check_apart;
 use afp_syntax::source::Span;
 use afp_test::{Recording, Setting};
@@ -149,7 +149,7 @@ impl Scenario {
 
     /// The line that runs it again, with what it does otherwise.
     fn command(&self) -> PyResult<String> {
-        let file = shell_word(&self.file.display().to_string());
+        let file = shell_file(&self.file.display().to_string());
         let command = format!("afpc test {file} {}", shell_word(&self.checked()?.name));
         Ok(self.caveat.map_or_else(|| command.clone(), |why| format!("{command}  # {why}")))
     }

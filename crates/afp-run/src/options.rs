@@ -22,7 +22,7 @@ pub const OF_ROBOT: &str = "robot.";
 
 pub(crate) use help::words;
 pub use help::{for_devices, for_robot};
-pub use parse::{Destination, Failure, Press, Speed, failure, press, unquoted, whole};
+pub use parse::{Destination, Failure, Press, Speed, failure, press, whole};
 
 /// How a run goes.
 #[derive(Args, Clone, Debug)]

@@ -170,6 +170,9 @@ fn drive(
     let end = setting.recipe.until.unwrap_or(Instant::MAX);
     let paths = Paths::new(program, options, world.path.as_deref())?;
     let raster = paths.raster(rasterizer)?;
+    let keeper = options.time_keeper();
+    let stop = stop_flag(keeper).map_err(RunError::file("cannot handle", "signals".as_ref()))?;
+    stop.set_last_resort(last_resort);
     let mut log = match &paths.log {
         None => None,
         Some(path) => {
@@ -191,9 +194,6 @@ fn drive(
             Some(log)
         }
     };
-    let keeper = options.time_keeper();
-    let stop = stop_flag(keeper).map_err(RunError::file("cannot handle", "signals".as_ref()))?;
-    stop.set_last_resort(last_resort);
     let report = Report::new(options.json, end, keeper);
     let report =
         RefCell::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);

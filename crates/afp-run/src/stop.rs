@@ -28,8 +28,9 @@ impl fmt::Debug for Stop {
 }
 
 impl StopFlag {
-    /// The flag that Ctrl-C and SIGTERM raise, one for the process. A second signal ends the
-    /// process at once, whatever it is at; its terminal is given back.
+    /// The flag that Ctrl-C, SIGTERM and other signals raise, one for the process. A second signal ends the
+    /// process at once, whatever it is at; its terminal is given back. A limit of the system (SIGXFSZ, SIGXCPU) never
+    /// ends it at once.
     ///
     /// # Errors
     /// Signals cannot be handled.
@@ -91,7 +92,7 @@ impl StopFlag {
         }
     }
 
-    /// What a program that ends as asked exits with, if SIGTERM or SIGHUP asked: 128 and the signal, as a shell says
+    /// What a program that ends as asked exits with, if a signal other than Ctrl-C asked: 128 and the signal, as a shell says
     /// of one that died of it. None for Ctrl-C, with which people end what has no end.
     pub fn exit_code(&self) -> Option<u8> {
         match self.0.signal.load(Ordering::Relaxed) {
@@ -108,7 +109,9 @@ mod signals {
     use std::sync::{Mutex, PoisonError};
     use std::thread;
 
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
+    use signal_hook::consts::{
+        SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ,
+    };
     use signal_hook::iterator::{Handle, Signals};
     use signal_hook::low_level;
 
@@ -118,6 +121,10 @@ mod signals {
     /// The exit code after a second signal.
     const EXIT_SIGNAL: i32 = 130;
 
+    /// All that would end the process before the robot has stopped. A broken pipe is an error of what writes into it.
+    const ALL: [i32; 9] =
+        [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
+
     static MADE: Mutex<Option<(StopFlag, Handle)>> = Mutex::new(None);
 
     /// The flag; the first call makes it and the thread that raises it.
@@ -126,7 +133,7 @@ mod signals {
         if let Some((flag, _)) = &*made {
             return Ok(flag.clone());
         }
-        let signals = Signals::new([SIGINT, SIGTERM, SIGHUP, SIGQUIT])?;
+        let signals = Signals::new(ALL)?;
         let (flag, signals_taken) = (StopFlag::default(), signals.handle());
         let raised = flag.clone();
         thread::Builder::new()
@@ -155,10 +162,13 @@ mod signals {
                 keys::without_terminal(|| drop(low_level::emulate_default_handler(signal)));
                 continue;
             }
-            if let (SIGTERM | SIGHUP, Ok(number)) = (signal, u8::try_from(signal)) {
+            let of_user = matches!(signal, SIGINT | SIGTSTP);
+            if let (false, Ok(number)) = (of_user, u8::try_from(signal)) {
                 flag.0.signal.store(number, Ordering::Relaxed);
             }
-            if flag.0.raised.swap(true, Ordering::Relaxed) {
+            // A limit of the system that was reached is reached again by what is written at the end.
+            let of_limit = matches!(signal, SIGXCPU | SIGXFSZ);
+            if flag.0.raised.swap(true, Ordering::Relaxed) && !of_limit {
                 flag.resort();
                 keys::give_back();
                 low_level::exit(EXIT_SIGNAL);

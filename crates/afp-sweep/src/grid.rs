@@ -1,12 +1,11 @@
 //! The grid of runs and its numbering.
 
-use std::borrow::Cow;
 use std::fmt::Write;
 
 use afp_core::Duration;
 use afp_dsl::types::text::duration;
-use afp_excerpt::words::shell_word;
-use afp_run::options::{Failure, Press, unquoted};
+use afp_excerpt::words::{shell_file, shell_setting, shell_word};
+use afp_run::options::{Failure, Press};
 use afp_run::world::LoadedWorld;
 
 use crate::seeds::Seeds;
@@ -124,15 +123,14 @@ impl Sweep {
 
     /// The command that does a run again.
     pub fn command(&self, row: &Row<'_>) -> String {
-        let mut command = format!("afpc run {}", shell_word(&no_option(&self.plan)));
+        let mut command = format!("afpc run {}", shell_file(&self.plan));
         // Writing to a string cannot fail.
         if let Some(world) = row.world.name() {
-            let _ = write!(command, " --world {}", shell_word(&no_option(world)));
+            let _ = write!(command, " --world {}", shell_file(world));
         }
         let _ = write!(command, " --seed {}", row.seed);
         for (name, point) in &row.values {
-            let value = quoted(name, &point.text);
-            let _ = write!(command, " --set {}", shell_word(&format!("{name}={value}")));
+            let _ = write!(command, " --set {}", shell_setting(name, &point.text));
         }
         for press in &self.presses {
             let _ = write!(command, " --press {}", shell_word(&press.to_string()));
@@ -141,7 +139,9 @@ impl Sweep {
             let _ = write!(command, " --fail {}", shell_word(&failure.to_string()));
         }
         let _ = write!(command, " --until {}", spelled(self.until));
-        let caveats = [self.caveat, row.world.caveat()].into_iter().flatten();
+        let no_word = row.values.iter().any(|(_, point)| point.text.contains('\0'));
+        let no_word = no_word.then_some("no command takes a value with the character NUL");
+        let caveats = [self.caveat, row.world.caveat(), no_word].into_iter().flatten();
         for (number, caveat) in caveats.enumerate() {
             let _ = write!(command, "{}{caveat}", if number == 0 { "  # " } else { "; " });
         }
@@ -170,22 +170,6 @@ impl Sweep {
             let _ = write!(text, ", fail {failure}");
         }
         text
-    }
-}
-
-/// The name of a file as commands take it that are printed: one that looks like an option by its path.
-fn no_option(name: &str) -> Cow<'_, str> {
-    match name.starts_with('-') {
-        true => format!("./{name}").into(),
-        false => name.into(),
-    }
-}
-
-/// A value as `--set` takes it: in quotes where it is nothing, or has some that would be taken for such.
-fn quoted<'t>(name: &str, text: &'t str) -> Cow<'t, str> {
-    match text.is_empty() || unquoted(name, text) != text {
-        true => format!("\"{text}\"").into(),
-        false => text.into(),
     }
 }
 
@@ -237,6 +221,49 @@ mod tests {
         assert!(command(0).contains(" --set mode=x,y "), "{}", command(0));
         assert!(command(4).contains(r#" --set 'mode=""' "#), "{}", command(4));
         assert!(command(8).contains(r#" --set 'mode=""q""' "#), "{}", command(8));
+    }
+
+    /// What a real shell makes of the words of a command.
+    #[cfg(unix)]
+    fn in_shell(command: &str) -> Vec<String> {
+        let script = format!("printf '%s\\0' {command}");
+        let out = std::process::Command::new("sh").args(["-c", &script]).output().unwrap();
+        let text = String::from_utf8(out.stdout).unwrap();
+        text.strip_suffix('\0').unwrap().split('\0').map(str::to_owned).collect()
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn every_setting_survives_a_shell() {
+        const SIGNS: [&str; 24] = [
+            " ", "\t", "\n", "\r", "\"", "'", "\\", "$HOME", "`id`", "*", "~", "!", "#", "=", ",",
+            "..", "-", "&", ";", "\u{a0}", "ä", "\u{202e}", "a", "3 cm",
+        ];
+        let mut state = 1_u64;
+        let mut below = |most: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % most
+        };
+        let mut values: Vec<String> =
+            (0..2000).map(|_| (0..below(6)).map(|_| SIGNS[below(24)]).collect()).collect();
+        values.extend([" a ", "\"", "\"\"", "\" a \"", "''", "-x", "=ls"].map(str::to_owned));
+        for name in ["mode", "world.name", "world.box.sofa.height_m"] {
+            let points = values.iter().map(|text| Point { text: text.clone(), si: None }).collect();
+            let axes = vec![Axis { name: name.to_owned(), points }];
+            let sweep = Sweep {
+                axes,
+                seeds: seeds("0").unwrap(),
+                worlds: vec![WorldChoice::OfPlan],
+                ..sweep()
+            };
+            let commands = (0..sweep.len()).map(|run| sweep.command(&sweep.row(run)));
+            let words = in_shell(&commands.collect::<Vec<_>>().join(" "));
+            let settings = words.windows(2).filter(|pair| pair[0] == "--set").map(|pair| &pair[1]);
+            let read: Vec<_> =
+                settings.map(|word| afp_excerpt::words::read_setting(word).unwrap()).collect();
+            let meant: Vec<_> = values.iter().map(|value| (name, value.as_str())).collect();
+            assert_eq!(read, meant);
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Seeds, worlds and values as people write them: `0..1000`, `random:7..99`, `distance=20cm..60cm:5cm`.
 
-use afp_run::options::unquoted;
+use afp_excerpt::words::unquoted;
 
 use crate::grid::{Axis, Point};
 use crate::seeds::Seeds;
@@ -76,14 +76,14 @@ pub fn axis(text: &str) -> Result<Axis, String> {
     };
     let texts = match values.split_once("..").filter(|_| !values.contains('"')) {
         Some((from, to)) => range(from, to)?,
-        None => list(&name, values)?,
+        None => list(values)?,
     };
     let points = texts.into_iter().map(|text| Point { text, si: None }).collect();
     Ok(Axis { name, points })
 }
 
 /// Values with commas between them; what stands in quotes is one, without them.
-fn list(name: &str, values: &str) -> Result<Vec<String>, String> {
+fn list(values: &str) -> Result<Vec<String>, String> {
     // Whether a value has not begun, and whether it stands in quotes that are open.
     let (mut before, mut open) = (true, false);
     let between = |c: char| {
@@ -99,7 +99,7 @@ fn list(name: &str, values: &str) -> Result<Vec<String>, String> {
     if all.iter().any(|value| value.is_empty()) {
         return Err(format!("'{values}' has a place without a value"));
     }
-    Ok(all.into_iter().map(|value| unquoted(name, value).to_owned()).collect())
+    Ok(all.into_iter().map(|value| unquoted(value).to_owned()).collect())
 }
 
 fn range(from: &str, to: &str) -> Result<Vec<String>, String> {
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!(texts("d=5 m/s"), ["5 m/s"]);
         assert_eq!(texts(r#"mode="x,y", "z",q"#), ["x,y", "z", "q"]);
         assert_eq!(texts(r#"mode="","a..b",5" wide"#), ["", "a..b", r#"5" wide"#]);
-        assert_eq!(texts(r#"world.name="5","x,y""#), [r#""5""#, r#""x,y""#]);
+        assert_eq!(texts(r#"world.name="5","x,y"," z ""#), ["5", "x,y", " z "]);
     }
 
     #[test]

@@ -16,6 +16,8 @@ pub mod log;
 pub mod lsp;
 pub mod new;
 pub mod run;
+#[cfg(any(feature = "dap", feature = "lsp"))]
+mod stream;
 #[cfg(feature = "studio")]
 pub mod studio;
 pub mod sweep;

@@ -1,8 +1,9 @@
 //! The command line that repeats a run without a debugger.
 
+
 use afp_core::{Duration, Instant};
 use afp_dsl::types::text::duration;
-use afp_excerpt::words::shell_word;
+use afp_excerpt::words::{shell_file, shell_setting, shell_word};
 use afp_session::{DEFAULT_UNTIL, HOLD, Stimulus};
 
 use super::Launch;
@@ -13,30 +14,30 @@ use crate::target::Target;
 /// the way, a hand in the world, a button that is held for as long as somebody likes.
 pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<String> {
     if let Some(log) = &launch.log {
-        return Some(format!("afpc run --again {}", shell_word(log)));
+        return Some(format!("afpc run --again {}", shell_file(log)));
     }
-    let mut words = vec![launch.program.clone()];
-    let mut add = |option: &str, value: String| words.extend([option.to_owned(), value]);
+    let mut command = format!("afpc run {}", shell_file(&launch.program));
+    let mut add = |option: &str, word: &str| command.extend([" ", option, " ", word]);
     if let Some(world) = &launch.world {
-        add("--world", world.clone());
+        add("--world", &shell_file(world));
     }
     if let Some([x, y, heading]) = launch.start {
-        add("--start", format!("{x}m,{y}m,{heading}rad"));
+        add("--start", &format!("{x}m,{y}m,{heading}rad"));
     }
     if let Some(seed) = launch.seed.filter(|seed| *seed != 0) {
-        add("--seed", seed.to_string());
+        add("--seed", &seed.to_string());
     }
     for (entry, text) in &launch.set {
-        add("--set", format!("{entry}={text}"));
+        add("--set", &shell_setting(entry, text));
     }
     let ended = target.now().as_secs_f64();
     match (by, launch.until) {
         (By::Client(_), _) if target.state().ended_by().is_none() => {
-            add("--until", format!("{ended}s"));
+            add("--until", &format!("{ended}s"));
         }
-        (_, Some(until)) => add("--until", format!("{until}s")),
+        (_, Some(until)) => add("--until", &format!("{until}s")),
         (_, None) if ended >= DEFAULT_UNTIL.as_secs_f64() => {
-            add("--until", format!("{}s", ended.floor() + 1.0))
+            add("--until", &format!("{}s", ended.floor() + 1.0))
         }
         _ => {}
     }
@@ -44,10 +45,9 @@ pub(super) fn command(launch: &Launch, target: &dyn Target, by: &By) -> Option<S
     let requests = target.requests();
     let requests = requests.get(launch.set.len()..)?;
     for (option, value) in options(requests, target.now())? {
-        add(option, value);
+        add(option, &shell_word(&value));
     }
-    let words: Vec<_> = words.iter().map(|word| shell_word(word)).collect();
-    Some(format!("afpc run {}", words.join(" ")))
+    Some(command)
 }
 
 /// What came from outside up to the end as options.

@@ -2,6 +2,7 @@
 
 use std::time::Duration as Wall;
 
+use afp_dsl::files::uri_of;
 use dapts::IEvent;
 use serde_json::{Value, json};
 
@@ -25,6 +26,8 @@ pub(super) struct Client {
     /// What it calls itself.
     pub name: String,
     pub counting: Counting,
+    /// Whether it names files by their addresses.
+    pub names_uris: bool,
     /// The number of the last message to it.
     sent: i64,
     /// Whether it knows what clients have to know.
@@ -75,6 +78,18 @@ impl Default for Counting {
     }
 }
 
+/// Names the files of all sources in a message in another way.
+pub(super) fn rename_sources(message: &mut Value, rename: fn(&str) -> String) {
+    if let Some(Value::String(path)) = message.pointer_mut("/source/path") {
+        *path = rename(path);
+    }
+    match message {
+        Value::Object(fields) => fields.values_mut().for_each(|it| rename_sources(it, rename)),
+        Value::Array(all) => all.iter_mut().for_each(|it| rename_sources(it, rename)),
+        _ => {}
+    }
+}
+
 impl Adapter<'_> {
     /// A client comes; what it says is handed over with its number.
     pub fn join(&mut self) -> ClientId {
@@ -83,6 +98,7 @@ impl Adapter<'_> {
         let client = Client {
             name: format!("client {number}"),
             counting: Counting::default(),
+            names_uris: false,
             sent: 0,
             admitted: false,
             attached: false,
@@ -163,6 +179,9 @@ impl Adapter<'_> {
             let Some(client) = self.clients.get_mut(&to) else { continue };
             client.sent += 1;
             message["seq"] = json!(client.sent);
+            if client.names_uris {
+                rename_sources(&mut message, uri_of);
+            }
             all.push(Outgoing { to, message: message.to_string() });
         }
         all

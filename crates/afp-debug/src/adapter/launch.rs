@@ -89,6 +89,8 @@ impl Adapter<'_> {
         let name = client.client_name.or(client.client_id);
         if let Some(known) = self.clients.get_mut(&self.asker) {
             known.counting = counting;
+            known.names_uris =
+                client.path_format == Some(dapts::InitializeRequestArgumentsPathFormat::Uri);
             known.name = name.filter(|name| !name.is_empty()).unwrap_or(known.name.clone());
         }
         let filter =

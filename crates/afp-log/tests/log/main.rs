@@ -264,6 +264,47 @@ fn a_flipped_byte_is_found() {
 }
 
 #[test]
+fn whatever_does_not_belong_to_a_log_is_found() {
+    let dir = tempfile::tempdir().unwrap();
+    let sound = fs::read(written(dir.path())).unwrap();
+    let bad = dir.path().join("bad.mcap");
+    let found = |bytes: &[u8]| {
+        fs::write(&bad, bytes).unwrap();
+        doctor(&bad).map_or_else(|why| vec![why.to_string()], |found| found)
+    };
+    for (rest, told) in [
+        (&b"rubbish"[..], "7 bytes that are not part of it follow its end"),
+        (b"\n", "1 bytes"),
+        (&sound, "another log follows its end"),
+        (mcap::MAGIC, "another log"),
+    ] {
+        let found = found(&[&sound, rest].concat());
+        assert!(found.len() == 1 && found[0].contains(told), "{found:?}");
+    }
+    assert!(found(&[b"\n", &*sound].concat())[0].contains("is not an MCAP log"));
+    let mut state = 1_u64;
+    let mut below = |most: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as usize % most
+    };
+    for _ in 0..300 {
+        let mut bytes = sound.clone();
+        let (at, length) = (below(sound.len()), 1 + below(200));
+        let end = (at + length).min(sound.len());
+        match below(5) {
+            0 => bytes.truncate(at),
+            1 => drop(bytes.drain(at..end)),
+            2 => drop(bytes.splice(at..at, sound[at..end].to_vec())),
+            3 => bytes[at..end].reverse(),
+            _ => bytes.extend_from_slice(&sound[at..end]),
+        }
+        if bytes != sound {
+            assert!(!found(&bytes).is_empty(), "at {at}, {length} bytes");
+        }
+    }
+}
+
+#[test]
 fn an_abandoned_log_keeps_its_part_name() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");

@@ -5,10 +5,11 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
 use afp_core::Instant;
+use afp_excerpt::words::read_setting;
 use afp_project::duration;
 use afp_session::Pose2;
 
-use crate::world::{Measure, change};
+use crate::world::Measure;
 
 /// How fast simulated time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,21 +146,9 @@ pub(super) fn start(text: &str) -> Result<Pose2, String> {
 }
 
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, value)) if !name.trim().is_empty() => {
-            Ok((name.trim().to_owned(), unquoted(name.trim(), value.trim()).to_owned()))
-        }
-        _ => Err("expected an entry and its value, such as distance=35cm".to_owned()),
-    }
-}
-
-/// The value of an entry without the quotes that it may stand in, as a text does in a plan. A value of the world's file is
-/// written as there.
-pub fn unquoted<'t>(name: &str, value: &'t str) -> &'t str {
-    match change::key(name) {
-        Some(_) => value,
-        None => value.strip_prefix('"').and_then(|it| it.strip_suffix('"')).unwrap_or(value),
-    }
+    let (name, value) =
+        read_setting(text).ok_or("expected an entry and its value, such as distance=35cm")?;
+    Ok((name.to_owned(), value.to_owned()))
 }
 
 pub(super) fn destination(text: &str) -> Result<Destination, String> {

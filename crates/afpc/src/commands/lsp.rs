@@ -1,39 +1,177 @@
 //! `afpc lsp`: the language server over standard input and output.
 
-use afp_lsp::Server;
+use std::io::{self, Write};
+use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::thread;
+
+use afp_lsp::{Message, Server, read_message};
+use afp_output::frames::{Frames, WireError, frame};
 use afp_run::{EXIT_OK, RunError};
-use lsp_server::Connection;
 
 use super::disk::Disk;
+use super::stream::read;
 use crate::no_plan::NoPlan;
 
 pub const EXAMPLES: &str = "\
 Editors start it; docs/editors.md says how. It is made to be spoken to by a program: messages come in
 on standard input and go out on standard output.";
 
+/// The longest message: a document that somebody has open.
+const LONGEST: usize = 1 << 26;
+/// So many pieces that have arrived wait to be read at most.
+const ARRIVALS: usize = 64;
+
 /// Serves one client until it says goodbye or is gone.
 ///
 /// # Errors
-/// Standard input or output break off within a message.
+/// What arrives on standard input are no messages, or the last one is not whole.
 pub fn run() -> Result<u8, NoPlan> {
-    let (connection, threads) = Connection::stdio();
-    let mut server = Server::new(Box::new(Disk));
-    while let Ok(message) = connection.receiver.recv() {
-        let mut answers = server.handle(message);
-        if connection.receiver.is_empty() {
-            answers.extend(server.idle());
-        }
-        for answer in answers {
-            // Who does not read any more is gone, which the next message shows.
-            let _ = connection.sender.send(answer);
-        }
-        if server.exit_code().is_some() {
-            break;
+    let (sender, arrived) = sync_channel(ARRIVALS);
+    // It ends with the stream, or with the program.
+    thread::spawn(move || read(io::stdin(), |bytes| sender.send(bytes).is_ok()));
+    let server = Server::new(Box::new(Disk));
+    let code = converse(server, &arrived, io::stdout().lock());
+    let failed = RunError::file("cannot talk to the editor over", "standard input".as_ref());
+    Ok(code.map_err(|why| failed(io::Error::other(why)))?)
+}
+
+/// Talks with a client; gives the exit code.
+fn converse(
+    mut server: Server,
+    arrived: &Receiver<Vec<u8>>,
+    mut to: impl Write,
+) -> Result<u8, WireError> {
+    let mut frames = Frames::up_to(LONGEST);
+    loop {
+        let heard = match frames.next_message() {
+            Ok(Some(text)) => answer(&mut server, &text, &mut to),
+            // What is no text is no JSON.
+            Err(WireError::NoText) => answer(&mut server, "", &mut to),
+            Err(why) => return Err(why),
+            Ok(None) => {
+                let (bytes, heard) = match arrived.try_recv() {
+                    Err(TryRecvError::Empty) => {
+                        let heard = send(&server.idle(), &mut to);
+                        (arrived.recv().ok(), heard)
+                    }
+                    bytes => (bytes.ok(), Ok(())),
+                };
+                let Some(bytes) = bytes else { return frames.finish().map(|()| EXIT_OK) };
+                frames.push(&bytes);
+                heard
+            }
+        };
+        match (server.exit_code(), heard) {
+            (Some(code), _) => return Ok(code),
+            // Nobody reads any more.
+            (None, Err(_)) => return Ok(EXIT_OK),
+            (None, Ok(())) => {}
         }
     }
-    drop(connection);
-    threads
-        .join()
-        .map_err(RunError::file("cannot talk to the editor over", "standard input".as_ref()))?;
-    Ok(server.exit_code().unwrap_or(EXIT_OK))
+}
+
+/// Answers the text of a message.
+fn answer(server: &mut Server, text: &str, to: &mut impl Write) -> io::Result<()> {
+    match read_message(text) {
+        Ok(message) => send(&server.handle(message), to),
+        Err(refusal) => to.write_all(&frame(&refusal)).and_then(|()| to.flush()),
+    }
+}
+
+fn send(messages: &[Message], to: &mut impl Write) -> io::Result<()> {
+    messages.iter().try_for_each(|message| message.write(to))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+
+    use afp_lsp::NoFiles;
+
+    use super::*;
+
+    /// What a server says to some bytes before they end, and how it ends.
+    fn told(bytes: &[u8], size: usize) -> (Result<u8, WireError>, String) {
+        let (sender, arrived) = channel();
+        bytes.chunks(size).for_each(|piece| sender.send(piece.to_vec()).unwrap());
+        drop(sender);
+        let mut said = Vec::new();
+        let end = converse(Server::new(Box::new(NoFiles)), &arrived, &mut said);
+        (end, String::from_utf8(said).unwrap())
+    }
+
+    fn frames(messages: &[&str]) -> Vec<u8> {
+        messages.iter().flat_map(|message| frame(message)).collect()
+    }
+
+    const HELLO: &str =
+        r#"{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}"#;
+    const SHUTDOWN: &str = r#"{"jsonrpc":"2.0","id":2,"method":"shutdown"}"#;
+    const EXIT: &str = r#"{"jsonrpc":"2.0","method":"exit"}"#;
+
+    #[test]
+    fn what_is_no_message_is_refused_and_the_conversation_goes_on() {
+        for (message, code) in [
+            ("{", "-32700"),
+            ("", "-32700"),
+            ("\u{0}", "-32700"),
+            (&"[".repeat(100_000), "-32700"),
+            ("[]", "-32600"),
+            ("null", "-32600"),
+            (r#"{"id":7}"#, r#"-32600"#),
+            (r#"{"id":1.5,"method":"shutdown"}"#, "-32600"),
+            (r#"{"id":99999999999,"method":"shutdown"}"#, "-32600"),
+            (r#"{"id":7,"method":7}"#, "-32600"),
+            (r#"{"id":7,"method":"initialize","params":{"capabilities":{}}}"#, "-32600"),
+            (r#"{"id":7,"method":"no/such"}"#, "-32601"),
+            (r#"{"id":7,"method":"textDocument/hover","params":[1]}"#, "-32602"),
+        ] {
+            let (end, said) = told(&frames(&[HELLO, message, SHUTDOWN, EXIT]), 64);
+            assert_eq!(end, Ok(0), "{message}");
+            assert!(said.contains(code), "{message}: {said}");
+            assert!(said.contains(r#""id":2,"result":null"#), "{message}: {said}");
+        }
+        let early = told(&frames(&[SHUTDOWN, EXIT]), 1000);
+        assert!(early.0 == Ok(1) && early.1.contains("-32002"), "{early:?}");
+        let late = told(&frames(&[HELLO, SHUTDOWN, SHUTDOWN, EXIT]), 1000);
+        assert!(late.0 == Ok(0) && late.1.contains("-32600"), "{late:?}");
+        let binary = [frames(&[HELLO]), b"Content-Length: 1\r\n\r\n\xff".to_vec()].concat();
+        let binary = told(&[binary, frames(&[SHUTDOWN, EXIT])].concat(), 1000);
+        assert!(binary.0 == Ok(0) && binary.1.contains("-32700"), "{binary:?}");
+    }
+
+    #[test]
+    fn no_bytes_abort_the_server_or_keep_it() {
+        let mut state = 1_u64;
+        let mut below = |most: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % most
+        };
+        let open = r#"{"method":"textDocument/didOpen","params":{"textDocument":{"uri":"file:///a.afp","languageId":"afp","version":1,"text":"plan P {"}}}"#;
+        let hover = r#"{"id":3,"method":"textDocument/hover","params":{"textDocument":{"uri":"file:///a.afp"},"position":{"line":0,"character":5}}}"#;
+        let sound = frames(&[HELLO, open, hover, SHUTDOWN, EXIT]);
+        let lengths = ["-1", "99999999999999", "99999999999999999999999", "", "1e3", "0x10", "0"];
+        for _ in 0..3000 {
+            let mut bytes = sound.clone();
+            for _ in 0..=below(3) {
+                let at = below(bytes.len());
+                match below(5) {
+                    0 => bytes[at] = below(256) as u8,
+                    1 => bytes.truncate(at + 1),
+                    2 => drop(bytes.drain(at..(at + below(40)).min(bytes.len()))),
+                    3 => bytes.insert(at, b"\r\n{}[]\":,\0\xff"[below(13)]),
+                    _ => {
+                        let header = format!("Content-Length: {}\r\n\r\n", lengths[below(7)]);
+                        bytes.splice(at..at, header.into_bytes());
+                    }
+                }
+                if bytes.is_empty() {
+                    break;
+                }
+            }
+            // It ends, with an exit code or with what is wrong with the stream.
+            let (end, _) = told(&bytes, 1 + below(200));
+            assert!(end.is_err() || end.is_ok_and(|code| code <= 1));
+        }
+    }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use afp_build::{crate_folder, origin};
 use afp_codegen::Origin;
-use afp_excerpt::words::shell_word;
+use afp_excerpt::words::shell_file;
 use afp_project::ProjectFile;
 use afp_run::{EXIT_OK, RunError, write_whole};
 use clap::Args;
@@ -49,7 +49,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         _ => Kind::Plan,
     };
     let folder = &arguments.folder;
-    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    // '.' and '..' have the name of the folder that they lead to.
+    let whole = folder.canonicalize().ok().filter(|_| folder.file_name().is_none());
+    let whole = whole.as_ref().unwrap_or(folder);
+    let name = whole.file_name().unwrap_or_default().to_string_lossy();
     // A plan alone needs no crate, so nothing has to be known of where ours are.
     let afp = match kind {
         Kind::Plan => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
@@ -60,8 +63,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let is_there = folder.symlink_metadata().is_ok();
     // A folder that is empty is as good as none; what cannot be looked into is something else.
     if is_there && fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_some()) {
-        let message = format!("'{}' is there already", folder.display());
-        return Err(RunError::usage(message, "give another name, or remove it").into());
+        let message = format!("'{}' is there already, and is not empty", folder.display());
+        let help = "write the name of a folder that is not there yet, such as 'afpc new patrol'";
+        return Err(RunError::usage(message, help).into());
     }
     if let Err(why) = write(folder, &files) {
         // Half a project would be in the way of the next try. What is told is why there is none.
@@ -98,7 +102,7 @@ fn next(folder: &Path, files: &[files::File], pinned: Option<&str>, kind: Kind) 
     let plan = files.iter().find(|file| is_plan(&file.path)).map_or("", |file| &file.path);
     let paths = files.iter().map(|file| &*file.path).chain(pinned);
     let mut text: String = paths.map(|path| format!("{}\n", folder.join(path).display())).collect();
-    let folder = shell_word(&folder.display().to_string());
+    let folder = shell_file(&folder.display().to_string());
     text += &format!("\nNext:\n  cd {folder}\n  afpc run {plan}\n  afpc test\n");
     if kind != Kind::Plan {
         text += "  cargo test\n";

@@ -7,8 +7,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync
 use std::thread;
 use std::time::{Duration, Instant};
 
-use afp_debug::wire::{Frames, WireError, frame};
 use afp_debug::{Adapter, ClientId, Outgoing};
+use afp_output::frames::{Frames, WireError, frame};
 use afp_run::{RunError, say};
 use afp_token::Token;
 

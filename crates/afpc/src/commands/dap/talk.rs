@@ -1,12 +1,14 @@
 //! The conversation with a client, whatever carries it.
 
-use std::io::{ErrorKind, Read, Write};
+use std::io::{Read, Write};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use afp_debug::wire::{Frames, WireError, frame};
 use afp_debug::{Adapter, Outgoing};
+use afp_output::frames::{Frames, WireError, frame};
+
+pub use crate::commands::stream::read;
 
 /// What there is to do next.
 pub enum Arrived {
@@ -138,19 +140,5 @@ pub(super) fn wait<T>(arrived: &Receiver<T>, due: Option<Duration>) -> Result<T,
     match due {
         None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),
         Some(due) => arrived.recv_timeout(due),
-    }
-}
-
-/// Hands on what arrives, until nothing does or nobody wants it.
-pub fn read(mut from: impl Read, mut arrived: impl FnMut(Vec<u8>) -> bool) {
-    let mut buffer = [0; 1 << 14];
-    loop {
-        match from.read(&mut buffer) {
-            Ok(0) => return,
-            Ok(length) if !arrived(buffer[..length].to_vec()) => return,
-            Ok(_) => {}
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(_) => return,
-        }
     }
 }

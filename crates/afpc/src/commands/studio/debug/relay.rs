@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use afp_debug::wire::{Frames, frame};
+use afp_output::frames::{Frames, frame};
 use serde_json::{Value, json};
 
 use super::super::super::dap::read;

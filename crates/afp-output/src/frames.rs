@@ -1,16 +1,25 @@
-//! Messages on a stream of bytes: a header with the length, an empty line, the message.
+//! Messages of others on a stream of bytes, as the protocols of debuggers and language servers have them: a header with the
+//! length, an empty line, the message. A client cannot make the reader take more memory than the bound.
 
 use std::fmt;
 
-/// The longest message that is taken, in bytes.
+/// The longest message of a client that may be a stranger, in bytes.
 pub const MAX_MESSAGE: usize = 1 << 20;
 /// The longest header.
 const MAX_HEADER: usize = 1 << 12;
 
 /// Takes messages out of what has arrived.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Frames {
     arrived: Vec<u8>,
+    /// The longest message that is taken, in bytes.
+    longest: usize,
+}
+
+impl Default for Frames {
+    fn default() -> Self {
+        Frames::up_to(MAX_MESSAGE)
+    }
 }
 
 /// What arrived is no message; the stream cannot be understood any more.
@@ -19,15 +28,25 @@ pub struct Frames {
 pub enum WireError {
     /// No header with a length stands where a message begins.
     Header,
-    /// The message has so many bytes, more than [`MAX_MESSAGE`].
-    TooLong(usize),
-    /// The message is no text.
+    /// The message has so many bytes, more than the longest one.
+    TooLong {
+        /// The length that its header says.
+        length: usize,
+        /// The length of the longest message.
+        longest: usize,
+    },
+    /// The message is no text; the next one can be read.
     NoText,
     /// The stream ends within a message.
     CutOff,
 }
 
 impl Frames {
+    /// Messages of at most so many bytes.
+    pub fn up_to(longest: usize) -> Frames {
+        Frames { arrived: Vec::new(), longest }
+    }
+
     /// Some bytes have arrived.
     pub fn push(&mut self, bytes: &[u8]) {
         self.arrived.extend_from_slice(bytes);
@@ -43,8 +62,8 @@ impl Frames {
             return if self.arrived.len() > MAX_HEADER { Err(WireError::Header) } else { Ok(None) };
         };
         let length = length(&self.arrived[..end]).ok_or(WireError::Header)?;
-        if length > MAX_MESSAGE {
-            return Err(WireError::TooLong(length));
+        if length > self.longest {
+            return Err(WireError::TooLong { length, longest: self.longest });
         }
         let (from, to) = (end + 4, end + 4 + length);
         if self.arrived.len() < to {
@@ -69,13 +88,14 @@ impl Frames {
     }
 }
 
-/// The length that a header says.
+/// The length that a header says; none if it says none, or two that differ.
 fn length(header: &[u8]) -> Option<usize> {
     let header = std::str::from_utf8(header).ok()?;
-    header.split("\r\n").find_map(|line| {
+    let lengths = header.split("\r\n").filter_map(|line| {
         let (name, value) = line.split_once(':')?;
-        name.trim().eq_ignore_ascii_case("content-length").then(|| value.trim().parse().ok())?
-    })
+        name.trim().eq_ignore_ascii_case("content-length").then(|| value.trim().parse().ok())
+    });
+    lengths.reduce(|one, other| one.filter(|_| one == other)).flatten()
 }
 
 /// A message with its header, to be sent in one piece.
@@ -87,10 +107,10 @@ impl fmt::Display for WireError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             WireError::Header => {
-                f.write_str("it does not speak the Debug Adapter Protocol, whose messages begin with 'Content-Length: ' and a number of bytes")
+                f.write_str("it does not speak the protocol, whose messages begin with 'Content-Length: ' and a number of bytes")
             }
-            WireError::TooLong(length) => {
-                write!(f, "a message of {length} bytes; the longest may have {MAX_MESSAGE}")
+            WireError::TooLong { length, longest } => {
+                write!(f, "a message of {length} bytes; the longest may have {longest}")
             }
             WireError::NoText => f.write_str("a message that is no UTF-8"),
             WireError::CutOff => f.write_str("its last message ends before its length"),
@@ -127,7 +147,11 @@ mod tests {
             ("Hello\r\n\r\n", WireError::Header),
             ("Content-Length: many\r\n\r\n", WireError::Header),
             ("Content-Length: -1\r\n\r\n", WireError::Header),
-            (&*long, WireError::TooLong(MAX_MESSAGE + 1)),
+            ("Content-Length: 99999999999999999999999\r\n\r\n", WireError::Header),
+            ("Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}", WireError::Header),
+            ("Content-Length: 2\r\nContent-Length: x\r\n\r\n{}", WireError::Header),
+            ("Content-Type: x\r\n\r\n{}", WireError::Header),
+            (&*long, WireError::TooLong { length: MAX_MESSAGE + 1, longest: MAX_MESSAGE }),
             (&*babble, WireError::Header),
         ] {
             let mut frames = Frames::default();
@@ -135,8 +159,11 @@ mod tests {
             assert_eq!(frames.next_message(), Err(error));
         }
         let mut frames = Frames::default();
-        frames.push(b"Content-Length: 2\r\n\r\n\xff\xff");
+        frames.push(
+            b"Content-Length: 2\r\n\r\n\xff\xffcontent-length:2\r\nContent-Length: 2\r\n\r\n{}",
+        );
         assert_eq!(frames.next_message(), Err(WireError::NoText));
+        assert_eq!(frames.next_message(), Ok(Some("{}".to_owned())));
     }
 
     #[test]

@@ -1,0 +1,55 @@
+//! Addresses of documents and paths of files.
+//!
+//! A document has one path however a client writes its address: `file:` addresses lose their percent
+//! signs, others are paths as they are written, under which no file is found.
+
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
+
+use super::normalised;
+
+/// The characters that an address escapes.
+const ESCAPED: &AsciiSet =
+    &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'_').remove(b'.').remove(b'~');
+
+/// The path that an address stands for.
+pub fn path_of(uri: &str) -> String {
+    let Some(rest) = uri.strip_prefix("file://") else { return uri.to_owned() };
+    // A host is not looked at: it is this machine.
+    let rest = &rest[rest.find('/').unwrap_or(0)..];
+    let path = percent_decode_str(rest).decode_utf8_lossy();
+    // `/C:/x` is `C:/x` there.
+    let drive = path.as_bytes().get(2) == Some(&b':') && path.as_bytes()[1].is_ascii_alphabetic();
+    normalised(if drive { &path[1..] } else { &path })
+}
+
+/// The address of a path.
+pub fn uri_of(path: &str) -> String {
+    let is_address = path.split_once(':').is_some_and(|(scheme, _)| scheme.len() > 1);
+    if is_address && !path.starts_with('/') {
+        return path.to_owned();
+    }
+    let root = if path.starts_with('/') { "" } else { "/" };
+    format!("file://{root}{}", utf8_percent_encode(path, ESCAPED))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{path_of, uri_of};
+
+    #[test]
+    fn paths_and_addresses_lead_to_one_another() {
+        for (address, expected, back) in [
+            ("file:///a/b.afp", "/a/b.afp", "file:///a/b.afp"),
+            ("file:///a%20b/%C3%A4.afp", "/a b/ä.afp", "file:///a%20b/%C3%A4.afp"),
+            ("file:///c%3A/x.afp", "c:/x.afp", "file:///c%3A/x.afp"),
+            ("file://localhost/a.afp", "/a.afp", "file:///a.afp"),
+            ("file:///a/./b/../c.afp", "/a/c.afp", "file:///a/c.afp"),
+            ("untitled:Untitled-1", "untitled:Untitled-1", "untitled:Untitled-1"),
+            ("afp:/carbot.afp", "afp:/carbot.afp", "afp:/carbot.afp"),
+            ("file:///100%", "/100%", "file:///100%25"),
+        ] {
+            assert_eq!(path_of(address), expected);
+            assert_eq!(uri_of(expected), back);
+        }
+    }
+}

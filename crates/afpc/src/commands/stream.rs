@@ -1,0 +1,17 @@
+//! Bytes that arrive on a stream, for those who wait for something else, too.
+
+use std::io::{ErrorKind, Read};
+
+/// Hands on what arrives, until nothing does or nobody wants it.
+pub fn read(mut from: impl Read, mut arrived: impl FnMut(Vec<u8>) -> bool) {
+    let mut buffer = [0; 1 << 14];
+    loop {
+        match from.read(&mut buffer) {
+            Ok(0) => return,
+            Ok(length) if !arrived(buffer[..length].to_vec()) => return,
+            Ok(_) => {}
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(_) => return,
+        }
+    }
+}
