@@ -1,6 +1,5 @@
 //! The command line that repeats a run without a debugger.
 
-
 use afp_core::{Duration, Instant};
 use afp_dsl::types::text::duration;
 use afp_excerpt::words::{shell_file, shell_setting, shell_word};
