@@ -3,8 +3,8 @@
 //! Plans, worlds and project files have different readers but one reader of their errors, so all
 //! of them are drawn here, and written for tools in one form. Nothing is known of what a text means.
 
+pub mod hidden;
 mod json;
-
 mod table;
 pub mod words;
 

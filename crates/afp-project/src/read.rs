@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use afp_excerpt::hidden::hidden;
 use afp_excerpt::words::instead;
 use toml_edit::{Document, Item, TableLike, Value};
 
@@ -15,6 +16,10 @@ use crate::time::duration;
 pub fn read(text: &str) -> (Project, Vec<Mistake>) {
     let mut reader = Reader { mistakes: Vec::new() };
     let mut project = Project::default();
+    for hidden in hidden(text) {
+        let message = format!("'{}' {}", hidden.shown, hidden.fault());
+        reader.wrong(hidden.span, message, "remove it");
+    }
     match Document::parse(text) {
         Ok(document) => reader.project(document.as_table(), &mut project),
         Err(error) => reader.mistakes.push(Mistake {

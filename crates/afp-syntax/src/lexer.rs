@@ -6,9 +6,10 @@
 mod foreign;
 mod unit;
 
+use afp_excerpt::hidden::{Trick, hidden, trick};
 use afp_types::number_length;
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics, Message};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words};
 use crate::kind::Kind;
 use crate::message;
 use crate::source::Span;
@@ -51,6 +52,7 @@ pub(super) fn lex<'t>(text: &'t str, file: u16, diags: &mut Diagnostics) -> Vec<
     while lexer.at < text.len() {
         lexer.token();
     }
+    lexer.report_hidden();
     lexer.tokens
 }
 
@@ -133,9 +135,7 @@ impl<'t> Lexer<'t, '_> {
         let rest = &self.text[self.at..];
         let length = line_length(rest);
         let doc = rest.starts_with("///") && !rest.starts_with("////");
-        let start = self.at;
         self.push(if doc { Kind::Doc } else { Kind::Comment }, length);
-        self.invisible(start);
     }
 
     fn block_comment(&mut self) {
@@ -189,9 +189,8 @@ impl<'t> Lexer<'t, '_> {
                 _ if escaped => escaped = false,
                 '\\' => escaped = true,
                 '"' => {
-                    let start = self.at;
                     self.push(Kind::Text, index + 1);
-                    return self.invisible(start);
+                    return;
                 }
                 _ => {}
             }
@@ -202,6 +201,26 @@ impl<'t> Lexer<'t, '_> {
                 .help("end it with '\"'")
                 .fix(span.after(), "\""),
         );
+    }
+
+    /// Reports the characters that make the text look different, wherever they are.
+    fn report_hidden(&mut self) {
+        for hidden in hidden(self.text) {
+            let span = self.span(hidden.span.start, hidden.span.end);
+            let behind = self.tokens.partition_point(|token| token.start <= span.start);
+            let kind = behind.checked_sub(1).and_then(|at| self.tokens.get(at)).map(|it| it.kind);
+            let (help, better) = match (hidden.trick, kind) {
+                (Trick::Break, Some(Kind::Text)) => ("write '\\n' for a line break", "\\n"),
+                (Trick::Break, Some(Kind::Whitespace | Kind::Unknown)) => {
+                    ("end the line with a line feed", "\n")
+                }
+                (Trick::Break, _) => ("remove it; what follows belongs to the comment", " "),
+                _ => ("remove it", ""),
+            };
+            let message = message!("'{}' {}", hidden.shown, Words(hidden.fault()));
+            let error = Diagnostic::new(Code::E0101, span, message);
+            self.diags.push(error.help(help).replace(better));
+        }
     }
 }
 
@@ -250,7 +269,7 @@ fn is_blank(each: char) -> bool {
 }
 
 fn is_word(each: char) -> bool {
-    each == '_' || each.is_alphabetic()
+    each == '_' || each.is_alphabetic() && trick(each).is_none()
 }
 
 /// What a byte is where a token begins.

@@ -155,3 +155,11 @@ fn what_is_wrong_with_a_robot_is_named_at_its_place() {
     let (_, mistakes) = read("[robot]\nsim = 'V'\ntoolbox = 'v'\n[toolboxes]\nw.path = 'w.afp'");
     assert_eq!(mistakes[0].help, "write 'w'");
 }
+
+#[test]
+fn characters_that_hide_something_are_named() {
+    let separator = '\u{2028}';
+    assert_eq!(wrong("# a comment\u{2028}[run]\n"), [separator.to_string()]);
+    assert_eq!(wrong("[run]\nworld = 'a\u{202e}b'\n"), ["\u{202e}"]);
+    assert_eq!(wrong("[run]\r\nworld = 'a'\r\n"), <[&str; 0]>::default());
+}

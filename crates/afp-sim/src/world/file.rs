@@ -11,6 +11,7 @@ use super::{
     WorldError,
 };
 use crate::truth::Pose;
+use afp_excerpt::hidden::hidden;
 use afp_excerpt::words::{list, nearest};
 use serde::de::DeserializeOwned;
 use toml_edit::Document;
@@ -36,6 +37,10 @@ const POLYGON_COLOR: Rgb = [127, 143, 166];
 
 /// Reads a file and checks each value by itself; gives what it says for its robot alone, too.
 pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
+    if let Some(hidden) = hidden(text).into_iter().next() {
+        let message = format!("'{}' {}", hidden.shown, hidden.fault());
+        return Err(WorldError::new(Some(hidden.span), message).with_help("remove it"));
+    }
     let document = Document::parse(text).map_err(|error| {
         let help = match error.message().starts_with("duplicate key") {
             true => "leave one of them out",

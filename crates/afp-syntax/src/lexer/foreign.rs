@@ -1,4 +1,4 @@
-//! Signs of other languages and of word processors, and characters that cannot be seen.
+//! Signs of other languages and of word processors.
 //!
 //! Each is read as what was meant, so that nothing else is said about its line.
 
@@ -6,6 +6,7 @@ use super::{Lexer, is_blank, is_word, line_length, sign};
 use crate::diagnostics::{Code, Diagnostic, Message};
 use crate::kind::Kind;
 use crate::message;
+use afp_excerpt::hidden::trick;
 
 /// Signs that look like ours, longer ones first: each with what it is and what to write instead.
 const SIGNS: &[(&str, Kind, &str)] = &[
@@ -45,6 +46,11 @@ impl Lexer<'_, '_> {
     /// Takes characters that have no meaning, as what they may have been meant for.
     pub(super) fn unknown(&mut self) {
         let rest = &self.text[self.at..];
+        let hidden = rest.find(|each| trick(each).is_none()).unwrap_or(rest.len());
+        if hidden > 0 {
+            self.push(Kind::Unknown, hidden);
+            return;
+        }
         // Elsewhere in a text these stand for a minus, a dash and an arrow.
         if let Some(dash) = rest.chars().next().filter(|dash| matches!(dash, '–' | '—'))
             && !rest[dash.len_utf8()..].starts_with('>')
@@ -201,30 +207,10 @@ impl Lexer<'_, '_> {
         let shown: String = self.text[self.at..self.at + length].chars().take(20).collect();
         let message = match kind {
             Kind::Text => "a text stands in double quotes".into(),
-            _ if shown.chars().all(is_invisible) => {
-                message!("'{}' cannot be seen", shown.escape_debug().to_string())
-            }
             _ => message!("'{}' has no meaning here", shown.escape_debug().to_string()),
         };
         let span = self.push(kind, length);
         Diagnostic::new(Code::E0101, span, message).help(help)
-    }
-
-    /// Reports what cannot be seen in the comment or text that has just been taken.
-    pub(super) fn invisible(&mut self, start: usize) {
-        let text = &self.text[start..self.at];
-        if text.is_ascii() {
-            return;
-        }
-        for (index, each) in text.char_indices().filter(|(_, each)| is_invisible(*each)) {
-            let at = start + index;
-            let message = message!("'{}' cannot be seen", each.escape_unicode().to_string());
-            self.diags.push(
-                Diagnostic::new(Code::E0101, self.span(at, at + each.len_utf8()), message)
-                    .help("remove it")
-                    .replace(""),
-            );
-        }
     }
 }
 
@@ -246,6 +232,7 @@ fn quoted(rest: &str) -> Option<(usize, &str)> {
 /// Whether a character has a meaning, or stands for one that has.
 fn is_known(each: char) -> bool {
     is_blank(each)
+        || trick(each).is_some()
         || is_word(each)
         || each.is_ascii_digit()
         || each == '"'
@@ -253,12 +240,4 @@ fn is_known(each: char) -> bool {
         || QUOTES.0.contains(each)
         || sign(each.encode_utf8(&mut [0; 4])).is_some()
         || SIGNS.iter().any(|(foreign, ..)| foreign.starts_with(each))
-}
-
-/// Whether a character takes no room, or changes the order in which others are shown.
-fn is_invisible(each: char) -> bool {
-    matches!(
-        each,
-        '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}'
-    )
 }
