@@ -117,6 +117,7 @@ pub(crate) fn check(
     }
     let ready = scenario::Plans { plans: &plans, order: &order, members: &members };
     let scenarios = scenario::check(&program, files, &ready, diags);
+    read_by_scenarios(&program, files, diags);
     consequences::hold_back(&program, files, diags);
     let main = files.first().and_then(|file| select(&program, file, main, diags));
     note_files(files, &record);
@@ -134,6 +135,20 @@ pub(crate) fn check(
     let wanted = (&*order, main);
     checked.partial = partial::partial(&program, parts.collect(), &checked.outline, wanted, diags);
     checked
+}
+
+/// Takes back that nothing reads an entry of which a scenario says something.
+fn read_by_scenarios(program: &Program<'_>, files: &[PlanFile], diags: &mut Diagnostics) {
+    let items = files.iter().flat_map(|file| file.tree.items());
+    let scenarios = items.filter_map(|item| match item {
+        Item::Scenario(scenario) => Some(scenario.span()),
+        _ => None,
+    });
+    let scenarios: Vec<_> = scenarios.collect();
+    if !scenarios.is_empty() {
+        let is_read = |entry| program.record.is_named_within(entry, &scenarios);
+        diags.retain(|each| each.code != Code::E0304 || !is_read(each.span));
+    }
 }
 
 /// What all names mean, and what toolboxes declare.

@@ -15,6 +15,7 @@ mod lasting;
 mod recovery;
 mod resumed;
 pub(crate) mod strong;
+mod toggle;
 mod unreachable;
 mod unread;
 pub(crate) mod view;
@@ -102,6 +103,7 @@ fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
     frozen::check(view, diags);
     resumed::check(view, diags);
     recovery::check(view, diags);
+    toggle::check(view, diags);
     let ends = endless::check(view, diags);
     let unset = assigned::check(view, diags);
     cycles::check(view, diags);

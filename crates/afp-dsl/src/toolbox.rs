@@ -38,6 +38,11 @@ impl Toolbox {
         self.devices.iter().any(|device| device.kind == DeviceKind::Robot)
     }
 
+    /// Whether it comes with the compiler.
+    pub(crate) fn is_built_in(&self) -> bool {
+        matches!(&*self.rust_path, "afp_std" | "afp_carbot")
+    }
+
     /// Whether it declares an enum or an object type of that name.
     pub fn has_type(&self, name: &str) -> bool {
         let mut types =

@@ -3,7 +3,7 @@
 //! Only this file names templates outside of their own crates. Everything else asks for the meaning.
 
 /// What a computation does, or when a supervisor reports. States and events are given by position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Meaning {
     /// Writes its input.
     Assigns,
@@ -24,6 +24,12 @@ pub enum Meaning {
     TimesOut,
     /// Reports 0 if its first input is below the second, 1 if it is above.
     Limits,
+    /// Reports 0 if the way in the direction of its first input is shorter than the second, 1 if it is longer.
+    LooksFar,
+    /// Reports if the shares of red, green and blue light are its first three inputs, each within the fourth.
+    SeesColor,
+    /// Reports 0 if the light is stronger than its first input, 1 if it is weaker.
+    SeesDark,
 }
 
 impl Meaning {
@@ -39,6 +45,9 @@ impl Meaning {
             ("std", "Log") => Meaning::Logs,
             ("std", "Row") => Meaning::ReadsRow,
             ("std", "Switch") => Meaning::Selects,
+            ("carbot", "CheckColor") => Meaning::SeesColor,
+            ("carbot", "CheckDistance") => Meaning::LooksFar,
+            ("carbot", "CheckInfrared") => Meaning::SeesDark,
             _ => return None,
         })
     }

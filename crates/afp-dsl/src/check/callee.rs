@@ -20,6 +20,8 @@ struct Candidate<'a> {
     home: Option<&'a str>,
     /// Where it is declared.
     span: Span,
+    /// Whether it is in a toolbox that everybody has.
+    is_built_in: bool,
 }
 
 /// What the keyword in front of a component asks for, and where it stands.
@@ -48,6 +50,13 @@ impl Context<'_> {
         // The keyword decides between a plan and a template of the same name.
         if found.iter().any(fits) {
             found.retain(fits);
+        }
+        // A template that is added to a built-in toolbox changes no plan that has its own.
+        if let [own] = &*found.iter().filter(|each| !each.is_built_in).collect::<Vec<_>>()
+            && let (Some(home), Some(hidden)) = (own.home, found.iter().find(|it| it.is_built_in))
+        {
+            diags.push(hides(&name, reference.span(), home, hidden));
+            found.retain(|each| !each.is_built_in);
         }
         if found.len() > 1 {
             record.several(name.span, found.iter().map(|each| each.span));
@@ -98,7 +107,7 @@ impl Context<'_> {
             let head = &self.program.plans[*index];
             let span = head.name.as_ref().map_or_else(|| head.node.span(), |name| name.span);
             let signature = self.program.signatures.plan(*index).clone();
-            found.push(Candidate { signature, home: None, span });
+            found.push(Candidate { signature, home: None, span, is_built_in: false });
         }
         for import in &self.file.imports {
             if home.is_some_and(|home| home.text != import.qualifier) {
@@ -110,7 +119,8 @@ impl Context<'_> {
             };
             if let Some(signature) = self.program.signatures.template(import.id, index) {
                 let (home, span) = (Some(import.qualifier.as_str()), templates[index].span);
-                found.push(Candidate { signature: signature.clone(), home, span });
+                let (signature, is_built_in) = (signature.clone(), import.toolbox.is_built_in());
+                found.push(Candidate { signature, home, span, is_built_in });
             }
         }
         found
@@ -222,6 +232,17 @@ impl Context<'_> {
         let head = self.program.plans.iter().find(is_it)?;
         relative(self.file.path, self.program.files[head.file].path)
     }
+}
+
+/// What is told of a template of a toolbox of one's own that has the name of a built-in template.
+fn hides(name: &Name, span: Span, home: &str, hidden: &Candidate<'_>) -> Diagnostic {
+    let other = hidden.home.unwrap_or_default();
+    let message =
+        message!("'{}' is the template of '{}', not that of '{}'", name.text, home, other);
+    let [own, other] = [home, other].map(|home| format!("{home}.{}", name.text));
+    Diagnostic::new(Code::E0254, span, message)
+        .note(hidden.span, "the built-in template")
+        .help(message!("write '{}' to be clear, or '{}' for the built-in one", own, other))
 }
 
 fn unfit(signature: &Signature, span: Span, wanted: &Wanted) -> Diagnostic {

@@ -7,7 +7,12 @@ use afp_syntax::source::Span;
 
 /// The first edge, as written, that ends the plan as `Interrupted`.
 pub(crate) fn interrupting(plan: &Plan) -> Option<Span> {
-    let (elements, globals) = (plan.elements(), edges_of_globals(plan));
+    let elements = plan.elements();
+    // Among computations nobody asks for events.
+    if elements.iter().all(|element| element.kind() == ElementKind::Computation) {
+        return None;
+    }
+    let globals = edges_of_globals(plan);
     // Most plans are decided without looking into their elements.
     if elements.iter().all(|element| element.reactions().is_empty())
         && let Some((_, edge)) = globals.iter().find(|(_, edge)| edge.leads_to("terminate"))

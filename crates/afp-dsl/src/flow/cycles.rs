@@ -9,16 +9,16 @@ mod choices;
 mod count;
 mod counters;
 mod decided;
-mod holding;
+pub(super) mod holding;
 mod instant;
 mod ways;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::flow::{INTERRUPTED, OK};
-use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words, list};
+use crate::flow::{strong, toggle};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words, list};
 use afp_syntax::message;
 use afp_syntax::source::Span;
 
@@ -246,17 +246,10 @@ impl<'a, 'b> Quick<'a, 'b> {
         self.report_livelock(closing, &cycle, diags);
     }
 
-    /// Reports a cycle of computations that nothing on it ever ends, whatever the values are by which they choose.
+    /// Reports cycles of computations that nothing on them ever ends, whatever the values are by which they choose.
     fn report_choices(&self, inner: &[&Edge], diags: &mut Diagnostics) {
-        let mut conditions: Vec<_> = inner.iter().filter(|edge| self.is_condition(edge)).collect();
-        conditions.sort_by_key(|edge| self.place(edge));
-        let mut room = room(inner);
-        while let Some(closing) = conditions.pop() {
-            let Some(cycle) = self.cycle(closing, &mut room) else { return };
-            if choices::never_change(self.view, &cycle) {
-                return self.report_livelock(closing, &cycle, diags);
-            }
-        }
+        let conditions = inner.iter().copied().filter(|edge| self.is_condition(edge));
+        self.report_each(inner, conditions, |cycle| choices::never_change(self.view, cycle), diags);
     }
 
     /// Returns whether there was one to report.
@@ -267,20 +260,35 @@ impl<'a, 'b> Quick<'a, 'b> {
         diags: &mut Diagnostics,
     ) -> bool {
         let unsure = inner.iter().copied().filter(|edge| !is_sure(self.view, edge.cause));
-        let mut unsure: Vec<&Edge> = unsure.collect();
-        unsure.sort_by_key(|edge| self.place(edge));
-        let mut room = room(inner);
-        while let Some(closing) = unsure.pop() {
-            let Some(cycle) = self.cycle(closing, &mut room) else { return false };
-            let ends = holding::contradict(self.view, &cycle)
-                || decided::breaks_off(self.view, &cycle, constants)
-                || self.view.counters().end(self.view, cycle.iter());
-            if !ends {
+        let lasts = |cycle: &[Edge]| {
+            !holding::contradict(self.view, cycle)
+                && !decided::breaks_off(self.view, cycle, constants)
+                && !self.view.counters().end(self.view, cycle.iter())
+        };
+        self.report_each(inner, unsure, lasts, diags)
+    }
+
+    /// Reports those of the cycles that some edges close which `last`, the last one in the text first. A cycle that goes by an
+    /// edge of which that is said already is mended with it. Returns whether there was one.
+    fn report_each<'e>(
+        &self,
+        inner: &[&Edge],
+        closing: impl Iterator<Item = &'e Edge>,
+        last: impl Fn(&[Edge]) -> bool,
+        diags: &mut Diagnostics,
+    ) -> bool {
+        let mut all: Vec<&Edge> = closing.collect();
+        all.sort_by_key(|edge| self.place(edge));
+        let (mut room, mut reported) = (room(inner), Vec::new());
+        while let Some(closing) = all.pop() {
+            let Some(cycle) = self.cycle(closing, &mut room) else { break };
+            let is_known = cycle.iter().any(|edge| reported.contains(&edge.cause));
+            if !is_known && last(&cycle) {
                 self.report_livelock(closing, &cycle, diags);
-                return true;
+                reported.push(closing.cause);
             }
         }
-        false
+        !reported.is_empty()
     }
 
     fn report_livelock(&self, closing: &Edge, cycle: &[Edge], diags: &mut Diagnostics) {
@@ -301,11 +309,13 @@ impl<'a, 'b> Quick<'a, 'b> {
             found = found.note(self.view.span(edge.cause), text);
         }
         let counting = cycle.iter().find_map(|edge| counters::forgotten(self.view, edge.cause));
+        let once = self.once_instead(&conditions);
         let help = match (counting, conditions.len()) {
             (Some((count, entry)), _) => message!("let '{}' count: 'next => {}'", count, entry),
             (None, 1) => {
                 "lead it to an element that takes time, such as an actor that waits".into()
             }
+            (None, _) if once.is_some() => once.unwrap_or_default(),
             (None, _) if cycle.iter().all(|edge| is_sure(self.view, edge.cause)) => {
                 "lead one of them to an element that takes time, such as an actor that waits".into()
             }
@@ -316,13 +326,23 @@ impl<'a, 'b> Quick<'a, 'b> {
         diags.push(found.help(help));
     }
 
-    /// Whether something has to hold for an edge to be taken: computations may decide as well.
+    /// What to use instead, if all conditions are events of one template and another template reports that once.
+    fn once_instead(&self, conditions: &[&Edge]) -> Option<Message> {
+        let supervisor = |edge: &&Edge| match edge.cause {
+            Cause::Event(id, _) => Some(self.view.supervisor(id)),
+            _ => None,
+        };
+        let all: Option<Vec<_>> = conditions.iter().map(supervisor).collect();
+        let all = all.filter(|all| all.windows(2).all(|two| two[0].template == two[1].template))?;
+        toggle::once_instead(self.view, all.first()?.template)
+    }
+
+    /// Whether something has to hold for an edge to be taken: computations may decide as well, or fail.
     fn is_condition(&self, edge: &Edge) -> bool {
-        let others = self.view.from(edge.from).iter();
+        let fails = |cause| matches!(cause, Cause::Error(_)) && self.can_be_taken(cause);
+        let mut others = self.view.from(edge.from).iter().filter(|other| other.to != edge.to);
         !is_sure(self.view, edge.cause)
-            || others
-                .filter(|other| is_sure(self.view, other.cause))
-                .any(|other| other.to != edge.to)
+            || others.any(|other| is_sure(self.view, other.cause) || fails(other.cause))
     }
 
     /// Orders edges; the last one closes a cycle for somebody who reads the text from above.

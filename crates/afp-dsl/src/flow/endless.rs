@@ -2,6 +2,7 @@
 
 use crate::flow::view::{Cause, Node, View};
 use crate::flow::{FAILED, INTERRUPTED, OK, lasting};
+use crate::graph::{Element, ElementId, Target, chain, resuming};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
@@ -99,12 +100,31 @@ fn backward(view: &View<'_>) -> Vec<bool> {
     let mut seen = vec![false; view.nodes()];
     let mut open = vec![view.end(OK), view.end(INTERRUPTED), view.end(FAILED)];
     open.extend(failing(view));
-    // What is resumed goes on to wherever it leads.
-    open.extend((0..view.nodes()).filter(|node| view.resumes(*node)));
     while let Some(node) = open.pop() {
         if !std::mem::replace(&mut seen[node], true) {
             open.extend(&into[first[node] as usize..first[node + 1] as usize]);
         }
     }
+    resumed(view, &mut seen);
     seen
+}
+
+/// Adds the computations at whose `resume` an element goes on from which an ending can be reached.
+fn resumed(view: &View<'_>, seen: &mut [bool]) {
+    let elements = &view.plan.elements;
+    let resuming = resuming(elements.iter().map(Some));
+    if !resuming.contains(&true) {
+        return;
+    }
+    let goes_on = |(node, element): &(Node, &Element)| element.takes_time() && seen[*node];
+    let goes_on: Vec<Node> = view.elements().filter(goes_on).map(|(node, _)| node).collect();
+    for node in goes_on {
+        for edge in view.from(node).iter().chain(view.of_globals(node)) {
+            let Some(first) = u16::try_from(edge.to).ok().map(ElementId) else { continue };
+            let (run, _) = chain(elements, Target::Element(first));
+            for held in run.into_iter().filter(|id| resuming[id.index()]) {
+                seen[held.index()] = true;
+            }
+        }
+    }
 }

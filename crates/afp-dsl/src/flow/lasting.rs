@@ -29,10 +29,11 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     }
 }
 
-/// Whether an element is an actor without a state that no event ends.
+/// Whether an element is an actor without a state that no event ends. What an event resumes goes on.
 pub(super) fn lasts(view: &View<'_>, node: Node, element: &Element) -> bool {
     let leads_on = |edge: &Edge| {
-        matches!(edge.cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..)) && edge.to != node
+        matches!(edge.cause, Cause::Event(..) | Cause::Miss(_) | Cause::On(..))
+            && view.rests(edge.to).into_iter().any(|rest| rest != node)
     };
     matches!(element.component, Component::Actor(_))
         && element.states.is_empty()

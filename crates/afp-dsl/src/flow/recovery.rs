@@ -4,7 +4,7 @@
 //! lets one element finish. Elements behind it that only this event leads to are part of the same
 //! recovery, and there it is taken: the recovery begins anew, for ever. A computation is over at once,
 //! so behind one the first actor is such an element already. Where such an element reacts otherwise to
-//! the event (`on`), it goes on. Two conditions that last alike start their recoveries in turns.
+//! the event (`on`), it goes on. Two conditions that hold together start their recoveries in turns.
 //!
 //! An event of a local supervisor is taken at each poll, so one that lasts and leads to its own element starts that over and
 //! over: a robot that moves stays where it is. Where it writes something, the element may start with other values, and where
@@ -12,13 +12,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::flow::cycles::holding;
 use crate::flow::dataflow::{WIDTH, propagate};
 use crate::flow::view::{Cause, Edge, Node, View};
 use crate::graph::{Component, Element, SupervisorId};
 use crate::types::{Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
-use afp_types::Meaning;
 
 /// An event of a global supervisor, and where it leads.
 type Recovery = (SupervisorId, u16, Node);
@@ -28,7 +28,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     start_over(view, diags);
     let recoveries = recoveries(view);
     let recoveries: Vec<_> = recoveries.into_iter().collect();
-    alternate(view, &recoveries, diags);
+    let mut reported = BTreeSet::new();
     for group in recoveries.chunks(WIDTH) {
         let mut stops = vec![0u64; view.edges.len()];
         for (bit, (_, edges)) in group.iter().enumerate() {
@@ -37,9 +37,12 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
         let without = propagate(view, u64::MAX, &stops);
         for (bit, (recovery, edges)) in group.iter().enumerate() {
             let edge = edges.last().map(|at| view.edges[*at]);
-            report(view, *recovery, edge, |node| without[node] >> bit & 1 == 0, diags);
+            if report(view, *recovery, edge, |node| without[node] >> bit & 1 == 0, diags) {
+                reported.insert(*recovery);
+            }
         }
     }
+    alternate(view, &recoveries, &reported, diags);
 }
 
 /// The edges of each recovery; those that hold for most elements come last.
@@ -54,11 +57,10 @@ fn recoveries(view: &View<'_>) -> BTreeMap<Recovery, Vec<usize>> {
 }
 
 fn recovery_of(view: &View<'_>, edge: &Edge) -> Option<Recovery> {
-    let (id, event) = match edge.cause {
-        Cause::Event(id, event) if view.is_shared(edge.from) => (id, event),
-        Cause::On(_, id, Some(event)) => (id, event),
-        _ => return None,
-    };
+    let (id, event) = event_of(edge.cause)?;
+    if view.supervisor(id).owner.is_some() {
+        return None;
+    }
     // What happens once holds no more while its recovery runs.
     (!view.is_once(id, event)).then_some((id, event, edge.to))
 }
@@ -109,50 +111,103 @@ fn commands(view: &View<'_>, element: &Element) -> bool {
     false
 }
 
-/// Warns of events that hold for ever once they do, and replace what another such event has started, as that one does.
-fn alternate(view: &View<'_>, all: &[(Recovery, Vec<usize>)], diags: &mut Diagnostics) {
-    let lasts = |(id, ..): &Recovery| {
-        view.template(view.supervisor(*id)).meaning == Some(Meaning::TimesOut)
+/// Warns of events that take turns while both hold: each ends what the other has started, before that has done anything
+/// about it. At most one such event is named for each recovery. What a recovery runs into by its own supervisors is not
+/// told where the recovery is `reported` already.
+fn alternate(
+    view: &View<'_>,
+    all: &[(Recovery, Vec<usize>)],
+    reported: &BTreeSet<Recovery>,
+    diags: &mut Diagnostics,
+) {
+    let known: BTreeSet<(Node, Recovery)> =
+        view.edges.iter().filter_map(|edge| Some((edge.from, recovery_of(view, edge)?))).collect();
+    let holds = |node: Node, wanted: Recovery| {
+        view.from(node).iter().any(|edge| match edge.cause {
+            Cause::Active(_) => known.contains(&(edge.to, wanted)),
+            _ => known.contains(&(node, wanted)),
+        })
     };
-    let acts = |(.., to): &Recovery| view.element(*to).is_some_and(Element::takes_time);
-    let lasting: Vec<_> = all.iter().filter(|(it, _)| lasts(it) && acts(it)).collect();
-    let holds = |during: &Recovery, other: &Recovery| {
-        view.of_globals(during.2).any(|edge| recovery_of(view, edge) == Some(*other))
-    };
-    for (at, (one, edges)) in lasting.iter().enumerate() {
-        let other = lasting[..at]
-            .iter()
-            .find(|(other, _)| other.2 != one.2 && holds(one, other) && holds(other, one));
-        let Some((_, others)) = other else { continue };
-        let cause = |edges: &[usize]| edges.last().map(|edge| view.edges[*edge].cause);
-        let (Some(one), Some(other)) = (cause(edges), cause(others)) else { continue };
-        let (first, next) = (view.label(other), view.label(one));
-        let message =
-            message!("once '{}' and '{}' hold, each ends what the other has started", first, next);
-        diags.push(
-            Diagnostic::new(Code::E0309, view.span(one), message)
-                .note(view.span(other), "both hold for ever")
-                .help("let one of them be ignored in what the other leads to, with 'on', or lead it to 'terminate'"),
-        );
+    let mut told = BTreeSet::new();
+    for (one, edges) in all {
+        let Some(own) = edges.last().map(|edge| view.edges[*edge]) else { continue };
+        let during = view.rests(one.2).into_iter().filter(|node| view.element(*node).is_some());
+        let turn = during.into_iter().find_map(|during| {
+            let local = view.from(during).iter().filter(|_| !reported.contains(one));
+            let others = local.chain(view.of_globals(during));
+            let mut others = others.filter(|it| it.to != during && lasts(view, one.0, it));
+            others.find_map(|other| {
+                let mut next = view.rests(other.to).into_iter();
+                let next = next.find(|next| *next != during && holds(*next, *one))?;
+                (!holding::contradict(view, &[own, *other])).then_some((during, *other, next))
+            })
+        });
+        let Some((during, other, next)) = turn else { continue };
+        let pair = BTreeSet::from([event_of(own.cause), event_of(other.cause)]);
+        if told.insert(pair) {
+            diags.push(turns(view, (own.cause, next), (other.cause, during)));
+        }
     }
 }
 
-/// `only` tells which nodes can be reached by the event alone.
+/// The supervisor and the event that take an edge.
+fn event_of(cause: Cause) -> Option<(SupervisorId, u16)> {
+    match cause {
+        Cause::Event(id, event) | Cause::On(_, id, Some(event)) => Some((id, event)),
+        _ => None,
+    }
+}
+
+/// Whether an edge is that of an event of a supervisor other than `one`, and may hold as soon as something is entered. Events
+/// of one supervisor come in the order that its template declares.
+fn lasts(view: &View<'_>, one: SupervisorId, edge: &Edge) -> bool {
+    let Some((id, event)) = event_of(edge.cause) else { return false };
+    let is_local = view.supervisor(id).owner.is_some();
+    id != one && !view.is_once(id, event) && !(is_local && comes_after_a_time(view, id))
+}
+
+/// What is told of two events, each with the element in which it would have to be ignored.
+fn turns(view: &View<'_>, one: (Cause, Node), other: (Cause, Node)) -> Diagnostic {
+    let ((first, _), (next, _)) = match view.span(one.0) < view.span(other.0) {
+        true => (one, other),
+        false => (other, one),
+    };
+    let ignored = |(cause, node): (Cause, Node)| {
+        let (id, event) = event_of(cause).filter(|(id, _)| view.supervisor(*id).owner.is_none())?;
+        let supervisor = view.supervisor(id);
+        let event = &view.template(supervisor).outcomes.get(usize::from(event))?.name;
+        let line = format!("on {} {{ {event} -> ignore }}", supervisor.name);
+        Some(message!("'{}' in '{}'", line, view.node_name(node)))
+    };
+    let help = match (ignored(one), ignored(other)) {
+        (Some(one), Some(other)) => message!("let one of them finish: write {}, or {}", one, other),
+        (Some(only), None) | (None, Some(only)) => message!("write {}", only),
+        (None, None) => "lead one of them to 'terminate'".into(),
+    };
+    let (before, label) = (view.label(first), view.label(next));
+    let message =
+        message!("once '{}' and '{}' hold, each ends what the other has started", before, label);
+    Diagnostic::new(Code::E0309, view.span(next), message)
+        .note(view.span(first), "this event may still hold")
+        .help(help)
+}
+
+/// `only` tells which nodes can be reached by the event alone. Returns whether there was something to report.
 fn report(
     view: &View<'_>,
     wanted: Recovery,
     edge: Option<Edge>,
     only: impl Fn(usize) -> bool,
     diags: &mut Diagnostics,
-) {
-    let Some(edge) = edge else { return };
-    let Some(target) = view.element(edge.to).filter(|_| only(edge.to)) else { return };
+) -> bool {
+    let Some(edge) = edge else { return false };
+    let Some(target) = view.element(edge.to).filter(|_| only(edge.to)) else { return false };
     let again = |node: usize| {
         let mut edges = view.of_globals(node);
         node != edge.to && only(node) && edges.any(|other| recovery_of(view, other) == Some(wanted))
     };
     let mut recovery = view.elements().filter(|(node, other)| other.takes_time() && again(*node));
-    let Some((_, other)) = recovery.next() else { return };
+    let Some((_, other)) = recovery.next() else { return false };
     let label = view.label(edge.cause);
     let (first, next) = (&target.name, &other.name);
     let message = message!(
@@ -166,4 +221,5 @@ fn report(
             .note(other.span, "only this event leads here, and it may still hold")
             .help(message!("put '{}' and '{}' into one sub-plan and lead the event to it, or ignore the event in '{}' with 'on'", first, next, next)),
     );
+    true
 }

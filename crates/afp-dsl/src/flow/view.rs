@@ -8,6 +8,7 @@
 mod counter;
 
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 
 use crate::flow::{FAILED, INTERRUPTED, Model, OK, Summary};
 use crate::graph::{
@@ -243,6 +244,20 @@ impl<'a> View<'a> {
             let mut targets = element.states.iter().flatten().chain(&element.on_error);
             targets.any(|target| *target == Target::Resume)
         })
+    }
+
+    /// Where the flow rests that comes to a node: elements that take time, and endings. Computations lead on at once.
+    pub fn rests(&self, node: Node) -> BTreeSet<Node> {
+        let (mut open, mut seen, mut rests) = (vec![node], BTreeSet::new(), BTreeSet::new());
+        while let Some(node) = open.pop() {
+            if self.element(node).is_none_or(Element::takes_time) {
+                rests.insert(node);
+            } else if seen.insert(node) {
+                let edges = self.from(node).iter().filter(|edge| edge.possible);
+                open.extend(edges.map(|edge| edge.to));
+            }
+        }
+        rests
     }
 
     /// The element of a node, unless it is one of the others.

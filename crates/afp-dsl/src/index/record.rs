@@ -86,6 +86,13 @@ impl Recorder {
         self.record(name, Found::Unknown);
     }
 
+    /// Whether a name in some of these places means a definition.
+    pub fn is_named_within(&self, definition: Span, places: &[Span]) -> bool {
+        let records = self.0.borrow();
+        let mut names = records.names.iter().filter(|it| it.1 == Found::Definition(definition));
+        names.any(|(name, _)| places.iter().any(|place| place.contains(*name)))
+    }
+
     /// Takes everything so far.
     pub fn take(&self) -> Records {
         self.0.take()

@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use super::{decided, holding};
 use crate::flow::view::{Cause, Edge, View};
 use crate::graph::EntryId;
+use afp_types::Meaning;
 
-/// Whether the computations of a cycle choose as they have chosen: nothing on it writes what they read, and none may fail
-/// instead. Where two of them read the same entry, their choices may contradict each other, so that the cycle is never
-/// taken.
+/// Whether the computations of a cycle choose as they have chosen: nothing on it writes what they read, so none fails that has
+/// not failed at first. Where two of them read the same entry, their choices may contradict each other, so that the cycle is
+/// never taken.
 pub(super) fn never_change(view: &View<'_>, cycle: &[Edge]) -> bool {
     let outputs = cycle.iter().flat_map(|edge| view.may_write(edge.cause));
     let written: BTreeSet<EntryId> = outputs.map(|output| output.entry).collect();
@@ -17,14 +18,17 @@ pub(super) fn never_change(view: &View<'_>, cycle: &[Edge]) -> bool {
         let Cause::State(id, state) = edge.cause else { return false };
         let element = &view.plan.elements[id.index()];
         let is_caught = element.on_error.is_some() && !holding::never_fails(view, element);
-        if is_caught || !decided::is_choice(element, state) {
-            return !is_caught;
-        }
+        let is_choice = decided::is_choice(element, state);
         let mut read = BTreeSet::new();
         let inputs = element.inputs.iter();
         inputs.for_each(|input| input.each_entry(&mut |entry, _| _ = read.insert(entry)));
-        let stays = written.is_disjoint(&read) && read_by_others.is_disjoint(&read);
-        read_by_others.extend(read);
-        stays && decided::chooses_by_inputs(view, element)
+        let stays = written.is_disjoint(&read);
+        let fails_by_inputs = || view.meaning(element).is_some_and(Meaning::never_fails);
+        let is_open = is_choice && !read_by_others.is_disjoint(&read);
+        if is_choice {
+            read_by_others.extend(read);
+        }
+        (!is_caught || stays && fails_by_inputs())
+            && (!is_choice || stays && !is_open && decided::chooses_by_inputs(view, element))
     })
 }

@@ -89,59 +89,97 @@ fn always_converts(conversion: &Conversion) -> bool {
     }
 }
 
-/// What a limit compares.
+/// What conditions compare.
 #[derive(Clone, Copy)]
 enum Term {
-    Entry(EntryId),
     Number(f64),
+    Named(Name),
+}
+
+/// An entry, or what a sensor reads.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Name {
+    Entry(EntryId),
+    /// What supervisors of a meaning read, and which of several values.
+    Reading(Meaning, u64),
 }
 
 /// Whether the conditions of a cycle never hold together: one value above a limit and below another one.
-pub(super) fn contradict(view: &View<'_>, cycle: &[Edge]) -> bool {
+pub(in crate::flow) fn contradict(view: &View<'_>, cycle: &[Edge]) -> bool {
     let outputs = cycle.iter().flat_map(|edge| view.may_write(edge.cause));
     let written: BTreeSet<EntryId> = outputs.map(|output| output.entry).collect();
-    let stays = |term: Term| !matches!(term, Term::Entry(entry) if written.contains(&entry));
-    let less = cycle.iter().filter_map(|edge| less(view, edge.cause));
+    let stays = |term: Term| !matches!(term, Term::Named(Name::Entry(it)) if written.contains(&it));
+    let less = cycle.iter().flat_map(|edge| less(view, edge.cause));
     goes_round(&less.filter(|(a, b)| stays(*a) && stays(*b)).collect::<Vec<_>>())
 }
 
 /// Whether a term would have to be less than itself, where each number is less than the next.
 fn goes_round(less: &[(Term, Term)]) -> bool {
-    let (mut numbers, mut entries) = (Vec::new(), Vec::new());
+    let (mut numbers, mut names) = (Vec::new(), Vec::new());
     for term in less.iter().flat_map(|(a, b)| [a, b]) {
         match term {
             Term::Number(number) => numbers.push(*number),
-            Term::Entry(entry) => entries.push(*entry),
+            Term::Named(name) => names.push(*name),
         }
     }
     numbers.sort_by(f64::total_cmp);
     numbers.dedup();
-    entries.sort_unstable();
-    entries.dedup();
+    names.sort_unstable();
+    names.dedup();
     let place = |term: &Term| match term {
         Term::Number(number) => numbers.partition_point(|other| other < number),
-        Term::Entry(entry) => numbers.len() + entries.partition_point(|other| other < entry),
+        Term::Named(name) => numbers.len() + names.partition_point(|other| other < name),
     };
     let ordered = (1..numbers.len()).map(|at| (at - 1, at));
     let mut edges: Vec<_> = less.iter().map(|(a, b)| (place(a), place(b))).chain(ordered).collect();
     edges.sort_unstable();
-    let nodes = numbers.len() + entries.len();
+    let nodes = numbers.len() + names.len();
     let first = strong::first(nodes, edges.iter().map(|(from, _)| *from));
     let targets: Vec<u32> = edges.iter().map(|(_, to)| *to as u32).collect();
     let component = strong::components(&first, &targets);
     edges.iter().any(|(from, to)| component[*from] == component[*to])
 }
 
-/// Which of the two that a limit compares is less than which, when its event comes.
-fn less(view: &View<'_>, cause: Cause) -> Option<(Term, Term)> {
-    let Cause::Event(id, event) = cause else { return None };
+/// Of what a supervisor compares, which is less than which when its event comes.
+fn less(view: &View<'_>, cause: Cause) -> Vec<(Term, Term)> {
+    let (Cause::Event(id, event) | Cause::On(_, id, Some(event))) = cause else {
+        return Vec::new();
+    };
     let supervisor = view.supervisor(id);
-    if view.template(supervisor).meaning != Some(Meaning::Limits) {
-        return None;
-    }
-    let [value, limit] = supervisor.inputs.as_slice() else { return None };
-    let (value, limit) = (term(view, value)?, term(view, limit)?);
-    Some(if event == BELOW { (value, limit) } else { (limit, value) })
+    let meaning = view.template(supervisor).meaning;
+    meaning.and_then(|meaning| compared(view, meaning, supervisor, event)).unwrap_or_default()
+}
+
+fn compared(
+    view: &View<'_>,
+    meaning: Meaning,
+    supervisor: &Supervisor,
+    event: u16,
+) -> Option<Vec<(Term, Term)>> {
+    let input = |at: usize| term(view, supervisor.inputs.get(at)?);
+    let number = |at: usize| match input(at)? {
+        Term::Number(number) => Some(number),
+        Term::Named(_) => None,
+    };
+    let reading = |which: u64| Term::Named(Name::Reading(meaning, which));
+    let (value, limit) = match meaning {
+        Meaning::Limits => (input(0)?, input(1)?),
+        Meaning::LooksFar => (reading(number(0)?.to_bits()), input(1)?),
+        Meaning::SeesDark => (reading(0), input(0)?),
+        Meaning::SeesColor => {
+            let off = number(3)?;
+            let near = |channel: u8| {
+                let share = number(usize::from(channel))?;
+                let (value, number) = (reading(u64::from(channel)), Term::Number);
+                Some([(number(share - off), value), (value, number(share + off))])
+            };
+            return Some([near(0)?, near(1)?, near(2)?].concat());
+        }
+        _ => return None,
+    };
+    // An infrared light is seen first.
+    let is_below = (event == BELOW) != (meaning == Meaning::SeesDark);
+    Some(vec![if is_below { (value, limit) } else { (limit, value) }])
 }
 
 fn term(view: &View<'_>, formula: &Formula) -> Option<Term> {
@@ -149,7 +187,7 @@ fn term(view: &View<'_>, formula: &Formula) -> Option<Term> {
         Some(Constant::Int(number)) => Some(Term::Number(number as f64)),
         Some(Constant::Float(number)) => Some(Term::Number(number)),
         Some(_) => None,
-        None => entry(formula).map(Term::Entry),
+        None => entry(formula).map(|entry| Term::Named(Name::Entry(entry))),
     }
 }
 

@@ -1,0 +1,74 @@
+//! Toggles by an event that lasts: the element that it leads to leaves by the same event at the next poll.
+//!
+//! A press of a button lasts for many polls. Of some templates there is another one that reports the same once, so that each
+//! press leads on by one element.
+
+use crate::flow::view::{Cause, Edge, Node, View};
+use crate::graph::{SupervisorId, TemplateId};
+use crate::toolbox::{Template, TemplateKind};
+use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message};
+use afp_syntax::message;
+
+/// Warns of each such event of a global supervisor once, at the edge that leads back.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+    for id in (0..view.plan.globals).map(SupervisorId) {
+        let template = view.supervisor(id).template;
+        let Some(help) = once_instead(view, template) else { continue };
+        let events = 0..view.model.template(template).outcomes.len() as u16;
+        for event in events.filter(|event| !view.is_once(id, *event)) {
+            let mut round = view.elements().filter_map(|(node, _)| {
+                let (there, to) = leads(view, node, id, event)?;
+                let (back, again) = leads(view, to, id, event)?;
+                let is_back = view.span(back.cause) > view.span(there.cause);
+                (again == node && is_back).then_some((there, back, node, to))
+            });
+            let Some((there, back, from, to)) = round.next() else { continue };
+            let (label, one, other) =
+                (view.label(back.cause), view.node_name(from), view.node_name(to));
+            let message = message!(
+                "while '{}' lasts, it leads from '{}' to '{}' and back at every poll",
+                label,
+                one,
+                other
+            );
+            diags.push(
+                Diagnostic::new(Code::E0317, view.span(back.cause), message)
+                    .note(view.span(there.cause), "this edge leads there")
+                    .help(help.clone()),
+            );
+        }
+    }
+}
+
+/// The edge of an event while an element is active, and the element that it leads to, at once or through computations.
+fn leads<'v>(
+    view: &'v View<'_>,
+    node: Node,
+    id: SupervisorId,
+    event: u16,
+) -> Option<(&'v Edge, Node)> {
+    let is_it = |edge: &&Edge| match edge.cause {
+        Cause::Event(by, it) | Cause::On(_, by, Some(it)) => (by, it) == (id, event),
+        _ => false,
+    };
+    let edge = view.of_globals(node).find(is_it)?;
+    let rests = view.rests(edge.to);
+    let only = rests.first().filter(|only| rests.len() == 1 && **only != node)?;
+    view.element(*only).map(|_| (edge, *only))
+}
+
+/// What to use instead of a template whose event lasts, if its toolbox has a template that reports the same once: its name
+/// begins like that of the first one.
+pub(super) fn once_instead(view: &View<'_>, id: TemplateId) -> Option<Message> {
+    let lasting = view.model.template(id);
+    let is_once = |it: &&Template| {
+        it.kind == TemplateKind::Supervisor
+            && it.name.len() > lasting.name.len()
+            && it.name.starts_with(&lasting.name)
+            && it.outcomes.iter().all(|event| event.once)
+    };
+    let toolbox = view.model.toolboxes.get(id.toolbox.index())?;
+    let better = toolbox.templates.iter().find(is_once)?;
+    let event = &better.outcomes.first()?.name;
+    Some(message!("use '{}', whose event '{}' comes once", better.name, event))
+}
