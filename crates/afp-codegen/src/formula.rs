@@ -4,11 +4,11 @@
 //! in the interpreter; what could panic, wrap or round differently is a call into `afp_core::rt`.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use crate::names::units_name;
 use crate::rust_type::{TypePaths, float, int, long, variant};
-use afp_dsl::graph::{Formula, FormulaKind, Function, Operator};
+use afp_dsl::graph::{Formula, Function, Op, Operator, Part};
 use afp_dsl::types::{Conversion, Dimension, Type};
 
 /// How tightly an expression binds.
@@ -54,7 +54,7 @@ impl<'a> Formulas<'a> {
     /// What an input port of the formula's type gets: texts and objects are borrowed.
     pub fn input(&mut self, formula: &Formula) -> TokenStream {
         match &formula.ty {
-            Type::Text => match borrowed_text(self, formula) {
+            Type::Text => match borrowed_text(self, formula.part()) {
                 Some(text) => text,
                 None => {
                     let text = self.value(formula);
@@ -64,7 +64,7 @@ impl<'a> Formulas<'a> {
                 }
             },
             Type::Object(_) => {
-                let object = self.entry(formula);
+                let object = self.entry(formula.part());
                 quote!(config.#object()?)
             }
             _ => self.value(formula),
@@ -73,29 +73,37 @@ impl<'a> Formulas<'a> {
 
     /// A value of the formula's own Rust type.
     pub fn value(&self, formula: &Formula) -> TokenStream {
+        self.plain(formula.part())
+    }
+
+    fn plain(&self, formula: Part<'_>) -> TokenStream {
         self.expr(formula).0
     }
 
-    fn entry(&self, formula: &Formula) -> Option<&Ident> {
-        match &formula.kind {
-            FormulaKind::Entry(entry) => self.entries.get(entry.index()),
+    fn entry(&self, formula: Part<'_>) -> Option<&Ident> {
+        match formula.op() {
+            Op::Entry(entry) => self.entries.get(entry.index()),
             _ => None,
         }
     }
 
-    fn expr(&self, formula: &Formula) -> Expr {
-        match &formula.kind {
-            FormulaKind::Bool(value) => atom(quote!(#value)),
-            FormulaKind::Int(value) => signed(int(*value), *value < 0),
-            FormulaKind::Float(value) => {
+    fn expr(&self, formula: Part<'_>) -> Expr {
+        let operands: Vec<_> = formula.operands().collect();
+        match (formula.op(), &operands[..]) {
+            (Op::Bool(value), _) => atom(quote!(#value)),
+            (Op::Int(value), _) => signed(int(*value), *value < 0),
+            (Op::Float(value), _) => {
                 let tokens = self.type_paths.constant(dimension(&formula.ty), *value);
                 signed(
                     tokens,
                     value.is_sign_negative() && dimension(&formula.ty) == Dimension::NONE,
                 )
             }
-            FormulaKind::Text(text) => atom(quote!(Text::try_from(#text)?)),
-            FormulaKind::Choice(index) => match &formula.ty {
+            (Op::Text(text), _) => {
+                let text = text.as_str();
+                atom(quote!(Text::try_from(#text)?))
+            }
+            (Op::Choice(index), _) => match &formula.ty {
                 Type::Enum(choices) => {
                     let (path, variant) =
                         (self.type_paths.value(&formula.ty), variant(choices, *index));
@@ -103,15 +111,15 @@ impl<'a> Formulas<'a> {
                 }
                 _ => atom(quote!(#index)),
             },
-            FormulaKind::Entry(_) => {
+            (Op::Entry(_), _) => {
                 let entry = self.entry(formula);
                 match formula.ty {
                     Type::Text | Type::Object(_) => atom(quote!(config.#entry.get().clone())),
                     _ => atom(quote!(config.#entry())),
                 }
             }
-            FormulaKind::Neg(inner) => self.negated(inner),
-            FormulaKind::Binary(operator, a, b) => match formula.ty {
+            (Op::Neg, &[inner]) => self.negated(inner),
+            (Op::Binary(operator), &[a, b]) => match formula.ty {
                 Type::Text => {
                     let (a, b) = (self.text(a), self.text(b));
                     atom(quote!(join(#a, #b)?))
@@ -119,47 +127,49 @@ impl<'a> Formulas<'a> {
                 Type::Int => self.on_ints(*operator, a, b),
                 _ => self.on_quantities(*operator, a, b, dimension(&formula.ty)),
             },
-            FormulaKind::Call(function, operands) => {
+            (Op::Call(function), operands) => {
                 let value = self.called(*function, operands);
                 atom(self.type_paths.quantity_from(dimension(&formula.ty), value))
             }
-            FormulaKind::Convert(conversion, inner) => self.converted(conversion, inner),
+            (Op::Convert(conversion), &[inner]) => self.converted(conversion, inner),
+            // Every other node has exactly these operands.
+            (Op::Neg | Op::Binary(_) | Op::Convert(_), _) => atom(TokenStream::new()),
         }
     }
 
     /// A function, on ints or on SI values; it goes by the name that it has in `afp_core::rt`.
-    fn called(&self, function: Function, operands: &[Formula]) -> TokenStream {
+    fn called(&self, function: Function, operands: &[Part<'_>]) -> TokenStream {
         let ints = operands.iter().all(|operand| operand.ty == Type::Int);
         let of_ints = if ints { "int_" } else { "" };
         let name = format_ident!("{of_ints}{}", function.name());
         let fails = function == Function::Clamp || (ints && function == Function::Abs);
         let question = fails.then(|| quote!(?));
-        let operands = operands.iter().map(|operand| match dimension(&operand.ty) {
-            Dimension::NONE => self.value(operand),
+        let operands = operands.iter().map(|&operand| match dimension(&operand.ty) {
+            Dimension::NONE => self.plain(operand),
             _ => self.si(operand),
         });
         quote!(#name(#(#operands),*) #question)
     }
 
     /// A text to be looked at within the expression: an `&str`.
-    fn text(&self, formula: &Formula) -> TokenStream {
+    fn text(&self, formula: Part<'_>) -> TokenStream {
         borrowed_text(self, formula).unwrap_or_else(|| {
             let text = self.expr(formula).at(Bond::Atom);
             quote!(#text.as_str())
         })
     }
 
-    fn negated(&self, inner: &Formula) -> Expr {
+    fn negated(&self, inner: Part<'_>) -> Expr {
         if inner.ty == Type::Int {
-            let value = self.value(inner);
+            let value = self.plain(inner);
             return atom(quote!(int_neg(#value)?));
         }
         let value = self.expr(inner).at(Bond::Atom);
         Expr(quote!(-#value), Bond::Sign)
     }
 
-    fn on_ints(&self, operator: Operator, a: &Formula, b: &Formula) -> Expr {
-        let (a, b) = (self.value(a), self.value(b));
+    fn on_ints(&self, operator: Operator, a: Part<'_>, b: Part<'_>) -> Expr {
+        let (a, b) = (self.plain(a), self.plain(b));
         atom(match operator {
             Operator::Add => quote!(int_add(#a, #b)?),
             Operator::Sub => quote!(int_sub(#a, #b)?),
@@ -169,7 +179,7 @@ impl<'a> Formulas<'a> {
         })
     }
 
-    fn on_quantities(&self, operator: Operator, a: &Formula, b: &Formula, to: Dimension) -> Expr {
+    fn on_quantities(&self, operator: Operator, a: Part<'_>, b: Part<'_>, to: Dimension) -> Expr {
         let (of_a, of_b) = (dimension(&a.ty), dimension(&b.ty));
         let plain = Dimension::NONE;
         match operator {
@@ -205,18 +215,19 @@ impl<'a> Formulas<'a> {
     }
 
     /// The SI value of a quantity, as an operand of a product.
-    fn si(&self, formula: &Formula) -> TokenStream {
+    fn si(&self, formula: Part<'_>) -> TokenStream {
         if dimension(&formula.ty) == Dimension::NONE {
             return self.expr(formula).at(Bond::Sign);
         }
-        if let FormulaKind::Call(function, operands) = &formula.kind {
-            return self.called(*function, operands);
+        if let Op::Call(function) = formula.op() {
+            let operands: Vec<_> = formula.operands().collect();
+            return self.called(*function, &operands);
         }
         let value = self.expr(formula).at(Bond::Atom);
         quote!(#value.si())
     }
 
-    fn converted(&self, conversion: &Conversion, inner: &Formula) -> Expr {
+    fn converted(&self, conversion: &Conversion, inner: Part<'_>) -> Expr {
         match conversion {
             Conversion::ToText(Type::Text) => self.expr(inner),
             Conversion::IntToFloat if exact(inner).is_some() => {
@@ -227,22 +238,22 @@ impl<'a> Formulas<'a> {
                 atom(convert(self.type_paths, conversion, text))
             }
             Conversion::ToText(_) => {
-                let value = match inner.kind {
+                let value = match inner.op() {
                     // Printed as it is, nothing else says that it is no i32.
-                    FormulaKind::Int(value) => long(value),
+                    Op::Int(value) => long(*value),
                     _ => self.expr(inner).at(Bond::Atom),
                 };
                 atom(convert(self.type_paths, conversion, value))
             }
-            _ => atom(convert(self.type_paths, conversion, self.value(inner))),
+            _ => atom(convert(self.type_paths, conversion, self.plain(inner))),
         }
     }
 }
 
 /// An integer literal that is a float as well.
-fn exact(formula: &Formula) -> Option<f64> {
-    match formula.kind {
-        FormulaKind::Int(value) if (0..1 << 53).contains(&value) => Some(value as f64),
+fn exact(formula: Part<'_>) -> Option<f64> {
+    match formula.op() {
+        Op::Int(value) if (0..1 << 53).contains(value) => Some(*value as f64),
         _ => None,
     }
 }
@@ -253,10 +264,10 @@ fn signed(tokens: TokenStream, negative: bool) -> Expr {
 }
 
 /// A text that an entry or the program itself holds: an `&str`.
-fn borrowed_text(formulas: &Formulas<'_>, formula: &Formula) -> Option<TokenStream> {
-    match &formula.kind {
-        FormulaKind::Text(text) => Some(quote!(#text)),
-        FormulaKind::Entry(_) => {
+fn borrowed_text(formulas: &Formulas<'_>, formula: Part<'_>) -> Option<TokenStream> {
+    match formula.op() {
+        Op::Text(text) => Some(text.as_str().to_token_stream()),
+        Op::Entry(_) => {
             let entry = formulas.entry(formula);
             Some(quote!(config.#entry()))
         }
@@ -308,28 +319,9 @@ fn dimension(ty: &Type) -> Dimension {
 }
 
 /// Whether a formula is a literal, perhaps with a sign: finite, and the same at all times.
-pub fn is_literal(formula: &Formula) -> bool {
-    match &formula.kind {
-        FormulaKind::Neg(inner) => is_literal(inner),
-        FormulaKind::Bool(_) | FormulaKind::Int(_) | FormulaKind::Float(_) => true,
-        FormulaKind::Text(_) | FormulaKind::Choice(_) => true,
-        FormulaKind::Entry(_) | FormulaKind::Binary(..) => false,
-        FormulaKind::Call(..) | FormulaKind::Convert(..) => false,
-    }
-}
-
-/// The entries that a formula reads.
-pub fn reads(formula: &Formula, see: &mut dyn FnMut(usize)) {
-    match &formula.kind {
-        FormulaKind::Entry(entry) => see(entry.index()),
-        FormulaKind::Neg(inner) | FormulaKind::Convert(_, inner) => reads(inner, see),
-        FormulaKind::Binary(_, a, b) => {
-            reads(a, see);
-            reads(b, see);
-        }
-        FormulaKind::Call(_, operands) => {
-            operands.iter().for_each(|operand| reads(operand, see));
-        }
-        _ => {}
+pub fn is_literal(formula: Part<'_>) -> bool {
+    match formula.op() {
+        Op::Neg => formula.operand().is_some_and(is_literal),
+        op => op.is_literal(),
     }
 }

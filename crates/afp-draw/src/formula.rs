@@ -1,6 +1,6 @@
 //! Formulas as text: as written where the source is at hand, else printed from the graph.
 
-use afp_dsl::graph::{Formula, FormulaKind, Operator, Plan};
+use afp_dsl::graph::{Formula, Op, Operator, Part, Plan};
 use afp_dsl::toolbox::Constant;
 use afp_dsl::types::text::{number, quantity};
 use afp_dsl::types::{Conversion, Type};
@@ -15,7 +15,7 @@ use afp_syntax::source::Sources;
 pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String {
     let written = sources.map_or("", |sources| sources.text(formula.span)).trim();
     if written.is_empty() || written.contains("//") || written.contains('\n') {
-        printed(formula, plan)
+        printed(formula.part(), plan)
     } else {
         written.to_owned()
     }
@@ -31,51 +31,50 @@ pub fn constant(value: &Constant, ty: Option<&Type>) -> String {
     }
 }
 
-fn printed(formula: &Formula, plan: &Plan) -> String {
-    match &formula.kind {
-        FormulaKind::Bool(value) => value.to_string(),
-        FormulaKind::Int(value) => value.to_string(),
-        FormulaKind::Float(value) => match formula.ty {
+fn printed(formula: Part<'_>, plan: &Plan) -> String {
+    let operands: Vec<_> = formula.operands().collect();
+    match (formula.op(), &operands[..]) {
+        (Op::Bool(value), _) => value.to_string(),
+        (Op::Int(value), _) => value.to_string(),
+        (Op::Float(value), _) => match formula.ty {
             Type::Quantity(dimension) => quantity(*value, dimension),
             _ => number(*value),
         },
-        FormulaKind::Text(value) => format!("{value:?}"),
-        FormulaKind::Choice(place) => choice(*place, &formula.ty),
-        FormulaKind::Entry(entry) => plan.entries[entry.index()].name.clone(),
-        FormulaKind::Neg(inner) => format!("-{}", operand(inner, plan, NEGATION)),
-        FormulaKind::Binary(operator, left, right) => {
+        (Op::Text(value), _) => format!("{value:?}"),
+        (Op::Choice(place), _) => choice(*place, &formula.ty),
+        (Op::Entry(entry), _) => plan.entries[entry.index()].name.clone(),
+        (Op::Neg, &[inner]) => format!("-{}", operand(inner, plan, NEGATION)),
+        (Op::Binary(operator), &[left, right]) => {
             let level = level(*operator);
             // The right operand of an equal level needs brackets: `a - (b - c)`.
             let (left, right) = (operand(left, plan, level), operand(right, plan, level + 1));
-            format!("{left} {} {right}", sign(*operator))
+            format!("{left} {} {right}", operator.sign())
         }
-        FormulaKind::Call(function, operands) => {
-            let operands: Vec<_> = operands.iter().map(|each| printed(each, plan)).collect();
+        (Op::Convert(conversion), &[inner]) => match (conversion, inner.op()) {
+            (Conversion::IntToFloat, Op::Int(value)) => number(*value as f64),
+            _ => printed(inner, plan),
+        },
+        (Op::Call(function), operands) => {
+            let operands: Vec<_> = operands.iter().map(|each| printed(*each, plan)).collect();
             format!("{}({})", function.name(), operands.join(", "))
         }
-        FormulaKind::Convert(conversion, inner) => converted(conversion, inner, plan),
+        // Every other node has exactly these operands.
+        (Op::Neg | Op::Binary(_) | Op::Convert(_), _) => String::new(),
     }
 }
 
 /// Binding strength of a sign, above `*` and `/`.
 const NEGATION: u8 = 3;
 
-fn converted(conversion: &Conversion, inner: &Formula, plan: &Plan) -> String {
-    match (conversion, &inner.kind) {
-        (Conversion::IntToFloat, FormulaKind::Int(value)) => number(*value as f64),
-        _ => printed(inner, plan),
-    }
-}
-
-fn operand(formula: &Formula, plan: &Plan, least: u8) -> String {
+fn operand(formula: Part<'_>, plan: &Plan, least: u8) -> String {
     let text = printed(formula, plan);
     if strength(formula) < least { format!("({text})") } else { text }
 }
 
-fn strength(formula: &Formula) -> u8 {
-    match &formula.kind {
-        FormulaKind::Binary(operator, ..) => level(*operator),
-        FormulaKind::Convert(_, inner) => strength(inner),
+fn strength(formula: Part<'_>) -> u8 {
+    match formula.op() {
+        Op::Binary(operator) => level(*operator),
+        Op::Convert(_) => formula.operand().map_or(NEGATION, strength),
         _ => NEGATION,
     }
 }
@@ -84,16 +83,6 @@ fn level(operator: Operator) -> u8 {
     match operator {
         Operator::Add | Operator::Sub => 1,
         Operator::Mul | Operator::Div | Operator::Rem => 2,
-    }
-}
-
-fn sign(operator: Operator) -> char {
-    match operator {
-        Operator::Add => '+',
-        Operator::Sub => '-',
-        Operator::Mul => '*',
-        Operator::Div => '/',
-        Operator::Rem => '%',
     }
 }
 

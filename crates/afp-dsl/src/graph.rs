@@ -6,6 +6,7 @@
 
 pub(crate) mod constant;
 mod dump;
+mod formula;
 mod reactions;
 mod resume;
 mod values;
@@ -17,11 +18,11 @@ use crate::toolbox::{Template, Toolbox};
 use crate::types::{Constant, Conversion, Type};
 use afp_syntax::source::{Source, Span};
 
-pub use afp_syntax::ast::Operator;
 pub use afp_types::{
-    ElementId, EntryId, EntryKind, Function, PlanId, ReasonId, SupervisorId, Target, Timing,
-    ToolboxId,
+    ElementId, EntryId, EntryKind, Function, Op, Operator, PlanId, ReasonId, SupervisorId, Target,
+    Timing, ToolboxId,
 };
+pub use formula::{Formula, Node, Note, Part};
 pub use reactions::Reactions;
 pub(crate) use resume::{chain, resuming};
 
@@ -198,39 +199,6 @@ pub struct Output {
     pub conversion: Option<Conversion>,
     /// Where the entry is named.
     pub span: Span,
-}
-
-#[derive(Clone, Debug)]
-pub struct Formula {
-    pub kind: FormulaKind,
-    /// The type of its value.
-    pub ty: Type,
-    /// Where it stands; the port's declaration for a default.
-    pub span: Span,
-}
-
-/// What a formula computes. Operands have the types that the operation needs: conversions are
-/// nodes of their own.
-#[derive(Clone, Debug)]
-pub enum FormulaKind {
-    /// `true` or `false`.
-    Bool(bool),
-    Int(i64),
-    /// A number or a quantity in SI units.
-    Float(f64),
-    /// A text of at most 64 bytes.
-    Text(String),
-    /// A value of an enum, by position.
-    Choice(u16),
-    /// The value of an entry of the same plan.
-    Entry(EntryId),
-    /// Sign change.
-    Neg(Box<Formula>),
-    /// An operation on two operands; on texts, `+` joins.
-    Binary(Operator, Box<Formula>, Box<Formula>),
-    /// A function of as many operands as it takes; those that take any number have two.
-    Call(Function, Vec<Formula>),
-    Convert(Conversion, Box<Formula>),
 }
 
 impl Element {

@@ -1,5 +1,6 @@
 //! Types of entries, ports and formulas.
 
+pub mod converter;
 pub mod readable;
 pub mod text;
 

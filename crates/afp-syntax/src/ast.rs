@@ -24,8 +24,9 @@ use crate::{Node, Parse, node_span, parse};
 use comments::{doc, note};
 
 pub use crate::keywords::ENDS;
+pub use afp_types::Operator;
 pub use device::{Amount, Control, Device, DeviceKind, DevicePart, Fault, Press, Signal};
-pub use formula::{Formula, FormulaKind, Operator, Sign};
+pub use formula::{Formula, FormulaKind, Sign};
 pub use plan::{Bind, Edge, Element, ElementKind, Entry, Frame, Guard, Plan, Reactions, Start};
 pub use scenario::{Action, Bound, Claim, ClaimKind, ClaimTarget, Line, LineKind, Path, Scenario};
 pub use table::{Column, Row, Table};

@@ -14,6 +14,7 @@ mod arithmetic;
 mod decimal;
 pub mod devices;
 mod exact;
+mod formula;
 mod function;
 mod hash;
 mod id;
@@ -34,6 +35,7 @@ pub use arithmetic::{
 };
 pub use decimal::{Decimal, number_length};
 pub use exact::{RADIANS_PER_DEGREE, Scale, exact};
+pub use formula::{Node, Op, Operator, Part, Shape, Source};
 pub use function::{
     Function, abs, atan2, clamp, cos, hypot, int_abs, int_clamp, int_max, int_min, max, min, sin,
     sqrt,
@@ -74,6 +76,10 @@ pub enum Error {
     TooLong,
     /// A text is no value of the wanted type.
     NotAValue,
+    /// An entry has no value before the plan runs; only the compiler meets this error.
+    Unknown,
+    /// A part of the formula has another type than its use needs, which the check rules out.
+    Mistyped,
 }
 
 impl fmt::Display for Error {
@@ -85,6 +91,8 @@ impl fmt::Display for Error {
             Error::NoRange => "the least value of a range is above its greatest one",
             Error::TooLong => "a text of more than 64 bytes",
             Error::NotAValue => "a text is no value of the wanted type",
+            Error::Unknown => "an entry has no value yet",
+            Error::Mistyped => "a part of a formula has the wrong type",
         })
     }
 }

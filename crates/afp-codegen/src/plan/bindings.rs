@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::context::{ComponentNames, Context, Paths};
-use crate::formula::{Formulas, convert, is_literal};
+use crate::formula::{Formulas, convert};
 use crate::layout::{at, doc};
 use crate::names::{camel, ident, snake};
 use crate::rust_type::{TypePaths, float};
@@ -306,9 +306,5 @@ fn is_generic(ty: &Type) -> bool {
 
 /// Whether a formula reads anything.
 pub fn reads_entries(formula: &Formula) -> bool {
-    let mut any = false;
-    if !is_literal(formula) {
-        crate::formula::reads(formula, &mut |_| any = true);
-    }
-    any
+    formula.entries().next().is_some()
 }

@@ -6,11 +6,12 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::enums::FileEnum;
-use crate::formula::reads;
 use crate::names::{UniqueNames, camel, ident, path, shout, snake};
 use crate::rust_type::TypePaths;
 use crate::toolbox;
-use afp_dsl::graph::{Component, Formula, Graph, Output, Plan, PlanId, SupervisorId, TemplateId};
+use afp_dsl::graph::{
+    Component, Formula, Graph, Op, Output, Plan, PlanId, SupervisorId, TemplateId,
+};
 use afp_dsl::rows::Rows;
 use afp_dsl::toolbox::Template;
 use afp_dsl::types::{Enum, Object, Type};
@@ -245,11 +246,11 @@ impl Namer {
 fn read(plan: &Plan) -> Vec<bool> {
     let mut read = vec![false; plan.entries.len()];
     let mut see = |formula: &Formula| {
-        reads(formula, &mut |entry| {
-            if let Some(read) = read.get_mut(entry) {
+        for (entry, _) in formula.entries() {
+            if let Some(read) = read.get_mut(entry.index()) {
                 *read = true;
             }
-        });
+        }
     };
     for element in &plan.elements {
         let passed = matches!(element.component, Component::SubPlan(_));
@@ -264,8 +265,7 @@ fn read(plan: &Plan) -> Vec<bool> {
 
 /// Whether a formula is an entry that is cloned as it is: a text or an object.
 pub fn is_bare(formula: &Formula) -> bool {
-    matches!(formula.ty, Type::Text | Type::Object(_))
-        && matches!(formula.kind, afp_dsl::graph::FormulaKind::Entry(_))
+    matches!(formula.ty, Type::Text | Type::Object(_)) && matches!(formula.op(), Op::Entry(_))
 }
 
 /// Which entries a commit can write.

@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::bindings::{Bound, converted, limited, reads_entries, tried};
-use super::context::{ComponentNames, Context, is_bare};
+use super::context::{ComponentNames, Context};
 use crate::formula::{Formulas, is_literal};
 use crate::layout::{at, comment, doc};
 use afp_dsl::graph::{Component, Element, Entry, EntryKind, Formula, Plan, PlanId, TemplateId};
@@ -174,7 +174,7 @@ pub fn live_inputs<'a>(element: &'a Element, child: &'a Plan) -> Vec<LiveInput<'
         field,
         formula,
     });
-    live.filter(|it| it.entry.live && (is_bare(it.formula) || reads_entries(it.formula))).collect()
+    live.filter(|it| it.entry.live && reads_entries(it.formula)).collect()
 }
 
 /// The function of a sub-plan's live inputs.
@@ -205,7 +205,7 @@ fn live_item(
 fn passed(context: &Context<'_>, port: u16, entry: &Entry, formula: &Formula) -> TokenStream {
     let value = context
         .with_type_paths(|type_paths| Formulas::new(type_paths, &context.entries).value(formula));
-    let value = match (is_literal(formula), entry.range, &formula.ty) {
+    let value = match (is_literal(formula.part()), entry.range, &formula.ty) {
         (true, ..) => value,
         (false, None, Type::Quantity(_)) => quote!(finite(#value)?),
         (false, ..) => limited(entry, value),
@@ -265,7 +265,7 @@ fn result(
 
 /// Whether a sub-plan is given anything, and whether that reads the configuration.
 pub fn passes(element: &Element) -> (bool, bool) {
-    let reads = element.inputs.iter().any(|formula| is_bare(formula) || reads_entries(formula));
+    let reads = element.inputs.iter().any(reads_entries);
     (!element.inputs.is_empty(), reads)
 }
 

@@ -10,7 +10,7 @@ use crate::enums::{self, FileEnum};
 use crate::layout::doc;
 use crate::names::{UniqueNames, camel, ident, units_name};
 use crate::rust_type::int;
-use afp_dsl::graph::{EntryKind, Formula, FormulaKind, Graph};
+use afp_dsl::graph::{EntryKind, Formula, Graph, Op};
 use afp_dsl::types::readable::{ReadableUnit, readable};
 use afp_dsl::types::{Conversion, Dimension, Type};
 
@@ -115,32 +115,19 @@ fn formulas(graph: &Graph) -> impl Iterator<Item = &Formula> {
     })
 }
 
-fn walk(formula: &Formula, see: &mut dyn FnMut(&Formula)) {
-    see(formula);
-    match &formula.kind {
-        FormulaKind::Neg(inner) | FormulaKind::Convert(_, inner) => walk(inner, see),
-        FormulaKind::Binary(_, a, b) => {
-            walk(a, see);
-            walk(b, see);
-        }
-        FormulaKind::Call(_, operands) => operands.iter().for_each(|operand| walk(operand, see)),
-        _ => {}
-    }
-}
-
 /// Every type of an entry or a formula, and every type converted to or from.
 fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
     for plan in &graph.plans {
         plan.entries.iter().for_each(|entry| see(&entry.ty));
     }
-    formulas(graph).for_each(|formula| walk(formula, &mut |part| see(&part.ty)));
+    formulas(graph).for_each(|formula| formula.nodes().for_each(|node| see(&node.note.ty)));
     super::tables::types(graph, see);
 }
 
 fn conversions(graph: &Graph, see: &mut dyn FnMut(&Conversion)) {
     formulas(graph).for_each(|formula| {
-        walk(formula, &mut |part| {
-            if let FormulaKind::Convert(conversion, _) = &part.kind {
+        formula.nodes().for_each(|node| {
+            if let Op::Convert(conversion) = &node.op {
                 see(conversion);
             }
         });

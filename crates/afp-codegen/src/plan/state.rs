@@ -233,7 +233,7 @@ fn initialise(context: &Context<'_>) -> TokenStream {
             let value = context.with_type_paths(|type_paths| {
                 Formulas::new(type_paths, &context.entries).value(formula)
             });
-            let set = match (&entry.ty, is_literal(formula)) {
+            let set = match (&entry.ty, is_literal(formula.part())) {
                 (_, true) => quote!(config.#name.set(#value);),
                 (ty, false) => {
                     let value = match ty {

@@ -19,6 +19,7 @@ impl From<Error> for Fault {
             }
             Error::TooLong => Fault::TOO_LONG,
             Error::NotAValue => Fault::CONVERSION,
+            Error::Unknown | Error::Mistyped => Fault::INTERNAL,
         }
     }
 }

@@ -4,7 +4,7 @@ mod unit;
 
 pub(crate) use unit::{bare, likely, unit_missing};
 
-use crate::graph::{Formula, FormulaKind};
+use crate::graph::{Formula, Op};
 use crate::types::text::{self, a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Words};
@@ -57,8 +57,7 @@ pub(crate) fn coerce(
         Ok(None) => Some(formula),
         Ok(Some(conversion)) => {
             remark(&conversion, span, diags);
-            let kind = FormulaKind::Convert(conversion, Box::new(formula));
-            Some(Formula { kind, ty: want.clone(), span })
+            Some(Formula::new(Op::Convert(conversion), [formula], want.clone(), span))
         }
         Err(()) => {
             diags.push(mismatch(&formula, want, range, text));
@@ -168,13 +167,11 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
 /// The text, in brackets where an operation behind it would bind tighter.
 fn bracketed(formula: &Formula, text: &str) -> String {
     use crate::graph::Operator::{Add, Sub};
-    let loose = match &formula.kind {
-        FormulaKind::Binary(Add | Sub, ..) => true,
-        FormulaKind::Convert(_, inner) => {
-            matches!(inner.kind, FormulaKind::Binary(Add | Sub, ..))
-        }
-        _ => false,
+    let inner = match formula.op() {
+        Op::Convert(_) => formula.part().operand(),
+        _ => Some(formula.part()),
     };
+    let loose = inner.is_some_and(|inner| matches!(inner.op(), Op::Binary(Add | Sub)));
     if loose && !text.starts_with('(') { format!("({text})") } else { text.to_owned() }
 }
 

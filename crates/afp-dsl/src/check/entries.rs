@@ -165,7 +165,7 @@ fn limit(
     let mut ranged_by = Vec::new();
     let mut constant = |formula: &ast::Formula, ty: Option<&Type>, diags: &mut Diagnostics| {
         let (formula, value) = scope.check(formula, ty, diags)?;
-        formula.each_entry(&mut |id, _| ranged_by.push(id));
+        ranged_by.extend(formula.entries().map(|(id, _)| id));
         value
     };
     let range = range::read(&written, ty, &mut constant, diags);

@@ -8,13 +8,13 @@ mod operation;
 use std::cell::Cell;
 use std::sync::Arc;
 
-use afp_types::{Error, MAX_TEXT};
+use afp_types::{Error, MAX_TEXT, Text};
 
 use crate::check::convert::coerce;
 use crate::check::head::EntryDraft;
 use crate::check::names::{Indices, ambiguous, unknown};
 use crate::check::types::Types;
-use crate::graph::{EntryId, EntryKind, Formula, FormulaKind, constant};
+use crate::graph::{EntryId, EntryKind, Formula, Op, constant};
 use crate::index::{Recorder, Word};
 use crate::table::Table;
 use crate::types::{Constant, Type};
@@ -164,15 +164,15 @@ impl Scope<'_> {
 
 /// A value as a formula.
 pub(crate) fn of_constant(value: Constant, ty: &Type, span: Span) -> Option<Formula> {
-    let kind = match value {
-        Constant::Bool(value) => FormulaKind::Bool(value),
-        Constant::Int(value) => FormulaKind::Int(value),
-        Constant::Float(value) => FormulaKind::Float(value),
-        Constant::Text(text) => FormulaKind::Text(text.to_string()),
-        Constant::Choice(place) => FormulaKind::Choice(place),
+    let op = match value {
+        Constant::Bool(value) => Op::Bool(value),
+        Constant::Int(value) => Op::Int(value),
+        Constant::Float(value) => Op::Float(value),
+        Constant::Text(text) => Op::Text(text),
+        Constant::Choice(place) => Op::Choice(place),
         Constant::Unset | Constant::Object(_) => return None,
     };
-    Some(Formula { kind, ty: ty.clone(), span })
+    Some(Formula::new(op, [], ty.clone(), span))
 }
 
 struct Typer<'a> {
@@ -198,8 +198,7 @@ impl Typer<'_> {
             ast::FormulaKind::Chain(first, rest) => self.chain(first, rest, diags),
             ast::FormulaKind::Negation(operand) => self.negation(&operand?, span, inside, diags),
             ast::FormulaKind::Brackets(inner) => {
-                let inner = self.formula(&inner?, inside, diags)?;
-                Some(Formula { span, ..inner })
+                Some(self.formula(&inner?, inside, diags)?.at(span))
             }
             ast::FormulaKind::Call { name, operands, broken } => {
                 let function = function::named(self.scope, &name, (&operands, span), diags);
@@ -220,15 +219,15 @@ impl Typer<'_> {
             }
             ast::FormulaKind::Text(quoted) => {
                 let text = afp_syntax::unquote(&quoted, diags);
-                if text.len() > MAX_TEXT {
+                let Ok(text) = Text::try_from(text.as_str()) else {
                     diags.push(fault_diagnostic(Error::TooLong, span));
                     return None;
-                }
-                Some(Formula { kind: FormulaKind::Text(text), ty: Type::Text, span })
+                };
+                Some(Formula::new(Op::Text(text), [], Type::Text, span))
             }
             ast::FormulaKind::Bool(value) => {
                 self.scope.record.word(span, Word::Truth);
-                Some(Formula { kind: FormulaKind::Bool(value), ty: Type::Bool, span })
+                Some(Formula::new(Op::Bool(value), [], Type::Bool, span))
             }
             ast::FormulaKind::Ref(reference) => self.reference(&reference, span, diags),
             ast::FormulaKind::Hole => None,
@@ -299,9 +298,9 @@ impl Typer<'_> {
         diags: &mut Diagnostics,
     ) -> Option<Formula> {
         if let ast::FormulaKind::Number { number, unit, whole, broken: false } = operand.kind()
-            && let Some(kind) = literal::negative(&number, unit.as_ref(), whole, inside)
+            && let Some(formula) = literal::negative(&number, unit.as_ref(), whole, span, inside)
         {
-            return Some(Formula { ty: kind.1, kind: kind.0, span });
+            return Some(formula);
         }
         let operand = self.formula(operand, true, diags)?;
         operation::negate(operand, span, diags)
@@ -325,7 +324,7 @@ impl Typer<'_> {
         }
         let id = EntryId(u16::try_from(index).ok()?);
         let ty = entry.ty.clone()?;
-        Some(Formula { kind: FormulaKind::Entry(id), ty, span: name.span })
+        Some(Formula::new(Op::Entry(id), [], ty, name.span))
     }
 
     /// A value of an enum.
@@ -369,8 +368,8 @@ impl Typer<'_> {
         if let Some(definition) = found.variant_spans.get(index) {
             record.definition(name.span, *definition);
         }
-        let kind = FormulaKind::Choice(u16::try_from(index).ok()?);
-        Some(Formula { kind, ty: Type::Enum(found.clone()), span })
+        let op = Op::Choice(u16::try_from(index).ok()?);
+        Some(Formula::new(op, [], Type::Enum(found.clone()), span))
     }
 }
 
@@ -393,8 +392,10 @@ pub(crate) fn fault_diagnostic(error: Error, span: Span) -> Diagnostic {
             Diagnostic::new(Code::E0228, span, "the least value is above the greatest one")
                 .help("write 'clamp(value, low, high)' with 'low' at most 'high'")
         }
-        Error::NotAValue => Diagnostic::new(Code::E0228, span, "the text is no value of the type")
-            .help("write a value of the type, unit included, without the quotes"),
+        Error::NotAValue | Error::Unknown | Error::Mistyped => {
+            Diagnostic::new(Code::E0228, span, "the text is no value of the type")
+                .help("write a value of the type, unit included, without the quotes")
+        }
         Error::TooLong => too_long(span),
     }
 }

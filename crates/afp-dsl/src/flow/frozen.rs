@@ -22,10 +22,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
             if port.live {
                 continue;
             }
-            formula.each_entry(&mut |entry, span| {
-                if !written[entry.index()] {
-                    return;
-                }
+            for (_, span) in formula.entries().filter(|(entry, _)| written[entry.index()]) {
                 let message = message!(
                     "'{}' is read once, when the plan starts, but the entry changes",
                     port.name
@@ -35,7 +32,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
                         .note(port.span, "the port is not 'live'")
                         .help("watch with a supervisor of the element that needs the new value, or use an entry that nothing writes"),
                 );
-            });
+            }
         }
     }
 }

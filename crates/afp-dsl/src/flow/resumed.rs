@@ -135,19 +135,17 @@ fn frozen(
     changed: &BTreeSet<EntryId>,
     diags: &mut Diagnostics,
 ) {
-    formula.each_entry(&mut |entry, span| {
-        if changed.contains(&entry) {
-            let entry = &view.plan.entries[entry.index()].name;
-            let message = message!(
-                "'{}' is read once, when '{}' starts, but changes while it goes on",
-                entry,
-                name
-            );
-            diags.push(
-                Diagnostic::new(Code::E0301, span, message)
-                    .note(port, "the port is not 'live'")
-                    .help("use a template whose port is 'live', or lead the event to an element"),
-            );
-        }
-    });
+    for (entry, span) in formula.entries().filter(|(entry, _)| changed.contains(entry)) {
+        let entry = &view.plan.entries[entry.index()].name;
+        let message = message!(
+            "'{}' is read once, when '{}' starts, but changes while it goes on",
+            entry,
+            name
+        );
+        diags.push(
+            Diagnostic::new(Code::E0301, span, message)
+                .note(port, "the port is not 'live'")
+                .help("use a template whose port is 'live', or lead the event to an element"),
+        );
+    }
 }

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use crate::flow::view::View;
-use crate::graph::{Element, EntryId, EntryKind, Supervisor};
+use crate::graph::{Element, EntryId, EntryKind, Formula, Supervisor};
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
 use afp_syntax::message;
 
@@ -37,14 +37,14 @@ fn read<'a>(
     let mut read = vec![false; view.plan.entries.len()];
     let mut mark = |id: EntryId| read[id.index()] = true;
     for element in elements {
-        element.inputs.iter().for_each(|formula| formula.each_entry(&mut |id, _| mark(id)));
+        element.inputs.iter().flat_map(Formula::entries).for_each(|(id, _)| mark(id));
     }
     for supervisor in supervisors {
-        supervisor.inputs.iter().for_each(|formula| formula.each_entry(&mut |id, _| mark(id)));
+        supervisor.inputs.iter().flat_map(Formula::entries).for_each(|(id, _)| mark(id));
         supervisor.timed_by.iter().for_each(|id| mark(*id));
     }
     for entry in &view.plan.entries {
-        entry.init.iter().for_each(|formula| formula.each_entry(&mut |id, _| mark(id)));
+        entry.init.iter().flat_map(Formula::entries).for_each(|(id, _)| mark(id));
         entry.ranged_by.iter().for_each(|id| mark(*id));
     }
     read

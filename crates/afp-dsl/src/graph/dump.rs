@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::graph::{
-    Component, Element, Entry, EntryKind, Formula, FormulaKind, Graph, Operator, Output, Plan,
-    Reactions, Supervisor, Target, TemplateId,
+    Component, Element, Entry, EntryKind, Formula, Graph, Op, Output, Part, Plan, Reactions,
+    Supervisor, Target, TemplateId,
 };
 use crate::types::text::{self, duration};
 use crate::types::{Conversion, Type};
@@ -75,7 +75,7 @@ impl Dump<'_> {
         };
         let mut line = format!("{kind} {}: {}", entry.name, entry.ty);
         if let Some(init) = &entry.init {
-            line += &format!(" = {}", self.formula(init));
+            line += &format!(" = {}", self.formula(init.part()));
         }
         if let Some((least, greatest)) = entry.range {
             let [least, greatest] = [least, greatest].map(|end| text::value(end, &entry.ty));
@@ -167,7 +167,7 @@ impl Dump<'_> {
 
     fn binds(&mut self, named: &Named, inputs: &[Formula], outputs: &[Output]) {
         for (port, formula) in named.inputs.iter().zip(inputs) {
-            let formula = self.formula(formula);
+            let formula = self.formula(formula.part());
             self.line(3, &format!("{port} = {formula}"));
         }
         for output in outputs {
@@ -189,37 +189,28 @@ impl Dump<'_> {
         self.line(3, &format!("{outcome} -> {target}"));
     }
 
-    fn formula(&self, formula: &Formula) -> String {
-        match &formula.kind {
-            FormulaKind::Bool(value) => value.to_string(),
-            FormulaKind::Int(value) => value.to_string(),
+    fn formula(&self, formula: Part<'_>) -> String {
+        let operands: Vec<_> = formula.operands().map(|operand| self.formula(operand)).collect();
+        match formula.op() {
+            Op::Bool(value) => value.to_string(),
+            Op::Int(value) => value.to_string(),
             // With a point, so that floats and ints can be told apart.
-            FormulaKind::Float(value) => format!("{value:?}"),
-            FormulaKind::Text(text) => format!("{text:?}"),
-            FormulaKind::Choice(index) => match &formula.ty {
+            Op::Float(value) => format!("{value:?}"),
+            Op::Text(text) => format!("{text:?}"),
+            Op::Choice(index) => match &formula.ty {
                 Type::Enum(home) => {
                     format!("{}.{}", home.name, home.variants[usize::from(*index)])
                 }
                 _ => index.to_string(),
             },
-            FormulaKind::Entry(id) => self.plan.entries[id.index()].name.clone(),
-            FormulaKind::Neg(inner) => format!("-{}", self.formula(inner)),
-            FormulaKind::Binary(operator, left, right) => {
-                let sign = match operator {
-                    Operator::Add => '+',
-                    Operator::Sub => '-',
-                    Operator::Mul => '*',
-                    Operator::Div => '/',
-                    Operator::Rem => '%',
-                };
-                format!("({} {sign} {})", self.formula(left), self.formula(right))
+            Op::Entry(id) => self.plan.entries[id.index()].name.clone(),
+            Op::Neg => format!("-{}", operands.join("")),
+            Op::Binary(operator) => {
+                format!("({})", operands.join(&format!(" {} ", operator.sign())))
             }
-            FormulaKind::Call(function, operands) => {
-                let operands: Vec<_> = operands.iter().map(|each| self.formula(each)).collect();
-                format!("{}({})", function.name(), operands.join(", "))
-            }
-            FormulaKind::Convert(conversion, inner) => {
-                format!("{}({})", conversion_name(conversion), self.formula(inner))
+            Op::Call(function) => format!("{}({})", function.name(), operands.join(", ")),
+            Op::Convert(conversion) => {
+                format!("{}({})", conversion_name(conversion), operands.join(", "))
             }
         }
     }

@@ -1,10 +1,8 @@
-//! Values that are known when a plan is compiled, the order in which entries get their first ones, and the entries
-//! that formulas read.
+//! Values that are known when a plan is compiled, and the order in which entries get their first ones.
 
 use super::constant::evaluate;
-use crate::graph::{Entry, EntryId, EntryKind, Formula, FormulaKind, Plan};
+use crate::graph::{Entry, EntryId, EntryKind, Formula, Plan};
 use crate::types::Constant;
-use afp_syntax::source::Span;
 
 impl Plan {
     /// The entries with an initial value, in the order in which these may refer to one another: `const`, `in`, the rest.
@@ -24,24 +22,5 @@ impl Plan {
             entry.value.clone().filter(|_| entry.kind == EntryKind::Const)
         };
         evaluate(formula, &known).ok()?
-    }
-}
-
-impl Formula {
-    /// Calls `visit` with every entry that it reads, and its place.
-    pub(crate) fn each_entry(&self, visit: &mut dyn FnMut(EntryId, Span)) {
-        let mut open = vec![self];
-        while let Some(formula) = open.pop() {
-            match &formula.kind {
-                FormulaKind::Entry(id) => visit(*id, formula.span),
-                FormulaKind::Neg(inner) | FormulaKind::Convert(_, inner) => open.push(inner),
-                FormulaKind::Binary(_, left, right) => {
-                    open.push(right);
-                    open.push(left);
-                }
-                FormulaKind::Call(_, operands) => open.extend(operands.iter().rev()),
-                _ => {}
-            }
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! Formulas in the typed view.
 
-use super::{Name, Ref, find_token, token, tokens, views};
+use super::{Name, Operator, Ref, find_token, token, tokens, views};
 use crate::Node;
 use crate::kind::{Afp, Kind};
 use crate::source::Span;
@@ -53,21 +53,6 @@ pub struct Sign {
     /// What it does.
     pub operator: Operator,
     pub span: Span,
-}
-
-/// An operation on two operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operator {
-    /// `+`
-    Add,
-    /// `-`
-    Sub,
-    /// `*`
-    Mul,
-    /// `/`, always on floats
-    Div,
-    /// `%`, with the sign of the dividend
-    Rem,
 }
 
 impl Formula {

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use afp_core::rt::{Args, BadValue, Outputs, finite, limited};
 use afp_core::{Fault, Text, Value};
 use afp_dsl::graph;
+use afp_dsl::types::converter::Converter;
 
 use super::config::{ObjectCell, Staged, Values};
-use super::formula::{Converter, Formula};
+use super::formula::Formula;
 use super::numbered;
 
 /// The bound formulas of a component, and room for the texts that they make.
@@ -93,7 +94,7 @@ impl Inputs {
     fn make_texts(&mut self, values: &Values) {
         for (port, text) in &mut self.texts {
             if let Some(formula) = self.formulas.get(usize::from(*port)) {
-                *text = formula.text(values);
+                *text = formula.part().text(values).map_err(Fault::from);
             }
         }
     }
@@ -117,16 +118,16 @@ impl Pull<'_> {
 
 impl Args for Pull<'_> {
     fn bool(&self, port: u16) -> Result<bool, Fault> {
-        self.formula(port)?.bool(self.values)
+        Ok(self.formula(port)?.part().bool(self.values)?)
     }
 
     fn int(&self, port: u16) -> Result<i64, Fault> {
-        self.formula(port)?.int(self.values)
+        Ok(self.formula(port)?.part().int(self.values)?)
     }
 
     #[inline]
     fn float(&self, port: u16) -> Result<f64, Fault> {
-        self.formula(port)?.float(self.values)
+        Ok(self.formula(port)?.part().float(self.values)?)
     }
 
     fn text(&self, port: u16) -> Result<&str, Fault> {
@@ -142,7 +143,7 @@ impl Args for Pull<'_> {
     }
 
     fn choice(&self, port: u16) -> Result<u16, Fault> {
-        self.formula(port)?.choice(self.values)
+        Ok(self.formula(port)?.part().choice(self.values)?)
     }
 
     fn object(&self, port: u16) -> Result<&dyn Any, Fault> {
@@ -151,7 +152,7 @@ impl Args for Pull<'_> {
     }
 
     fn value(&self, port: u16) -> Result<Value, Fault> {
-        self.formula(port)?.value(self.values)
+        Ok(self.formula(port)?.part().value(self.values)?)
     }
 }
 

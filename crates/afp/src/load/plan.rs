@@ -15,10 +15,11 @@ use afp_core::trace::{Outcome, Sink};
 use afp_core::{Environment, Fault, PlanState, Value, ValueRef, WriteError};
 use afp_dsl::graph::{self, EntryKind, Graph};
 use afp_dsl::types::Type;
+use afp_dsl::types::converter::spellings;
 
 use super::config::{Config, ObjectCell};
 use super::error::LoadError;
-use super::formula::{Formula, spellings};
+use super::formula::Formula;
 use super::inject::Injected;
 use super::names::PlanNames;
 use super::numbered;

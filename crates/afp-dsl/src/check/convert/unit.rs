@@ -4,7 +4,7 @@
 //! otherwise the likely ones are named, and whoever reads chooses.
 
 use super::bracketed;
-use crate::graph::{Formula, FormulaKind};
+use crate::graph::{Formula, Op};
 use crate::types::Dimension;
 use crate::types::text::a_dimension;
 use afp_syntax::diagnostics::{Code, Diagnostic, Words, words};
@@ -79,12 +79,11 @@ pub(crate) fn unit_missing(
     range: Option<Option<(f64, f64)>>,
     text: &str,
 ) -> Diagnostic {
-    let is_number =
-        |formula: &Formula| matches!(formula.kind, FormulaKind::Int(_) | FormulaKind::Float(_));
-    let literal = match formula.kind {
-        FormulaKind::Neg(ref inner) => is_number(inner),
-        _ => is_number(formula),
+    let number = match formula.op() {
+        Op::Neg => formula.part().operand(),
+        _ => Some(formula.part()),
     };
+    let literal = number.is_some_and(|number| matches!(number.op(), Op::Int(_) | Op::Float(_)));
     let better: Vec<_> = match literal {
         true => {
             let mut units = likely(text, dimension, range.flatten());
@@ -102,7 +101,7 @@ pub(crate) fn unit_missing(
     };
     let mut error = bare(formula.span, dimension, &better);
     // Of two operands either may be the wrong one, so that an entry is left to whoever reads.
-    if matches!(formula.kind, FormulaKind::Entry(_)) {
+    if matches!(formula.op(), Op::Entry(_)) {
         error.fix = None;
     }
     error

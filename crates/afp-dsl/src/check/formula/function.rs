@@ -7,7 +7,7 @@ use super::operation::{different, dimension, to_float, to_number};
 use crate::check::convert::coerce;
 use crate::check::meant::decimal_comma;
 use crate::check::names::unknown;
-use crate::graph::{Formula, FormulaKind};
+use crate::graph::{Formula, Op};
 use crate::index::Word;
 use crate::types::text::{a_dimension, a_type};
 use crate::types::{Dimension, Type};
@@ -99,10 +99,8 @@ pub(super) fn call(
 
 /// Two operands at a time, from left to right, for functions that take any number of them.
 fn joined(function: Function, operands: Vec<Formula>, ty: Type, span: Span) -> Formula {
-    let call = |operands| {
-        let kind = FormulaKind::Call(function, operands);
-        Formula { kind, ty: ty.clone(), span }
-    };
+    let call =
+        |operands: Vec<Formula>| Formula::new(Op::Call(function), operands, ty.clone(), span);
     if function.operands().1.is_some() {
         return call(operands);
     }

@@ -1,6 +1,6 @@
 //! Numbers and quantities in formulas.
 
-use crate::graph::{Formula, FormulaKind};
+use crate::graph::{Formula, Op};
 use crate::types::Type;
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -25,7 +25,7 @@ pub(super) fn number(
             );
             return None;
         };
-        return Some(Formula { kind: FormulaKind::Int(value), ty: Type::Int, span });
+        return Some(Formula::new(Op::Int(value), [], Type::Int, span));
     }
     let literal = Literal::of_tokens(&number.text, unit.map(|unit| unit.text.as_str()))?;
     if inside && literal.unit.is_some_and(|unit| unit.celsius) {
@@ -43,7 +43,7 @@ pub(super) fn number(
         return None;
     };
     let ty = Type::Quantity(literal.dimension());
-    Some(Formula { kind: FormulaKind::Float(value), ty, span })
+    Some(Formula::new(Op::Float(value), [], ty, span))
 }
 
 /// A number behind a minus sign, where the two are more than a number with its sign changed: the
@@ -52,16 +52,17 @@ pub(super) fn negative(
     number: &Name,
     unit: Option<&Name>,
     whole: bool,
+    span: Span,
     inside: bool,
-) -> Option<(FormulaKind, Type)> {
+) -> Option<Formula> {
     if whole && unit.is_none() {
         let value: i64 = format!("-{}", number.text).parse().ok()?;
-        return (value == i64::MIN).then_some((FormulaKind::Int(value), Type::Int));
+        return (value == i64::MIN).then(|| Formula::new(Op::Int(value), [], Type::Int, span));
     }
     let literal = Literal::of_tokens(&number.text, unit.map(|unit| unit.text.as_str()))?;
     if inside || !literal.unit.is_some_and(|unit| unit.celsius) {
         return None;
     }
     let value = literal.negated().value()?;
-    Some((FormulaKind::Float(value), Type::Quantity(literal.dimension())))
+    Some(Formula::new(Op::Float(value), [], Type::Quantity(literal.dimension()), span))
 }

@@ -2,7 +2,7 @@
 
 use super::Scope;
 use crate::check::convert::{remark, unit_missing};
-use crate::graph::{Formula, FormulaKind, Operator};
+use crate::graph::{Formula, Op, Operator};
 use crate::types::text::{a_dimension, a_type};
 use crate::types::{Conversion, Dimension, Type};
 use afp_syntax::ast::Sign;
@@ -52,17 +52,18 @@ pub(super) fn binary(
 /// `-operand`
 pub(super) fn negate(operand: Formula, span: Span, diags: &mut Diagnostics) -> Option<Formula> {
     let operand = to_number(operand, diags)?;
-    Some(Formula { ty: operand.ty.clone(), kind: FormulaKind::Neg(Box::new(operand)), span })
+    let ty = operand.ty.clone();
+    Some(Formula::new(Op::Neg, [operand], ty, span))
 }
 
 fn join(operator: Operator, left: Formula, right: Formula, ty: Type) -> Formula {
     let span = left.span.to(right.span);
-    Formula { kind: FormulaKind::Binary(operator, Box::new(left), Box::new(right)), ty, span }
+    Formula::new(Op::Binary(operator), [left, right], ty, span)
 }
 
 fn convert(formula: Formula, conversion: Conversion, ty: Type) -> Formula {
     let span = formula.span;
-    Formula { kind: FormulaKind::Convert(conversion, Box::new(formula)), ty, span }
+    Formula::new(Op::Convert(conversion), [formula], ty, span)
 }
 
 pub(super) fn dimension(formula: &Formula) -> Dimension {

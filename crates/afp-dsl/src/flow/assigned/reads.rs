@@ -40,9 +40,9 @@ impl<'a> Reads<'a> {
 
     fn add(&mut self, inputs: &[Formula], node: Option<Node>, supervisor: Option<&'a Supervisor>) {
         for formula in inputs {
-            formula.each_entry(&mut |entry, span| {
+            for (entry, span) in formula.entries() {
                 self.by_entry[entry.index()].push(Read { node, supervisor, span });
-            });
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{decided, holding};
 use crate::flow::view::{Cause, Edge, View};
-use crate::graph::EntryId;
+use crate::graph::{EntryId, Formula};
 use afp_types::Meaning;
 
 /// Whether the computations of a cycle choose as they have chosen: nothing on it writes what they read, so none fails that has
@@ -20,8 +20,7 @@ pub(super) fn never_change(view: &View<'_>, cycle: &[Edge]) -> bool {
         let is_caught = element.on_error.is_some() && !holding::never_fails(view, element);
         let is_choice = decided::is_choice(element, state);
         let mut read = BTreeSet::new();
-        let inputs = element.inputs.iter();
-        inputs.for_each(|input| input.each_entry(&mut |entry, _| _ = read.insert(entry)));
+        read.extend(element.inputs.iter().flat_map(Formula::entries).map(|(entry, _)| entry));
         let stays = written.is_disjoint(&read);
         let fails_by_inputs = || view.meaning(element).is_some_and(Meaning::never_fails);
         let is_open = is_choice && !read_by_others.is_disjoint(&read);

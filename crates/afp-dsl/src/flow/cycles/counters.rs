@@ -12,7 +12,7 @@ use super::decided;
 use super::is_quick;
 use crate::flow::strong;
 use crate::flow::view::{Cause, Counter, Counters, Edge, Node, View};
-use crate::graph::{Element, ElementId, EntryId, EntryKind, FormulaKind, Output};
+use crate::graph::{Element, ElementId, EntryId, EntryKind, Op, Output};
 use crate::types::Constant;
 
 /// The state in which `Count` goes on, and that in which it begins again with zero.
@@ -108,8 +108,8 @@ fn count_of(view: &View<'_>, element: &Element) -> Option<EntryId> {
     if view.meaning(element) != Some(Meaning::Counts) {
         return None;
     }
-    match element.inputs.first()?.kind {
-        FormulaKind::Entry(entry) => Some(entry),
+    match element.inputs.first()?.op() {
+        Op::Entry(entry) => Some(*entry),
         _ => None,
     }
 }

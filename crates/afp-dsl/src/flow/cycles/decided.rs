@@ -23,8 +23,7 @@ const MOST: usize = 64;
 pub(super) fn at_start(view: &View<'_>) -> Known {
     let mut read = BTreeSet::new();
     for (_, element) in view.elements().filter(|(_, element)| view.meaning(element).is_some()) {
-        let inputs = element.inputs.iter();
-        inputs.for_each(|input| input.each_entry(&mut |entry, _| _ = read.insert(entry)));
+        read.extend(element.inputs.iter().flat_map(Formula::entries).map(|(entry, _)| entry));
     }
     if read.is_empty() || read.len() > MOST {
         return Known::new();
@@ -106,12 +105,12 @@ fn chooses_by(view: &View<'_>, edge: &Edge, changed: &BTreeSet<EntryId>, known: 
     if element.takes_time() || !is_choice || view.counters().has(id) {
         return false;
     }
-    let mut reads_changed = false;
-    let mut look = |entry: EntryId, _| reads_changed |= changed.contains(&entry);
-    element.inputs.iter().for_each(|input| input.each_entry(&mut look));
     match outcome(view, element, known) {
         Some(decided) => decided != state,
-        None => reads_changed,
+        None => {
+            let mut read = element.inputs.iter().flat_map(Formula::entries);
+            read.any(|(entry, _)| changed.contains(&entry))
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use afp_types::{MAX_TEXT, Meaning};
 
 use crate::flow::strong;
 use crate::flow::view::{Cause, Edge, View};
-use crate::graph::{Component, Element, EntryId, Formula, FormulaKind, Output, Supervisor};
+use crate::graph::{Component, Element, EntryId, Formula, Op, Output, Part, Supervisor};
 use crate::types::{Constant, Conversion, Type};
 
 /// The event of a limit that reports a value below its limit; the other one reports one above.
@@ -68,13 +68,13 @@ fn fits(view: &View<'_>, output: &Output) -> bool {
 
 /// Whether a formula is a constant or an entry, so that nothing can go wrong with it.
 fn is_plain(view: &View<'_>, formula: &Formula) -> bool {
-    match &formula.kind {
-        FormulaKind::Entry(_) => true,
-        FormulaKind::Convert(conversion, inner) if always_converts(conversion) => {
-            is_plain(view, inner)
-        }
-        _ => view.constant(formula).is_some(),
+    let mut part = Some(formula.part());
+    while let Some(Op::Convert(conversion)) = part.map(Part::op)
+        && always_converts(conversion)
+    {
+        part = part.and_then(Part::operand);
     }
+    matches!(part.map(Part::op), Some(Op::Entry(_))) || view.constant(formula).is_some()
 }
 
 /// Whether a conversion takes every value. A number has texts of more than a text's length.
@@ -187,15 +187,15 @@ fn term(view: &View<'_>, formula: &Formula) -> Option<Term> {
         Some(Constant::Int(number)) => Some(Term::Number(number as f64)),
         Some(Constant::Float(number)) => Some(Term::Number(number)),
         Some(_) => None,
-        None => entry(formula).map(|entry| Term::Named(Name::Entry(entry))),
+        None => entry(formula.part()).map(|entry| Term::Named(Name::Entry(entry))),
     }
 }
 
 /// The entry that a formula reads, and nothing else.
-fn entry(formula: &Formula) -> Option<EntryId> {
-    match &formula.kind {
-        FormulaKind::Entry(id) => Some(*id),
-        FormulaKind::Convert(_, inner) => entry(inner),
+fn entry(part: Part<'_>) -> Option<EntryId> {
+    match part.op() {
+        Op::Entry(id) => Some(*id),
+        Op::Convert(_) => entry(part.operand()?),
         _ => None,
     }
 }

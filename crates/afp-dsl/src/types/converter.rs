@@ -1,12 +1,12 @@
 //! Conversions between types, with what they need to know of them.
 
-use afp_core::rt::{
-    Scale, Unit, bool_to_float, bool_to_int, float_to_int, int_to_float, parse_bool, parse_choice,
-    parse_float, parse_int, parse_quantity, print_quantity,
+use afp_types::{
+    Error, Quantity, Scale, Text, Unit, Value, bool_to_float, bool_to_int, finite, float_to_int,
+    int_to_float, parse_bool, parse_choice, parse_float, parse_int, parse_quantity,
 };
-use afp_core::{Fault, Text, Value};
-use afp_dsl::types::readable::readable;
-use afp_dsl::types::{Conversion, Dimension, Type};
+
+use super::readable::readable;
+use super::{Conversion, Dimension, Type};
 
 /// A conversion ready to be applied.
 pub enum Converter {
@@ -58,8 +58,8 @@ impl Converter {
     /// Applies it.
     ///
     /// # Errors
-    /// The fault of the conversion.
-    pub fn convert(&self, value: Value) -> Result<Value, Fault> {
+    /// Those of the conversion.
+    pub fn convert(&self, value: Value) -> Result<Value, Error> {
         match (self, value) {
             (Converter::IntToFloat, Value::Int(value)) => Ok(Value::Float(int_to_float(value))),
             (Converter::FloatToInt, Value::Float(value)) => float_to_int(value).map(Value::Int),
@@ -70,20 +70,22 @@ impl Converter {
         }
     }
 
-    fn print(&self, value: &Value) -> Result<Text, Fault> {
+    fn print(&self, value: &Value) -> Result<Text, Error> {
         match (self, value) {
-            (Converter::PrintQuantity(unit), Value::Float(value)) => print_quantity(*value, unit),
-            (Converter::PrintChoice(names), Value::Choice(value)) => {
-                let name = names.get(usize::from(*value)).ok_or(Fault::INTERNAL)?;
-                Ok(Text::try_from(name.as_str())?)
+            (Converter::PrintQuantity(unit), Value::Float(value)) => {
+                Text::print(Quantity { value: finite(*value)?, unit })
             }
-            (Converter::Print, Value::Bool(value)) => Ok(Text::print(value)?),
-            (Converter::Print, Value::Int(value)) => Ok(Text::print(value)?),
-            _ => Err(Fault::INTERNAL),
+            (Converter::PrintChoice(names), Value::Choice(value)) => {
+                let name = names.get(usize::from(*value)).ok_or(Error::Mistyped)?;
+                Text::try_from(name.as_str())
+            }
+            (Converter::Print, Value::Bool(value)) => Text::print(value),
+            (Converter::Print, Value::Int(value)) => Text::print(value),
+            _ => Err(Error::Mistyped),
         }
     }
 
-    fn read(&self, text: Text) -> Result<Value, Fault> {
+    fn read(&self, text: Text) -> Result<Value, Error> {
         let read = text.as_str();
         match self {
             Converter::ReadBool => parse_bool(read).map(Value::Bool),
@@ -97,7 +99,7 @@ impl Converter {
                 parse_choice(read, names.iter().map(String::as_str)).map(Value::Choice)
             }
             Converter::ReadText | Converter::Print => Ok(Value::Text(text)),
-            _ => Err(Fault::INTERNAL),
+            _ => Err(Error::Mistyped),
         }
     }
 }

@@ -1,0 +1,100 @@
+//! Typed formulas: the nodes of `afp-types` with types and places.
+
+use std::ops::Deref;
+
+use afp_types::{EntryId, Op, Shape};
+
+use crate::types::{Conversion, Type};
+use afp_syntax::source::Span;
+
+/// A node of a formula.
+pub type Node = afp_types::Node<Conversion, Note>;
+/// A formula or a part of one; its fields are those of [`Note`].
+pub type Part<'a> = afp_types::Part<'a, Conversion, Note>;
+
+/// A typed formula; its fields are those of [`Note`].
+#[derive(Clone, Debug)]
+pub struct Formula {
+    root: Node,
+    /// The nodes of the operands, in the order of [`afp_types::Part`].
+    below: Vec<Node>,
+}
+
+/// What is known of a part of a formula.
+#[derive(Clone, Debug)]
+pub struct Note {
+    /// The type of its value.
+    pub ty: Type,
+    /// Where it stands; the port's declaration for a default.
+    pub span: Span,
+}
+
+impl Formula {
+    /// A formula of operands. The check bounds the number of nodes.
+    pub(crate) fn new(
+        op: Op<Conversion>,
+        operands: impl IntoIterator<Item = Formula>,
+        ty: Type,
+        span: Span,
+    ) -> Formula {
+        let mut below = Vec::new();
+        for operand in operands {
+            if below.is_empty() {
+                below = operand.below;
+            } else {
+                below.extend(operand.below);
+            }
+            below.push(operand.root);
+        }
+        let len = u16::try_from(below.len() + 1).unwrap_or(u16::MAX);
+        Formula { root: Node { op, shape: shape(&ty), len, note: Note { ty, span } }, below }
+    }
+
+    /// The same formula at another place.
+    pub(crate) fn at(mut self, span: Span) -> Formula {
+        self.root.note.span = span;
+        self
+    }
+
+    /// The formula as the part that is the whole of it.
+    pub fn part(&self) -> Part<'_> {
+        Part { root: &self.root, below: &self.below }
+    }
+
+    /// What its root computes.
+    pub fn op(&self) -> &Op<Conversion> {
+        &self.root.op
+    }
+
+    /// All nodes, operands before the nodes that use them.
+    pub fn nodes(&self) -> impl Iterator<Item = &Node> {
+        self.below.iter().chain([&self.root])
+    }
+
+    /// Every entry that it reads, and the place.
+    pub fn entries(&self) -> impl Iterator<Item = (EntryId, Span)> {
+        self.nodes().filter_map(|node| match node.op {
+            Op::Entry(id) => Some((id, node.note.span)),
+            _ => None,
+        })
+    }
+}
+
+impl Deref for Formula {
+    type Target = Note;
+
+    fn deref(&self) -> &Note {
+        &self.root.note
+    }
+}
+
+fn shape(ty: &Type) -> Shape {
+    match ty {
+        Type::Bool => Shape::Bool,
+        Type::Int => Shape::Int,
+        Type::Quantity(_) | Type::Any | Type::Number | Type::Discrete => Shape::Float,
+        Type::Text => Shape::Text,
+        Type::Enum(_) => Shape::Choice,
+        Type::Object(_) => Shape::Object,
+    }
+}

@@ -1,0 +1,388 @@
+//! Formulas as flat arrays of nodes, and their values.
+//!
+//! Operands come before the node that uses them, so each part of a formula is a run of nodes whose last
+//! one is the root. The compiler folds constants with the evaluation of this module and the interpreter
+//! runs it; code generation walks the same nodes. Nothing here allocates.
+
+use core::ops::Deref;
+
+use crate::{
+    EntryId, Error, Function, Text, Value, int_add, int_mul, int_neg, int_rem, int_sub, rem,
+};
+
+/// An operation on two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Sub,
+    /// `*`
+    Mul,
+    /// `/`, always on floats
+    Div,
+    /// `%`, with the sign of the dividend
+    Rem,
+}
+
+/// What a node computes. Operands have the types that the operation needs: conversions are nodes of
+/// their own. `C` says what is converted into what.
+#[derive(Clone, Debug)]
+pub enum Op<C> {
+    /// `true` or `false`.
+    Bool(bool),
+    /// An integer.
+    Int(i64),
+    /// A number or a quantity in SI units.
+    Float(f64),
+    /// A text.
+    Text(Text),
+    /// A value of an enum, by position.
+    Choice(u16),
+    /// The value of an entry of the same plan.
+    Entry(EntryId),
+    /// A sign change of one operand.
+    Neg,
+    /// An operation on two operands; on texts, `+` joins.
+    Binary(Operator),
+    /// A function of at most three operands; functions that take any number have two.
+    Call(Function),
+    /// A conversion of one operand.
+    Convert(C),
+}
+
+/// Which kind of value a node has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// A truth value.
+    Bool,
+    /// An integer.
+    Int,
+    /// A number or a quantity.
+    Float,
+    /// A text.
+    Text,
+    /// A value of an enum.
+    Choice,
+    /// An object.
+    Object,
+}
+
+/// One node of a formula, with a note of the phase that made it.
+#[derive(Clone, Debug)]
+pub struct Node<C, N = ()> {
+    /// What it computes.
+    pub op: Op<C>,
+    /// The kind of its value.
+    pub shape: Shape,
+    /// How many nodes the part has that ends here, this one included.
+    pub len: u16,
+    /// What else is known of it.
+    pub note: N,
+}
+
+/// A formula or a part of one: its root, and the nodes of the root's operands before it.
+///
+/// It dereferences to the note of its root.
+#[derive(Debug)]
+pub struct Part<'a, C, N = ()> {
+    /// The last node.
+    pub root: &'a Node<C, N>,
+    /// The nodes of its operands.
+    pub below: &'a [Node<C, N>],
+}
+
+/// What a formula reads while it is evaluated.
+pub trait Source<C> {
+    /// Whether constants are folded, as in the compiler. Then a division by a constant zero is an error,
+    /// whatever is divided.
+    const FOLDS: bool = false;
+
+    /// Reads the value of an entry.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for an entry without a value, [`Error::Mistyped`] if `read` gives nothing.
+    fn entry<V>(&self, entry: EntryId, read: impl FnOnce(&Value) -> Option<V>) -> Result<V, Error>;
+
+    /// Converts a value.
+    ///
+    /// # Errors
+    /// Those of the conversion.
+    fn convert(&self, conversion: &C, value: Value) -> Result<Value, Error>;
+}
+
+impl<C, N> Clone for Part<'_, C, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<C, N> Copy for Part<'_, C, N> {}
+
+impl<C, N> Deref for Part<'_, C, N> {
+    type Target = N;
+
+    fn deref(&self) -> &N {
+        &self.root.note
+    }
+}
+
+impl Operator {
+    /// How it is written.
+    pub fn sign(self) -> char {
+        match self {
+            Operator::Add => '+',
+            Operator::Sub => '-',
+            Operator::Mul => '*',
+            Operator::Div => '/',
+            Operator::Rem => '%',
+        }
+    }
+}
+
+impl<C> Op<C> {
+    /// The same with conversions in another form.
+    pub fn map<D>(&self, convert: impl FnOnce(&C) -> D) -> Op<D> {
+        match self {
+            Op::Bool(value) => Op::Bool(*value),
+            Op::Int(value) => Op::Int(*value),
+            Op::Float(value) => Op::Float(*value),
+            Op::Text(text) => Op::Text(text.clone()),
+            Op::Choice(value) => Op::Choice(*value),
+            Op::Entry(entry) => Op::Entry(*entry),
+            Op::Neg => Op::Neg,
+            Op::Binary(operator) => Op::Binary(*operator),
+            Op::Call(function) => Op::Call(*function),
+            Op::Convert(conversion) => Op::Convert(convert(conversion)),
+        }
+    }
+}
+
+impl<C> Op<C> {
+    /// Whether it reads nothing and computes nothing.
+    pub fn is_literal(&self) -> bool {
+        matches!(self, Op::Bool(_) | Op::Int(_) | Op::Float(_) | Op::Text(_) | Op::Choice(_))
+    }
+}
+
+impl<'a, C, N> Part<'a, C, N> {
+    /// The part at the end of some nodes.
+    pub fn last(nodes: &'a [Node<C, N>]) -> Option<Self> {
+        let (root, before) = nodes.split_last()?;
+        let first = nodes.len().saturating_sub(usize::from(root.len));
+        Some(Part { root, below: before.get(first..)? })
+    }
+
+    /// What it computes.
+    pub fn op(self) -> &'a Op<C> {
+        &self.root.op
+    }
+
+    /// The operands, the last one first.
+    fn backward(self) -> impl Iterator<Item = Self> {
+        let mut nodes = self.below;
+        core::iter::from_fn(move || {
+            let last = Part::last(nodes)?;
+            nodes = nodes.get(..nodes.len() - last.below.len() - 1)?;
+            Some(last)
+        })
+    }
+
+    /// The operands in their order, at most three.
+    pub fn operands(self) -> impl DoubleEndedIterator<Item = Self> {
+        let mut found = [None; 3];
+        for (slot, part) in found.iter_mut().rev().zip(self.backward()) {
+            *slot = Some(part);
+        }
+        found.into_iter().flatten()
+    }
+
+    /// The only operand of a sign change or a conversion.
+    pub fn operand(self) -> Option<Self> {
+        Part::last(self.below)
+    }
+
+    /// Both operands of an operation.
+    pub fn both(self) -> Option<(Self, Self)> {
+        let mut operands = self.backward();
+        let right = operands.next()?;
+        Some((operands.next()?, right))
+    }
+}
+
+macro_rules! typed {
+    ($($(#[$doc:meta])* $name:ident $kind:ident $to:ty, $computed:ident;)*) => {$(
+        $(#[$doc])*
+        ///
+        /// # Errors
+        /// Those of the formula.
+        #[inline]
+        pub fn $name<S: Source<C>>(self, source: &S) -> Result<$to, Error> {
+            match &self.root.op {
+                Op::$kind(value) => Ok(*value),
+                Op::Entry(entry) => source.entry(*entry, |value| match value {
+                    Value::$kind(value) => Some(*value),
+                    _ => None,
+                }),
+                Op::Convert(conversion) => match self.converted(conversion, source)? {
+                    Value::$kind(value) => Ok(value),
+                    _ => Err(Error::Mistyped),
+                },
+                _ => self.$computed(source),
+            }
+        }
+    )*};
+}
+
+impl<C, N> Part<'_, C, N> {
+    typed! {
+        /// The value of a `bool` formula.
+        bool Bool bool, not_computed;
+        /// The value of an `int` formula.
+        int Int i64, int_computed;
+        /// The value of a `float` or quantity formula in SI units; perhaps not finite.
+        float Float f64, float_computed;
+        /// The value of an enum formula, by position.
+        choice Choice u16, not_computed;
+    }
+
+    /// The value of a `string` formula.
+    ///
+    /// # Errors
+    /// Those of the formula.
+    pub fn text<S: Source<C>>(self, source: &S) -> Result<Text, Error> {
+        match &self.root.op {
+            Op::Text(text) => Ok(text.clone()),
+            Op::Entry(entry) => source.entry(*entry, |value| match value {
+                Value::Text(text) => Some(text.clone()),
+                _ => None,
+            }),
+            Op::Convert(conversion) => match self.converted(conversion, source)? {
+                Value::Text(text) => Ok(text),
+                _ => Err(Error::Mistyped),
+            },
+            Op::Binary(Operator::Add) => {
+                let (mut text, more) =
+                    self.pair::<S, _>(Operator::Add, |part| part.text(source))?;
+                text.push(more.as_str())?;
+                Ok(text)
+            }
+            _ => Err(Error::Mistyped),
+        }
+    }
+
+    /// The value of a formula of any type; of an object, the number of the commit that wrote it.
+    ///
+    /// # Errors
+    /// Those of the formula.
+    pub fn value<S: Source<C>>(self, source: &S) -> Result<Value, Error> {
+        match (self.root.shape, &self.root.op) {
+            (Shape::Bool, _) => self.bool(source).map(Value::Bool),
+            (Shape::Int, _) => self.int(source).map(Value::Int),
+            (Shape::Float, _) => self.float(source).map(Value::Float),
+            (Shape::Text, _) => self.text(source).map(Value::Text),
+            (Shape::Choice, _) => self.choice(source).map(Value::Choice),
+            (Shape::Object, Op::Entry(entry)) => source.entry(*entry, |value| Some(value.clone())),
+            (Shape::Object, _) => Err(Error::Mistyped),
+        }
+    }
+
+    fn converted<S: Source<C>>(self, conversion: &C, source: &S) -> Result<Value, Error> {
+        source.convert(conversion, self.operand().ok_or(Error::Mistyped)?.value(source)?)
+    }
+
+    fn not_computed<S: Source<C>, V>(self, _: &S) -> Result<V, Error> {
+        Err(Error::Mistyped)
+    }
+
+    fn int_computed<S: Source<C>>(self, source: &S) -> Result<i64, Error> {
+        match &self.root.op {
+            Op::Neg => int_neg(self.operand().ok_or(Error::Mistyped)?.int(source)?),
+            Op::Binary(operator) => {
+                let (a, b) = self.pair::<S, _>(*operator, |part| part.int(source))?;
+                match operator {
+                    Operator::Add => int_add(a, b),
+                    Operator::Sub => int_sub(a, b),
+                    Operator::Mul => int_mul(a, b),
+                    Operator::Rem => int_rem(a, b),
+                    // The check turns both sides of `/` into floats.
+                    Operator::Div => Err(Error::Mistyped),
+                }
+            }
+            Op::Call(function) => {
+                let call = |operands| function.of_ints(operands);
+                self.called(*function, |part| part.int(source), call)
+            }
+            _ => Err(Error::Mistyped),
+        }
+    }
+
+    fn float_computed<S: Source<C>>(self, source: &S) -> Result<f64, Error> {
+        match &self.root.op {
+            Op::Neg => Ok(-self.operand().ok_or(Error::Mistyped)?.float(source)?),
+            Op::Binary(operator) => {
+                let (a, b) = self.pair::<S, _>(*operator, |part| part.float(source))?;
+                match operator {
+                    Operator::Add => Ok(a + b),
+                    Operator::Sub => Ok(a - b),
+                    Operator::Mul => Ok(a * b),
+                    Operator::Div => Ok(a / b),
+                    Operator::Rem => rem(a, b),
+                }
+            }
+            Op::Call(function) => {
+                let call = |operands| function.of_floats(operands);
+                self.called(*function, |part| part.float(source), call)
+            }
+            _ => Err(Error::Mistyped),
+        }
+    }
+
+    /// The values of both operands, with the first error. [`Error::Unknown`] comes after every other error:
+    /// the plan cannot run then, whatever the entry holds.
+    fn pair<S: Source<C>, V: Default + PartialEq>(
+        self,
+        operator: Operator,
+        value: impl Fn(Self) -> Result<V, Error>,
+    ) -> Result<(V, V), Error> {
+        let (left, right) = self.both().ok_or(Error::Mistyped)?;
+        let divides = matches!(operator, Operator::Div | Operator::Rem);
+        match (value(left), value(right)) {
+            (Ok(_) | Err(Error::Unknown), Ok(zero))
+                if S::FOLDS && divides && zero == V::default() =>
+            {
+                Err(Error::DivisionByZero)
+            }
+            (Ok(left), Ok(right)) => Ok((left, right)),
+            (Err(Error::Unknown), Err(error)) | (Err(error), _) | (_, Err(error)) => Err(error),
+        }
+    }
+
+    /// A function of the operands. Bounds in the wrong order are an error for every value.
+    fn called<V: Copy + Default>(
+        self,
+        function: Function,
+        value: impl Fn(Self) -> Result<V, Error>,
+        call: impl Fn([V; 3]) -> Result<V, Error>,
+    ) -> Result<V, Error> {
+        let (mut values, mut unknown) = ([V::default(); 3], [false; 3]);
+        for ((slot, unknown), operand) in values.iter_mut().zip(&mut unknown).zip(self.operands()) {
+            match value(operand) {
+                Ok(value) => *slot = value,
+                Err(Error::Unknown) => *unknown = true,
+                Err(error) => return Err(error),
+            }
+        }
+        match (function, unknown) {
+            (_, [false, false, false]) => call(values),
+            (Function::Clamp, [true, false, false]) => {
+                let [_, low, high] = values;
+                call([low, low, high]).and(Err(Error::Unknown))
+            }
+            _ => Err(Error::Unknown),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
