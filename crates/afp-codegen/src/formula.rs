@@ -6,7 +6,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use crate::names::units_name;
+use crate::names::{ident, units_name};
 use crate::rust_type::{TypePaths, float, int, long, variant};
 use afp_dsl::graph::{Formula, Function, Op, Operator, Part};
 use afp_dsl::types::{Conversion, Dimension, Type};
@@ -140,10 +140,8 @@ impl<'a> Formulas<'a> {
     /// A function, on ints or on SI values; it goes by the name that it has in `afp_core::rt`.
     fn called(&self, function: Function, operands: &[Part<'_>]) -> TokenStream {
         let ints = operands.iter().all(|operand| operand.ty == Type::Int);
-        let of_ints = if ints { "int_" } else { "" };
-        let name = format_ident!("{of_ints}{}", function.name());
-        let fails = function == Function::Clamp || (ints && function == Function::Abs);
-        let question = fails.then(|| quote!(?));
+        let name = ident(function.rust_name(ints));
+        let question = function.fails(ints).then(|| quote!(?));
         let operands = operands.iter().map(|&operand| match dimension(&operand.ty) {
             Dimension::NONE => self.plain(operand),
             _ => self.si(operand),
@@ -198,12 +196,16 @@ impl<'a> Formulas<'a> {
                 Expr(quote!(#b * #a), Bond::Product)
             }
             Operator::Div if of_b == plain || of_a == of_b => {
-                let (a, b) = (self.expr(a).at(Bond::Product), self.expr(b).at(Bond::Sign));
+                let a = self.expr(a).at(Bond::Product);
+                let b = checked(b, self.expr(b).at(Bond::Sign));
                 Expr(quote!(#a / #b), Bond::Product)
             }
             Operator::Mul | Operator::Div => {
-                let (a, b) = (self.si(a), self.si(b));
-                let sign = if operator == Operator::Mul { quote!(*) } else { quote!(/) };
+                let (a, si) = (self.si(a), self.si(b));
+                let (sign, b) = match operator {
+                    Operator::Mul => (quote!(*), si),
+                    _ => (quote!(/), checked(b, si)),
+                };
                 let bond = if to == plain { Bond::Product } else { Bond::Atom };
                 Expr(self.type_paths.quantity_from(to, quote!(#a #sign #b)), bond)
             }
@@ -247,6 +249,19 @@ impl<'a> Formulas<'a> {
             }
             _ => atom(convert(self.type_paths, conversion, self.plain(inner))),
         }
+    }
+}
+
+/// A divisor: whether its value is finite is not known yet if it is computed.
+fn checked(divisor: Part<'_>, value: TokenStream) -> TokenStream {
+    if is_computed(divisor) { quote!(divisor(#value)?) } else { value }
+}
+
+/// Whether a number is the result of an operation. Entries, literals and what is converted are finite.
+fn is_computed(number: Part<'_>) -> bool {
+    match number.op() {
+        Op::Neg => number.operand().is_some_and(is_computed),
+        op => matches!(op, Op::Binary(_) | Op::Call(_)),
     }
 }
 

@@ -56,10 +56,10 @@ pub fn int_neg(a: i64) -> Result<i64, Error> {
 /// `a % b` with the sign of `a`.
 ///
 /// # Errors
-/// [`Error::DivisionByZero`].
+/// [`Error::DivisionByZero`]; [`Error::NotFinite`] for a `b` that is not finite, which would leave `a`.
 #[inline]
 pub fn rem(a: f64, b: f64) -> Result<f64, Error> {
-    if b == 0.0 { Err(Error::DivisionByZero) } else { Ok(a % b) }
+    if b == 0.0 { Err(Error::DivisionByZero) } else { Ok(a % finite(b)?) }
 }
 
 /// The number itself.

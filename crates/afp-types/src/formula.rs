@@ -7,7 +7,7 @@
 use core::ops::Deref;
 
 use crate::{
-    EntryId, Error, Function, Text, Value, int_add, int_mul, int_neg, int_rem, int_sub, rem,
+    EntryId, Error, Function, Text, Value, finite, int_add, int_mul, int_neg, int_rem, int_sub, rem,
 };
 
 /// An operation on two operands.
@@ -94,8 +94,11 @@ pub struct Part<'a, C, N = ()> {
 
 /// What a formula reads while it is evaluated.
 pub trait Source<C> {
-    /// Whether constants are folded, as in the compiler. Then a division by a constant zero is an error,
-    /// whatever is divided.
+    /// Whether constants are folded, as in the compiler. Then each operation without a finite result is an error,
+    /// and so is a division by a constant zero, whatever is divided.
+    ///
+    /// Otherwise a number that is not finite goes on to the reader, which shows it. It is an error earlier if the next
+    /// operation could give a finite result for it.
     const FOLDS: bool = false;
 
     /// Reads the value of an entry.
@@ -318,24 +321,25 @@ impl<C, N> Part<'_, C, N> {
     }
 
     fn float_computed<S: Source<C>>(self, source: &S) -> Result<f64, Error> {
-        match &self.root.op {
-            Op::Neg => Ok(-self.operand().ok_or(Error::Mistyped)?.float(source)?),
+        let value = match &self.root.op {
+            Op::Neg => -self.operand().ok_or(Error::Mistyped)?.float(source)?,
             Op::Binary(operator) => {
                 let (a, b) = self.pair::<S, _>(*operator, |part| part.float(source))?;
                 match operator {
-                    Operator::Add => Ok(a + b),
-                    Operator::Sub => Ok(a - b),
-                    Operator::Mul => Ok(a * b),
-                    Operator::Div => Ok(a / b),
-                    Operator::Rem => rem(a, b),
+                    Operator::Add => a + b,
+                    Operator::Sub => a - b,
+                    Operator::Mul => a * b,
+                    Operator::Div => a / finite(b)?,
+                    Operator::Rem => rem(a, b)?,
                 }
             }
             Op::Call(function) => {
                 let call = |operands| function.of_floats(operands);
-                self.called(*function, |part| part.float(source), call)
+                self.called(*function, |part| part.float(source), call)?
             }
-            _ => Err(Error::Mistyped),
-        }
+            _ => return Err(Error::Mistyped),
+        };
+        if S::FOLDS { finite(value) } else { Ok(value) }
     }
 
     /// The values of both operands, with the first error. [`Error::Unknown`] comes after every other error:

@@ -1,9 +1,39 @@
-//! The functions that formulas can call.
+//! The functions that formulas can call: one table, and their values.
+//!
+//! The values go by the names that generated code calls. An operand that is not finite is an error where it could
+//! disappear: the least of 5 and infinity is 5.
 
-use crate::Error;
+use crate::{Error, finite};
+
+/// What a function takes and gives. All operands are numbers of one dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Signature {
+    /// It gives one of its operands. Ints stay ints.
+    Choice,
+    /// It gives a value of its operand's type. Ints stay ints.
+    Same,
+    /// It gives a quantity of its operands' dimension.
+    Quantity,
+    /// It gives the square root of its operand's dimension.
+    Root,
+    /// It takes an angle and gives a plain number.
+    OfAngle,
+    /// It gives an angle.
+    Angle,
+}
+
+/// Whether a function takes as many operands as it names, or more, too.
+const EXACTLY: bool = false;
+const AT_LEAST: bool = true;
+
+/// On which numbers a function can fail by itself.
+const NEVER: [bool; 2] = [false, false];
+const INTS: [bool; 2] = [true, false];
+const FLOATS: [bool; 2] = [false, true];
+const BOTH: [bool; 2] = [true, true];
 
 macro_rules! functions {
-    ($($(#[$doc:meta])* $function:ident $name:literal $least:literal $($most:literal)?;)*) => {
+    ($($(#[$doc:meta])* $function:ident $name:literal $count:ident [$($operand:literal),*] $signature:ident $fails:ident;)*) => {
         /// A function of formulas.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Function {
@@ -21,11 +51,36 @@ macro_rules! functions {
                 }
             }
 
-            /// How many operands it takes: at least and at most, `None` for any number.
-            pub fn operands(self) -> (usize, Option<usize>) {
-                match self {
-                    $(Function::$function => ($least, [$($most)?].first().copied()),)*
+            /// The name of its value in this module, for ints or for floats.
+            pub fn rust_name(self, ints: bool) -> &'static str {
+                match (self, ints) {
+                    $(
+                        (Function::$function, true) => concat!("int_", $name),
+                        (Function::$function, false) => $name,
+                    )*
                 }
+            }
+
+            /// The names of its operands, and whether it takes more of them, too.
+            pub fn operands(self) -> (&'static [&'static str], bool) {
+                match self {
+                    $(Function::$function => (&[$($operand),*], $count),)*
+                }
+            }
+
+            /// What it takes and gives.
+            pub fn signature(self) -> Signature {
+                match self {
+                    $(Function::$function => Signature::$signature,)*
+                }
+            }
+
+            /// Whether its value for ints or for floats is a `Result`.
+            pub fn fails(self, ints: bool) -> bool {
+                let [of_ints, of_floats] = match self {
+                    $(Function::$function => $fails,)*
+                };
+                if ints { of_ints } else { of_floats }
             }
         }
     };
@@ -33,23 +88,23 @@ macro_rules! functions {
 
 functions! {
     /// The value without its sign.
-    Abs "abs" 1 1;
+    Abs "abs" EXACTLY ["a"] Same INTS;
     /// The least of two or more.
-    Min "min" 2;
+    Min "min" AT_LEAST ["a", "b"] Choice FLOATS;
     /// The greatest of two or more.
-    Max "max" 2;
+    Max "max" AT_LEAST ["a", "b"] Choice FLOATS;
     /// The first operand, but at least the second one and at most the third one.
-    Clamp "clamp" 3 3;
+    Clamp "clamp" EXACTLY ["value", "low", "high"] Choice BOTH;
     /// The square root.
-    Sqrt "sqrt" 1 1;
+    Sqrt "sqrt" EXACTLY ["a"] Root NEVER;
     /// The sine of an angle.
-    Sin "sin" 1 1;
+    Sin "sin" EXACTLY ["angle"] OfAngle NEVER;
     /// The cosine of an angle.
-    Cos "cos" 1 1;
+    Cos "cos" EXACTLY ["angle"] OfAngle NEVER;
     /// The angle of a point, of which `y` comes first.
-    Atan2 "atan2" 2 2;
+    Atan2 "atan2" EXACTLY ["y", "x"] Angle FLOATS;
     /// The hypotenuse of two sides.
-    Hypot "hypot" 2 2;
+    Hypot "hypot" EXACTLY ["a", "b"] Quantity NEVER;
 }
 
 impl Function {
@@ -58,22 +113,27 @@ impl Function {
         Function::ALL.iter().copied().find(|function| function.name() == name)
     }
 
+    /// Whether it has a value for ints.
+    pub fn takes_ints(self) -> bool {
+        matches!(self.signature(), Signature::Choice | Signature::Same)
+    }
+
     /// Its value for numbers; operands that it does not have are not looked at, and of several only
     /// two are compared.
     ///
     /// # Errors
-    /// As [`clamp`]. A result that is no number is one.
+    /// Those of the value's function. A result that is not finite is not an error here.
     #[inline]
     pub fn of_floats(self, [a, b, c]: [f64; 3]) -> Result<f64, Error> {
         Ok(match self {
             Function::Abs => abs(a),
-            Function::Min => min(a, b),
-            Function::Max => max(a, b),
+            Function::Min => min(a, b)?,
+            Function::Max => max(a, b)?,
             Function::Clamp => clamp(a, b, c)?,
             Function::Sqrt => sqrt(a),
             Function::Sin => sin(a),
             Function::Cos => cos(a),
-            Function::Atan2 => atan2(a, b),
+            Function::Atan2 => atan2(a, b)?,
             Function::Hypot => hypot(a, b),
         })
     }
@@ -130,25 +190,33 @@ pub fn abs(a: f64) -> f64 {
     libm::fabs(a)
 }
 
-/// The smaller one; no number when one of them is none, so that a fault does not disappear.
-#[inline]
-pub fn min(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a < b { a } else { b }
-}
-
-/// The greater one; no number when one of them is none.
-#[inline]
-pub fn max(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
-}
-
-/// `value`, but at least `low` and at most `high`; no number when one of them is none.
+/// The smaller one.
 ///
 /// # Errors
-/// [`Error::NoRange`] when `low` is above `high`.
+/// [`Error::NotFinite`] when one of them is not finite.
+#[inline]
+pub fn min(a: f64, b: f64) -> Result<f64, Error> {
+    let (a, b) = (finite(a)?, finite(b)?);
+    Ok(if a < b { a } else { b })
+}
+
+/// The greater one.
+///
+/// # Errors
+/// [`Error::NotFinite`] when one of them is not finite.
+#[inline]
+pub fn max(a: f64, b: f64) -> Result<f64, Error> {
+    let (a, b) = (finite(a)?, finite(b)?);
+    Ok(if a > b { a } else { b })
+}
+
+/// `value`, but at least `low` and at most `high`.
+///
+/// # Errors
+/// [`Error::NoRange`] when `low` is above `high`, [`Error::NotFinite`] when one of them is not finite.
 #[inline]
 pub fn clamp(value: f64, low: f64, high: f64) -> Result<f64, Error> {
-    if low > high { Err(Error::NoRange) } else { Ok(min(max(value, low), high)) }
+    if low > high { Err(Error::NoRange) } else { min(max(value, low)?, high) }
 }
 
 /// The square root; no number for what is negative.
@@ -170,9 +238,12 @@ pub fn cos(a: f64) -> f64 {
 }
 
 /// The angle of the point (x, y), from -pi to pi; zero for (0, 0).
+///
+/// # Errors
+/// [`Error::NotFinite`] when one of them is not finite.
 #[inline]
-pub fn atan2(y: f64, x: f64) -> f64 {
-    libm::atan2(y, x)
+pub fn atan2(y: f64, x: f64) -> Result<f64, Error> {
+    Ok(libm::atan2(finite(y)?, finite(x)?))
 }
 
 /// The hypotenuse of two sides.
@@ -187,14 +258,30 @@ mod tests {
     use crate::Error;
 
     #[test]
-    fn what_is_no_number_stays_none() {
-        let nan = f64::NAN;
-        for function in [Function::Min, Function::Max, Function::Clamp] {
-            for operands in [[nan, 1.0, 2.0], [1.0, nan, 2.0]] {
-                assert!(function.of_floats(operands).is_ok_and(f64::is_nan), "{function:?}");
+    fn an_operand_that_is_not_finite_never_gives_a_finite_value() {
+        let operands = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        for function in Function::ALL {
+            for place in 0..function.operands().0.len() {
+                for operand in operands {
+                    let mut all = [1.0, 1.0, 2.0];
+                    all[place] = operand;
+                    let value = function.of_floats(all);
+                    assert!(!value.is_ok_and(f64::is_finite), "{function:?} of {all:?}: {value:?}");
+                }
             }
         }
-        assert!(Function::Clamp.of_floats([1.0, 0.0, nan]).is_ok_and(f64::is_nan));
+    }
+
+    #[test]
+    fn only_functions_that_are_said_to_fail_do_so() {
+        for function in Function::ALL {
+            let floats = [[f64::NAN, 1.0, 2.0], [1.0, 2.0, 1.0], [-1.0, f64::INFINITY, 2.0]];
+            let fails = floats.into_iter().any(|floats| function.of_floats(floats).is_err());
+            assert_eq!(function.fails(false), fails, "{function:?}");
+            let ints = [[i64::MIN, 1, 2], [1, 2, 1]];
+            let fails = ints.into_iter().any(|ints| function.of_ints(ints).is_err());
+            assert!(!function.takes_ints() || function.fails(true) == fails, "{function:?}");
+        }
     }
 
     #[test]

@@ -15,7 +15,7 @@ mod decimal;
 pub mod devices;
 mod exact;
 mod formula;
-mod function;
+pub mod function;
 mod hash;
 mod id;
 mod kind;
@@ -36,10 +36,7 @@ pub use arithmetic::{
 pub use decimal::{Decimal, number_length};
 pub use exact::{RADIANS_PER_DEGREE, Scale, exact};
 pub use formula::{Node, Op, Operator, Part, Shape, Source};
-pub use function::{
-    Function, abs, atan2, clamp, cos, hypot, int_abs, int_clamp, int_max, int_min, max, min, sin,
-    sqrt,
-};
+pub use function::{Function, Signature};
 pub use hash::TextHash;
 pub use id::{ElementId, EntryId, PlanId, ReasonId, SupervisorId, ToolboxId};
 pub use kind::{ComponentKind, EntryKind};

@@ -302,6 +302,11 @@ const RULES: &[Rule] = &[
         "functions keep ints, check dimensions, and are faults where they have no value",
         &["formula_functions"],
     ),
+    (
+        "1.11",
+        "an infinite part of a formula is a fault, although the whole would be finite",
+        &["formula_infinite_parts"],
+    ),
     ("1.11", "a binding that is a name alone is its port and its entry", &["bindings_alone"]),
     ("1.11", "conversions", &["formula_conversions", "formula_text_that_does_not_read"]),
     (

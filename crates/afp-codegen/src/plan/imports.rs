@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 
 use crate::names::{ident, path};
-use afp_dsl::graph::Graph;
+use afp_dsl::graph::{Function, Graph};
 
 /// What lives at the root of `afp_core`.
 const CORE: &[&str] = &[
@@ -21,7 +21,7 @@ const CORE: &[&str] = &[
     "ValueRef",
     "WriteError",
 ];
-/// What lives in `afp_core::rt`.
+/// What lives in `afp_core::rt` beside the functions of formulas.
 const RT: &[&str] = &[
     "Actor",
     "AtElement",
@@ -58,22 +58,14 @@ const RT: &[&str] = &[
     "Target",
     "Timing",
     "Unit",
-    "abs",
-    "atan2",
     "bool_to_float",
     "bool_to_int",
-    "clamp",
-    "cos",
+    "divisor",
     "finite",
     "float_to_int",
-    "hypot",
     "initial",
     "input",
-    "int_abs",
     "int_add",
-    "int_clamp",
-    "int_max",
-    "int_min",
     "int_mul",
     "int_neg",
     "int_rem",
@@ -81,8 +73,6 @@ const RT: &[&str] = &[
     "int_to_float",
     "join",
     "limited",
-    "max",
-    "min",
     "output",
     "parse_bool",
     "parse_float",
@@ -93,8 +83,6 @@ const RT: &[&str] = &[
     "read_choice",
     "rem",
     "set_input",
-    "sin",
-    "sqrt",
     "stage_outside",
     "store_text",
 ];
@@ -126,7 +114,14 @@ const TRACE: &[&str] = &[
 
 /// All names that code of a module says without a path because they are imported there.
 pub fn imported() -> impl Iterator<Item = &'static str> {
-    [CORE, RT, QUANTITY, TRACE].into_iter().flatten().copied()
+    [CORE, QUANTITY, TRACE].into_iter().flatten().copied().chain(in_rt())
+}
+
+/// What lives in `afp_core::rt`, in the order of names.
+fn in_rt() -> BTreeSet<&'static str> {
+    let functions = Function::ALL.iter();
+    let functions = functions.flat_map(|it| [true, false].map(|ints| it.rust_name(ints)));
+    functions.chain(RT.iter().copied()).collect()
 }
 
 /// The items for what the sections name.
@@ -141,14 +136,14 @@ pub fn imports(
         names(tokens.clone(), &mut used);
     }
     let groups = [
-        (quote!(#core), CORE),
-        (quote!(#core::quantity), QUANTITY),
-        (quote!(#core::rt), RT),
-        (quote!(#core::trace), TRACE),
+        (quote!(#core), CORE.to_vec()),
+        (quote!(#core::quantity), QUANTITY.to_vec()),
+        (quote!(#core::rt), in_rt().into_iter().collect()),
+        (quote!(#core::trace), TRACE.to_vec()),
     ];
     let items = groups.into_iter().filter_map(|(module, names)| {
-        let names: Vec<Ident> =
-            names.iter().filter(|name| used.contains(**name)).map(|name| ident(name)).collect();
+        let names = names.into_iter().filter(|name| used.contains(*name));
+        let names: Vec<Ident> = names.map(ident).collect();
         match names.as_slice() {
             [] => None,
             [name] => Some(quote!(use #module::#name;)),

@@ -60,9 +60,16 @@ fn e_inputs(config: &Config) -> Result<std_templates::log::Inputs<Time>, BadValu
 /// Inputs of `k`.
 fn k_inputs(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: 1.0
-            - config.way()
-                / Length::from_si(config.pace().si() * Time::from_si(3.0).si()),
+        value: input(
+            0,
+            || Ok(
+                1.0
+                    - config.way()
+                        / divisor(
+                            Length::from_si(config.pace().si() * Time::from_si(3.0).si()),
+                        )?,
+            ),
+        )?,
     })
 }
 
@@ -105,30 +112,43 @@ fn q_inputs(config: &Config) -> Result<std_templates::log::Inputs<i64>, BadValue
 /// Inputs of `r`.
 fn r_inputs(config: &Config) -> Result<std_templates::log::Inputs<Length>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: Length::from_si(
-            hypot(config.way().si(), max(config.way().si(), Length::from_si(2.0).si())),
-        ) / 2.0,
+        value: input(
+            0,
+            || Ok(
+                Length::from_si(
+                    hypot(
+                        config.way().si(),
+                        max(config.way().si(), Length::from_si(2.0).si())?,
+                    ),
+                ) / 2.0,
+            ),
+        )?,
     })
 }
 
 /// Inputs of `s`.
 fn s_inputs(config: &Config) -> Result<std_templates::log::Inputs<f64>, BadValue> {
     Ok(std_templates::log::Inputs {
-        value: sin(
-            atan2(
-                Length::from_si(2.0 * config.way().si()).si(),
-                sqrt(
-                    <Quantity<
-                        2,
-                        0,
-                        0,
-                        0,
-                        0,
-                        0,
-                    >>::from_si(config.way().si() * config.way().si())
-                        .si(),
-                ),
+        value: input(
+            0,
+            || Ok(
+                sin(
+                    atan2(
+                        Length::from_si(2.0 * config.way().si()).si(),
+                        sqrt(
+                            <Quantity<
+                                2,
+                                0,
+                                0,
+                                0,
+                                0,
+                                0,
+                            >>::from_si(config.way().si() * config.way().si())
+                                .si(),
+                        ),
+                    )?,
+                ) * abs(config.f()),
             ),
-        ) * abs(config.f()),
+        )?,
     })
 }

@@ -1,9 +1,10 @@
 //! The names of a plan as static rows, and plans that can be addressed by name.
 
-use afp_types::{EntryId, Text, Value};
+use afp_types::{
+    EntryId, Text, Unit, Value, parse_bool, parse_choice, parse_float, parse_int, parse_quantity,
+};
 
 use crate::fault::Fault;
-use crate::rt::formula::{Unit, parse_bool, parse_choice, parse_float, parse_int, parse_quantity};
 use crate::rt::state::PlanState;
 use crate::trace::{
     ComponentId, ComponentKind, ComponentName, EntryKind, EntryName, Names, Outcome, PortName,
@@ -169,11 +170,11 @@ pub trait NamedPlan: PlanState {
         let names = self.names();
         let id = entry.into();
         let EntryName { ty, unit, .. } = names.entry(id);
-        match ty {
+        let value = match ty {
             "bool" => parse_bool(text).map(Value::Bool),
             "int" => parse_int(text).map(Value::Int),
             "float" => parse_float(text).map(Value::Float),
-            "string" => Ok(Value::Text(Text::try_from(text)?)),
+            "string" => Text::try_from(text).map(Value::Text),
             _ if !unit.is_empty() => parse_quantity(text, self.units(entry.0)).map(Value::Float),
             ty => {
                 let name = text.trim().strip_prefix(ty).and_then(|rest| rest.strip_prefix('.'));
@@ -181,7 +182,8 @@ pub trait NamedPlan: PlanState {
                 let choices = choices.take_while(|choice| !choice.is_empty());
                 parse_choice(name.unwrap_or(text), choices).map(Value::Choice)
             }
-        }
+        };
+        Ok(value?)
     }
 
     /// The units that a quantity for an entry, by position, may be written in.

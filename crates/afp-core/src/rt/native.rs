@@ -3,13 +3,12 @@
 
 use core::task::Poll;
 
-use afp_types::{Text, Value, ValueRef};
+use afp_types::{Text, Value, ValueRef, parse_choice};
 
 use crate::component::{
     Actor, ActorTemplate, Computation, ComputationTemplate, Events, Supervisor, SupervisorTemplate,
 };
 use crate::fault::{BadValue, Fault};
-use crate::rt::formula::parse_choice;
 use crate::rt::plan::{Cx, Fired, Polled, Started};
 use crate::rt::ports::{Outcome, Ports};
 use crate::rt::run::Run;

@@ -2,11 +2,10 @@
 
 use core::fmt;
 
-use afp_types::{Text, Value, ValueRef};
+use afp_types::{Text, Value, ValueRef, int_to_float};
 
 use crate::fault::Fault;
 use crate::quantity::Quantity;
-use crate::rt::formula::int_to_float;
 use crate::rt::write::WriteError;
 
 /// A value that an entry can hold. The default is what unset storage holds.

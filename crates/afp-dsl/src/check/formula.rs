@@ -138,7 +138,8 @@ impl Scope<'_> {
         match value {
             Ok(value) => Some((typed, value)),
             Err(fault) => {
-                diags.push(fault_diagnostic(fault, typed.span));
+                let place = constant::fails_at(&typed, &|entry| self.known(entry));
+                diags.push(fault_diagnostic(fault, place));
                 None
             }
         }
@@ -150,10 +151,13 @@ impl Scope<'_> {
     }
 
     fn evaluate(&self, formula: &Formula) -> Result<Option<Constant>, Error> {
-        let known = |entry: u16| {
-            self.entries.get(usize::from(entry)).and_then(|entry| entry.value_for_formulas())
-        };
-        constant::evaluate(formula, &known)
+        constant::evaluate(formula, &|entry| self.known(entry))
+    }
+
+    /// The value of an entry, if it is a constant.
+    fn known(&self, entry: u16) -> Option<Constant> {
+        let entry = self.entries.get(usize::from(entry))?;
+        entry.value.clone().filter(|_| entry.kind == EntryKind::Const)
     }
 
     /// The text at a place of this file.
@@ -408,11 +412,4 @@ pub(crate) fn too_long(span: Span) -> Diagnostic {
         message!("the text is longer than {} bytes", Words(MAX_TEXT)),
     )
     .help(message!("shorten it to at most {} bytes of UTF-8", Words(MAX_TEXT)))
-}
-
-impl EntryDraft {
-    /// The value that every formula sees: only constants have one.
-    fn value_for_formulas(&self) -> Option<Constant> {
-        if self.kind == EntryKind::Const { self.value.clone() } else { None }
-    }
 }

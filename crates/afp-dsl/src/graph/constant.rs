@@ -1,12 +1,12 @@
 //! Values of formulas that are known when the plan is compiled.
 //!
 //! The arithmetic is the run time's (`afp-types`): left to right, no fused operations, overflow and a
-//! non-finite result are errors. One thing is stricter: what divides by a constant zero is an error
-//! whatever becomes of the quotient.
+//! non-finite result are errors. A part that fails is an error even if the other parts are not known yet.
 
-use afp_types::{EntryId, Error, Source, Value, finite};
+use afp_syntax::source::Span;
+use afp_types::{EntryId, Error, Source, Value};
 
-use crate::graph::Formula;
+use crate::graph::{Formula, Part};
 use crate::types::converter::Converter;
 use crate::types::{Constant, Conversion};
 
@@ -20,8 +20,20 @@ pub(crate) fn evaluate(
     formula: &Formula,
     entry: &dyn Fn(u16) -> Option<Constant>,
 ) -> Result<Option<Constant>, Error> {
-    match formula.part().value(&Known(entry)) {
-        Ok(Value::Float(value)) => Ok(Some(Value::Float(finite(value)?))),
+    part(formula.part(), entry)
+}
+
+/// The place where a formula fails: the first operation that does, operands first.
+pub(crate) fn fails_at(formula: &Formula, entry: &dyn Fn(u16) -> Option<Constant>) -> Span {
+    let failed = formula.parts().find(|each| part(*each, entry).is_err());
+    failed.map_or(formula.span, |part| part.span)
+}
+
+fn part(
+    part: Part<'_>,
+    entry: &dyn Fn(u16) -> Option<Constant>,
+) -> Result<Option<Constant>, Error> {
+    match part.value(&Known(entry)) {
         Ok(value) => Ok(Some(value)),
         Err(Error::Unknown | Error::Mistyped) => Ok(None),
         Err(error) => Err(error),

@@ -66,6 +66,12 @@ impl Formula {
         &self.root.op
     }
 
+    /// All parts, operands before the parts that use them.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Part<'_>> {
+        let below = (1..=self.below.len()).filter_map(|end| Part::last(self.below.get(..end)?));
+        below.chain([self.part()])
+    }
+
     /// All nodes, operands before the nodes that use them.
     pub fn nodes(&self) -> impl Iterator<Item = &Node> {
         self.below.iter().chain([&self.root])

@@ -2,11 +2,11 @@
 //!
 //! The nodes are those of the graph, with conversions that have looked up what they need to know about
 //! types. The check has made every conversion a node of its own, so each operand has the type that its
-//! use needs. Anything else would be a bug of the compiler and gives [`Fault::INTERNAL`], not a panic.
+//! use needs. Anything else would be a bug of the compiler and gives [`Error::Mistyped`], not a panic.
 //! Evaluation allocates nothing.
 
+use afp_core::Value;
 use afp_core::rt::{BadValue, finite};
-use afp_core::{Fault, Value};
 use afp_dsl::graph;
 use afp_dsl::types::converter::Converter;
 use afp_types::{EntryId, Error, Op, Operator, Shape, Source};
@@ -69,7 +69,7 @@ impl Formula {
 
     /// The value that an entry may hold: that of the formula, if it is finite.
     pub fn finite(&self, values: &Values) -> Result<Value, BadValue> {
-        finite(self.part().value(values).map_err(Fault::from)?)
+        finite(self.part().value(values)?)
     }
 }
 

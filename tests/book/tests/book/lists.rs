@@ -1,5 +1,6 @@
-//! Lists in the book that are made from the sources: codes, templates, units, the table of contents.
+//! Lists in the book that are made from the sources: codes, templates, functions, units, the table of contents.
 
+mod functions;
 mod templates;
 mod units;
 
@@ -9,6 +10,9 @@ use std::fs;
 use afp_syntax::diagnostics::Code;
 
 use crate::{compare, docs};
+
+/// The width of a page of a code.
+const WIDTH: usize = 100;
 
 /// The groups of codes.
 const GROUPS: &[(&str, &str)] = &[
@@ -26,6 +30,31 @@ fn with_list(page: &str, list: &str) -> String {
     let (before, rest) = page.split_once(begin).expect("the mark of the list's begin");
     let (_, after) = rest.split_once(end).expect("the mark of the list's end");
     format!("{before}{begin}{list}{end}{after}")
+}
+
+/// Replaces the paragraph of a page that begins so.
+fn with_paragraph(page: &str, begin: &str, text: &str) -> String {
+    let text = wrapped(text);
+    let mut parts: Vec<_> = page.split("\n\n").collect();
+    let part = parts.iter_mut().find(|part| part.starts_with(begin));
+    *part.expect("a paragraph that begins so") = &text;
+    parts.join("\n\n")
+}
+
+/// A text in lines of at most [`WIDTH`] letters.
+fn wrapped(text: &str) -> String {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.len() + 1 + word.len() <= WIDTH => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n")
 }
 
 fn group(prefix: &str) -> impl Iterator<Item = Code> {

@@ -1,6 +1,6 @@
 //! Functions and the dimensions of their values.
 
-use afp_types::Function;
+use afp_types::{Function, Signature};
 
 use super::Scope;
 use super::operation::{different, dimension, to_float, to_number};
@@ -61,7 +61,7 @@ fn in_terms_of_ours(scope: &Scope<'_>, name: &str, operands: &[ast::Formula]) ->
 /// Whether degrees Celsius may be written as an operand: what only compares its operands needs no
 /// zero that means none.
 pub(super) fn takes_celsius(function: Option<Function>) -> bool {
-    matches!(function, Some(Function::Min | Function::Max | Function::Clamp))
+    function.is_some_and(|function| function.signature() == Signature::Choice)
 }
 
 /// `function(operands)`, which stands at `span`; it takes so many operands.
@@ -75,21 +75,21 @@ pub(super) fn call(
     let numbers = operands.into_iter().map(|operand| to_number(operand, diags));
     let mut numbers = numbers.collect::<Option<Vec<_>>>()?;
     let ints = numbers.iter().all(|number| number.ty == Type::Int);
-    let ty = match function {
-        Function::Abs | Function::Min | Function::Max | Function::Clamp if ints => Type::Int,
-        Function::Sin | Function::Cos => {
+    let ty = match function.signature() {
+        Signature::Choice | Signature::Same if ints => Type::Int,
+        Signature::OfAngle => {
             let angle = Type::Quantity(Dimension::named("angle")?);
             let operand = numbers.pop()?;
             let text = scope.text_of(operand.span);
             numbers.push(coerce(operand, &angle, None, text, diags)?);
             Type::FLOAT
         }
-        _ => {
+        signature => {
             let dimension = common(scope, &numbers, diags)?;
             numbers = numbers.into_iter().map(to_float).collect();
-            match function {
-                Function::Atan2 => Type::Quantity(Dimension::named("angle")?),
-                Function::Sqrt => root(dimension, span, diags)?,
+            match signature {
+                Signature::Angle => Type::Quantity(Dimension::named("angle")?),
+                Signature::Root => root(dimension, span, diags)?,
                 _ => Type::Quantity(dimension),
             }
         }
@@ -101,7 +101,7 @@ pub(super) fn call(
 fn joined(function: Function, operands: Vec<Formula>, ty: Type, span: Span) -> Formula {
     let call =
         |operands: Vec<Formula>| Formula::new(Op::Call(function), operands, ty.clone(), span);
-    if function.operands().1.is_some() {
+    if !function.operands().1 {
         return call(operands);
     }
     let mut operands = operands.into_iter();
@@ -142,42 +142,30 @@ pub(super) fn takes(
     span: Span,
     diags: &mut Diagnostics,
 ) -> Option<()> {
-    let (least, most) = function.operands();
+    let (names, takes_more) = function.operands();
     // Of one value alone there is nothing to choose.
-    let is_too_much = most.is_some_and(|most| operands.len() > most);
-    if operands.len() >= least && !is_too_much {
+    let is_too_much = !takes_more && operands.len() > names.len();
+    if operands.len() >= names.len() && !is_too_much {
         return Some(());
     }
     let comma = if is_too_much { decimal_comma(operands.iter()) } else { None };
-    let help = message!("write '{}'{}", with_operands(function), comma.unwrap_or_default());
+    let call = format!("{}({})", function.name(), names.join(", "));
+    let help = message!("write '{}'{}", call, comma.unwrap_or_default());
     diags.push(wrong_number(function, operands.len(), span).help(help));
     None
 }
 
 fn wrong_number(function: Function, given: usize, span: Span) -> Diagnostic {
-    let (least, most) = function.operands();
-    let more = if most.is_none() { " or more" } else { "" };
-    let plural = if least == 1 { "" } else { "s" };
+    let (names, takes_more) = function.operands();
+    let more = if takes_more { " or more" } else { "" };
+    let plural = if names.len() == 1 { "" } else { "s" };
     let message = message!(
         "'{}' takes {}{} operand{}, not {}",
         function.name(),
-        least,
+        names.len(),
         Words(more),
         Words(plural),
         given
     );
     Diagnostic::new(Code::E0243, span, message)
-}
-
-/// How a function is called.
-fn with_operands(function: Function) -> String {
-    let operands = match function {
-        Function::Min | Function::Max => "a, b",
-        Function::Clamp => "value, low, high",
-        Function::Atan2 => "y, x",
-        Function::Hypot => "a, b",
-        Function::Abs | Function::Sqrt => "a",
-        Function::Sin | Function::Cos => "angle",
-    };
-    format!("{}({operands})", function.name())
 }
