@@ -6,8 +6,8 @@ use afp_core::devices::{DeviceRow, SignalType, find_signal, signals};
 use afp_core::trace::{ComponentId, ComponentKind, TraceEntryId, TraceHash};
 use afp_core::{Duration, Instant, SetError, StartError, WriteError};
 use afp_session::{
-    AnySession, Applied, Figures, Holder, NamedRecord, Observer, Open, Pose2, Request, RunEvent,
-    SampleRef, Stimulus, View,
+    AnySession, Applied, Figures, Holder, NamedRecord, Observer, Open, Pose2, Report, Request,
+    RunEvent, SampleRef, Stimulus, View,
 };
 
 use crate::program::Program;
@@ -330,8 +330,8 @@ impl Target for SessionTarget<'_> {
         let session = &self.run.session;
         let named = session.names().component(component);
         let (component, ends) = (named.path.to_owned(), named.kind != ComponentKind::Supervisor);
-        let (outcome, outputs) = (outcome.to_owned(), Vec::new());
-        let what = Stimulus::Inject { component, outcome, ends, outputs };
+        let report = Report { outcome: outcome.to_owned(), ends };
+        let what = Stimulus::Inject(component, report, Vec::new());
         let request = what.request(session.devices(), session.names());
         self.ask(Duration::ZERO, request.map_err(|why| why.to_string())?).map(|_| ())
     }

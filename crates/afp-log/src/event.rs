@@ -5,8 +5,8 @@ use afp_core::trace::{
 };
 use afp_core::{Duration, Instant, ValueRef};
 use afp_session::{
-    Datum, Done, EndingKind, EventAt, EventKind, FaultText, Holder, Miss, NamedComponent,
-    NamedOutcome, Pose2, Put, Requested, RunEvent, Stimulus,
+    Datum, Done, EndingKind, EventAt, EventKind, FaultText, Holder, Miss, NameWithUnit,
+    NamedComponent, NamedOutcome, Pose2, Put, Report, Requested, RunEvent, Stimulus,
 };
 use prost::Message;
 use prost_types::Timestamp;
@@ -236,21 +236,21 @@ fn encode_request(request: Requested) -> Request {
     let about =
         |kind: request::Kind, name| Request { kind: kind.into(), name, ..Request::default() };
     let message = match what {
-        Stimulus::Write { entry, value, unit } => {
-            Request { value: Some(encode_value(value)), unit, ..about(request::Kind::Write, entry) }
+        Stimulus::Write(NameWithUnit { name, unit }, value) => {
+            Request { value: Some(encode_value(value)), unit, ..about(request::Kind::Write, name) }
         }
-        Stimulus::Press { control, held: true } => about(request::Kind::Press, control),
-        Stimulus::Press { control, held: false } => about(request::Kind::Release, control),
-        Stimulus::Hold { control, lasting } => {
+        Stimulus::Press(control, true) => about(request::Kind::Press, control),
+        Stimulus::Press(control, false) => about(request::Kind::Release, control),
+        Stimulus::Hold(control, lasting) => {
             Request { lasting_ns: Some(lasting.as_nanos()), ..about(request::Kind::Press, control) }
         }
-        Stimulus::Break { fault, amount, unit, lasting } => Request {
+        Stimulus::Break(NameWithUnit { name, unit }, amount, lasting) => Request {
             amount,
             unit,
             lasting_ns: (lasting != Duration::MAX).then_some(lasting.as_nanos()),
-            ..about(request::Kind::Fail, fault)
+            ..about(request::Kind::Fail, name)
         },
-        Stimulus::Inject { component, outcome, ends, outputs } => {
+        Stimulus::Inject(component, Report { outcome, ends }, outputs) => {
             let output = |(port, value): (u16, Datum)| Output {
                 port: port.into(),
                 value: Some(encode_value(value)),
@@ -259,8 +259,8 @@ fn encode_request(request: Requested) -> Request {
             let kind = if ends { request::Kind::Finish } else { request::Kind::Fire };
             Request { outcome, outputs, ..about(kind, component) }
         }
-        Stimulus::Idle { element } => about(request::Kind::Idle, element.unwrap_or_default()),
-        Stimulus::Put { what, at } => {
+        Stimulus::Idle(element) => about(request::Kind::Idle, element.unwrap_or_default()),
+        Stimulus::Put(what, at) => {
             let (kind, name) = match what {
                 Put::Robot => (request::Kind::Move, String::new()),
                 Put::Thing(name) => (request::Kind::Move, name),
@@ -291,38 +291,31 @@ fn decode_request(message: Request) -> Option<Requested> {
     let what = match kind {
         request::Kind::Unknown => return None,
         request::Kind::Write => {
-            Stimulus::Write { entry: name, value: value(message.value), unit: message.unit }
+            Stimulus::Write(NameWithUnit { name, unit: message.unit }, value(message.value))
         }
         request::Kind::Press => match message.lasting_ns {
-            Some(lasting) => {
-                Stimulus::Hold { control: name, lasting: Duration::from_nanos(lasting) }
-            }
-            None => Stimulus::Press { control: name, held: true },
+            Some(lasting) => Stimulus::Hold(name, Duration::from_nanos(lasting)),
+            None => Stimulus::Press(name, true),
         },
-        request::Kind::Release => Stimulus::Press { control: name, held: false },
-        request::Kind::Fail => Stimulus::Break {
-            fault: name,
-            amount: message.amount,
-            unit: message.unit,
-            lasting: message.lasting_ns.map_or(Duration::MAX, Duration::from_nanos),
-        },
+        request::Kind::Release => Stimulus::Press(name, false),
+        request::Kind::Fail => Stimulus::Break(
+            NameWithUnit { name, unit: message.unit },
+            message.amount,
+            message.lasting_ns.map_or(Duration::MAX, Duration::from_nanos),
+        ),
         request::Kind::Fire | request::Kind::Finish => {
             let output =
                 |output: Output| Some((u16::try_from(output.port).ok()?, value(output.value)));
             let outputs = message.outputs.into_iter().filter_map(output).collect();
             let ends = kind == request::Kind::Finish;
-            Stimulus::Inject { component: name, outcome: message.outcome, ends, outputs }
+            Stimulus::Inject(name, Report { outcome: message.outcome, ends }, outputs)
         }
-        request::Kind::Idle => {
-            Stimulus::Idle { element: Some(name).filter(|name| !name.is_empty()) }
-        }
+        request::Kind::Idle => Stimulus::Idle(Some(name).filter(|name| !name.is_empty())),
         request::Kind::Move => {
             let what = if name.is_empty() { Put::Robot } else { Put::Thing(name) };
-            Stimulus::Put { what, at: decode_pose(&message.pose) }
+            Stimulus::Put(what, decode_pose(&message.pose))
         }
-        request::Kind::Drop => {
-            Stimulus::Put { what: Put::New(name), at: decode_pose(&message.pose) }
-        }
+        request::Kind::Drop => Stimulus::Put(Put::New(name), decode_pose(&message.pose)),
         request::Kind::Stop => Stimulus::Stop,
     };
     Some(Requested { at, what, done })

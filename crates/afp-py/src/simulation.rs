@@ -363,15 +363,17 @@ impl Runner {
         outputs: &Bound<'_, PyDict>,
         at: Option<f64>,
     ) -> PyResult<()> {
-        let mut injection = self.lock()?.injection(component, outcome)?;
+        let (id, reported) = self.lock()?.reported(component, outcome)?;
         // Reading values may run Python, as above.
-        if let Some(graph) = &self.compiled.graph {
-            let of = (component, outcome, injection.outcome.number());
-            injection.outputs = stimuli::outputs(graph, of, outputs)?;
-        }
+        let outputs = match &self.compiled.graph {
+            Some(graph) => {
+                stimuli::outputs(graph, (component, outcome, reported.number()), outputs)?
+            }
+            None => Vec::new(),
+        };
         let mut session = self.lock()?;
         let from = session.moment(at.map(instant).transpose()?)?;
-        session.ask(from, Request::Inject(injection)).map_err(error)
+        session.ask(from, Request::Inject(id, reported, outputs)).map_err(error)
     }
 
     /// Lets an actor, those of a sub-plan, or all of them do nothing from their next start on.

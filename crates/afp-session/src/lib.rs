@@ -64,7 +64,9 @@ pub use opened::Opened;
 pub use opened::{Opener, hardware};
 pub use recipe::{Build, Recipe, RecipeError, TextFile};
 pub use record::{Keep, Kept, OwnedRecord};
-pub use request::{DEFAULT_UNTIL, HOLD, Put, Request, RequestError, RequestId};
+pub use request::{
+    ByIds, DEFAULT_UNTIL, HOLD, Held, Put, Request, RequestError, RequestId, RequestOf,
+};
 pub use robot::{ControlOf, Droppable, FaultOf, Measure, Refused, Robot, Simulated, read_signal};
 pub use robots::{AnyRobot, Kind, SessionError, kind};
 #[cfg(feature = "load")]
@@ -72,7 +74,7 @@ pub use robots::{Loader, simulated};
 pub use sample::{Image, Pose2, Ranging, SampleRef, Shape, Transform, frames};
 pub use sampling::Samples;
 pub use session::{SAMPLE, Session};
-pub use stimulus::Stimulus;
+pub use stimulus::{ByNames, NameWithUnit, Report, Stimulus};
 pub use track::{Mark, Track, Waypoint};
 pub use units::some_units;
 pub use world::{AnyWorld, Drawing, Outlines, Patch, Thing, World, WorldError};

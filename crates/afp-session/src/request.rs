@@ -3,10 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-#[cfg(feature = "load")]
-use afp::load::Injection;
 use afp_core::devices::{ControlId, FaultId};
-use afp_core::trace::ComponentId;
+use afp_core::trace::{ComponentId, Outcome};
 use afp_core::{Duration, EntryId, Instant, Value, WriteError};
 
 use crate::sample::Pose2;
@@ -17,27 +15,60 @@ pub const DEFAULT_UNTIL: Duration = Duration::from_secs(60);
 /// How long something is held down unless anybody says otherwise.
 pub const HOLD: Duration = Duration::from_millis(200);
 
-/// Something that comes from outside.
+/// Something that comes from outside. Ids or names in it are held as `H` says.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Request {
+pub enum RequestOf<H: Held> {
     /// An entry is written: before the start an `in` entry at once, later with the next step.
-    Write(EntryId, Value),
+    Write(H::Entry, H::Value),
     /// A control is held down until it is let go, or let go, whoever holds it.
-    Press(ControlId, bool),
+    Press(H::Control, bool),
     /// A control is held down for a while, and then for as long as somebody else holds it.
-    Hold(ControlId, Duration),
-    /// Something breaks, by that amount, for a while; [`Duration::MAX`] is for good.
-    Break(FaultId, Option<f64>, Duration),
-    /// A component reports an outcome at its next poll, whatever it sees.
-    #[cfg(feature = "load")]
-    Inject(Injection),
+    Hold(H::Control, Duration),
+    /// Something breaks for a while, [`Duration::MAX`] for good: by that amount in SI units, or by as much as the robot's
+    /// devices declare.
+    Break(H::Fault, Option<f64>, Duration),
+    /// A component of a loaded plan reports an outcome at its next poll, whatever it sees. The outputs that come with it
+    /// have positions among the template's.
+    Inject(H::Component, H::Outcome, Vec<(u16, H::Value)>),
     /// An actor, those of a sub-plan, or all of them do nothing from their next start on.
-    Idle(Option<ComponentId>),
-    /// Something of a simulated world is put somewhere by hand.
+    Idle(Option<H::Component>),
+    /// Something of a simulated world is put somewhere by hand: metres, radians.
     Put(Put, Pose2),
     /// The plan ends as interrupted.
     Stop,
 }
+
+/// How a request holds what it is about.
+pub trait Held {
+    /// An entry of the plan itself.
+    type Entry;
+    /// A value of an entry or of an output.
+    type Value;
+    /// A control of a device.
+    type Control;
+    /// A fault of a device.
+    type Fault;
+    /// A component of the plan.
+    type Component;
+    /// A state or event of a component.
+    type Outcome;
+}
+
+/// By ids of a session.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ByIds;
+
+impl Held for ByIds {
+    type Entry = EntryId;
+    type Value = Value;
+    type Control = ControlId;
+    type Fault = FaultId;
+    type Component = ComponentId;
+    type Outcome = Outcome;
+}
+
+/// A request that a session takes.
+pub type Request = RequestOf<ByIds>;
 
 /// What is put somewhere by hand.
 #[derive(Clone, Debug, PartialEq, Eq)]

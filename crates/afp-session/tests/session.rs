@@ -174,30 +174,18 @@ fn what_can_never_be_is_refused_at_once_and_what_cannot_be_then_is_told() {
     }
     assert!(there.at(at(10), Request::Stop).is_ok());
     // `rest` does not run yet.
-    let injection = afp::load::Injection {
-        component: component(&session, "rest"),
-        outcome: Outcome::Declared(0),
-        outputs: Vec::new(),
-    };
-    let id = session.at(at(50), Request::Inject(injection)).unwrap();
+    let finish = |component| Request::Inject(component, Outcome::Declared(0), Vec::new());
+    let id = session.at(at(50), finish(component(&session, "rest"))).unwrap();
     session.run(at(100), &mut Open, &mut [&mut notes]).unwrap();
     assert_eq!(notes.refused, [(at(50), id, RequestError::NotActive("rest".to_owned()))]);
     let late = session.at(at(50), Request::Stop);
     assert_eq!(late, Err(RequestError::Over { at: at(50), now: at(100) }));
     // Of two outcomes at one instant the first comes; what is said names it as scenarios do.
-    let injection = || afp::load::Injection {
-        component: component(&session, "go"),
-        outcome: Outcome::Declared(0),
-        outputs: Vec::new(),
-    };
-    let twice = [injection(), injection()];
-    let shown = Stimulus::new(
-        &Request::Inject(injection()),
-        AnySession::devices(&session),
-        AnySession::names(&session),
-    );
+    let go = component(&session, "go");
+    let (devices, names) = (AnySession::devices(&session), AnySession::names(&session));
+    let shown = Stimulus::new(&finish(go), devices, names);
     assert!(shown.to_string().starts_with("finish go."), "{shown}");
-    let ids = twice.map(|each| session.at(at(150), Request::Inject(each)).unwrap());
+    let ids = [go; 2].map(|each| session.at(at(150), finish(each)).unwrap());
     session.run(at(200), &mut Open, &mut [&mut notes]).unwrap();
     let reports = RequestError::Reports("go".to_owned());
     assert_eq!(notes.refused[1..], [(at(150), ids[1], reports)]);

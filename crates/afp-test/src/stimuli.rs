@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use afp::load::Injection;
 use afp_core::devices::{find_control, find_fault};
-use afp_core::trace::{self, ComponentId, ComponentKind, Names};
+use afp_core::trace::{self, ComponentId, ComponentKind};
 use afp_core::{Duration, EntryId, Instant};
-use afp_dsl::scenario::{self, Action, Failure, MomentId, Outcome, Part, Scenario};
+use afp_dsl::scenario::{Action, Failure, MomentId, Outcome, Part, Scenario};
 use afp_session::{AnySession, HOLD, Request, RequestError, RequestId};
 
 /// Asks for all that happens in a scenario from one of its moments on, or from the start: `begin`; gives the line that each
@@ -51,19 +50,14 @@ fn requested(session: &dyn AnySession, action: &Action) -> Result<Request, Reque
             Request::Break(id, *amount, lasting)
         }
         Action::Idle(element) => Request::Idle(element.map(ComponentId)),
-        Action::Inject(injection) => Request::Inject(injected(injection, session.names())),
+        Action::Inject(injection) => {
+            let component = ComponentId(injection.component);
+            let outcome = match (injection.outcome, session.names().component(component).kind) {
+                (Outcome::Declared(outcome), _) => trace::Outcome::Declared(outcome),
+                (Outcome::Special, ComponentKind::Supervisor) => trace::Outcome::DeadlineMissed,
+                (Outcome::Special, _) => trace::Outcome::Error,
+            };
+            Request::Inject(component, outcome, injection.outputs.clone())
+        }
     })
-}
-
-fn injected(injection: &scenario::Injection, names: &dyn Names) -> Injection {
-    let component = ComponentId(injection.component);
-    Injection {
-        component,
-        outcome: match (injection.outcome, names.component(component).kind) {
-            (Outcome::Declared(outcome), _) => trace::Outcome::Declared(outcome),
-            (Outcome::Special, ComponentKind::Supervisor) => trace::Outcome::DeadlineMissed,
-            (Outcome::Special, _) => trace::Outcome::Error,
-        },
-        outputs: injection.outputs.clone(),
-    }
 }

@@ -3,7 +3,7 @@
 use afp_core::{Duration, Instant};
 use afp_dsl::types::text::duration;
 use afp_excerpt::words::{shell_file, shell_setting, shell_word};
-use afp_session::{DEFAULT_UNTIL, HOLD, Stimulus};
+use afp_session::{DEFAULT_UNTIL, HOLD, NameWithUnit, Stimulus};
 
 use super::Launch;
 use super::mode::By;
@@ -58,10 +58,10 @@ fn options(
     for (at, what) in requests {
         let press = |control| ("--press", format!("{control}@{}", second(*at)));
         options.push(match what {
-            Stimulus::Hold { control, lasting: HOLD } => press(control),
+            Stimulus::Hold(control, HOLD) => press(control),
             // What a press has ended does not see how long it lasts.
-            Stimulus::Press { control, held: true } if ended <= *at + HOLD => press(control),
-            Stimulus::Break { fault, amount, unit, lasting } => {
+            Stimulus::Press(control, true) if ended <= *at + HOLD => press(control),
+            Stimulus::Break(NameWithUnit { name, unit }, amount, lasting) => {
                 let amount = match amount {
                     Some(amount) => format!("={amount}{unit}"),
                     None => String::new(),
@@ -70,7 +70,7 @@ fn options(
                     Duration::MAX => String::new(),
                     lasting => format!("..{}", second(*at + lasting)),
                 };
-                ("--fail", format!("{fault}{amount}@{}{to}", second(*at)))
+                ("--fail", format!("{name}{amount}@{}{to}", second(*at)))
             }
             _ => return None,
         });

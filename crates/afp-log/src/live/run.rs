@@ -10,7 +10,7 @@ use std::thread::JoinHandle;
 use crate::Messages;
 use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, Instant};
-use afp_session::{AnySession, HOLD, Holder, Request, Stimulus};
+use afp_session::{AnySession, HOLD, Holder, NameWithUnit, Request, Stimulus};
 
 use super::admission::Tokens;
 use super::hub::{Asked, Hub, Question, Service, Stream, Written};
@@ -127,8 +127,8 @@ fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), St
     match what {
         Asked::Press { control, held } => {
             let what = match held {
-                Some(held) => Stimulus::Press { control, held },
-                None => Stimulus::Hold { control, lasting: HOLD },
+                Some(held) => Stimulus::Press(control, held),
+                None => Stimulus::Hold(control, HOLD),
             };
             ask(session, at, &what)
         }
@@ -138,7 +138,8 @@ fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), St
                 Some(seconds) if seconds > 0.0 && seconds < 1e9 => Duration::from_secs_f64(seconds),
                 Some(_) => return Err("'seconds' is a number above 0".to_owned()),
             };
-            ask(session, at, &Stimulus::Break { fault, amount, unit: String::new(), lasting })
+            let fault = NameWithUnit { name: fault, unit: String::new() };
+            ask(session, at, &Stimulus::Break(fault, amount, lasting))
         }
         Asked::Stop => session.at(at, Request::Stop).map(|_| ()).map_err(|why| why.to_string()),
     }

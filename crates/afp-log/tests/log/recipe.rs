@@ -3,43 +3,32 @@
 use afp_core::Duration;
 use afp_log::robot::Pose2;
 use afp_log::{About, LogData, OwnedNames, Recorder, Signal, WhenFull, doctor, read};
-use afp_session::{Build, Datum, Done, Put, Recipe, Requested, RunEvent, Stimulus, TextFile};
+use afp_session::{
+    Build, Datum, Done, NameWithUnit, Put, Recipe, Report, Requested, RunEvent, Stimulus, TextFile,
+};
 
 use super::{Names1, at};
 
 fn requests_of_each_kind() -> Vec<Stimulus> {
-    let (control, fault) = ("touch.touch".to_owned(), "wheels.slip".to_owned());
+    let control = "touch.touch".to_owned();
     let outputs = vec![(1, Datum::Choice("#2".to_owned())), (2, Datum::Float(0.1))];
-    let (component, outcome) = ("go.touch".to_owned(), "TouchSensorPressed".to_owned());
-    let (entry, value) = ("side".to_owned(), Datum::Choice("Side.right".to_owned()));
+    let (component, outcome) = ("go.touch".to_owned(), "TouchSensorPressed");
+    let report = |outcome: &str, ends| Report { outcome: outcome.to_owned(), ends };
+    let with_unit =
+        |name: &str, unit: &str| NameWithUnit { name: name.to_owned(), unit: unit.to_owned() };
     vec![
-        Stimulus::Write { entry, value, unit: String::new() },
-        Stimulus::Press { control: control.clone(), held: true },
-        Stimulus::Press { control, held: false },
-        Stimulus::Break {
-            fault: fault.clone(),
-            amount: Some(0.2),
-            unit: "s".to_owned(),
-            lasting: Duration::MAX,
-        },
-        Stimulus::Break {
-            fault,
-            amount: None,
-            unit: String::new(),
-            lasting: Duration::from_millis(1),
-        },
-        Stimulus::Inject {
-            component: component.clone(),
-            outcome: outcome.clone(),
-            ends: false,
-            outputs: outputs.clone(),
-        },
-        Stimulus::Inject { component, outcome, ends: true, outputs },
-        Stimulus::Idle { element: None },
-        Stimulus::Idle { element: Some("go".to_owned()) },
-        Stimulus::Put { what: Put::Robot, at: Pose2 { x: 0.5, y: -1.0, heading: 0.1 } },
-        Stimulus::Put { what: Put::Thing("box 1".to_owned()), at: Pose2::default() },
-        Stimulus::Put { what: Put::New("crate".to_owned()), at: Pose2::default() },
+        Stimulus::Write(with_unit("side", ""), Datum::Choice("Side.right".to_owned())),
+        Stimulus::Press(control.clone(), true),
+        Stimulus::Press(control, false),
+        Stimulus::Break(with_unit("wheels.slip", "s"), Some(0.2), Duration::MAX),
+        Stimulus::Break(with_unit("wheels.slip", ""), None, Duration::from_millis(1)),
+        Stimulus::Inject(component.clone(), report(outcome, false), outputs.clone()),
+        Stimulus::Inject(component, report(outcome, true), outputs),
+        Stimulus::Idle(None),
+        Stimulus::Idle(Some("go".to_owned())),
+        Stimulus::Put(Put::Robot, Pose2 { x: 0.5, y: -1.0, heading: 0.1 }),
+        Stimulus::Put(Put::Thing("box 1".to_owned()), Pose2::default()),
+        Stimulus::Put(Put::New("crate".to_owned()), Pose2::default()),
         Stimulus::Stop,
     ]
 }

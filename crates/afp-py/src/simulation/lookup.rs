@@ -1,16 +1,16 @@
 //! What the names of a plan stand for in a run of it.
 
-use afp::load::{Injection, PlanNames};
+use afp::load::PlanNames;
 use afp_core::EntryId;
-use afp_core::trace::{ComponentId, ComponentKind, Names, TraceEntryId, declared};
+use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome, TraceEntryId, declared};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
 use super::session::Run;
 
 impl Run {
-    /// What lets a component report an outcome.
-    pub fn injection(&self, path: &str, outcome: &str) -> PyResult<Injection> {
+    /// A component, and an outcome that it can report.
+    pub fn reported(&self, path: &str, outcome: &str) -> PyResult<(ComponentId, Outcome)> {
         let names = &self.names;
         let component =
             self.find(path, &[ComponentKind::Actor, ComponentKind::Supervisor]).ok_or_else(
@@ -22,7 +22,7 @@ impl Run {
             let known = known.join(", ");
             PyValueError::new_err(format!("'{path}' has no '{outcome}'; there are: {known}"))
         })?;
-        Ok(Injection { component, outcome, outputs: Vec::new() })
+        Ok((component, outcome))
     }
 
     /// An actor or sub-plan by its path.

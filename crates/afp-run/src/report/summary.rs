@@ -241,7 +241,7 @@ fn why_not(request: &Requested) -> &str {
 
 /// Whether people want to read of it: that a control was let go they know.
 fn is_worth_a_line(request: &Requested) -> bool {
-    !matches!(request.what, Stimulus::Press { held: false, .. })
+    !matches!(request.what, Stimulus::Press(_, false))
 }
 
 fn request(request: &Requested) -> String {

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use afp_core::Duration;
 use afp_core::trace::Cause;
 use afp_session::{
-    Done, EndingKind, EventAt, EventKind, FaultText, Miss, NamedComponent, NamedOutcome, Requested,
-    RunEvent, Stimulus,
+    Done, EndingKind, EventAt, EventKind, FaultText, Miss, NameWithUnit, NamedComponent,
+    NamedOutcome, Requested, RunEvent, Stimulus,
 };
 use afp_types::Meaning;
 use anstyle::{AnsiColor, Style};
@@ -103,7 +103,9 @@ fn requested(request: &Requested) -> String {
 /// A stimulus with its quantities as people write them.
 pub(super) fn stimulus(what: &Stimulus) -> String {
     match what {
-        Stimulus::Write { entry, value, unit } => format!("set {entry} = {}", value.in_unit(unit)),
+        Stimulus::Write(NameWithUnit { name, unit }, value) => {
+            format!("set {name} = {}", value.in_unit(unit))
+        }
         other => other.to_string(),
     }
 }

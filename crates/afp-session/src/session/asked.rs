@@ -6,7 +6,9 @@ use afp::load::{Injection, LoadedPlan, NotInjected};
 use afp_core::ElementId;
 use afp_core::devices::{ControlId, Devices, FaultId, controls, faults};
 use afp_core::rt::{NamedPlan, Plan};
-use afp_core::trace::{ComponentId, Names as _};
+use afp_core::trace::ComponentId;
+#[cfg(feature = "load")]
+use afp_core::trace::Names as _;
 use afp_core::{Duration, EntryId, Instant, Value, WriteError};
 
 use super::Session;
@@ -143,9 +145,9 @@ where
             }
             Request::Press(id, _) | Request::Hold(id, _) => self.check_control(*id),
             Request::Break(id, amount, _) => self.check_fault(*id, *amount),
-            #[cfg(feature = "load")]
-            Request::Inject(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
-            Request::Idle(_) => self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled),
+            Request::Inject(..) | Request::Idle(_) => {
+                self.testing.as_ref().map(|_| ()).ok_or(RequestError::Compiled)
+            }
             Request::Put(what, at) => self.check_put(what, *at, is_now),
             Request::Stop => Ok(()),
         }
@@ -225,7 +227,11 @@ where
                 Ok(())
             }
             #[cfg(feature = "load")]
-            Request::Inject(injection) => self.inject(&injection),
+            Request::Inject(component, outcome, outputs) => {
+                self.inject(&Injection { component, outcome, outputs })
+            }
+            #[cfg(not(feature = "load"))]
+            Request::Inject(..) => Err(RequestError::Compiled),
             Request::Idle(element) => {
                 let testing = self.testing.as_ref().ok_or(RequestError::Compiled)?;
                 match (testing.idle)(self.scheduler.plan_under_test(), element) {
