@@ -29,7 +29,7 @@ use crate::rt::{
 };
 use crate::trace::{Author, ComponentId, Ending, Record, Sink};
 use afp_types::{Duration, ElementId, Instant, SupervisorId};
-use at::StepAt;
+use at::Stepping;
 use sweep::Seen;
 
 /// A plan, its rows and the state of its scheduling.
@@ -106,7 +106,7 @@ impl<P: PlanState> Machine<P> {
     where
         P: Plan<R::Env>,
     {
-        self.level.start(&self.tables, cx)
+        self.stepping(cx).start()
     }
 
     /// Does everything that is due.
@@ -115,7 +115,7 @@ impl<P: PlanState> Machine<P> {
     where
         P: Plan<R::Env>,
     {
-        self.level.step(&self.tables, cx)
+        self.stepping(cx).step()
     }
 
     /// Interrupts whatever is active, innermost first, and drops all components.
@@ -126,14 +126,22 @@ impl<P: PlanState> Machine<P> {
     where
         P: Plan<R::Env>,
     {
-        let result = self.level.interrupt_active(&self.tables, cx);
+        let result = self.stepping(cx).interrupt_active();
         self.level.plan.end();
         result
     }
 
     /// Commits what is staged from outside.
-    pub(crate) fn commit<R: Run>(&mut self, author: Author, cx: &mut Cx<'_, R>) {
-        self.level.commit(author, cx);
+    pub(crate) fn commit<R: Run>(&mut self, author: Author, cx: &mut Cx<'_, R>)
+    where
+        P: Plan<R::Env>,
+    {
+        self.stepping(cx).commit(author);
+    }
+
+    #[inline(always)]
+    fn stepping<'a, 'c, R: Run>(&'a mut self, cx: &'a mut Cx<'c, R>) -> Stepping<'a, 'c, P, R> {
+        Stepping { level: &mut self.level, t: &self.tables, cx }
     }
 }
 
@@ -145,129 +153,110 @@ impl<P: PlanState + Clone> Clone for Machine<P> {
     }
 }
 
-impl<P: PlanState> Level<P> {
-    fn start<R: Run>(&mut self, t: &P::Tables, cx: &mut Cx<'_, R>) -> Flow
-    where
-        P: Plan<R::Env>,
-    {
-        self.active = None;
-        self.due = Instant::MAX;
-        if let Err(why) = self.plan.initialise() {
+impl<'c, R: Run, P: Plan<R::Env>> Stepping<'_, 'c, P, R> {
+    fn start(&mut self) -> Flow {
+        self.level.active = None;
+        self.level.due = Instant::MAX;
+        if let Err(why) = self.level.plan.initialise() {
             // The values are the plan's own, whoever was called before.
-            cx.step.called = cx.place.plan;
-            let fault = cx.note(why);
+            self.cx.step.called = self.cx.place.plan;
+            let fault = self.cx.note(why);
             // A sub-plan's fault is traced by the plan that uses it, as any that ends it.
-            match cx.place.plan {
-                plan @ ComponentId(0) => cx.failed(plan, fault),
-                sub_plan => drop(cx.note_failure(sub_plan, fault)),
+            match self.cx.place.plan {
+                plan @ ComponentId(0) => self.cx.failed(plan, fault),
+                sub_plan => drop(self.cx.note_failure(sub_plan, fault)),
             }
-            return self.end(Ending::Error(fault), cx);
+            return self.end(Ending::Error(fault));
         }
-        self.trace_entries(t, cx);
-        for supervisor in (0..t.table().globals).map(SupervisorId) {
-            if let Err(fault) = self.start_supervisor(t, supervisor, cx) {
-                return self.end(Ending::Error(fault), cx);
+        self.trace_entries();
+        for supervisor in (0..self.t.table().globals).map(SupervisorId) {
+            if let Err(fault) = self.start_supervisor(supervisor) {
+                return self.end(Ending::Error(fault));
             }
         }
-        match self.enter(t, t.table().start, cx) {
-            Ok(None) => Flow::Running(self.wake(t)),
-            Ok(Some(edge)) => self.follow(t, edge, cx),
-            Err(stop) => self.stop(stop, cx),
+        match self.enter(self.t.table().start).transpose() {
+            None => Flow::Running(self.wake()),
+            Some(edge) => self.follow(edge),
         }
     }
 
     #[inline]
-    fn step<R: Run>(&mut self, t: &P::Tables, cx: &mut Cx<'_, R>) -> Flow
-    where
-        P: Plan<R::Env>,
-    {
-        let Some(element) = self.active else { return Flow::Fatal(Fault::INTERNAL) };
-        P::at_element(element, StepAt { level: self, t, cx })
+    fn step(self) -> Flow {
+        let Some(element) = self.level.active else { return Flow::Fatal(Fault::INTERNAL) };
+        P::at_element(element, self)
+    }
+
+    /// The same for functions that are seldom called: the address of what the others work with stays unknown, so that
+    /// it is kept in registers.
+    #[inline(always)]
+    fn seldom(&mut self) -> Stepping<'_, 'c, P, R> {
+        Stepping { level: &mut *self.level, t: self.t, cx: &mut *self.cx }
     }
 
     /// A step while an element is active.
     #[inline(always)]
-    fn step_element<R: Run>(
-        &mut self,
-        t: &P::Tables,
-        element: ElementId,
-        cx: &mut Cx<'_, R>,
-    ) -> Flow
-    where
-        P: Plan<R::Env>,
-    {
-        let Some(row) = t.table().element(element) else { return Flow::Fatal(Fault::INTERNAL) };
-        let wake = match self.sweep(t, element, row, cx) {
-            Seen::Nothing(wake) => wake,
-            Seen::Something(found) => return self.interrupted(t, element, row, found, cx),
+    fn step_element(&mut self, element: ElementId) -> Flow {
+        let Some(row) = self.t.table().element(element) else {
+            return Flow::Fatal(Fault::INTERNAL);
         };
-        if self.due > cx.now {
-            return Flow::Running(wake.min(self.due));
+        let wake = match self.sweep(element, row) {
+            Seen::Nothing(wake) => wake,
+            Seen::Something(found) => return self.seldom().interrupted(element, row, found),
+        };
+        if self.level.due > self.cx.now {
+            return Flow::Running(wake.min(self.level.due));
         }
-        let id = component(cx, element);
-        cx.place.component = id;
-        match cx.call(id, |cx| self.plan.poll_element(element, cx)) {
+        let id = self.component(element);
+        self.cx.place.component = id;
+        match self.cx.call(id, |cx| self.level.plan.poll_element(element, cx)) {
             Polled::Pending => {
-                self.due = next_on_grid(self.due, row, cx.now);
-                Flow::Running(wake.min(self.due))
+                self.level.due = next_on_grid(self.level.due, row, self.cx.now);
+                Flow::Running(wake.min(self.level.due))
             }
             Polled::SubPlan(Flow::Running(due)) => {
-                self.due = due;
+                self.level.due = due;
                 Flow::Running(wake.min(due))
             }
-            polled => self.left(t, element, row, polled, cx),
+            polled => self.seldom().left(element, row, polled),
         }
     }
 
-    fn stop<R: Run>(&mut self, stop: Stop, cx: &mut Cx<'_, R>) -> Flow
-    where
-        P: Plan<R::Env>,
-    {
-        match stop {
-            Stop::Plan(ending) => self.end(ending, cx),
-            Stop::Run(fault) => Flow::Fatal(fault),
-        }
-    }
-
-    fn end<R: Run>(&mut self, ending: Ending, cx: &mut Cx<'_, R>) -> Flow
-    where
-        P: Plan<R::Env>,
-    {
-        self.active = None;
-        self.plan.discard();
-        self.plan.end();
-        cx.step.passed_on = matches!(ending, Ending::Error(_));
+    fn end(&mut self, ending: Ending) -> Flow {
+        self.level.active = None;
+        self.level.plan.discard();
+        self.level.plan.end();
+        self.cx.step.passed_on = matches!(ending, Ending::Error(_));
         if R::Sink::ENABLED {
-            cx.sink.record(cx.now, &Record::Ended { plan: cx.place.plan, ending });
+            self.cx.sink.record(self.cx.now, &Record::Ended { plan: self.cx.place.plan, ending });
         }
         Flow::Ended(ending)
     }
 
     #[inline]
-    fn commit<R: Run>(&mut self, author: Author, cx: &mut Cx<'_, R>) {
-        cx.step.commits = cx.step.commits.wrapping_add(1);
-        self.plan.commit(&mut Committer {
-            sink: &mut *cx.sink,
-            at: cx.now,
+    fn commit(&mut self, author: Author) {
+        self.cx.step.commits = self.cx.step.commits.wrapping_add(1);
+        self.level.plan.commit(&mut Committer {
+            sink: &mut *self.cx.sink,
+            at: self.cx.now,
             author,
-            entries: cx.place.entries,
-            number: cx.step.commits,
+            entries: self.cx.place.entries,
+            number: self.cx.step.commits,
         });
     }
 
-    fn trace_entries<R: Run>(&mut self, t: &P::Tables, cx: &mut Cx<'_, R>) {
+    fn trace_entries(&mut self) {
         if !R::Sink::ENABLED {
             return;
         }
         let mut committer = Committer {
-            sink: &mut *cx.sink,
-            at: cx.now,
-            author: Author::Component(cx.place.plan),
-            entries: cx.place.entries,
-            number: cx.step.commits,
+            sink: &mut *self.cx.sink,
+            at: self.cx.now,
+            author: Author::Component(self.cx.place.plan),
+            entries: self.cx.place.entries,
+            number: self.cx.step.commits,
         };
-        for entry in 0..t.table().entries {
-            match self.plan.entry(entry) {
+        for entry in 0..self.t.table().entries {
+            match self.level.plan.entry(entry) {
                 afp_types::ValueRef::Unset => {}
                 value => committer.wrote(entry, afp_types::ValueRef::Unset, value),
             }
@@ -275,31 +264,31 @@ impl<P: PlanState> Level<P> {
     }
 
     /// The next instant at which anything of this level is due.
-    fn wake(&self, t: &P::Tables) -> Instant {
-        let row = self.active.and_then(|element| t.table().element(element));
-        let sweep = row.map_or(&[][..], |row| t.table().sweep(row));
-        let slots = sweep.iter().filter_map(|id| self.slots.as_ref().get(slot(t, *id)?));
-        slots.map(|slot: &Slot| slot.next).fold(self.due, Instant::min)
+    fn wake(&self) -> Instant {
+        let row = self.level.active.and_then(|element| self.t.table().element(element));
+        let sweep = row.map_or(&[][..], |row| self.t.table().sweep(row));
+        let slots = sweep.iter().filter_map(|id| self.level.slots.as_ref().get(self.slot(*id)?));
+        slots.map(|slot: &Slot| slot.next).fold(self.level.due, Instant::min)
     }
-}
 
-/// The slot of a row of a supervisor.
-fn slot(t: &impl Tables, row: u16) -> Option<usize> {
-    t.table().supervisor(row).map(|row| usize::from(row.slot))
-}
+    /// The slot of a row of a supervisor.
+    fn slot(&self, row: u16) -> Option<usize> {
+        self.t.table().supervisor(row).map(|row| usize::from(row.slot))
+    }
 
-/// The id of an element.
-#[inline]
-fn component<R: Run>(cx: &Cx<'_, R>, element: ElementId) -> ComponentId {
-    ComponentId(cx.place.components.saturating_add(u32::from(element.0)))
-}
+    /// The id of an element.
+    #[inline]
+    fn component(&self, element: ElementId) -> ComponentId {
+        ComponentId(self.cx.place.components.saturating_add(u32::from(element.0)))
+    }
 
-/// The id of a supervisor.
-#[inline]
-fn supervisor_id<R: Run>(t: &impl Tables, cx: &Cx<'_, R>, supervisor: SupervisorId) -> ComponentId {
-    let elements = t.table().elements.len() as u32;
-    let number = elements.saturating_add(u32::from(supervisor.0));
-    ComponentId(cx.place.components.saturating_add(number))
+    /// The id of a supervisor.
+    #[inline]
+    fn supervisor_id(&self, supervisor: SupervisorId) -> ComponentId {
+        let elements = self.t.table().elements.len() as u32;
+        let number = elements.saturating_add(u32::from(supervisor.0));
+        ComponentId(self.cx.place.components.saturating_add(number))
+    }
 }
 
 /// The next poll of an actor, on the grid of its period; polls that passed are skipped.

@@ -8,24 +8,24 @@ use crate::fault::Fault;
 use crate::rt::{AtElement, Cx, Plan, PlanState, Run};
 use afp_types::ElementId;
 
-/// A step of one level, for an element still to be named.
-pub(super) struct StepAt<'a, 'c, 't, P: PlanState, R: Run> {
+/// A level while it steps, its rows, and what it runs on.
+pub(super) struct Stepping<'a, 'c, P: PlanState, R: Run> {
     pub level: &'a mut Level<P>,
-    pub t: &'t P::Tables,
+    pub t: &'a P::Tables,
     pub cx: &'a mut Cx<'c, R>,
 }
 
-impl<R: Run, P: Plan<R::Env>> AtElement for StepAt<'_, '_, '_, P, R> {
+impl<R: Run, P: Plan<R::Env>> AtElement for Stepping<'_, '_, P, R> {
     type Out = Flow;
 
     #[inline(always)]
-    fn at<const ELEMENT: u16>(self) -> Flow {
-        self.level.step_element(self.t, ElementId(ELEMENT), self.cx)
+    fn at<const ELEMENT: u16>(mut self) -> Flow {
+        self.step_element(ElementId(ELEMENT))
     }
 
     #[inline]
-    fn any(self, element: ElementId) -> Flow {
-        self.level.step_element(self.t, element, self.cx)
+    fn any(mut self, element: ElementId) -> Flow {
+        self.step_element(element)
     }
 
     #[cold]

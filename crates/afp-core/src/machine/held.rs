@@ -5,90 +5,64 @@
 
 use super::leave::after_fault;
 use super::sweep::{Moment, What};
-use super::{Edge, Level, Stop, component, supervisor_id};
+use super::{Edge, Stepping, Stop};
 use crate::clock::Clock;
 use crate::fault::Fault;
-use crate::rt::{Cx, ElementKind, ElementRow, Plan, PlanState, Run, Started, Tables, Target};
+use crate::rt::{ElementKind, ElementRow, Plan, Run, Started, Tables, Target};
 use crate::trace::{Author, Ending, Outcome, Record};
 use afp_types::{ElementId, SupervisorId};
 
-impl<P: PlanState> Level<P> {
+impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Takes an event that is held, its outputs staged. The element goes on, or there is an edge to leave
     /// it by.
-    pub(super) fn hold<R: Run>(
+    pub(super) fn hold(
         &mut self,
-        t: &P::Tables,
         supervisor: SupervisorId,
         (event, target): (Outcome, Target),
         moment: Moment,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<(), What>
-    where
-        P: Plan<R::Env>,
-    {
-        let id = supervisor_id(t, cx, supervisor);
-        let element = component(cx, moment.element);
-        cx.trace(&Record::Event { supervisor: id, event, element });
-        self.commit(Author::Component(id), cx);
-        let led = self.compute_until_resumed(t, target, cx);
-        cx.step.clock = cx.clock.now(cx.now);
-        match led {
-            Ok(None) => {
-                cx.trace(&Record::Resumed { element, supervisor: id });
+    ) -> Result<(), What> {
+        let id = self.supervisor_id(supervisor);
+        let element = self.component(moment.element);
+        self.cx.trace(&Record::Event { supervisor: id, event, element });
+        self.commit(Author::Component(id));
+        let led = self.compute_until_resumed(target);
+        self.cx.step.clock = self.cx.clock.now(self.cx.now);
+        match led.transpose() {
+            None => {
+                self.cx.trace(&Record::Resumed { element, supervisor: id });
                 Ok(())
             }
-            Ok(Some(edge)) => Err(What::Leads(event, Ok(edge))),
-            Err(stop) => Err(What::Leads(event, Err(stop))),
+            Some(edge) => Err(What::Leads(event, edge)),
         }
     }
 
     /// Runs computations until one of their edges resumes, which is `None`, or leads elsewhere.
-    fn compute_until_resumed<R: Run>(
-        &mut self,
-        t: &P::Tables,
-        target: Target,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Option<Edge>, Stop>
-    where
-        P: Plan<R::Env>,
-    {
+    fn compute_until_resumed(&mut self, target: Target) -> Result<Option<Edge>, Stop> {
         let mut edge = Edge { target: Some(target), ending: Ending::Interrupted };
         loop {
             let computation = match edge.target {
                 Some(Target::Resume) => None,
-                Some(Target::Element(element)) => match t.table().element(element) {
+                Some(Target::Element(element)) => match self.t.table().element(element) {
                     Some(row) if row.kind == ElementKind::Computation => Some((element, row)),
                     _ => return Ok(Some(edge)),
                 },
                 _ => return Ok(Some(edge)),
             };
-            match cx.step.edges_left.checked_sub(1) {
-                Some(left) => cx.step.edges_left = left,
-                None => return Err(Stop::Run(Fault::LIVELOCK)),
-            }
+            self.take_edge().map_err(Stop::Run)?;
             let Some((element, row)) = computation else { return Ok(None) };
-            edge = self.compute(t, element, row, cx)?;
+            edge = self.compute(element, row)?;
         }
     }
 
     /// Runs one computation beside what is active.
-    fn compute<R: Run>(
-        &mut self,
-        t: &P::Tables,
-        element: ElementId,
-        row: &ElementRow,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Edge, Stop>
-    where
-        P: Plan<R::Env>,
-    {
-        let id = component(cx, element);
-        cx.place.component = id;
-        match cx.call(id, |cx| self.plan.start_element(element, cx)) {
-            Started::Done(state) => Ok(self.reached(t, element, row, state, cx)),
+    fn compute(&mut self, element: ElementId, row: &ElementRow) -> Result<Edge, Stop> {
+        let id = self.component(element);
+        self.cx.place.component = id;
+        match self.cx.call(id, |cx| self.level.plan.start_element(element, cx)) {
+            Started::Done(state) => Ok(self.reached(element, row, state)),
             Started::Failed(fault) => {
-                self.plan.discard();
-                cx.failed(id, fault);
+                self.level.plan.discard();
+                self.cx.failed(id, fault);
                 after_fault(row, fault)
             }
             Started::Running | Started::SubPlan(_) => Err(Stop::Run(Fault::INTERNAL)),

@@ -2,10 +2,10 @@
 
 use afp_types::{Duration, Instant};
 
-use super::{Edge, Flow, Level, Stop, component, supervisor_id};
+use super::{Edge, Flow, Stepping, Stop};
 use crate::clock::Clock;
 use crate::fault::Fault;
-use crate::rt::{Cx, ElementRow, Fired, Plan, PlanState, Run, SupervisorRow, Tables, Target};
+use crate::rt::{ElementRow, Fired, Plan, Run, SupervisorRow, Tables, Target};
 use crate::trace::{Author, Cause, Ending, Outcome, Record, Sink, Verdict};
 use afp_types::{ElementId, SupervisorId};
 
@@ -61,34 +61,25 @@ struct Poll {
     fired: Fired,
 }
 
-impl<P: PlanState> Level<P> {
+impl<R: Run, P: Plan<R::Env>> Stepping<'_, '_, P, R> {
     /// Polls all due supervisors in their order, up to the first one that stops the activity.
     #[inline(always)]
-    pub(super) fn sweep<R: Run>(
-        &mut self,
-        t: &P::Tables,
-        element: ElementId,
-        row: &ElementRow,
-        cx: &mut Cx<'_, R>,
-    ) -> Seen
-    where
-        P: Plan<R::Env>,
-    {
+    pub(super) fn sweep(&mut self, element: ElementId, row: &ElementRow) -> Seen {
         let moment = Moment { element, look: false };
         let mut seen = Seen::Nothing(Instant::MAX);
         // Four at a time: the polls of a compiled plan then stand in a row.
-        let (fours, rest) = t.table().sweep(row).as_chunks::<4>();
+        let (fours, rest) = self.t.table().sweep(row).as_chunks::<4>();
         for &[a, b, c, d] in fours {
-            if self.poll_in_sweep(t, a, moment, &mut seen, cx)
-                || self.poll_in_sweep(t, b, moment, &mut seen, cx)
-                || self.poll_in_sweep(t, c, moment, &mut seen, cx)
-                || self.poll_in_sweep(t, d, moment, &mut seen, cx)
+            if self.poll_in_sweep(a, moment, &mut seen)
+                || self.poll_in_sweep(b, moment, &mut seen)
+                || self.poll_in_sweep(c, moment, &mut seen)
+                || self.poll_in_sweep(d, moment, &mut seen)
             {
                 return seen;
             }
         }
         for &supervisor in rest {
-            if self.poll_in_sweep(t, supervisor, moment, &mut seen, cx) {
+            if self.poll_in_sweep(supervisor, moment, &mut seen) {
                 return seen;
             }
         }
@@ -97,19 +88,9 @@ impl<P: PlanState> Level<P> {
 
     /// Polls one supervisor of a sweep; whether the sweep is over.
     #[inline(always)]
-    fn poll_in_sweep<R: Run>(
-        &mut self,
-        t: &P::Tables,
-        row: u16,
-        moment: Moment,
-        seen: &mut Seen,
-        cx: &mut Cx<'_, R>,
-    ) -> bool
-    where
-        P: Plan<R::Env>,
-    {
-        let Some(row) = t.table().supervisor(row) else { return false };
-        match self.poll_if_due(t, row, moment, cx) {
+    fn poll_in_sweep(&mut self, row: u16, moment: Moment, seen: &mut Seen) -> bool {
+        let Some(row) = self.t.table().supervisor(row) else { return false };
+        match self.poll_if_due(row, moment) {
             Ok(next) => {
                 if let Seen::Nothing(wake) = seen {
                     *wake = (*wake).min(next);
@@ -125,59 +106,44 @@ impl<P: PlanState> Level<P> {
 
     /// Polls one supervisor, if due, and says when it is due again.
     #[inline(always)]
-    pub(super) fn poll_if_due<R: Run>(
+    pub(super) fn poll_if_due(
         &mut self,
-        t: &P::Tables,
         row: &SupervisorRow,
         moment: Moment,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Instant, What>
-    where
-        P: Plan<R::Env>,
-    {
-        let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) else {
+    ) -> Result<Instant, What> {
+        let Some(slot) = self.level.slots.as_mut().get_mut(usize::from(row.slot)) else {
             return Err(What::Fault(Fault::INTERNAL));
         };
         let release = slot.next;
-        if release > cx.now {
+        if release > self.cx.now {
             return Ok(release);
         }
         let next = release + row.timing.period;
         slot.next = next;
-        let begin = cx.step.clock;
+        let begin = self.cx.step.clock;
         let supervisor = row.instance;
         let wanted = if moment.look { row.wanted_in_look } else { row.wanted };
-        let id = supervisor_id(t, cx, supervisor);
-        let fired = cx.call(id, |cx| self.plan.poll_supervisor(supervisor, wanted, cx));
-        let end = cx.clock.now(cx.now);
-        cx.step.clock = end;
+        let id = self.supervisor_id(supervisor);
+        let fired = self.cx.call(id, |cx| self.level.plan.poll_supervisor(supervisor, wanted, cx));
+        let end = self.cx.clock.now(self.cx.now);
+        self.cx.step.clock = end;
         if R::Sink::ENABLED {
-            cx.trace(&Record::Polled { supervisor: id, verdict: fired.verdict() });
+            self.cx.trace(&Record::Polled { supervisor: id, verdict: fired.verdict() });
         }
-        let on_time = next > cx.now && end <= release + row.timing.deadline;
+        let on_time = next > self.cx.now && end <= release + row.timing.deadline;
         if on_time && fired.is_nothing() {
             return Ok(next);
         }
-        self.judge(t, row, Poll { release, begin, end, fired }, moment, cx)
+        self.seldom().judge(row, Poll { release, begin, end, fired }, moment)
     }
 
     /// Decides what a poll means that was late or brought something.
     #[cold]
     #[inline(never)]
-    fn judge<R: Run>(
-        &mut self,
-        t: &P::Tables,
-        row: &SupervisorRow,
-        poll: Poll,
-        moment: Moment,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Instant, What>
-    where
-        P: Plan<R::Env>,
-    {
+    fn judge(&mut self, row: &SupervisorRow, poll: Poll, moment: Moment) -> Result<Instant, What> {
         let supervisor = row.instance;
-        let release = serve(poll.release, row.timing.period, cx.now);
-        if let Some(slot) = self.slots.as_mut().get_mut(usize::from(row.slot)) {
+        let release = serve(poll.release, row.timing.period, self.cx.now);
+        if let Some(slot) = self.level.slots.as_mut().get_mut(usize::from(row.slot)) {
             slot.next = release.next;
         }
         let deadline = release.at + row.timing.deadline;
@@ -188,110 +154,151 @@ impl<P: PlanState> Level<P> {
         };
         let late = end > deadline || release.skipped > 0;
         if late {
-            trace_miss(t, row, &release, poll.begin, end, cx);
+            self.trace_miss(row, &release, poll.begin, end);
         }
         if let Some(event) = event {
-            let target = t.table().edge(row.events, event);
+            let target = self.t.table().edge(row.events, event);
             let event = Outcome::Declared(event);
-            if let Some(target) = taken(t, supervisor, (event, target), moment, cx) {
+            if let Some(target) = self.taken(supervisor, (event, target), moment) {
                 if let Some(fault) = poll.fired.fault {
                     return Err(What::Fault(fault));
                 }
-                let taken = self.take(t, supervisor, (event, target), moment, cx);
+                let taken = self.take(supervisor, (event, target), moment);
                 return taken.map(|()| release.next);
             }
-            self.plan.discard();
+            self.level.plan.discard();
         } else if let Some(fault) = poll.fired.fault {
             return Err(What::Fault(fault));
         }
         let missed = (Outcome::DeadlineMissed, row.on_miss.filter(|_| late && !moment.look));
-        if let Some(target) = taken(t, supervisor, missed, moment, cx) {
+        if let Some(target) = self.taken(supervisor, missed, moment) {
             let event = (Outcome::DeadlineMissed, target);
-            return self.take(t, supervisor, event, moment, cx).map(|()| release.next);
+            return self.take(supervisor, event, moment).map(|()| release.next);
         }
         Ok(release.next)
     }
 
     /// Takes an event: the sweep goes on only where that resumes.
-    fn take<R: Run>(
+    fn take(
         &mut self,
-        t: &P::Tables,
         supervisor: SupervisorId,
         (event, target): (Outcome, Target),
         moment: Moment,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<(), What>
-    where
-        P: Plan<R::Env>,
-    {
-        match is_held(t, target) {
-            true => self.hold(t, supervisor, (event, target), moment, cx),
+    ) -> Result<(), What> {
+        match self.is_held(target) {
+            true => self.hold(supervisor, (event, target), moment),
             false => Err(What::Event(event, target)),
         }
     }
 
     /// A supervisor stopped the activity of a started element.
-    pub(super) fn interrupted<R: Run>(
+    pub(super) fn interrupted(
         &mut self,
-        t: &P::Tables,
         element: ElementId,
         row: &ElementRow,
         found: Found,
-        cx: &mut Cx<'_, R>,
-    ) -> Flow
-    where
-        P: Plan<R::Env>,
-    {
-        let id = supervisor_id(t, cx, found.supervisor);
+    ) -> Flow {
+        let id = self.supervisor_id(found.supervisor);
         match found.what {
             What::Event(event, _) => {
-                let element = component(cx, element);
-                cx.trace(&Record::Event { supervisor: id, event, element });
+                let element = self.component(element);
+                self.cx.trace(&Record::Event { supervisor: id, event, element });
             }
             What::Leads(_, Err(Stop::Run(fault))) => return Flow::Fatal(fault),
             What::Leads(..) => {}
             What::Fault(fault) => {
-                self.plan.discard();
-                cx.failed(id, fault);
+                self.level.plan.discard();
+                self.cx.failed(id, fault);
             }
         }
-        if let Err(fault) = self.interrupt_active(t, cx) {
+        if let Err(fault) = self.interrupt_active() {
             return Flow::Fatal(fault);
         }
-        match self.after_supervisor(t, element, row, found, cx) {
-            Ok(edge) => self.follow(t, edge, cx),
-            Err(stop) => self.stop(stop, cx),
-        }
+        let edge = self.after_supervisor(element, row, found);
+        self.follow(edge)
     }
 
     /// The edge that a supervisor's finding leads to, its outputs committed. The element is not
     /// active any more.
-    pub(super) fn after_supervisor<R: Run>(
+    pub(super) fn after_supervisor(
         &mut self,
-        t: &P::Tables,
         element: ElementId,
         row: &ElementRow,
         found: Found,
-        cx: &mut Cx<'_, R>,
-    ) -> Result<Edge, Stop>
-    where
-        P: Plan<R::Env>,
-    {
+    ) -> Result<Edge, Stop> {
         match found.what {
             What::Event(_, target) => {
-                self.commit(Author::Component(supervisor_id(t, cx, found.supervisor)), cx);
-                self.plan.leave(element);
+                let id = self.supervisor_id(found.supervisor);
+                self.commit(Author::Component(id));
+                self.level.plan.leave(element);
                 Ok(Edge { target: Some(target), ending: Ending::Interrupted })
             }
             What::Leads(_, edge) => {
-                self.plan.leave(element);
+                self.level.plan.leave(element);
                 edge
             }
-            What::Fault(fault) if t.table().is_global(found.supervisor) => {
-                self.plan.leave(element);
+            What::Fault(fault) if self.t.table().is_global(found.supervisor) => {
+                self.level.plan.leave(element);
                 Err(Stop::Plan(Ending::Error(fault)))
             }
             What::Fault(fault) => self.error_edge(element, row, fault),
+        }
+    }
+
+    /// Where an event leads, if it is taken at this moment.
+    fn taken(
+        &mut self,
+        supervisor: SupervisorId,
+        (event, target): (Outcome, Option<Target>),
+        moment: Moment,
+    ) -> Option<Target> {
+        match target? {
+            Target::Ignore => None,
+            Target::Element(element)
+                if element == moment.element
+                    && (moment.look || self.t.table().is_global(supervisor)) =>
+            {
+                if R::Sink::ENABLED {
+                    let supervisor = self.supervisor_id(supervisor);
+                    let element = self.component(element);
+                    self.cx
+                        .sink
+                        .record(self.cx.now, &Record::AlreadyThere { supervisor, event, element });
+                }
+                None
+            }
+            target => Some(target),
+        }
+    }
+
+    /// Whether an event with this target interrupts nothing yet.
+    fn is_held(&self, target: Target) -> bool {
+        match target {
+            Target::Resume => true,
+            Target::Element(element) => {
+                self.t.table().element(element).is_some_and(|row| row.resumes)
+            }
+            Target::Terminate | Target::Fail(_) | Target::Ignore => false,
+        }
+    }
+
+    /// Counts and traces a missed deadline, with its cause: a poll that began too late for its
+    /// declared budget is not itself to blame.
+    #[cold]
+    fn trace_miss(&mut self, row: &SupervisorRow, release: &Release, begin: Instant, end: Instant) {
+        let deadline = release.at + row.timing.deadline;
+        let missed = u64::from(end > deadline);
+        self.cx.step.misses =
+            self.cx.step.misses.saturating_add(missed).saturating_add(release.skipped);
+        if R::Sink::ENABLED {
+            let late = release.skipped > 0 || begin + row.timing.budget > deadline;
+            let record = Record::Missed {
+                supervisor: self.supervisor_id(row.instance),
+                lateness: end - deadline,
+                cause: if late { Cause::LateRelease } else { Cause::LongPoll },
+                skipped: release.skipped,
+            };
+            self.cx.sink.record(self.cx.now, &record);
         }
     }
 }
@@ -320,63 +327,4 @@ fn serve(first: Instant, period: Duration, now: Instant) -> Release {
     let skipped = (now - first).periods(span);
     let at = first + span * skipped;
     Release { at, next: at + period, skipped }
-}
-
-/// Where an event leads, if it is taken at this moment.
-fn taken<R: Run>(
-    t: &impl Tables,
-    supervisor: SupervisorId,
-    (event, target): (Outcome, Option<Target>),
-    moment: Moment,
-    cx: &mut Cx<'_, R>,
-) -> Option<Target> {
-    match target? {
-        Target::Ignore => None,
-        Target::Element(element)
-            if element == moment.element && (moment.look || t.table().is_global(supervisor)) =>
-        {
-            if R::Sink::ENABLED {
-                let supervisor = supervisor_id(t, cx, supervisor);
-                let element = component(cx, element);
-                cx.sink.record(cx.now, &Record::AlreadyThere { supervisor, event, element });
-            }
-            None
-        }
-        target => Some(target),
-    }
-}
-
-/// Whether an event with this target interrupts nothing yet.
-fn is_held(t: &impl Tables, target: Target) -> bool {
-    match target {
-        Target::Resume => true,
-        Target::Element(element) => t.table().element(element).is_some_and(|row| row.resumes),
-        Target::Terminate | Target::Fail(_) | Target::Ignore => false,
-    }
-}
-
-/// Counts and traces a missed deadline, with its cause: a poll that began too late for its
-/// declared budget is not itself to blame.
-#[cold]
-fn trace_miss<R: Run>(
-    t: &impl Tables,
-    row: &SupervisorRow,
-    release: &Release,
-    begin: Instant,
-    end: Instant,
-    cx: &mut Cx<'_, R>,
-) {
-    let deadline = release.at + row.timing.deadline;
-    let missed = u64::from(end > deadline);
-    cx.step.misses = cx.step.misses.saturating_add(missed).saturating_add(release.skipped);
-    if R::Sink::ENABLED {
-        let late = release.skipped > 0 || begin + row.timing.budget > deadline;
-        let record = Record::Missed {
-            supervisor: supervisor_id(t, cx, row.instance),
-            lateness: end - deadline,
-            cause: if late { Cause::LateRelease } else { Cause::LongPoll },
-            skipped: release.skipped,
-        };
-        cx.sink.record(cx.now, &record);
-    }
 }
