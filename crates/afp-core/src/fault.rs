@@ -39,39 +39,48 @@ pub struct Failure {
     pub detail: Option<Detail>,
 }
 
+/// Faults as constants: each with its documentation, its code and its text.
+///
+/// ```
+/// afp_core::faults! {
+///     /// The light sensor does not answer.
+///     pub NO_LIGHT = "no-light", "the light sensor does not answer";
+/// }
+/// assert_eq!(NO_LIGHT.code(), "no-light");
+/// ```
+#[macro_export]
 macro_rules! faults {
-    ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
-        impl Fault {$(
-            $(#[$doc])*
-            pub const $name: Fault = Fault(&Reason { code: $code, text: $text });
-        )*}
-    };
-}
-
-faults! {
-    /// Overflow, `% 0`, or a result that is not finite.
-    ARITHMETIC = "arithmetic", "a formula overflowed, divided by zero, or has no finite value";
-    /// A value outside the range of its port or entry.
-    RANGE = "range", "a value is out of its range";
-    /// A text that does not read as the type it is converted to.
-    CONVERSION = "conversion", "a text does not read as the value it should become";
-    /// A text of more than 64 bytes.
-    TOO_LONG = "too-long", "a text is longer than 64 bytes";
-    /// An object that nobody has written yet.
-    UNSET = "unset", "an object is read before it was written";
-    /// More than `MAX_TRANSITIONS_PER_STEP` edges in one step.
-    LIVELOCK = "livelock", "the plan takes edge after edge without time passing";
-    /// A component panicked.
-    PANIC = "panic", "a component panicked";
-    /// The sink or the clock of a step panicked, whoever drives the plan.
-    PANIC_OUTSIDE = "panic-outside", "what records or times the run panicked";
-    /// A test made a component fail.
-    INJECTED = "injected", "a test made the component fail";
-    /// The run time met a state that the compiler rules out.
-    INTERNAL = "internal", "the run time met an impossible state";
+    ($($(#[$doc:meta])* $vis:vis $name:ident = $code:literal, $text:literal;)*) => {$(
+        $(#[$doc])*
+        $vis const $name: $crate::Fault =
+            $crate::Fault::new(&$crate::Reason { code: $code, text: $text });
+    )*};
 }
 
 impl Fault {
+    faults! {
+        /// Overflow, `% 0`, or a result that is not finite.
+        pub ARITHMETIC = "arithmetic", "a formula overflowed, divided by zero, or has no finite value";
+        /// A value outside the range of its port or entry.
+        pub RANGE = "range", "a value is out of its range";
+        /// A text that does not read as the type it is converted to.
+        pub CONVERSION = "conversion", "a text does not read as the value it should become";
+        /// A text of more than 64 bytes.
+        pub TOO_LONG = "too-long", "a text is longer than 64 bytes";
+        /// An object that nobody has written yet.
+        pub UNSET = "unset", "an object is read before it was written";
+        /// More than `MAX_TRANSITIONS_PER_STEP` edges in one step.
+        pub LIVELOCK = "livelock", "the plan takes edge after edge without time passing";
+        /// A component panicked.
+        pub PANIC = "panic", "a component panicked";
+        /// The sink or the clock of a step panicked, whoever drives the plan.
+        pub PANIC_OUTSIDE = "panic-outside", "what records or times the run panicked";
+        /// A test made a component fail.
+        pub INJECTED = "injected", "a test made the component fail";
+        /// The run time met a state that the compiler rules out.
+        pub INTERNAL = "internal", "the run time met an impossible state";
+    }
+
     /// A fault with a reason of one's own.
     pub const fn new(reason: &'static Reason) -> Self {
         Fault(reason)

@@ -18,7 +18,7 @@ use core::task::Poll;
 
 use afp_types::{Duration, Instant};
 
-use crate::fault::{Fault, Reason};
+use crate::{Fault, faults};
 
 /// A long computation together with its buffers: what it works on and what it gives.
 ///
@@ -152,12 +152,11 @@ pub trait Worker<J: Job> {
 }
 
 impl Fault {
-    /// A job panicked. Its slot is not used again, for who knows what it left in its buffers.
-    pub const JOB_PANICKED: Fault =
-        Fault::new(&Reason { code: "job-panicked", text: "a job on a worker panicked" });
-    /// A job that was asked after is over already.
-    pub const JOB_LOST: Fault = Fault::new(&Reason {
-        code: "job-lost",
-        text: "a job was asked after that nobody had fetched in time, or that was cancelled",
-    });
+    faults! {
+        /// A job panicked. Its slot is not used again, for who knows what it left in its buffers.
+        pub JOB_PANICKED = "job-panicked", "a job on a worker panicked";
+        /// A job that was asked after is over already.
+        pub JOB_LOST = "job-lost",
+            "a job was asked after that nobody had fetched in time, or that was cancelled";
+    }
 }

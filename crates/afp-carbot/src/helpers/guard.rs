@@ -1,72 +1,44 @@
 //! Time-outs of sensors: a template faults when one has given no valid reading for too long.
 
 use crate::devices::{Echo, Reading};
-use afp_core::{Duration, Fault, Instant, Reason};
+use afp_core::{Duration, Fault, Instant, faults};
 
 /// How long a template waits for a usable reading before it faults.
 pub const PATIENCE: Duration = Duration::from_millis(500);
 
-/// The wheels' counters say nothing usable.
-pub const NO_ODOMETRY: Fault = Fault::new(&Reason {
-    code: "no-odometry",
-    text: "the odometry gave no valid reading for 500 ms: the counters of the wheels are silent, or the drive's controller, which reads them",
-});
-/// The range sensor says nothing usable.
-pub const NO_RANGE: Fault = Fault::new(&Reason {
-    code: "no-range",
-    text: "the range sensor gave no valid reading for 500 ms",
-});
-/// The bumper says nothing usable.
-pub const NO_TOUCH: Fault = Fault::new(&Reason {
-    code: "no-touch",
-    text: "the touch sensor gave no valid reading for 500 ms",
-});
-/// A button says nothing usable.
-pub const NO_BUTTON: Fault =
-    Fault::new(&Reason { code: "no-button", text: "the button gave no valid reading for 500 ms" });
-/// The infrared sensor says nothing usable; darkness is something usable.
-pub const NO_INFRARED: Fault = Fault::new(&Reason {
-    code: "no-infrared",
-    text: "the infrared sensor gave no valid reading for 500 ms",
-});
-/// The colour sensor says nothing usable.
-pub const NO_COLOR: Fault = Fault::new(&Reason {
-    code: "no-color",
-    text: "the colour sensor gave no valid reading for 500 ms",
-});
-/// The battery's gauge says nothing usable.
-pub const NO_BATTERY: Fault = Fault::new(&Reason {
-    code: "no-battery",
-    text: "the battery's gauge gave no valid reading for 500 ms",
-});
-/// The camera shows nothing usable.
-pub const NO_FLOW: Fault = Fault::new(&Reason {
-    code: "no-flow",
-    text: "the camera gave no new picture in which motion could be seen for 500 ms",
-});
-/// The camera delivers nothing usable, or the same picture again and again.
-pub const NO_PICTURE: Fault =
-    Fault::new(&Reason { code: "no-picture", text: "the camera gave no new picture for 500 ms" });
-/// Nothing tells where the robot is.
-pub const NO_POSITION: Fault = Fault::new(&Reason {
-    code: "no-position",
-    text: "the localisation gave no valid position for 500 ms",
-});
-/// The range sensor repeats itself.
-pub const FROZEN_RANGE: Fault = Fault::new(&Reason {
-    code: "frozen-range",
-    text: "the range sensor gave exactly the same echo for 1 s while it was to be turned, or while the robot moved by 20 cm",
-});
-/// The infrared sensor repeats itself.
-pub const FROZEN_INFRARED: Fault = Fault::new(&Reason {
-    code: "frozen-infrared",
-    text: "the infrared sensor gave exactly the same reading while the robot moved by 20 cm",
-});
-/// The rotator does not get where it should.
-pub const STUCK_ROTATOR: Fault = Fault::new(&Reason {
-    code: "stuck-rotator",
-    text: "pings did not come from where the rotator was sent within 1 s: it is stuck, or the range sensor repeats itself",
-});
+faults! {
+    /// The wheels' counters say nothing usable.
+    pub NO_ODOMETRY = "no-odometry",
+        "the odometry gave no valid reading for 500 ms: the counters of the wheels are silent, or the drive's controller, which reads them";
+    /// The range sensor says nothing usable.
+    pub NO_RANGE = "no-range", "the range sensor gave no valid reading for 500 ms";
+    /// The bumper says nothing usable.
+    pub NO_TOUCH = "no-touch", "the touch sensor gave no valid reading for 500 ms";
+    /// A button says nothing usable.
+    pub NO_BUTTON = "no-button", "the button gave no valid reading for 500 ms";
+    /// The infrared sensor says nothing usable; darkness is something usable.
+    pub NO_INFRARED = "no-infrared", "the infrared sensor gave no valid reading for 500 ms";
+    /// The colour sensor says nothing usable.
+    pub NO_COLOR = "no-color", "the colour sensor gave no valid reading for 500 ms";
+    /// The battery's gauge says nothing usable.
+    pub NO_BATTERY = "no-battery", "the battery's gauge gave no valid reading for 500 ms";
+    /// The camera shows nothing usable.
+    pub NO_FLOW = "no-flow",
+        "the camera gave no new picture in which motion could be seen for 500 ms";
+    /// The camera delivers nothing usable, or the same picture again and again.
+    pub NO_PICTURE = "no-picture", "the camera gave no new picture for 500 ms";
+    /// Nothing tells where the robot is.
+    pub NO_POSITION = "no-position", "the localisation gave no valid position for 500 ms";
+    /// The range sensor repeats itself.
+    pub FROZEN_RANGE = "frozen-range",
+        "the range sensor gave exactly the same echo for 1 s while it was to be turned, or while the robot moved by 20 cm";
+    /// The infrared sensor repeats itself.
+    pub FROZEN_INFRARED = "frozen-infrared",
+        "the infrared sensor gave exactly the same reading while the robot moved by 20 cm";
+    /// The rotator does not get where it should.
+    pub STUCK_ROTATOR = "stuck-rotator",
+        "pings did not come from where the rotator was sent within 1 s: it is stuck, or the range sensor repeats itself";
+}
 
 /// A robot that drives waits when it has heard nothing new of what is ahead for so long: 6 cm at full speed. An echo that
 /// is older when it comes tells it nothing.

@@ -3,23 +3,19 @@
 use crate::devices::{Motion, Navigator};
 use crate::helpers::motion::{ACCELERATION, Ramp, TURN_ACCELERATION};
 use afp_core::quantity::{AngularSpeed, Speed};
-use afp_core::{Duration, Fault, Instant, Reason};
+use afp_core::{Duration, Fault, Instant, faults};
 
-/// The wheels stand though they should turn.
-pub const DRIVE_BLOCKED: Fault = Fault::new(&Reason {
-    code: "drive-blocked",
-    text: "the wheels stood still for 300 ms though they were to turn: something blocks them, or the battery is empty",
-});
-/// The robot moves otherwise than it should.
-pub const DRIVE_STALLED: Fault = Fault::new(&Reason {
-    code: "drive-stalled",
-    text: "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low",
-});
-/// The odometry counts no distance.
-pub const NO_PROGRESS: Fault = Fault::new(&Reason {
-    code: "no-progress",
-    text: "the robot was told to go 10 cm, and the odometry counted less than a quarter of it",
-});
+faults! {
+    /// The wheels stand though they should turn.
+    pub DRIVE_BLOCKED = "drive-blocked",
+        "the wheels stood still for 300 ms though they were to turn: something blocks them, or the battery is empty";
+    /// The robot moves otherwise than it should.
+    pub DRIVE_STALLED = "drive-stalled",
+        "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low";
+    /// The odometry counts no distance.
+    pub NO_PROGRESS = "no-progress",
+        "the robot was told to go 10 cm, and the odometry counted less than a quarter of it";
+}
 
 /// For so long the robot may move otherwise than told: motors lag and wheels have to be steered.
 pub const TOLERATED: Duration = Duration::from_millis(300);
