@@ -13,7 +13,7 @@ use afp_core::rt::{NamedPlan, Plan};
 use afp_core::trace::{NoTrace, Sink};
 use afp_core::{Instant, Scheduler, StillClock, Wake};
 use afp_log::robot::{Pose2, Ranging};
-use afp_log::{About, OwnedNames, Recorder, WhenFull};
+use afp_log::{About, Recorder, WhenFull};
 use afp_sim::{Bare, Pose, STEP, Simulation, World};
 
 use crate::measure::{Race, Times};
@@ -169,7 +169,7 @@ fn drive(plan: impl Plan<Simulation>, world: &World, log: &mut impl RobotSink) -
 fn logged(world: &World) {
     let name = format!("afp-bench-{}-{:?}.mcap", std::process::id(), time::Instant::now());
     let path = std::env::temp_dir().join(name);
-    let names = OwnedNames::new(&WallFollowing::new().names());
+    let names = Box::new(WallFollowing::new().names());
     let log = Recorder::create(&path, &About::default(), names, WhenFull::Wait);
     let mut log = log.unwrap_or_else(|why| panic!("{why}"));
     log.started(Instant::ZERO);

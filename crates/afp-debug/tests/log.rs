@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use afp_core::{Duration, Instant};
 use afp_debug::{Host, Launch, LogTarget, Target};
-use afp_log::{About, LogData, OwnedNames, SessionLog, WhenFull};
+use afp_log::{About, LogData, Recorder, SessionLog, WhenFull};
 use afp_session::{EventKind, Miss, Open, Request, RunEvent};
 use common::{Clients, Texted, compiled, session};
 
@@ -29,17 +29,9 @@ fn recorded(text: &str, name: &str, seconds: u64, press: Option<Duration>) -> Lo
     let (graph, _) = compiled(text, name).expect("the plan is sound");
     let mut session = session(&graph, &Launch::default()).expect("a session");
     let path = tempfile::tempdir().expect("a folder").keep().join("run.mcap");
-    let names = OwnedNames::new(session.names());
-    let log = SessionLog::create(
-        &path,
-        &About::default(),
-        names,
-        session.devices(),
-        Vec::new(),
-        false,
-        WhenFull::Wait,
-    );
-    let mut log = log.expect("a log");
+    let names = session.owned_names();
+    let recorder = Recorder::create(&path, &About::default(), names, WhenFull::Wait);
+    let mut log = SessionLog::new(recorder.expect("a log"), session.devices(), Vec::new(), false);
     if let Some(after) = press {
         let button = afp_core::devices::find_control(session.devices(), "touch.touch");
         let request = Request::Press(button.expect("a button"), true);

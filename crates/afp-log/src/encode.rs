@@ -13,7 +13,6 @@ use crate::channels::{ALWAYS, CONFIGURATION, Channel, EVENTS, Key, Said, TABLE, 
 use crate::error::LogError;
 use crate::event;
 use crate::messages::Messages;
-use crate::names::OwnedNames;
 use crate::proto::afp::{self, Configuration};
 
 /// What a recorder tells its writer.
@@ -62,7 +61,7 @@ pub(crate) struct Encoder {
     to: Box<dyn Messages>,
     /// Those that every log has, and those of devices that have said something.
     channels: BTreeMap<Key, Open>,
-    names: OwnedNames,
+    names: Box<dyn Names + Send>,
     entries: Vec<afp::Entry>,
     /// The commit whose entries are being collected.
     commit: Option<(Instant, Author)>,
@@ -74,15 +73,18 @@ impl Encoder {
     ///
     /// # Errors
     /// The disk is full or fails.
-    pub(crate) fn new(to: Box<dyn Messages>, names: OwnedNames) -> Result<Self, LogError> {
-        let unset = |id| event::entry(&names, TraceEntryId(id), afp_core::ValueRef::Unset);
+    pub(crate) fn new(
+        to: Box<dyn Messages>,
+        names: Box<dyn Names + Send>,
+    ) -> Result<Self, LogError> {
+        let unset = |id| event::entry(&*names, TraceEntryId(id), afp_core::ValueRef::Unset);
         let entries = (0..names.entries()).map(unset).collect();
         let (channels, commit, buffer) = (BTreeMap::new(), None, Vec::new());
         let mut log = Encoder { to, channels, names, entries, commit, buffer };
         for channel in ALWAYS {
             log.open(channel)?;
         }
-        log.send(TABLE, Instant::ZERO, &event::table(&log.names))?;
+        log.send(TABLE, Instant::ZERO, &event::table(&*log.names))?;
         log.flush()?;
         Ok(log)
     }
@@ -131,12 +133,12 @@ impl Encoder {
             }
             _ => self.close_commit()?,
         }
-        let event = RunEvent::new(at, record, &self.names);
+        let event = RunEvent::new(at, record, &*self.names);
         self.send(EVENTS, at, &event::message(event))
     }
 
     fn set(&mut self, entry: TraceEntryId, value: afp_core::ValueRef<'_>) {
-        let new = event::entry(&self.names, entry, value);
+        let new = event::entry(&*self.names, entry, value);
         if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
             *kept = new;
         }
@@ -154,7 +156,7 @@ impl Encoder {
     fn close_commit(&mut self) -> Result<(), LogError> {
         match self.commit.take() {
             None => Ok(()),
-            Some((at, author)) => self.configuration(at, author_of(&self.names, author)),
+            Some((at, author)) => self.configuration(at, author_of(&*self.names, author)),
         }
     }
 

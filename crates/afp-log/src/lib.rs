@@ -34,7 +34,7 @@ pub use doctor::doctor;
 pub use error::LogError;
 pub use event::{pack, unpack};
 pub use messages::Messages;
-pub use names::OwnedNames;
+pub use names::LogNames;
 pub use picture::pixels;
 pub use read::{Configured, Heard, LogData, TopicInfo, configuration, read, read_any};
 pub use recipe::{WORLD, attached_toolbox, toolbox_attachment};

@@ -11,7 +11,7 @@ use prost::Message;
 
 use crate::error::LogError;
 use crate::event::{decode, decode_value, instant};
-use crate::names::OwnedNames;
+use crate::names::LogNames;
 use crate::proto::afp::{Configuration, Entry, PlanEvent, PlanTable, Sample};
 use crate::proto::foxglove::{
     CompressedImage, FrameTransform, FrameTransforms, LaserScan, Pose, PoseInFrame, Quaternion,
@@ -31,7 +31,7 @@ pub struct LogData {
     /// What the run came to, once it was over: its metadata record `afp.end`.
     pub end: BTreeMap<String, String>,
     /// What the plan consists of; the names of its entries stand in what happened.
-    pub names: OwnedNames,
+    pub names: LogNames,
     /// What happened, in order.
     pub events: Vec<RunEvent>,
     /// The configuration at the start, after each commit, and after a loss.
@@ -244,7 +244,7 @@ impl Reader {
                 self.log.configurations.push(configured(Configuration::decode(data)?));
             }
             ("/plan/table", _) => {
-                self.log.names = OwnedNames::from_table(&PlanTable::decode(data)?);
+                self.log.names = LogNames(PlanTable::decode(data)?);
             }
             ("/robot/pose", _) => {
                 let message = PoseInFrame::decode(data)?;

@@ -18,7 +18,6 @@ use crate::channels::{FRAMES, Said, Signal};
 use crate::encode::{Encoder, Item};
 use crate::error::LogError;
 use crate::messages::Messages;
-use crate::names::OwnedNames;
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 use crate::write::{About, LogFile};
 use afp_session::{Datum, OwnedRecord, RunEvent};
@@ -71,6 +70,8 @@ pub struct Recorder {
     /// Whether the plan has started.
     started: bool,
     kept: Option<PathBuf>,
+    /// Whether it is sent to those who watch, not into a file.
+    pub(crate) is_live: bool,
 }
 
 type Outcome = Result<(PathBuf, u64), LogError>;
@@ -88,14 +89,15 @@ const ABANDON: u8 = 2;
 const DISCARD: u8 = 3;
 
 impl Recorder {
-    /// Creates the log and starts its writer.
+    /// Creates the log and starts its writer. A session in virtual time waits where the disk is slow; a robot that is there
+    /// must not.
     ///
     /// # Errors
     /// [`LogError::Create`] when the file cannot be made.
     pub fn create(
         path: &Path,
         about: &About,
-        names: OwnedNames,
+        names: Box<dyn Names + Send>,
         when_full: WhenFull,
     ) -> Result<Self, LogError> {
         let failed = |error: LogError| error.writing(path);
@@ -106,17 +108,20 @@ impl Recorder {
         Ok(recorder)
     }
 
-    /// Sends a run to whoever takes its messages, by a thread of its own; what it cannot keep up with is dropped.
+    /// Sends a run to whoever takes its messages, by a thread of its own; what it cannot keep up with is dropped, for a
+    /// session never waits.
     ///
     /// # Errors
     /// The first messages are not taken, or there is no thread.
-    pub fn stream(to: Box<dyn Messages>, names: OwnedNames) -> Result<Self, LogError> {
-        Recorder::begin(to, names, WhenFull::Drop, Path::new("live"))
+    pub fn stream(to: Box<dyn Messages>, names: Box<dyn Names + Send>) -> Result<Self, LogError> {
+        let mut recorder = Recorder::begin(to, names, WhenFull::Drop, Path::new("live"))?;
+        recorder.is_live = true;
+        Ok(recorder)
     }
 
     fn begin(
         to: Box<dyn Messages>,
-        names: OwnedNames,
+        names: Box<dyn Names + Send>,
         when_full: WhenFull,
         path: &Path,
     ) -> Result<Self, LogError> {
@@ -146,6 +151,7 @@ impl Recorder {
             thread: Some(thread),
             started: false,
             kept: None,
+            is_live: false,
         })
     }
 

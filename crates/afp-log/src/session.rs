@@ -1,7 +1,6 @@
 //! A log as an observer of a session.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType, signals};
 use afp_core::trace::{Ending, Record, Sink};
@@ -13,11 +12,8 @@ use afp_session::{
 
 use crate::channels::{FRAMES, Signal};
 use crate::error::LogError;
-use crate::messages::Messages;
-use crate::names::OwnedNames;
-use crate::recorder::{Recorder, WhenFull, Written};
+use crate::recorder::{Recorder, Written};
 use crate::robot::{Image, Level, Transform};
-use crate::write::About;
 
 /// How often a log gets what the camera sees.
 const FILM: Duration = Duration::from_millis(500);
@@ -60,48 +56,16 @@ struct Followed {
 }
 
 impl SessionLog {
-    /// Begins a log of a session about to start, of a robot with those devices in that scene. With `camera` it gets
-    /// what the camera sees, twice a second. A session in virtual time waits where the disk is slow; a robot that is there
-    /// must not.
-    ///
-    /// # Errors
-    /// [`LogError::Create`] when the file cannot be made.
-    pub fn create(
-        path: &Path,
-        about: &About,
-        names: OwnedNames,
-        devices: &'static [DeviceRow],
-        scene: Vec<Shape>,
-        camera: bool,
-        when_full: WhenFull,
-    ) -> Result<Self, LogError> {
-        let recorder = Recorder::create(path, about, names, when_full)?;
-        Ok(SessionLog::begin(recorder, devices, scene, camera, Instant::MAX))
-    }
-
-    /// Begins to send a session about to start to whoever takes its messages; a session never waits for them. What
-    /// stands in the room is sent anew each second, for those who come later.
-    ///
-    /// # Errors
-    /// The first messages are not taken, or there is no thread.
-    pub fn stream(
-        to: Box<dyn Messages>,
-        names: OwnedNames,
-        devices: &'static [DeviceRow],
-        scene: Vec<Shape>,
-        camera: bool,
-    ) -> Result<Self, LogError> {
-        let recorder = Recorder::stream(to, names)?;
-        Ok(SessionLog::begin(recorder, devices, scene, camera, Instant::ZERO))
-    }
-
-    fn begin(
+    /// Begins to record a session about to start, of a robot with those devices in that scene. With `camera` the log gets
+    /// what the camera sees, twice a second. To those who watch what stands in the room is sent anew each second, for those
+    /// who come later.
+    pub fn new(
         mut recorder: Recorder,
         devices: &'static [DeviceRow],
         scene: Vec<Shape>,
         camera: bool,
-        scene_again: Instant,
     ) -> Self {
+        let scene_again = if recorder.is_live { Instant::ZERO } else { Instant::MAX };
         recorder.scene(Instant::ZERO, scene.clone());
         SessionLog {
             recorder,
@@ -117,11 +81,6 @@ impl SessionLog {
             moved: Vec::new(),
             scene_again,
         }
-    }
-
-    /// Where that is now which a run that was killed left of the same log.
-    pub fn kept(&self) -> Option<&Path> {
-        self.recorder.kept()
     }
 
     /// Writes what the session came to, waits for the writer and gives the log its name.

@@ -1,56 +1,17 @@
 //! What a log says about deadlines, interruptions and coverage.
 
-use afp_core::Duration;
 use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome};
 use afp_session::{Counts, Usage};
 
 use crate::read::LogData;
 
-/// A supervisor's record.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct SupervisorStatistics {
-    /// Dotted path.
-    pub path: String,
-    /// How often it was started.
-    pub activations: u64,
-    /// How often it was polled.
-    pub polls: u64,
-    /// Events taken, the missed deadlines among them where connected.
-    pub events: u64,
-    /// How often it failed.
-    pub faults: u64,
-    /// Deadlines missed because the poll began too late.
-    pub late_releases: u64,
-    /// Deadlines missed because the poll took too long.
-    pub long_polls: u64,
-    /// Releases that passed without a poll.
-    pub skipped: u64,
-    /// The longest time after a deadline.
-    pub worst_lateness: Duration,
-}
-
-/// An element's record.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ElementStatistics {
-    /// Dotted path.
-    pub path: String,
-    /// How often it was started.
-    pub activations: u64,
-    /// How often it was interrupted.
-    pub interruptions: u64,
-    /// How often it failed.
-    pub faults: u64,
-    /// For how long it was active.
-    pub active: Duration,
-}
-
 /// What a log says about deadlines, interruptions and coverage.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
-    /// The elements in the order of the plan.
-    pub elements: Vec<ElementStatistics>,
-    /// The supervisors in the order of the plan.
-    pub supervisors: Vec<SupervisorStatistics>,
+    /// The elements in the order of the plan, by their dotted paths.
+    pub elements: Vec<(String, Usage)>,
+    /// The supervisors in the order of the plan, by their dotted paths.
+    pub supervisors: Vec<(String, Usage)>,
     /// States and events, as `component.outcome`, that never came; elements that never ran.
     pub uncovered: Vec<String>,
     /// States and events that did come.
@@ -96,30 +57,10 @@ pub fn statistics(log: &LogData) -> Statistics {
             }
         }
         match row.kind {
-            ComponentKind::Supervisor => all.supervisors.push(supervisor(path, usage)),
+            ComponentKind::Supervisor => all.supervisors.push((path, usage.clone())),
             ComponentKind::Plan => {}
-            _ => all.elements.push(ElementStatistics {
-                path,
-                activations: usage.starts,
-                interruptions: usage.interruptions,
-                faults: usage.faults,
-                active: usage.active,
-            }),
+            _ => all.elements.push((path, usage.clone())),
         }
     }
     all
-}
-
-fn supervisor(path: String, usage: &Usage) -> SupervisorStatistics {
-    SupervisorStatistics {
-        path,
-        activations: usage.starts,
-        polls: usage.polls,
-        events: usage.events(),
-        faults: usage.faults,
-        late_releases: usage.late_releases,
-        long_polls: usage.long_polls,
-        skipped: usage.skipped,
-        worst_lateness: usage.worst_lateness,
-    }
 }

@@ -11,7 +11,7 @@ use afp_core::Instant;
 use afp_core::trace::{ComponentId, ComponentKind, Names};
 use afp_session::{AnyWorld, Drawing, Mark, Outlines, Pose2, RunEvent, Track, Waypoint};
 
-use crate::OwnedNames;
+use crate::LogNames;
 
 use canvas::{Canvas, View};
 pub use film::draw_film;
@@ -92,7 +92,7 @@ pub fn draw_world(world: &dyn AnyWorld) -> String {
     let subtitle = format!("{things} obstacle{}", if things == 1 { "" } else { "s" });
     let (title, figures) = (world.name().to_owned(), Vec::new());
     let picture = Picture { world: drawing, title, subtitle, figures, path: &[], marks: &[] };
-    draw(&picture, &OwnedNames::default())
+    draw(&picture, &LogNames::default())
 }
 
 /// The line below the title.

@@ -20,7 +20,7 @@ use afp_dsl::compile_plan;
 use afp_dsl::files::Texts;
 use afp_dsl::graph::Graph;
 use afp_log::live::Live;
-use afp_log::{About, OwnedNames, SessionLog, WhenFull};
+use afp_log::{About, Recorder, SessionLog, WhenFull};
 use afp_session::{AnySession, Go, Loader, Opened, Settings};
 use afp_syntax::source::Source;
 use serde_json::{Value, json};
@@ -174,19 +174,11 @@ fn clients_see_what_the_log_holds() {
     let live = live(&*session);
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
-    let names = || OwnedNames::new(session.names());
-    let log = SessionLog::create(
-        &path,
-        &About::default(),
-        names(),
-        session.devices(),
-        Vec::new(),
-        false,
-        WhenFull::Wait,
-    );
-    let mut log = log.expect("a log");
-    let sent = SessionLog::stream(live.messages(), names(), session.devices(), Vec::new(), false);
-    let mut sent = sent.expect("a stream");
+    let (names, devices) = (session.owned_names(), session.devices());
+    let recorder = Recorder::create(&path, &About::default(), names, WhenFull::Wait);
+    let mut log = SessionLog::new(recorder.expect("a log"), devices, Vec::new(), false);
+    let sent = Recorder::stream(live.messages(), session.owned_names());
+    let mut sent = SessionLog::new(sent.expect("a stream"), devices, Vec::new(), false);
 
     let mut client = Client::new(&live.addresses()[1]).expect("it is let in");
     assert_eq!(client.hear("serverInfo")["name"], "Blink");
@@ -368,9 +360,8 @@ fn strangers_take_no_place() {
 fn clients_are_told_of_the_parameters_that_they_want() {
     let mut session = session();
     let live = live(&*session);
-    let names = OwnedNames::new(session.names());
-    let sent = SessionLog::stream(live.messages(), names, session.devices(), Vec::new(), false);
-    let mut sent = sent.expect("a stream");
+    let sent = Recorder::stream(live.messages(), session.owned_names()).expect("a stream");
+    let mut sent = SessionLog::new(sent, session.devices(), Vec::new(), false);
     // What is said one after the other, beginning with what is wanted, and what is told then.
     let cases: [(&[&[&str]], &[&str]); 7] = [
         (&[&["left"], &["left"]], &[]),

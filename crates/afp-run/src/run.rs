@@ -12,7 +12,7 @@ use std::path::Path;
 use afp_core::trace::Names;
 use afp_core::{Ending, Instant};
 use afp_log::svg::{self, Picture};
-use afp_log::{About, LogError, OwnedNames, SessionLog, WhenFull, Written};
+use afp_log::{About, LogError, Recorder, SessionLog, WhenFull, Written};
 use afp_project::ProjectFile;
 use afp_session::{
     AnyRobot, AnySession, AnyWorld, Build, Counts, Figures, LastResort, Observer, Recipe,
@@ -22,7 +22,7 @@ use afp_session::{
 use crate::again::Again;
 use crate::error::{EXIT_OK, EXIT_PLAN_ERROR, RunError};
 use crate::hash::hash;
-use crate::live::Live;
+use crate::live;
 use crate::options::{OnRobot, RunOptions, TimeKeeper};
 use crate::output::write_whole;
 use crate::pace::Pace;
@@ -176,22 +176,21 @@ fn drive(
     let mut log = match &paths.log {
         None => None,
         Some(path) => {
-            let (about, names) = (about(setting), OwnedNames::new(session.names()));
+            let (about, names) = (about(setting), session.owned_names());
             let (devices, scene) = (session.devices(), world.world.scene());
             // What is there goes on meanwhile.
             let when_full = match options.time_keeper() {
                 TimeKeeper::Robot => WhenFull::Drop,
                 TimeKeeper::Nobody | TimeKeeper::Gate(_) => WhenFull::Wait,
             };
-            let log =
-                SessionLog::create(path, &about, names, devices, scene, options.camera, when_full)?;
-            if let Some(kept) = log.kept() {
+            let recorder = Recorder::create(path, &about, names, when_full)?;
+            if let Some(kept) = recorder.kept() {
                 let kept = kept.display();
                 warn(&format!(
                     "an earlier run of this log was killed: 'afpc log {kept} recover' saves what there is of it"
                 ));
             }
-            Some(log)
+            Some(SessionLog::new(recorder, devices, scene, options.camera))
         }
     };
     let report = Report::new(options.json, end, keeper);
@@ -202,18 +201,21 @@ fn drive(
     // A path is for the picture; without one, a run of days takes no more memory than one of minutes.
     let track = if paths.svg.is_some() { Track::new } else { Track::distance_alone };
     let mut track = track(session.devices());
-    let live = Live::begin(options.live, program.name, session)?;
-    let scene = || world.world.scene();
-    let sent = live.as_ref().map(|live| live.log(session, scene(), options.camera));
-    let mut sent = sent.transpose()?;
-    let mut gate = RunGate::new(&report, Pace::new(keeper), stop.clone(), live.as_ref());
+    let live = options.live.map(|at| live::begin(at, program.name, session)).transpose()?;
+    let mut sent = None;
+    if let Some(live) = &live {
+        let recorder = Recorder::stream(live.messages(), session.owned_names())?;
+        let (devices, scene) = (session.devices(), world.world.scene());
+        sent = Some(SessionLog::new(recorder, devices, scene, options.camera));
+    }
+    let mut gate = RunGate::new(&report, Pace::new(keeper), stop.clone(), live.as_deref());
     let mut requests = Requests::default();
     let mut shown = Shown(&report);
     let mut observers: Vec<&mut dyn Observer> =
         vec![&mut counts, &mut track, &mut requests, &mut shown];
     let logs = log.iter_mut().chain(&mut sent);
     observers.extend(logs.map(|log| log as &mut dyn Observer));
-    let driver = Driver { keeper, end, live: live.as_ref() };
+    let driver = Driver { keeper, end, live: live.as_deref() };
     let went = driver.run_to_end(session, &mut gate, &mut observers);
     // The robot stands before anything is written that may take its time.
     let measured = session.end();
@@ -223,7 +225,7 @@ fn drive(
     drop(gate);
     let written = log.map(|log| log.finish(session)).transpose();
     sent.map(|sent| sent.finish(session)).transpose()?;
-    live.into_iter().for_each(Live::finish);
+    drop(live);
     let requests = requests.finish(session);
     let asked = requests.len();
     let came = Came { stopped_by, speed, measured, written, counts, track, requests, raster };

@@ -7,7 +7,7 @@ use afp_core::{Duration, Instant};
 use afp_dsl::Toolboxes;
 use afp_dsl::compile;
 use afp_dsl::files::Texts;
-use afp_log::{About, OwnedNames, SessionLog, WhenFull};
+use afp_log::{About, Recorder, SessionLog, WhenFull};
 use afp_session::{
     AnySession, Counts, Go, Observer, Open, Request, Robot, SampleRef, Session, Simulated, Track,
 };
@@ -85,23 +85,14 @@ fn a_log_tells_of_the_way_as_the_run_does() {
             session.at(at(3), Request::Break(lost, None, Duration::MAX)).unwrap();
         }
         let path = folder.path().join("a.mcap");
-        let names = || OwnedNames::new(session.names());
-        let about = About::default();
-        let log = SessionLog::create(
-            &path,
-            &about,
-            names(),
-            session.devices(),
-            Vec::new(),
-            false,
-            WhenFull::Wait,
-        );
-        let (mut log, names) = (log.unwrap(), names());
+        let (about, names) = (About::default(), session.owned_names());
+        let recorder = Recorder::create(&path, &about, session.owned_names(), WhenFull::Wait);
+        let mut log = SessionLog::new(recorder.unwrap(), session.devices(), Vec::new(), false);
         let mut track = Track::new(session.devices());
         session.run(at(26), &mut Open, &mut [&mut track, &mut log]).unwrap();
         log.finish(&session).unwrap();
         let read = afp_log::read(&path).unwrap();
-        let (way, marks) = afp_log::svg::follow(&read.events, &read.poses, &names);
+        let (way, marks) = afp_log::svg::follow(&read.events, &read.poses, &*names);
         assert!(!marks.is_empty() && way.len() == track.path.len());
         for (here, there) in marks.iter().zip(&track.marks) {
             assert_eq!((here.at, here.supervisor), (there.at, there.supervisor));
@@ -123,11 +114,10 @@ fn looking_judging_logging_and_pausing_do_not_change_the_run() {
         parts.add_measure(measure);
     });
     let folder = tempfile::tempdir().unwrap();
-    let (about, names) = (About::default(), OwnedNames::new(parts.names()));
+    let (about, names) = (About::default(), parts.owned_names());
     let path = folder.path().join("a.mcap");
-    let mut log =
-        SessionLog::create(&path, &about, names, parts.devices(), Vec::new(), true, WhenFull::Wait)
-            .unwrap();
+    let recorder = Recorder::create(&path, &about, names, WhenFull::Wait).unwrap();
+    let mut log = SessionLog::new(recorder, parts.devices(), Vec::new(), true);
     let (mut counts, mut track) = (Counts::new(parts.names()), Track::new(parts.devices()));
     let mut observers: [&mut dyn Observer; 3] = [&mut counts, &mut track, &mut log];
     let mut gate = |target: Instant, _: Instant| if target > at(7) { Go::Stop } else { Go::On };

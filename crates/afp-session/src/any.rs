@@ -24,6 +24,9 @@ pub trait AnySession: Send {
     /// The names of the plan.
     fn names(&self) -> &dyn Names;
 
+    /// The names of the plan, for who outlives the session.
+    fn owned_names(&self) -> Box<dyn Names + Send>;
+
     /// The devices of the robot.
     fn devices(&self) -> &'static [DeviceRow];
 

@@ -8,7 +8,7 @@ use afp_core::trace::TraceEntryId;
 use afp_core::{Duration, EntryId, Instant, StartError};
 use afp_dsl::Compiled;
 use afp_dsl::scenario::Scenario;
-use afp_log::{About, OwnedNames, SessionLog, WhenFull};
+use afp_log::{About, Recorder, SessionLog, WhenFull};
 use afp_run::{RunError, hashes};
 use afp_session::{
     AnyRobot, AnySession, Applied, Build, Go, Holder, Loader, NamedRecord, Observer, Recipe,
@@ -139,9 +139,8 @@ fn log(
     robot: &dyn AnyRobot,
 ) -> Result<SessionLog, RunError> {
     let about = about(scenario, setting, to.compiled, robot);
-    let names = OwnedNames::new(session.names());
-    let (devices, scene) = (session.devices(), setting.world.world.scene());
-    Ok(SessionLog::create(to.path, &about, names, devices, scene, false, WhenFull::Wait)?)
+    let recorder = Recorder::create(to.path, &about, session.owned_names(), WhenFull::Wait)?;
+    Ok(SessionLog::new(recorder, session.devices(), setting.world.world.scene(), false))
 }
 
 impl Observer for Judge<'_> {

@@ -156,7 +156,7 @@ impl EntryRow {
 /// A plan that people address by name: generated or loaded.
 pub trait NamedPlan: PlanState {
     /// The names behind its ids.
-    type Names: Names;
+    type Names: Names + Send + 'static;
 
     /// The names, to be kept apart from the running plan.
     fn names(&self) -> Self::Names;

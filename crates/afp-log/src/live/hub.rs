@@ -357,7 +357,7 @@ mod tests {
     #[test]
     fn what_there_is_not_is_not_kept_for_anybody() {
         let (ask, _inbox) = std::sync::mpsc::channel();
-        let hub = Hub::new("P", &crate::OwnedNames::default(), Vec::new(), ask);
+        let hub = Hub::new("P", &crate::LogNames::default(), Vec::new(), ask);
         let queue = Queue::default();
         hub.watch(&queue, &["x".repeat(1 << 20)]);
         hub.watch(&queue, &[]);

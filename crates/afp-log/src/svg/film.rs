@@ -12,7 +12,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::canvas::escape;
 use super::{NOBODY, PALETTE, follow, known_actors};
-use crate::{LogData, OwnedNames};
+use crate::{LogData, LogNames};
 use still::fewer_colors;
 
 /// A longer film is thinned out evenly to so many pictures.
@@ -106,7 +106,7 @@ fn head(svg: &mut String, log: &LogData, shown: usize) {
 fn draw(
     svg: &mut String,
     shot: &Shot<'_>,
-    names: &OwnedNames,
+    names: &LogNames,
     known: &[ComponentId],
     (x, y): (f64, f64),
 ) {

@@ -12,7 +12,7 @@ use std::time::Duration as Span;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType};
 use afp_core::trace::{Author, ComponentId, Record, Sink, TraceEntryId, Verdict};
 use afp_core::{Instant, ValueRef};
-use afp_log::{LogData, LogError, Messages, OwnedNames, Recorder, SessionLog, read_any};
+use afp_log::{LogData, LogError, Messages, Recorder, SessionLog, read_any};
 use afp_session::{Datum, EventKind, NamedRecord, Observer, SampleRef, Shape};
 use mcap::records::{MessageHeader, Metadata};
 
@@ -97,8 +97,8 @@ fn what_got_lost_is_said_again() {
     let disk = Disk::new(&path);
     let (free, written) = (disk.free.clone(), disk.written.clone());
     let scene = vec![shape(1.0)];
-    let mut log =
-        SessionLog::stream(disk, OwnedNames::new(&Names1), &DEVICES, scene, false).unwrap();
+    let recorder = Recorder::stream(disk, Box::new(Names1)).unwrap();
+    let mut log = SessionLog::new(recorder, &DEVICES, scene, false);
     let record = |log: &mut SessionLog, now, record: &Record<'_>| {
         log.on_record(&NamedRecord { at: at(now), record, names: &Names1, line: "0 it" });
     };
@@ -138,7 +138,7 @@ fn how_a_run_came_out_does_not_get_lost() {
     let path = dir.path().join("a.mcap");
     let disk = Disk::new(&path);
     let free = disk.free.clone();
-    let mut log = Recorder::stream(disk, OwnedNames::new(&Names1)).unwrap();
+    let mut log = Recorder::stream(disk, Box::new(Names1)).unwrap();
     let stalled = free.lock().unwrap();
     (0..MANY).for_each(|_| log.record(at(1), &CLEAR));
     log.record(at(2), &commit());

@@ -20,16 +20,17 @@ use afp_core::{Duration, Instant, ValueRef};
 use afp_log::robot::{Level, Pose2, Ranging, Shape, Transform};
 use afp_log::statistics::statistics;
 use afp_log::{
-    About, LogError, OwnedNames, Recorder, SessionLog, WhenFull, doctor, read, recover,
+    About, LogError, LogNames, Recorder, SessionLog, WhenFull, doctor, read, recover,
     recovered_name,
 };
 use afp_session::{Datum, EventAt, EventKind, NamedRecord, Observer};
 
 /// A log whose run has begun, of a robot with those devices.
 fn begun(path: &Path, devices: &'static [DeviceRow]) -> SessionLog {
-    let (about, names) = (About::default(), OwnedNames::new(&Names1));
-    let log = SessionLog::create(path, &about, names, devices, vec![], true, WhenFull::Wait);
-    let (mut log, record) = (log.unwrap(), &Record::StopRequested);
+    let (about, names) = (About::default(), Box::new(Names1));
+    let recorder = Recorder::create(path, &about, names, WhenFull::Wait).unwrap();
+    let mut log = SessionLog::new(recorder, devices, vec![], true);
+    let record = &Record::StopRequested;
     log.on_record(&NamedRecord { at: at(0), record, names: &Names1, line: "0 stop" });
     log
 }
@@ -163,7 +164,7 @@ fn run(log: &mut Recorder) {
 }
 
 fn create(path: &Path) -> Recorder {
-    Recorder::create(path, &about(), OwnedNames::new(&Names1), WhenFull::Wait).unwrap()
+    Recorder::create(path, &about(), Box::new(Names1), WhenFull::Wait).unwrap()
 }
 
 fn written(dir: &Path) -> PathBuf {
@@ -211,11 +212,11 @@ fn what_is_written_is_read() {
 fn statistics_count_misses_interruptions_and_coverage() {
     let dir = tempfile::tempdir().unwrap();
     let found = statistics(&read(&written(dir.path())).unwrap());
-    let touch = &found.supervisors[0];
-    assert_eq!((touch.polls, touch.events, touch.long_polls, touch.skipped), (2000, 1, 1, 2));
+    let (_, touch) = &found.supervisors[0];
+    assert_eq!((touch.polls, touch.events(), touch.long_polls, touch.skipped), (2000, 1, 1, 2));
     assert_eq!(touch.worst_lateness, Duration::from_millis(3));
-    let go = &found.elements[0];
-    assert_eq!((go.activations, go.interruptions), (2, 1));
+    let (_, go) = &found.elements[0];
+    assert_eq!((go.starts, go.interruptions), (2, 1));
     assert_eq!(go.active, Duration::from_millis(3001));
     assert_eq!((found.covered, found.uncovered.len()), (2, 1));
 }
@@ -320,7 +321,7 @@ fn an_abandoned_log_keeps_its_part_name() {
 fn what_cannot_be_written_or_read_is_said() {
     let dir = tempfile::tempdir().unwrap();
     let nowhere = dir.path().join("no/such/folder/a.mcap");
-    let failed = Recorder::create(&nowhere, &about(), OwnedNames::default(), WhenFull::Drop);
+    let failed = Recorder::create(&nowhere, &about(), Box::new(LogNames::default()), WhenFull::Drop);
     let said = failed.err().unwrap().to_string();
     assert!(said.starts_with("cannot write the log '") && said.contains("a.mcap'"), "{said}");
     let text = dir.path().join("text");
@@ -334,7 +335,7 @@ fn a_full_queue_is_counted_and_told() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut log =
-        Recorder::create(&path, &about(), OwnedNames::new(&Names1), WhenFull::Drop).unwrap();
+        Recorder::create(&path, &about(), Box::new(Names1), WhenFull::Drop).unwrap();
     let record = Record::Polled { supervisor: ComponentId(2), verdict: Verdict::Clear };
     for n in 0..200_000 {
         log.record(at(n), &record);
@@ -367,7 +368,7 @@ fn a_second_log_of_a_name_is_refused_while_one_is_written() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut one = create(&path);
-    let two = Recorder::create(&path, &about(), OwnedNames::new(&Names1), WhenFull::Wait);
+    let two = Recorder::create(&path, &about(), Box::new(Names1), WhenFull::Wait);
     let why = two.err().unwrap().to_string();
     assert!(why.contains("another program is writing it"), "{why}");
     run(&mut one);
@@ -408,7 +409,7 @@ fn a_log_goes_through_a_pipe() {
 fn a_log_that_says_nothing_of_its_run_is_sound() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("bare.mcap");
-    let names = OwnedNames::new(&Names1);
+    let names = Box::new(Names1);
     let log = Recorder::create(&path, &About::default(), names, WhenFull::Wait).unwrap();
     log.finish().unwrap();
     assert_eq!(doctor(&path).unwrap(), [""; 0]);

@@ -2,7 +2,7 @@
 
 use afp_core::Duration;
 use afp_log::robot::Pose2;
-use afp_log::{About, LogData, OwnedNames, Recorder, Signal, WhenFull, doctor, read};
+use afp_log::{About, LogData, Recorder, Signal, WhenFull, doctor, read};
 use afp_session::{
     Build, Datum, Done, NameWithUnit, Put, Recipe, Report, Requested, RunEvent, Stimulus, TextFile,
 };
@@ -56,7 +56,7 @@ fn a_recipe_comes_back_as_it_was_written() {
     };
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
-    let names = OwnedNames::new(&Names1);
+    let names = Box::new(Names1);
     let mut log = Recorder::create(&path, &About::new(&recipe), names, WhenFull::Wait).unwrap();
     let become_ = [Done::Done, Done::Refused("it is gone".to_owned()), Done::NotReached];
     for (what, done) in requests.iter().zip(become_.iter().cycle()) {

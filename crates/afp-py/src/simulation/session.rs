@@ -12,7 +12,7 @@ use afp_core::devices::find_signal;
 use afp_core::trace::{ComponentKind, Ending, Names, Record};
 use afp_core::{EntryId, Fault, Instant, StartError, Value};
 use afp_dsl::graph::Graph;
-use afp_log::{OwnedNames, SessionLog, WhenFull};
+use afp_log::{Recorder, SessionLog, WhenFull};
 use afp_run::RunError;
 use afp_run::inputs::missing;
 use afp_session::{AnySession, Go, Next, Observer, Pose2, Request, SampleRef, Track, refusal};
@@ -78,16 +78,9 @@ impl Run {
         setting.log.map_or(Ok(()), |log| setting.check_log(log)).map_err(|why| run_error(&why))?;
         let world = &setting.world.world;
         let log = setting.log.map(|path| {
-            let (about, names) = (setting.about(), OwnedNames::new(session.names()));
-            SessionLog::create(
-                path,
-                &about,
-                names,
-                session.devices(),
-                world.scene(),
-                setting.camera,
-                WhenFull::Wait,
-            )
+            let names = session.owned_names();
+            let recorder = Recorder::create(path, &setting.about(), names, WhenFull::Wait)?;
+            Ok(SessionLog::new(recorder, session.devices(), world.scene(), setting.camera))
         });
         let log = log.transpose().map_err(|why| log_error(&why))?;
         let mut run = Run::new(session, setting.graph);

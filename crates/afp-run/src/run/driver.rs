@@ -17,7 +17,7 @@ pub(super) struct Driver<'a> {
     pub keeper: TimeKeeper,
     /// When the plan is stopped at the latest.
     pub end: Instant,
-    pub live: Option<&'a Live>,
+    pub live: Option<&'a dyn Live>,
 }
 
 impl Driver<'_> {

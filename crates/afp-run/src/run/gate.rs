@@ -15,7 +15,7 @@ pub(super) struct RunGate<'a> {
     report: &'a RefCell<Report>,
     pace: Pace,
     stop: StopFlag,
-    live: Option<&'a Live>,
+    live: Option<&'a dyn Live>,
     /// Why the run was halted and when, until somebody does something about it.
     halt: Option<(Halt, Instant)>,
 }
@@ -34,7 +34,7 @@ impl<'a> RunGate<'a> {
         report: &'a RefCell<Report>,
         pace: Pace,
         stop: StopFlag,
-        live: Option<&'a Live>,
+        live: Option<&'a dyn Live>,
     ) -> Self {
         RunGate { report, pace, stop, live, halt: None }
     }
@@ -65,7 +65,7 @@ impl Gate for RunGate<'_> {
             return Go::Stop;
         }
         drop(report);
-        let asked = || self.live.is_some_and(Live::is_asked);
+        let asked = || self.live.is_some_and(|live| live.is_asked());
         match self.pace.wait(target, &self.stop, &asked) {
             Waited::Due => Go::On,
             Waited::Escape => self.halt(Halt::Escape, target, now),

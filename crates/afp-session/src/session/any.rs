@@ -39,6 +39,10 @@ where
         &self.names
     }
 
+    fn owned_names(&self) -> Box<dyn Names + Send> {
+        Box::new(self.scheduler.plan().names())
+    }
+
     fn devices(&self) -> &'static [DeviceRow] {
         self.table()
     }

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use afp_log::LogData;
-use afp_log::statistics::{ElementStatistics, Statistics, SupervisorStatistics, statistics};
+use afp_log::statistics::{Statistics, statistics};
+use afp_session::Usage;
 
 /// The whole text.
 pub(super) fn text(log: &LogData) -> String {
@@ -18,49 +19,42 @@ pub(super) fn text(log: &LogData) -> String {
     text
 }
 
+/// What ran; what failed to start was never active. And how wide a column of their paths is under a heading.
+fn ran<'a>(all: &'a [(String, Usage)], heading: &str) -> (Vec<&'a (String, Usage)>, usize) {
+    let ran: Vec<_> = all.iter().filter(|(_, usage)| usage.starts + usage.faults > 0).collect();
+    let width = ran.iter().map(|(path, _)| path.len()).max().unwrap_or(0);
+    (ran, width.max(heading.len()))
+}
+
 fn elements(text: &mut String, all: &Statistics) {
-    // What failed to start was never active.
-    let used = |element: &&ElementStatistics| element.activations + element.faults > 0;
-    let ran: Vec<_> = all.elements.iter().filter(used).collect();
-    let width = ran.iter().map(|element| element.path.len()).max().unwrap_or(0).max(7);
+    let (ran, width) = ran(&all.elements, "element");
     let _ = writeln!(text, "\n{:<width$}  activations  interruptions  faults  active", "element");
-    for element in ran {
+    for (path, usage) in ran {
+        let Usage { starts, interruptions, faults, active, .. } = usage;
+        let active = active.as_secs_f64();
         let _ = writeln!(
             text,
-            "{:<width$}  {:>11}  {:>13}  {:>6}  {:.3} s",
-            element.path,
-            element.activations,
-            element.interruptions,
-            element.faults,
-            element.active.as_secs_f64()
+            "{path:<width$}  {starts:>11}  {interruptions:>13}  {faults:>6}  {active:.3} s"
         );
     }
 }
 
 fn supervisors(text: &mut String, all: &Statistics) {
-    let used = |each: &&SupervisorStatistics| each.activations + each.faults > 0;
-    let ran: Vec<_> = all.supervisors.iter().filter(used).collect();
+    let (ran, width) = ran(&all.supervisors, "supervisor");
     if ran.is_empty() {
         return;
     }
-    let width = ran.iter().map(|each| each.path.len()).max().unwrap_or(0).max(10);
     let _ = writeln!(
         text,
         "\n{:<width$}    polls  events  faults  missed late/long  skipped  worst",
         "supervisor"
     );
-    for each in ran {
+    for (path, usage) in ran {
+        let Usage { polls, faults, late_releases, long_polls, skipped, .. } = usage;
+        let (events, worst) = (usage.events(), usage.worst_lateness.as_secs_f64() * 1e3);
         let _ = writeln!(
             text,
-            "{:<width$}  {:>7}  {:>6}  {:>6}  {:>11}/{:<4}  {:>7}  {:.3} ms",
-            each.path,
-            each.polls,
-            each.events,
-            each.faults,
-            each.late_releases,
-            each.long_polls,
-            each.skipped,
-            each.worst_lateness.as_secs_f64() * 1e3
+            "{path:<width$}  {polls:>7}  {events:>6}  {faults:>6}  {late_releases:>11}/{long_polls:<4}  {skipped:>7}  {worst:.3} ms"
         );
     }
 }
