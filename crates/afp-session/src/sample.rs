@@ -170,16 +170,20 @@ impl SampleRef<'_> {
 
     /// Whether it is of a type.
     pub fn is(&self, ty: SignalType) -> bool {
-        matches!(
-            (self, ty),
-            (SampleRef::Bool(_), SignalType::Bool)
-                | (SampleRef::Int(_), SignalType::Int)
-                | (SampleRef::Float(_), SignalType::Float(_))
-                | (SampleRef::Text(_), SignalType::Text)
-                | (SampleRef::Pose(_), SignalType::Pose)
-                | (SampleRef::Range(_), SignalType::Range)
-                | (SampleRef::Image(_), SignalType::Image)
-                | (SampleRef::Outline(_), SignalType::Outline)
-        )
+        std::mem::discriminant(&self.ty()) == std::mem::discriminant(&ty)
+    }
+
+    /// Its type; of a number without a unit, which its row has.
+    pub(crate) fn ty(&self) -> SignalType {
+        match self {
+            SampleRef::Bool(_) => SignalType::Bool,
+            SampleRef::Int(_) => SignalType::Int,
+            SampleRef::Float(_) => SignalType::Float(""),
+            SampleRef::Text(_) => SignalType::Text,
+            SampleRef::Pose(_) => SignalType::Pose,
+            SampleRef::Range(_) => SignalType::Range,
+            SampleRef::Image(_) => SignalType::Image,
+            SampleRef::Outline(_) => SignalType::Outline,
+        }
     }
 }

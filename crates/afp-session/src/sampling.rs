@@ -129,7 +129,7 @@ fn wrong_type(table: &[DeviceRow], signal: SignalId, value: &SampleRef<'_>) -> O
             "the robot gives its signal '{}.{}' as {}, but it is declared as {}",
             device.name,
             row.name,
-            given(value),
+            value.ty().word(),
             declared(row.ty)
         ))),
     }
@@ -148,29 +148,8 @@ fn signal_type(text: String) -> Fault {
 }
 
 fn declared(ty: SignalType) -> String {
-    let word = match ty {
-        SignalType::Bool => "bool",
-        SignalType::Int => "int",
-        SignalType::Float("") => "float",
-        SignalType::Float(unit) => return format!("a quantity in {unit}"),
-        SignalType::Text => "string",
-        SignalType::Pose => "pose",
-        SignalType::Range => "range",
-        SignalType::Image => "image",
-        SignalType::Outline => "outline",
-    };
-    word.to_owned()
-}
-
-fn given(value: &SampleRef<'_>) -> &'static str {
-    match value {
-        SampleRef::Bool(_) => "bool",
-        SampleRef::Int(_) => "int",
-        SampleRef::Float(_) => "float",
-        SampleRef::Text(_) => "string",
-        SampleRef::Pose(_) => "pose",
-        SampleRef::Range(_) => "range",
-        SampleRef::Image(_) => "image",
-        SampleRef::Outline(_) => "outline",
+    match ty {
+        SignalType::Float(unit) if !unit.is_empty() => format!("a quantity in {unit}"),
+        ty => ty.word().to_owned(),
     }
 }

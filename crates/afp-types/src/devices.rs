@@ -109,6 +109,20 @@ impl SignalType {
             _ => "",
         }
     }
+
+    /// Its word in a toolbox; `float` for all numbers.
+    pub fn word(self) -> &'static str {
+        match self {
+            SignalType::Bool => "bool",
+            SignalType::Int => "int",
+            SignalType::Float(_) => "float",
+            SignalType::Text => "string",
+            SignalType::Pose => "pose",
+            SignalType::Range => "range",
+            SignalType::Image => "image",
+            SignalType::Outline => "outline",
+        }
+    }
 }
 
 impl AmountRow {

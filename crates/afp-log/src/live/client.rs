@@ -7,12 +7,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant as Wall};
 
+use afp_core::Duration as Span;
+use afp_session::{HOLD, NameWithUnit, Stimulus};
 use serde_json::Value;
 use tungstenite::{Error, Message, WebSocket};
 
 use super::admission::{Role, Tokens};
 use super::handshake::{Admitted, handshake};
-use super::hub::{Asked, Hub, Question, Service, Written};
+use super::hub::{Hub, Question, Service, Written};
 use super::paced::Paced;
 use super::protocol::{self, Call, ClientMessage, Parameter};
 use super::queue::Queue;
@@ -181,7 +183,7 @@ impl Client<'_> {
     }
 
     /// What a call asks of the run.
-    fn asked(&self, call: &Call<'_>) -> Result<Asked, String> {
+    fn asked(&self, call: &Call<'_>) -> Result<Stimulus, String> {
         let service = self.hub.service(call.service).ok_or("there is no such service")?;
         // Anybody may stop a robot.
         if self.role == Role::Watcher && *service != Service::Stop {
@@ -199,19 +201,24 @@ impl Client<'_> {
             value => value.as_f64().map(Some).ok_or_else(|| format!("'{name}' is a number")),
         };
         Ok(match service {
-            Service::Press(control) => Asked::Press {
-                control: control.clone(),
-                held: match &said["held"] {
-                    Value::Null => None,
-                    value => Some(value.as_bool().ok_or("'held' is true or false")?),
-                },
+            Service::Press(control) => match &said["held"] {
+                Value::Null => Stimulus::Hold(control.clone(), HOLD),
+                value => {
+                    let held = value.as_bool().ok_or("'held' is true or false")?;
+                    Stimulus::Press(control.clone(), held)
+                }
             },
-            Service::Fail(fault) => Asked::Fail {
-                fault: fault.clone(),
-                amount: number("amount")?,
-                seconds: number("seconds")?,
-            },
-            Service::Stop => Asked::Stop,
+            Service::Fail(fault) => {
+                let fault = NameWithUnit { name: fault.clone(), unit: String::new() };
+                let amount = number("amount")?;
+                let lasting = match number("seconds")? {
+                    None => Span::MAX,
+                    Some(seconds) if seconds > 0.0 && seconds < 1e9 => Span::from_secs_f64(seconds),
+                    Some(_) => return Err("'seconds' is a number above 0".to_owned()),
+                };
+                Stimulus::Break(fault, amount, lasting)
+            }
+            Service::Stop => Stimulus::Stop,
         })
     }
 }

@@ -10,7 +10,7 @@ use crate::{LogError, Messages};
 use afp_core::devices::{DeviceRow, controls, faults};
 use afp_core::trace::{Names, TraceEntryId};
 use afp_core::{Duration, Instant};
-use afp_session::{AnySession, Datum, Request};
+use afp_session::{AnySession, Datum, Request, Stimulus};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -21,21 +21,10 @@ use super::queue::{Queue, Sent};
 /// The channel that tells of all entries.
 const CONFIGURATION: &str = "/plan/configuration";
 
-/// What is to happen.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Asked {
-    /// A control is held down or let go; pressed for a moment where that is not said.
-    Press { control: String, held: Option<bool> },
-    /// Something breaks, by so much, for so many seconds.
-    Fail { fault: String, amount: Option<f64>, seconds: Option<f64> },
-    /// The plan ends.
-    Stop,
-}
-
 /// What a client asks of the run, and who is told what became of it.
 pub(crate) enum Question {
     /// Something happens to the robot or the plan.
-    Do { what: Asked, answer: Box<dyn FnOnce(Result<(), String>) + Send> },
+    Do { what: Stimulus, answer: Box<dyn FnOnce(Result<(), String>) + Send> },
     /// Entries are written, as people write them: names and texts. Of each the answer gets its new value, or why it has none.
     Write { entries: Vec<(String, String)>, answer: Box<dyn FnOnce(Vec<Written>) + Send> },
 }

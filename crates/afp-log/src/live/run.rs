@@ -9,11 +9,11 @@ use std::thread::JoinHandle;
 
 use crate::Messages;
 use afp_core::trace::TraceEntryId;
-use afp_core::{Duration, Instant};
-use afp_session::{AnySession, HOLD, Holder, NameWithUnit, Request, Stimulus};
+use afp_core::Instant;
+use afp_session::{AnySession, Holder, Stimulus};
 
 use super::admission::Tokens;
-use super::hub::{Asked, Hub, Question, Service, Stream, Written};
+use super::hub::{Hub, Question, Service, Stream, Written};
 use super::server;
 
 /// A run that others watch.
@@ -72,7 +72,7 @@ impl Live {
     pub fn serve(&self, session: &mut dyn AnySession, at: Instant) {
         while let Ok(question) = self.inbox.try_recv() {
             match question {
-                Question::Do { what, answer } => answer(done(session, at, what)),
+                Question::Do { what, answer } => answer(ask(session, at, &what)),
                 Question::Write { entries, answer } => {
                     let written = entries.iter().map(|(name, text)| write(session, name, text));
                     answer(written.collect());
@@ -122,29 +122,7 @@ fn write(session: &mut dyn AnySession, entry: &str, text: &str) -> Written {
     }
 }
 
-/// Does something that was asked for.
-fn done(session: &mut dyn AnySession, at: Instant, what: Asked) -> Result<(), String> {
-    match what {
-        Asked::Press { control, held } => {
-            let what = match held {
-                Some(held) => Stimulus::Press(control, held),
-                None => Stimulus::Hold(control, HOLD),
-            };
-            ask(session, at, &what)
-        }
-        Asked::Fail { fault, amount, seconds } => {
-            let lasting = match seconds {
-                None => Duration::MAX,
-                Some(seconds) if seconds > 0.0 && seconds < 1e9 => Duration::from_secs_f64(seconds),
-                Some(_) => return Err("'seconds' is a number above 0".to_owned()),
-            };
-            let fault = NameWithUnit { name: fault, unit: String::new() };
-            ask(session, at, &Stimulus::Break(fault, amount, lasting))
-        }
-        Asked::Stop => session.at(at, Request::Stop).map(|_| ()).map_err(|why| why.to_string()),
-    }
-}
-
+/// Asks a run for something.
 fn ask(session: &mut dyn AnySession, at: Instant, what: &Stimulus) -> Result<(), String> {
     let request = what.request(session.devices(), session.names());
     let asked = request.and_then(|request| session.at(at, request));
