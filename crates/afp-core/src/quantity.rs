@@ -7,6 +7,8 @@
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use afp_types::SiUnit;
+
 /// A value in SI units; parameters are the exponents of metre, kilogram, second, radian, kelvin
 /// and volt.
 #[derive(Clone, Copy, Default, PartialEq, PartialOrd)]
@@ -103,6 +105,19 @@ impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V
     for Quantity<M, KG, S, RAD, K, V>
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (SI)", self.0)
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl<const M: i8, const KG: i8, const S: i8, const RAD: i8, const K: i8, const V: i8> fmt::Display
+    for Quantity<M, KG, S, RAD, K, V>
+{
+    /// The value and its SI unit: `0.3 m/s`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.0, f)?;
+        match SiUnit([M, KG, S, RAD, K, V]) {
+            SiUnit([0, 0, 0, 0, 0, 0]) => Ok(()),
+            unit => write!(f, " {unit}"),
+        }
     }
 }

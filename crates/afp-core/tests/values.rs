@@ -4,6 +4,7 @@ use afp_core::rt::{
     Scale, Unit, bool_to_int, float_to_int, int_add, int_mul, int_neg, int_rem, int_sub, join,
     parse_bool, parse_choice, parse_float, parse_int, parse_quantity, print_quantity, rem,
 };
+use afp_core::quantity::{Force, Frequency, Quantity, Speed};
 use afp_core::{Duration, Instant, Text};
 use afp_types::Error;
 
@@ -123,4 +124,13 @@ fn milliseconds_survive_as_seconds() {
     {
         assert_eq!(Duration::from_secs_f64(secs).as_nanos(), nanos, "{secs}");
     }
+}
+
+#[test]
+fn quantities_print_with_their_si_units() {
+    assert_eq!(Speed::from_si(0.3).to_string(), "0.3 m/s");
+    assert_eq!(Force::from_si(2.0).to_string(), "2 N");
+    assert_eq!(Frequency::from_si(50.0).to_string(), "50 Hz");
+    assert_eq!(Quantity::<0, 0, -2, -1, 0, 0>::from_si(1.5).to_string(), "1.5 s^-2/rad");
+    assert_eq!(Quantity::<0, 0, 0, 0, 0, 0>::from_si(1.5).to_string(), "1.5");
 }

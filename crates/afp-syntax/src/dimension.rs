@@ -1,5 +1,7 @@
 //! Dimensions of quantities, as exponents of base dimensions.
 
+use afp_types::{Powers, SiUnit};
+
 /// Exponents of the base dimensions; all zero is a plain number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dimension {
@@ -24,20 +26,19 @@ impl Dimension {
     pub const DURATION: Dimension = Dimension { time: 1, ..Dimension::NONE };
 }
 
-/// The dimensions that have a name in the language, with the unit in which people write them and
-/// the SI unit.
-const NAMED: &[(&str, Dimension, &str, &str)] = &[
-    ("length", Dimension { length: 1, ..Dimension::NONE }, "cm", "m"),
-    ("angle", Dimension { angle: 1, ..Dimension::NONE }, "deg", "rad"),
-    ("duration", Dimension::DURATION, "s", "s"),
-    ("speed", Dimension { length: 1, time: -1, ..Dimension::NONE }, "cm/s", "m/s"),
-    ("angular_speed", Dimension { angle: 1, time: -1, ..Dimension::NONE }, "deg/s", "rad/s"),
-    ("acceleration", Dimension { length: 1, time: -2, ..Dimension::NONE }, "m/s^2", "m/s^2"),
-    ("mass", Dimension { mass: 1, ..Dimension::NONE }, "kg", "kg"),
-    ("force", Dimension { length: 1, mass: 1, time: -2, ..Dimension::NONE }, "N", "N"),
-    ("voltage", Dimension { voltage: 1, ..Dimension::NONE }, "V", "V"),
-    ("temperature", Dimension { temperature: 1, ..Dimension::NONE }, "K", "K"),
-    ("frequency", Dimension { time: -1, ..Dimension::NONE }, "Hz", "Hz"),
+/// The dimensions that have a name in the language, with the unit in which people write them.
+const NAMED: &[(&str, Dimension, &str)] = &[
+    ("length", Dimension { length: 1, ..Dimension::NONE }, "cm"),
+    ("angle", Dimension { angle: 1, ..Dimension::NONE }, "deg"),
+    ("duration", Dimension::DURATION, "s"),
+    ("speed", Dimension { length: 1, time: -1, ..Dimension::NONE }, "cm/s"),
+    ("angular_speed", Dimension { angle: 1, time: -1, ..Dimension::NONE }, "deg/s"),
+    ("acceleration", Dimension { length: 1, time: -2, ..Dimension::NONE }, "m/s^2"),
+    ("mass", Dimension { mass: 1, ..Dimension::NONE }, "kg"),
+    ("force", Dimension { length: 1, mass: 1, time: -2, ..Dimension::NONE }, "N"),
+    ("voltage", Dimension { voltage: 1, ..Dimension::NONE }, "V"),
+    ("temperature", Dimension { temperature: 1, ..Dimension::NONE }, "K"),
+    ("frequency", Dimension { time: -1, ..Dimension::NONE }, "Hz"),
 ];
 
 impl Dimension {
@@ -48,7 +49,7 @@ impl Dimension {
 
     /// The dimension of that name, such as `length` or `force`.
     pub fn named(name: &str) -> Option<Dimension> {
-        NAMED.iter().find(|(known, ..)| *known == name).map(|(_, dimension, ..)| *dimension)
+        NAMED.iter().find(|(known, ..)| *known == name).map(|(_, dimension, _)| *dimension)
     }
 
     /// The dimension of a product; `None` when an exponent leaves -128..=127.
@@ -73,18 +74,15 @@ impl Dimension {
 
     /// A unit in which people write quantities of this dimension; empty for a plain number.
     pub fn usual_unit(self) -> String {
-        match NAMED.iter().find(|(_, dimension, ..)| *dimension == self) {
-            Some((.., usual, _)) => (*usual).to_owned(),
+        match NAMED.iter().find(|(_, dimension, _)| *dimension == self) {
+            Some((.., usual)) => (*usual).to_owned(),
             None => self.si_unit(),
         }
     }
 
     /// The SI unit, in the spelling of literals; empty for a plain number.
     pub fn si_unit(self) -> String {
-        match NAMED.iter().find(|(_, dimension, ..)| *dimension == self) {
-            Some((.., si)) => (*si).to_owned(),
-            None => self.product(["m", "kg", "s", "rad", "K", "V"], false),
-        }
+        SiUnit(self.exponents()).to_string()
     }
 
     /// The name, or the product of names such as `length/duration^2`, in the spelling of types.
@@ -92,38 +90,13 @@ impl Dimension {
         if self == Dimension::NONE {
             return "float".to_owned();
         }
-        match NAMED.iter().find(|(_, dimension, ..)| *dimension == self) {
+        match NAMED.iter().find(|(_, dimension, _)| *dimension == self) {
             Some((name, ..)) => (*name).to_owned(),
-            None => self
-                .product(["length", "mass", "duration", "angle", "temperature", "voltage"], true),
-        }
-    }
-
-    /// Base words with their exponents; without any positive one it starts with `1/` when
-    /// `leading_one` is set and uses a negative exponent otherwise.
-    fn product(self, words: [&str; 6], leading_one: bool) -> String {
-        let mut text = String::new();
-        let exponents = self.exponents();
-        let powers = || words.iter().zip(exponents);
-        for (word, exponent) in powers().filter(|(_, exponent)| *exponent > 0) {
-            if !text.is_empty() {
-                text.push('*');
-            }
-            text += word;
-            text += &power_text(i32::from(exponent));
-        }
-        if text.is_empty() && leading_one {
-            text.push('1');
-        }
-        for (word, exponent) in powers().filter(|(_, exponent)| *exponent < 0) {
-            let exponent = i32::from(exponent);
-            if text.is_empty() {
-                text = format!("{word}^{exponent}");
-            } else {
-                text += &format!("/{word}{}", power_text(-exponent));
+            None => {
+                let words = ["length", "mass", "duration", "angle", "temperature", "voltage"];
+                Powers { words, exponents: self.exponents(), leading_one: true }.to_string()
             }
         }
-        text
     }
 
     fn exponents(self) -> [i8; 6] {
@@ -140,10 +113,6 @@ impl Dimension {
             voltage: with(self.voltage, other.voltage)?,
         })
     }
-}
-
-fn power_text(exponent: i32) -> String {
-    if exponent == 1 { String::new() } else { format!("^{exponent}") }
 }
 
 #[cfg(test)]

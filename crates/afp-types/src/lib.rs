@@ -47,7 +47,7 @@ pub use row::{Child, ElementKind, ElementRow, Events, PlanTable, Range, Supervis
 pub use target::Target;
 pub use text::{Nanoseconds, Rounded};
 pub use time::{Duration, Instant};
-pub use units::SingleUnit;
+pub use units::{Powers, SiUnit, SingleUnit};
 pub use value::{Text, Value, ValueOf, ValueRef};
 
 use core::fmt;

@@ -3,6 +3,8 @@
 //! A new unit is a line of [`SingleUnit::ALL`]. Tests compare the grammars of editors and the lists in `docs/` with it;
 //! `AFP_BLESS=1` writes them: `cargo test -p afp-syntax --test editors`, `cargo test -p afp-book units`.
 
+use core::fmt;
+
 use crate::{Scale, Unit};
 
 /// A unit of one word, such as `cm`, and how many SI units it is.
@@ -93,6 +95,67 @@ impl SingleUnit {
     pub fn over(&self, other: &SingleUnit) -> Scale {
         let (shift, degrees) = (self.exponent - other.exponent, self.degrees() - other.degrees());
         Scale::factor(self.numerator, other.numerator, shift, degrees)
+    }
+}
+
+/// The SI unit of a dimension, in the spelling of literals; empty for a plain number. It has the exponents of metre, kilogram,
+/// second, radian, kelvin and volt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SiUnit(pub [i8; 6]);
+
+impl fmt::Display for SiUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words = ["m", "kg", "s", "rad", "K", "V"];
+        match self.0 {
+            [1, 1, -2, 0, 0, 0] => f.write_str("N"),
+            [0, 0, -1, 0, 0, 0] => f.write_str("Hz"),
+            exponents => Powers { words, exponents, leading_one: false }.fmt(f),
+        }
+    }
+}
+
+/// A product of powers, such as `m/s^2`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Powers {
+    /// What the base dimensions are called, in the order of [`SiUnit`].
+    pub words: [&'static str; 6],
+    /// Their exponents.
+    pub exponents: [i8; 6],
+    /// Without a positive exponent: whether it starts with `1/`, else with a negative exponent.
+    pub leading_one: bool,
+}
+
+impl fmt::Display for Powers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let powers = || self.words.iter().zip(self.exponents.map(i32::from));
+        let mut is_empty = true;
+        for (word, exponent) in powers().filter(|(_, exponent)| *exponent > 0) {
+            f.write_str(if is_empty { "" } else { "*" })?;
+            power(f, word, exponent)?;
+            is_empty = false;
+        }
+        if is_empty && self.leading_one {
+            f.write_str("1")?;
+            is_empty = false;
+        }
+        for (word, exponent) in powers().filter(|(_, exponent)| *exponent < 0) {
+            match is_empty {
+                true => write!(f, "{word}^{exponent}")?,
+                false => {
+                    f.write_str("/")?;
+                    power(f, word, -exponent)?;
+                }
+            }
+            is_empty = false;
+        }
+        Ok(())
+    }
+}
+
+fn power(f: &mut fmt::Formatter<'_>, word: &str, exponent: i32) -> fmt::Result {
+    match exponent {
+        1 => f.write_str(word),
+        exponent => write!(f, "{word}^{exponent}"),
     }
 }
 
