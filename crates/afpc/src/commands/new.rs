@@ -14,7 +14,7 @@ use clap::Args;
 
 use super::print;
 use crate::no_plan::NoPlan;
-use files::{Kind, NameError};
+use files::Kind;
 
 /// Arguments of `afpc new`.
 #[derive(Args, Debug)]
@@ -58,8 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         Kind::Plan => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
         Kind::Toolbox | Kind::Robot => origin::of_afp(&around(folder)?)?,
     };
-    let files = files::files(&name, kind, &origin::as_written(afp.clone()));
-    let files = files.map_err(|NameError { message, help }| RunError::usage(message, help))?;
+    let files = files::files(&name, kind, &origin::as_written(afp.clone()))?;
     let is_there = folder.symlink_metadata().is_ok();
     // A folder that is empty is as good as none; what cannot be looked into is something else.
     if is_there && fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_some()) {

@@ -6,10 +6,9 @@ mod manifest;
 mod name;
 
 use afp_project::Origin;
+use afp_run::RunError;
 
 use name::Names;
-
-pub use name::NameError;
 
 /// What a project begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +71,7 @@ const ROBOT: &[Draft] = drafts! { "robot":
 ///
 /// # Errors
 /// A name that cannot be that of files, of a crate and of a plan.
-pub fn files(name: &str, kind: Kind, afp: &Origin) -> Result<Vec<File>, NameError> {
+pub fn files(name: &str, kind: Kind, afp: &Origin) -> Result<Vec<File>, RunError> {
     let names = Names::new(name)?;
     let drafts = match kind {
         Kind::Plan => PLAN,

@@ -1,15 +1,6 @@
 //! The name of a project in its forms.
 
-use std::fmt;
-
-/// Why a name is none for a project.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NameError {
-    /// What is wrong.
-    pub message: String,
-    /// What to write instead.
-    pub help: String,
-}
+use afp_run::RunError;
 
 /// Words of the language, names of what comes with AFP, and modules that new projects declare themselves.
 const TAKEN: &[&str] = &[
@@ -87,17 +78,15 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    pub(crate) fn new(name: &str) -> Result<Names, NameError> {
+    pub(crate) fn new(name: &str) -> Result<Names, RunError> {
         let is_part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "-_".contains(c);
         let begins = name.chars().next().is_some_and(|first| first.is_ascii_lowercase());
         let ends = name.ends_with(['-', '_']) || name.contains("__") || name.contains("--");
         if !begins || ends || !name.chars().all(is_part) {
-            return Err(NameError {
-                message: format!("'{name}' cannot be the name of a project"),
-                help: "use lower-case letters, digits, '-' and '_', a letter first, such as \
-                       'my-rover'"
-                    .to_owned(),
-            });
+            return Err(RunError::usage(
+                format!("'{name}' cannot be the name of a project"),
+                "use lower-case letters, digits, '-' and '_', a letter first, such as 'my-rover'",
+            ));
         }
         let snake = name.replace('-', "_");
         let camel = snake.split('_').map(|word| {
@@ -106,10 +95,8 @@ impl Names {
         });
         let camel: String = camel.collect();
         if is_taken(&snake, &camel) {
-            return Err(NameError {
-                message: format!("the name '{name}' is taken"),
-                help: format!("another one, such as 'my-{name}'"),
-            });
+            let help = format!("another one, such as 'my-{name}'");
+            return Err(RunError::usage(format!("the name '{name}' is taken"), help));
         }
         Ok(Names { name: name.to_owned(), camel, snake })
     }
@@ -120,11 +107,3 @@ impl Names {
         text.replace("{{Name}}", &self.camel)
     }
 }
-
-impl fmt::Display for NameError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.message, self.help)
-    }
-}
-
-impl std::error::Error for NameError {}
