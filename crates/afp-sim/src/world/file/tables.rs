@@ -1,4 +1,4 @@
-//! The tables of a world file as serde reads them.
+//! The tables of a world file as serde reads them, once [`super::keys`] has looked for keys that cannot be there.
 
 use serde::Deserialize;
 
@@ -25,27 +25,23 @@ pub(super) struct File {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Map {
     pub(super) corners_m: Vec<[f64; 2]>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Robot {
     pub(super) pose_m_deg: [f64; 3],
     pub(super) charge: Option<f64>,
 }
 
 #[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Floor {
     pub(super) color: Option<String>,
     pub(super) texture: Option<String>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Wall {
     pub(super) name: Option<String>,
     pub(super) points_m: Vec<[f64; 2]>,
@@ -60,25 +56,24 @@ pub(super) struct Wall {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Box {
-    pub(super) name: Option<String>,
     pub(super) pose_m_deg: [f64; 3],
     pub(super) size_m: [f64; 2],
-    pub(super) height_m: f64,
-    pub(super) mass_kg: Option<f64>,
-    pub(super) path: Option<Path>,
-    pub(super) color: Option<String>,
-    pub(super) texture: Option<String>,
-    pub(super) echo: Option<f64>,
-    pub(super) mapped: Option<bool>,
+    #[serde(flatten)]
+    pub(super) solid: Solid,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Polygon {
-    pub(super) name: Option<String>,
     pub(super) points_m: Vec<[f64; 2]>,
+    #[serde(flatten)]
+    pub(super) solid: Solid,
+}
+
+/// What boxes and polygons have.
+#[derive(Deserialize)]
+pub(super) struct Solid {
+    pub(super) name: Option<String>,
     pub(super) height_m: f64,
     pub(super) mass_kg: Option<f64>,
     pub(super) path: Option<Path>,
@@ -89,7 +84,6 @@ pub(super) struct Polygon {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Path {
     pub(super) by_m: Vec<[f64; 2]>,
     pub(super) speed_m_s: f64,
@@ -102,7 +96,6 @@ pub(super) struct Path {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Patch {
     pub(super) name: Option<String>,
     pub(super) points_m: Vec<[f64; 2]>,
@@ -110,7 +103,6 @@ pub(super) struct Patch {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Infrared {
     pub(super) name: Option<String>,
     pub(super) position_m: [f64; 2],
