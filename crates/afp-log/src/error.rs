@@ -6,38 +6,47 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Why a log cannot be written or read.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogError {
     /// The file cannot be created or given its name.
+    #[error("cannot write the log '{}': {error}", .path.display())]
     Create {
         /// The log's final name.
         path: PathBuf,
         /// Why.
+        #[source]
         error: io::Error,
     },
     /// The file cannot be read.
+    #[error("cannot read the log '{}': {error}", .path.display())]
     Open {
         /// Its name.
         path: PathBuf,
         /// Why.
+        #[source]
         error: io::Error,
     },
     /// The file is no MCAP file.
+    #[error("'{}' is not an MCAP log", .path.display())]
     NotALog {
         /// Its name.
         path: PathBuf,
     },
     /// The file is an MCAP file, but not the log of a run.
+    #[error("'{}' is not the log of a run of AFP", .path.display())]
     NoRun {
         /// Its name.
         path: PathBuf,
     },
     /// What the file holds is compressed in a way that cannot be read, by its name.
+    #[error("the log is compressed with '{0}', which cannot be read")]
     Compressed(String),
     /// Writing failed, or the contents are damaged.
-    Mcap(mcap::McapError),
+    #[error("the log failed: {}", reason(.0))]
+    Mcap(#[source] mcap::McapError),
     /// The writing thread died.
+    #[error("the thread that writes the log died")]
     Writer,
 }
 
@@ -86,45 +95,17 @@ impl LogError {
     }
 }
 
+/// Of a disk its own words.
+fn reason(error: &mcap::McapError) -> &dyn fmt::Display {
+    match error {
+        mcap::McapError::Io(error) => error,
+        error => error,
+    }
+}
+
 /// Whether nothing can be written to a place.
 fn is_forbidden(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
-}
-
-impl fmt::Display for LogError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            LogError::Create { path, error } => {
-                write!(f, "cannot write the log '{}': {error}", path.display())
-            }
-            LogError::Open { path, error } => {
-                write!(f, "cannot read the log '{}': {error}", path.display())
-            }
-            LogError::NotALog { path } => {
-                write!(f, "'{}' is not an MCAP log", path.display())
-            }
-            LogError::NoRun { path } => {
-                write!(f, "'{}' is not the log of a run of AFP", path.display())
-            }
-            LogError::Compressed(how) => {
-                write!(f, "the log is compressed with '{how}', which cannot be read")
-            }
-            // What it says of its own is 'I/O error', for a full disk too.
-            LogError::Mcap(mcap::McapError::Io(error)) => write!(f, "the log failed: {error}"),
-            LogError::Mcap(error) => write!(f, "the log failed: {error}"),
-            LogError::Writer => f.write_str("the thread that writes the log died"),
-        }
-    }
-}
-
-impl std::error::Error for LogError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            LogError::Create { error, .. } | LogError::Open { error, .. } => Some(error),
-            LogError::Mcap(error) => Some(error),
-            _ => None,
-        }
-    }
 }
 
 impl From<mcap::McapError> for LogError {

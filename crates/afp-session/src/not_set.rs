@@ -1,8 +1,5 @@
 //! Why an entry cannot be set, for people: one wording for all who set entries.
 
-use std::error::Error;
-use std::fmt;
-
 use afp_core::trace::{EntryKind, EntryName, Names, TraceEntryId};
 use afp_core::{Fault, SetError, WriteError};
 use afp_excerpt::words::a;
@@ -11,26 +8,16 @@ use afp_types::{EXACT, number_length};
 use crate::units::some_units;
 
 /// Why an entry cannot be set, and what to do.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{why} (help: {help})")]
 pub struct NotSet {
     /// The error of the scheduler, which knows positions only.
+    #[source]
     pub cause: SetError,
     /// Why.
     pub why: String,
     /// What to do.
     pub help: String,
-}
-
-impl fmt::Display for NotSet {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (help: {})", self.why, self.help)
-    }
-}
-
-impl Error for NotSet {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        Some(&self.cause)
-    }
 }
 
 /// Why an entry does not take a value, with its range where that is why.

@@ -60,13 +60,15 @@ pub struct Build {
 }
 
 /// A request of a recipe that its session cannot take.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("'{what}' at {} s: {why}", .at.as_secs_f64())]
 pub struct RecipeError {
     /// When it was to come.
     pub at: Instant,
     /// What.
     pub what: Box<Stimulus>,
     /// Why not.
+    #[source]
     pub why: RequestError,
 }
 
@@ -106,18 +108,5 @@ impl fmt::Display for Build {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.version)?;
         self.commit.as_ref().map_or(Ok(()), |commit| write!(f, " ({commit})"))
-    }
-}
-
-impl fmt::Display for RecipeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RecipeError { at, what, why } = self;
-        write!(f, "'{what}' at {} s: {why}", at.as_secs_f64())
-    }
-}
-
-impl std::error::Error for RecipeError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.why)
     }
 }

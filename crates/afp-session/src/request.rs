@@ -1,7 +1,6 @@
 //! What comes from outside while a plan runs: writes, presses, faults, and what only tests ask for.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use afp_core::devices::{ControlId, FaultId};
 use afp_core::trace::{ComponentId, Outcome};
@@ -86,10 +85,11 @@ pub enum Put {
 pub struct RequestId(pub u64);
 
 /// Why a request cannot be met.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
     /// Its instant is over.
+    #[error("{} s is over: it is {} s", .at.as_secs_f64(), .now.as_secs_f64())]
     Over {
         /// The instant.
         at: Instant,
@@ -97,40 +97,58 @@ pub enum RequestError {
         now: Instant,
     },
     /// The plan has ended.
+    #[error("the plan has ended")]
     Ended,
     /// There is no such control.
+    #[error("the robot has no such control")]
     NoControl,
     /// There is no such fault.
+    #[error("the robot has no such fault")]
     NoFault,
     /// There cannot be so much of a fault.
+    #[error("{0} is out of range")]
     Amount(f64),
     /// The robot's devices declare it, but this robot has it not.
+    #[error("this robot has no '{0}'")]
     Lacks(&'static str),
     /// The robot does not do that.
+    #[error("the robot does not do that")]
     Refused,
     /// There is no thing of that name in the world, or it cannot be moved.
+    #[error("nothing called '{0}' can be moved")]
     NoThing(String),
     /// There is nothing of that shape to put somewhere.
+    #[error("nothing has the shape '{0}'")]
     NoShape(String),
     /// So many things were dropped already, as many as can be.
+    #[error("{0} things were dropped, and no more can be; move one of them here")]
     Full(usize),
     /// There is no room at that place: what stands there.
+    #[error("'{0}' stands there")]
     Occupied(String),
     /// That place is none.
+    #[error("that place is not in the world")]
     Nowhere,
     /// The entry does not take the value.
-    Write(WriteError),
+    #[error("{0}")]
+    Write(#[source] WriteError),
     /// A component of that path is not being polled, so it cannot report anything.
+    #[error("'{0}' is not active")]
     NotActive(String),
     /// A component of that path has not yet reported what it was made to report before.
+    #[error("'{0}' already has something to report")]
     Reports(String),
     /// There is no such actor or sub-plan.
+    #[error("there is no such actor")]
     NoElement,
     /// The plan has no such entry, or its entry has no such value.
+    #[error("the plan has no such entry '{0}'")]
     NoEntry(String),
     /// There is no such state or event.
+    #[error("there is no '{0}'")]
     NoOutcome(String),
     /// The plan was compiled into the program: its components report what they see, and nothing else.
+    #[error("the plan was compiled in; only a loaded one can be made to report")]
     Compiled,
 }
 
@@ -190,48 +208,5 @@ impl Requests {
         let ((at, id), waiting) = first.remove_entry();
         self.next = self.waiting.keys().next().map_or(Instant::MAX, |(at, _)| *at);
         Some((at, id, waiting))
-    }
-}
-
-impl fmt::Display for RequestError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            RequestError::Over { at, now } => {
-                write!(f, "{} s is over: it is {} s", at.as_secs_f64(), now.as_secs_f64())
-            }
-            RequestError::Ended => f.write_str("the plan has ended"),
-            RequestError::NoControl => f.write_str("the robot has no such control"),
-            RequestError::NoFault => f.write_str("the robot has no such fault"),
-            RequestError::Amount(amount) => write!(f, "{amount} is out of range"),
-            RequestError::Lacks(what) => write!(f, "this robot has no '{what}'"),
-            RequestError::Refused => f.write_str("the robot does not do that"),
-            RequestError::NoThing(name) => write!(f, "nothing called '{name}' can be moved"),
-            RequestError::NoShape(shape) => write!(f, "nothing has the shape '{shape}'"),
-            RequestError::Full(most) => {
-                write!(f, "{most} things were dropped, and no more can be; move one of them here")
-            }
-            RequestError::Occupied(by) => write!(f, "'{by}' stands there"),
-            RequestError::Nowhere => f.write_str("that place is not in the world"),
-            RequestError::Write(why) => why.fmt(f),
-            RequestError::NotActive(path) => write!(f, "'{path}' is not active"),
-            RequestError::Reports(path) => {
-                write!(f, "'{path}' already has something to report")
-            }
-            RequestError::NoElement => f.write_str("there is no such actor"),
-            RequestError::NoEntry(name) => write!(f, "the plan has no such entry '{name}'"),
-            RequestError::NoOutcome(name) => write!(f, "there is no '{name}'"),
-            RequestError::Compiled => {
-                f.write_str("the plan was compiled in; only a loaded one can be made to report")
-            }
-        }
-    }
-}
-
-impl std::error::Error for RequestError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            RequestError::Write(why) => Some(why),
-            _ => None,
-        }
     }
 }

@@ -1,7 +1,6 @@
 //! What a session asks of a robot, beyond that time passes for it.
 
 use std::error::Error;
-use std::fmt;
 
 use afp_core::devices::{Devices, SignalId};
 use afp_core::{Instant, Platform};
@@ -20,7 +19,8 @@ pub type ControlOf<R> = <<R as Robot>::Devices as Devices>::Control;
 pub type FaultOf<R> = <<R as Robot>::Devices as Devices>::Fault;
 
 /// The robot does not do that.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the robot does not do that")]
 pub struct Refused;
 
 /// A platform with devices. Hardware leaves `press` and `set_faults` out.
@@ -277,14 +277,6 @@ pub trait Measure<R>: Send {
         None
     }
 }
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the robot does not do that")
-    }
-}
-
-impl Error for Refused {}
 
 /// What a signal of a robot is now; `to` is not called where the robot has no value for it.
 pub fn read_signal<R: Robot>(robot: &R, signal: SignalId, to: &mut dyn FnMut(SampleRef<'_>)) {

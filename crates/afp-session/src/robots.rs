@@ -1,7 +1,6 @@
 //! Kinds of simulated robots, whatever they are: what a program links in.
 
 use std::error::Error;
-use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -57,19 +56,24 @@ pub trait AnyRobot: Sync {
 }
 
 /// Why there is no session.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SessionError {
     /// The plan cannot be loaded.
     #[cfg(feature = "load")]
-    Load(LoadError),
+    #[error("{0}")]
+    Load(#[source] LoadError),
     /// The world cannot be built.
-    World(Box<dyn Error + Send + Sync>),
+    #[error("{0}")]
+    World(#[source] Box<dyn Error + Send + Sync>),
     /// The world is that of another robot.
+    #[error("the world is that of another robot")]
     OtherWorld,
     /// The robot that is there cannot be reached.
-    Hardware(Box<dyn Error + Send + Sync>),
+    #[error("the robot cannot be reached: {0}")]
+    Hardware(#[source] Box<dyn Error + Send + Sync>),
     /// The robot has no such measure; it has these.
+    #[error("the robot has no measure '{0}'")]
     Measure(String, &'static [&'static str]),
 }
 
@@ -227,30 +231,6 @@ impl SessionError {
             }
             SessionError::Measure(_, []) => "it has none".to_owned(),
             SessionError::Measure(_, known) => format!("it has {}", known.join(", ")),
-        }
-    }
-}
-
-impl fmt::Display for SessionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            #[cfg(feature = "load")]
-            SessionError::Load(error) => error.fmt(f),
-            SessionError::World(why) => why.fmt(f),
-            SessionError::OtherWorld => f.write_str("the world is that of another robot"),
-            SessionError::Hardware(why) => write!(f, "the robot cannot be reached: {why}"),
-            SessionError::Measure(name, _) => write!(f, "the robot has no measure '{name}'"),
-        }
-    }
-}
-
-impl Error for SessionError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            #[cfg(feature = "load")]
-            SessionError::Load(why) => Some(why),
-            SessionError::World(why) | SessionError::Hardware(why) => Some(&**why),
-            SessionError::OtherWorld | SessionError::Measure(..) => None,
         }
     }
 }

@@ -194,7 +194,8 @@ pub struct Patch {
 }
 
 /// What is wrong with the text of a world, or with that of a map.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
 pub struct WorldError {
     /// The bytes of the text, where the place is known.
     pub span: Option<Range<usize>>,
@@ -237,11 +238,3 @@ impl<W: World> AnyWorld for W {
         self
     }
 }
-
-impl fmt::Display for WorldError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for WorldError {}

@@ -8,8 +8,8 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread::JoinHandle;
 
 use crate::Messages;
-use afp_core::trace::TraceEntryId;
 use afp_core::Instant;
+use afp_core::trace::TraceEntryId;
 use afp_session::{AnySession, Holder, Stimulus};
 
 use super::admission::Tokens;

@@ -321,7 +321,8 @@ fn an_abandoned_log_keeps_its_part_name() {
 fn what_cannot_be_written_or_read_is_said() {
     let dir = tempfile::tempdir().unwrap();
     let nowhere = dir.path().join("no/such/folder/a.mcap");
-    let failed = Recorder::create(&nowhere, &about(), Box::new(LogNames::default()), WhenFull::Drop);
+    let failed =
+        Recorder::create(&nowhere, &about(), Box::new(LogNames::default()), WhenFull::Drop);
     let said = failed.err().unwrap().to_string();
     assert!(said.starts_with("cannot write the log '") && said.contains("a.mcap'"), "{said}");
     let text = dir.path().join("text");
@@ -334,8 +335,7 @@ fn what_cannot_be_written_or_read_is_said() {
 fn a_full_queue_is_counted_and_told() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
-    let mut log =
-        Recorder::create(&path, &about(), Box::new(Names1), WhenFull::Drop).unwrap();
+    let mut log = Recorder::create(&path, &about(), Box::new(Names1), WhenFull::Drop).unwrap();
     let record = Record::Polled { supervisor: ComponentId(2), verdict: Verdict::Clear };
     for n in 0..200_000 {
         log.record(at(n), &record);
