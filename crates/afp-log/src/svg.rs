@@ -182,10 +182,10 @@ fn room(world: &Drawing, view: View) -> Canvas {
         canvas.patch(&patch.corners, patch.color);
     }
     for thing in world.things.iter().filter(|thing| thing.end.is_some()) {
-        canvas.beginning(&thing.outline, thing.low);
+        canvas.obstacle(&thing.outline, thing.low, true);
     }
     for thing in &world.things {
-        canvas.obstacle(thing.last(), thing.low);
+        canvas.obstacle(thing.last(), thing.low, false);
     }
     canvas
 }

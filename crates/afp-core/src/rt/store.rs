@@ -184,23 +184,20 @@ impl Discrete for Value {}
 impl Number for i64 {}
 impl Number for f64 {}
 
-impl Writable for bool {
-    fn from_value(value: &Value) -> Result<Self, WriteError> {
-        match value {
-            Value::Bool(value) => Ok(*value),
-            _ => Err(WriteError::Type),
+macro_rules! writable {
+    ($($ty:ty => $variant:ident),*) => {$(
+        impl Writable for $ty {
+            fn from_value(value: &Value) -> Result<Self, WriteError> {
+                match value {
+                    Value::$variant(value) => Ok(Self::clone(value)),
+                    _ => Err(WriteError::Type),
+                }
+            }
         }
-    }
+    )*};
 }
 
-impl Writable for i64 {
-    fn from_value(value: &Value) -> Result<Self, WriteError> {
-        match value {
-            Value::Int(value) => Ok(*value),
-            _ => Err(WriteError::Type),
-        }
-    }
-}
+writable!(bool => Bool, i64 => Int, Text => Text);
 
 impl Writable for f64 {
     fn from_value(value: &Value) -> Result<Self, WriteError> {
@@ -208,15 +205,6 @@ impl Writable for f64 {
             Value::Int(value) => Ok(int_to_float(*value)),
             Value::Float(value) if value.is_finite() => Ok(*value),
             Value::Float(_) => Err(WriteError::NotFinite),
-            _ => Err(WriteError::Type),
-        }
-    }
-}
-
-impl Writable for Text {
-    fn from_value(value: &Value) -> Result<Self, WriteError> {
-        match value {
-            Value::Text(value) => Ok(value.clone()),
             _ => Err(WriteError::Type),
         }
     }

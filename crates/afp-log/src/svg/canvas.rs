@@ -105,17 +105,11 @@ impl Canvas {
         ));
     }
 
-    /// Where something began that stands elsewhere in the end.
-    pub(super) fn beginning(&mut self, corners: &[[f64; 2]], low: bool) {
+    /// An obstacle, or where one began that stands elsewhere in the end.
+    pub(super) fn obstacle(&mut self, corners: &[[f64; 2]], low: bool, began: bool) {
         let points = self.points(corners);
-        let class = if low { "low" } else { "high" };
-        self.put(format_args!(r#"<polygon class="{class} began" points="{points}"/>"#));
-    }
-
-    pub(super) fn obstacle(&mut self, corners: &[[f64; 2]], low: bool) {
-        let points = self.points(corners);
-        let class = if low { "low" } else { "high" };
-        self.put(format_args!(r#"<polygon class="{class}" points="{points}"/>"#));
+        let (class, began) = (if low { "low" } else { "high" }, if began { " began" } else { "" });
+        self.put(format_args!(r#"<polygon class="{class}{began}" points="{points}"/>"#));
     }
 
     /// A name in the middle of an obstacle; left out where it would stick out far.
