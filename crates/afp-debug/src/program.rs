@@ -6,7 +6,6 @@ use std::fmt::Write;
 use afp_core::trace::{ComponentId, Outcome, TraceEntryId, TraceHash};
 use afp_dsl::graph::{Component, EntryKind, Graph, PlanId, Timing};
 use afp_dsl::timing::{SupervisorTiming, timing};
-use afp_dsl::types::Type;
 use afp_dsl::unfold::{self, ComponentKind, Reaction, places, unfold};
 use afp_syntax::source::{Encoding, LineColumn, Lines, Sources, Span};
 
@@ -148,7 +147,7 @@ impl Program {
             path: entry.path,
             plan: ComponentId(entry.plan),
             kind: entry.kind,
-            unit: unit(&entry.ty),
+            unit: entry.ty.si_unit(),
             ty: entry.ty.to_string(),
             at: texts.place(entry.span),
         });
@@ -402,14 +401,6 @@ impl<'a> Texts<'a> {
         let Some((_, lines)) = self.files.get(file) else { return Place::default() };
         let at = lines.position(span.start, Encoding::Utf16);
         Place { file, line: at.line, column: at.column }
-    }
-}
-
-/// The SI unit of a type's values.
-fn unit(ty: &Type) -> String {
-    match ty {
-        Type::Quantity(dimension) => dimension.si_unit(),
-        _ => String::new(),
     }
 }
 

@@ -78,10 +78,7 @@ impl Watched {
             let object = object.filter(|held| matches!(held, Datum::Object(_)));
             return Ok(object.map_or("unset".to_owned(), |held| held.to_string()));
         };
-        let unit = match self.watch.ty() {
-            Type::Quantity(dimension) => dimension.si_unit(),
-            _ => String::new(),
-        };
+        let unit = self.watch.ty().si_unit();
         Ok(datum(value, self.watch.ty()).in_unit(&unit).to_string())
     }
 

@@ -127,6 +127,22 @@ impl Type {
             _ => "",
         }
     }
+
+    /// The SI unit of its values; empty for what is no quantity.
+    pub fn si_unit(&self) -> String {
+        match self {
+            Type::Quantity(dimension) => dimension.si_unit(),
+            _ => String::new(),
+        }
+    }
+
+    /// The values of an enum; none of other types.
+    pub fn choices(&self) -> &[String] {
+        match self {
+            Type::Enum(choices) => &choices.variants,
+            _ => &[],
+        }
+    }
 }
 
 /// Names of types that are no dimensions and that plans can write.

@@ -44,6 +44,8 @@ pub struct PortNames {
     pub name: String,
     /// The type of its values.
     pub ty: Type,
+    /// Their SI unit; empty for what is no quantity.
+    pub unit: String,
     /// Least and greatest value, in SI units; of an output, those of its entry.
     pub range: Option<(f64, f64)>,
     /// The entry that an output is bound to, as a dotted path; empty for an input.
@@ -69,6 +71,10 @@ pub struct EntryNames {
     /// Who may set it.
     pub kind: EntryKind,
     pub ty: Type,
+    /// Its type as in the text.
+    pub type_text: String,
+    /// The SI unit of its values; empty for what is no quantity.
+    pub unit: String,
     /// Least and greatest value, in SI units.
     pub range: Option<(f64, f64)>,
     /// The plan that it belongs to, which goes by the number of its element; 0 is the outermost.
@@ -211,9 +217,17 @@ fn add(graph: &Graph, id: PlanId, number: u32, prefix: &str, all: &mut Unfolded)
     for entry in &plan.entries {
         let path = format!("{prefix}{}", entry.name);
         let &Entry { kind, range, span, .. } = entry;
-        let ty = entry.ty.clone();
-        let initial = entry.init.as_ref().map(|init| init.span);
-        all.entries.push(EntryNames { path, kind, ty, range, plan: number, span, initial });
+        all.entries.push(EntryNames {
+            path,
+            kind,
+            ty: entry.ty.clone(),
+            type_text: entry.ty.to_string(),
+            unit: entry.ty.si_unit(),
+            range,
+            plan: number,
+            span,
+            initial: entry.init.as_ref().map(|init| init.span),
+        });
     }
     for index in 0..plan.elements.len() {
         all.components.push(element(graph, plan, index, (prefix, first)));

@@ -95,8 +95,8 @@ fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
 
 /// A port and what is bound to it.
 fn port(names: &PortNames, texts: &PlanTexts) -> TokenStream {
-    let (name, unit) = (&names.name, unit(&names.ty));
-    let (ty, choices) = (names.ty.declared_name(), variants(&names.ty));
+    let PortNames { name, unit, .. } = names;
+    let (ty, choices) = (names.ty.declared_name(), names.ty.choices());
     let of = (!ty.is_empty()).then(|| quote!(.of(#ty, &[#(#choices),*])));
     let (within, at) = (within(names.range), placed(texts.place(names.span)));
     quote!(PortRow::new(#name, #unit) #of #within #at)
@@ -116,21 +116,6 @@ fn placed(place: Option<TextPlace<'_>>) -> Option<TokenStream> {
     })
 }
 
-fn unit(ty: &Type) -> String {
-    match ty {
-        Type::Quantity(dimension) => dimension.si_unit(),
-        _ => String::new(),
-    }
-}
-
-/// The values of an enum; none of other types.
-fn variants(ty: &Type) -> &[String] {
-    match ty {
-        Type::Enum(choices) => &choices.variants,
-        _ => &[],
-    }
-}
-
 /// An edge of an element that holds instead of one of a global supervisor.
 fn reaction(reaction: &Reaction, target: &str) -> TokenStream {
     let supervisor = Literal::u32_unsuffixed(reaction.supervisor);
@@ -142,16 +127,14 @@ fn reaction(reaction: &Reaction, target: &str) -> TokenStream {
 }
 
 fn entry(names: &EntryNames, texts: &PlanTexts) -> TokenStream {
-    let EntryNames { path, kind, ty, range, .. } = names;
+    let EntryNames { path, kind, type_text, unit, range, .. } = names;
     let kind = match kind {
         EntryKind::In => quote!(In),
         EntryKind::Out => quote!(Out),
         EntryKind::Var => quote!(Var),
         EntryKind::Const => quote!(Const),
     };
-    let unit = unit(ty);
-    let choices = variants(ty);
-    let ty = ty.to_string();
+    let choices = names.ty.choices();
     let (within, at) = (within(*range), placed(names.initial.and_then(|span| texts.place(span))));
-    quote!(EntryRow::new(#path, EntryKind::#kind, #ty, #unit, &[#(#choices),*]) #within #at)
+    quote!(EntryRow::new(#path, EntryKind::#kind, #type_text, #unit, &[#(#choices),*]) #within #at)
 }

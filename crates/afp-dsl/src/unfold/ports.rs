@@ -43,6 +43,7 @@ impl Ports<'_> {
         let names = ports.map(|((name, range), formula)| PortNames {
             name: (*name).to_owned(),
             ty: formula.ty.clone(),
+            unit: formula.ty.si_unit(),
             range: *range,
             entry: String::new(),
             span: formula.span,
@@ -58,6 +59,7 @@ impl Ports<'_> {
             let names = PortNames {
                 name: (*name).to_owned(),
                 ty: entry.ty.clone(),
+                unit: entry.ty.si_unit(),
                 range: entry.range,
                 entry: format!("{prefix}{}", entry.name),
                 span: output.span,

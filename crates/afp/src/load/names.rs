@@ -13,75 +13,52 @@ use afp_syntax::source::Span;
 
 /// The names behind the ids of a graph's main plan; a copy costs nothing.
 #[derive(Clone, Debug)]
-pub struct PlanNames(Arc<Tables>);
-
-#[derive(Debug)]
-struct Tables {
-    all: Unfolded,
-    /// Type and SI unit of each entry.
-    types: Vec<(String, String)>,
-    /// The SI units of the inputs and bound outputs of each component.
-    units: Vec<[Vec<String>; 2]>,
-}
+pub struct PlanNames(Arc<Unfolded>);
 
 impl PlanNames {
     /// The names of the plan that runs.
     pub fn new(graph: &Graph) -> Self {
-        let all = unfold::unfold(graph);
-        let types = all.entries.iter().map(|entry| (entry.ty.to_string(), unit(&entry.ty)));
-        let units = all.components.iter().map(|names| {
-            let inputs = names.inputs.iter().map(|port| unit(&port.ty)).collect();
-            [inputs, names.outputs.iter().map(|(_, port)| unit(&port.ty)).collect()]
-        });
-        PlanNames(Arc::new(Tables { types: types.collect(), units: units.collect(), all }))
+        PlanNames(Arc::new(unfold::unfold(graph)))
     }
 
     fn get(&self, id: ComponentId) -> Option<&ComponentNames> {
-        self.0.all.components.get(id.0 as usize)
+        self.0.components.get(id.0 as usize)
     }
 
-    /// A port; its unit is the `index`-th of that kind.
-    fn port<'a>(
-        &'a self,
-        id: ComponentId,
-        kind: usize,
-        index: usize,
-        names: &'a PortNames,
-    ) -> PortName<'a> {
-        let units = self.0.units.get(id.0 as usize).and_then(|units| units.get(kind));
+    fn get_input(&self, id: ComponentId, port: u16) -> Option<&PortNames> {
+        self.get(id)?.inputs.get(usize::from(port))
+    }
+
+    fn get_entry(&self, id: TraceEntryId) -> Option<&EntryNames> {
+        self.0.entries.get(id.0 as usize)
+    }
+
+    fn port<'a>(&'a self, names: &'a PortNames) -> PortName<'a> {
         PortName {
             name: &names.name,
             ty: names.ty.declared_name(),
-            unit: units.and_then(|units| units.get(index)).map_or("", String::as_str),
+            unit: &names.unit,
             range: names.range,
-            entry: None,
+            entry: Some(&*names.entry).filter(|entry| !entry.is_empty()),
             place: self.place(names.span),
         }
     }
 
     /// A place in the plan's texts; none where it is in none of them.
     pub(super) fn place(&self, span: Span) -> Option<TextPlace<'_>> {
-        let unfold::TextPlace { file, line, column } = self.0.all.texts.place(span)?;
+        let unfold::TextPlace { file, line, column } = self.0.texts.place(span)?;
         Some(TextPlace { file, line, column })
-    }
-
-    fn get_entry(&self, id: TraceEntryId) -> Option<(&EntryNames, &(String, String))> {
-        let index = id.0 as usize;
-        Some((self.0.all.entries.get(index)?, self.0.types.get(index)?))
     }
 }
 
-/// The SI unit of a type's values.
-fn unit(ty: &Type) -> String {
-    match ty {
-        Type::Quantity(dimension) => dimension.si_unit(),
-        _ => String::new(),
-    }
+/// The text of a value of an enum; empty for other types.
+fn choice(ty: &Type, value: u16) -> &str {
+    ty.choices().get(usize::from(value)).map_or("", String::as_str)
 }
 
 impl Names for PlanNames {
     fn components(&self) -> u32 {
-        self.0.all.components.len() as u32
+        self.0.components.len() as u32
     }
 
     fn component(&self, id: ComponentId) -> ComponentName<'_> {
@@ -120,31 +97,21 @@ impl Names for PlanNames {
     }
 
     fn input(&self, id: ComponentId, port: u16) -> &str {
-        self.get(id).and_then(|c| c.inputs.get(usize::from(port))).map_or("", |port| &port.name)
+        self.get_input(id, port).map_or("", |port| &port.name)
     }
 
     fn input_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
-        let index = usize::from(port);
-        let names = self.get(id).and_then(|names| names.inputs.get(index));
-        names.map_or(PortName::default(), |names| self.port(id, 0, index, names))
+        self.get_input(id, port).map_or(PortName::default(), |names| self.port(names))
     }
 
     fn input_choice(&self, id: ComponentId, port: u16, value: u16) -> &str {
-        match self.get(id).and_then(|names| names.inputs.get(usize::from(port))) {
-            Some(PortNames { ty: Type::Enum(choices), .. }) => {
-                choices.variants.get(usize::from(value)).map_or("", String::as_str)
-            }
-            _ => "",
-        }
+        self.get_input(id, port).map_or("", |port| choice(&port.ty, value))
     }
 
     fn output_port(&self, id: ComponentId, port: u16) -> PortName<'_> {
         let all = self.get(id).map_or(&[][..], |names| &names.outputs);
-        let bound = all.iter().enumerate().find(|(_, (position, _))| *position == port);
-        bound.map_or(PortName::default(), |(index, (_, names))| PortName {
-            entry: Some(&names.entry),
-            ..self.port(id, 1, index, names)
-        })
+        let bound = all.iter().find(|(position, _)| *position == port);
+        bound.map_or(PortName::default(), |(_, names)| self.port(names))
     }
 
     fn outputs(&self, id: ComponentId) -> u16 {
@@ -153,30 +120,23 @@ impl Names for PlanNames {
     }
 
     fn initial(&self, id: TraceEntryId) -> Option<TextPlace<'_>> {
-        let (entry, _) = self.get_entry(id)?;
-        self.place(entry.initial?)
+        self.place(self.get_entry(id)?.initial?)
     }
 
     fn entries(&self) -> u32 {
-        self.0.all.entries.len() as u32
+        self.0.entries.len() as u32
     }
 
     fn entry(&self, id: TraceEntryId) -> EntryName<'_> {
         match self.get_entry(id) {
-            Some((names, (ty, unit))) => {
-                let (kind, range) = (names.kind, names.range);
-                EntryName { path: &names.path, kind, ty, unit, range }
+            Some(EntryNames { path, kind, type_text: ty, unit, range, .. }) => {
+                EntryName { path, kind: *kind, ty, unit, range: *range }
             }
             None => EntryName::NONE,
         }
     }
 
     fn choice(&self, id: TraceEntryId, value: u16) -> &str {
-        match self.get_entry(id) {
-            Some((EntryNames { ty: Type::Enum(choices), .. }, _)) => {
-                choices.variants.get(usize::from(value)).map_or("", String::as_str)
-            }
-            _ => "",
-        }
+        self.get_entry(id).map_or("", |entry| choice(&entry.ty, value))
     }
 }
