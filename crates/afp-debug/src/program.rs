@@ -147,8 +147,8 @@ impl Program {
             path: entry.path,
             plan: ComponentId(entry.plan),
             kind: entry.kind,
-            unit: entry.ty.si_unit(),
-            ty: entry.ty.to_string(),
+            unit: entry.unit,
+            ty: entry.type_text,
             at: texts.place(entry.span),
         });
         let (units, entries): (Vec<_>, Vec<_>) = (units.collect(), entries.collect());
