@@ -5,11 +5,14 @@
 
 pub mod hidden;
 mod json;
+mod mistake;
+
 mod table;
 pub mod words;
 
 use std::ops::Range;
 
+pub use mistake::Mistake;
 pub use table::LineTable;
 
 use annotate_snippets::renderer::DecorStyle;

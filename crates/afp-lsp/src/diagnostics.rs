@@ -62,11 +62,12 @@ fn of_project(workspace: &Workspace, path: &str) -> Vec<lsp::Diagnostic> {
     let Ok(text) = workspace.text(path) else { return Vec::new() };
     let places = Places::new(&text, workspace.encoding);
     let number = |at| u32::try_from(at).unwrap_or(u32::MAX);
+    let span = |mistake: &afp_project::Mistake| mistake.span.clone().unwrap_or_default();
     let one = |mistake: &afp_project::Mistake| lsp::Diagnostic {
         range: places.range(Span {
             file: 0,
-            start: number(mistake.span.start),
-            end: number(mistake.span.end),
+            start: number(span(mistake).start),
+            end: number(span(mistake).end),
         }),
         severity: Some(lsp::DiagnosticSeverity::Error),
         source: Some("afp".to_owned()),

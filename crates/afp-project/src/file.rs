@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
-use afp_excerpt::{Mark, Report, Severity};
+use afp_excerpt::{Mistake, Report, Severity};
 use afp_output::read_text_file;
 
 use crate::krate::{self, CrateLink, HardwareLink, RobotLink};
 use crate::path::{NAME, shown};
-use crate::project::{Mistake, Project, Toolbox};
+use crate::project::{Project, Toolbox};
 use crate::read::read;
 
 /// A project file that says nothing wrong; where there is none, nothing is said.
@@ -119,7 +119,8 @@ impl ProjectFile {
                             format!("'path' is relative to the folder of {NAME}"),
                         ),
                     };
-                    mistakes.push(Mistake { span: toolbox.span.clone(), message, help });
+                    let span = Some(toolbox.span.clone());
+                    mistakes.push(Mistake { span, message, help });
                 }
             }
         }
@@ -167,23 +168,17 @@ impl ProjectError {
 
     /// What is made of each thing that is wrong.
     pub fn reports<T>(&self, make: impl Fn(&Report<'_>) -> T) -> Vec<T> {
-        let report = |message: &str, help: &str, marks: Vec<Mark<'_>>| {
-            make(&Report { severity: Severity::Error, code: "", message, help, marks })
-        };
         match self {
             ProjectError::Unreadable { path, error } => {
                 let path = shown(path);
-                let message = format!("cannot read the project file '{}': {error}", path.display());
-                vec![report(&message, "", Vec::new())]
+                let message =
+                    &*format!("cannot read the project file '{}': {error}", path.display());
+                let (severity, marks) = (Severity::Error, Vec::new());
+                vec![make(&Report { severity, code: "", message, help: "", marks })]
             }
             ProjectError::Wrong { path, text, mistakes } => {
                 let path = shown(path).display().to_string();
-                let reports = mistakes.iter().map(|mistake| {
-                    let (span, label) = (Some(mistake.span.clone()), String::new());
-                    let mark = Mark { path: &path, text, lines: None, span, label };
-                    report(&mistake.message, &mistake.help, vec![mark])
-                });
-                reports.collect()
+                mistakes.iter().map(|mistake| mistake.report(&path, text, &make)).collect()
             }
         }
     }

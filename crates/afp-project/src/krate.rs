@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use afp_excerpt::Mistake;
 use afp_output::read_text_file;
 use toml_edit::Document;
 
 use crate::path::{NAME, shown};
-use crate::project::{Crate, Hardware, Mistake, Origin, Robot, Toolbox};
+use crate::project::{Crate, Hardware, Origin, Robot, Toolbox};
 
 /// A crate of the project, as a manifest can depend on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,7 +86,7 @@ type Wrong = (String, String);
 /// # Errors
 /// There is no such crate on this machine, or it is another one than was said.
 pub(crate) fn link(folder: &Path, toolbox: &Toolbox, file: &Path) -> Result<CrateLink, Mistake> {
-    let wrong = |(message, help)| Mistake { span: toolbox.span.clone(), message, help };
+    let wrong = |(message, help)| Mistake { span: Some(toolbox.span.clone()), message, help };
     let what = format!("the file of the toolbox '{}'", toolbox.name);
     find(folder, &toolbox.krate, &toolbox.name, (&what, file)).map_err(wrong)
 }
@@ -100,7 +101,7 @@ pub(crate) fn link_robot(
     krate: &Crate,
     file: &Path,
 ) -> Result<RobotLink, Mistake> {
-    let wrong = |(message, help)| Mistake { span: robot.span.clone(), message, help };
+    let wrong = |(message, help)| Mistake { span: Some(robot.span.clone()), message, help };
     let what = format!("'{}'", shown(file).display());
     let krate = find(folder, krate, "robot", (&what, file)).map_err(wrong)?;
     Ok(RobotLink { toolbox: robot.toolbox.clone(), krate, sim: robot.sim.clone() })
@@ -116,7 +117,7 @@ pub(crate) fn link_hardware(
     krate: CrateLink,
 ) -> Result<HardwareLink, Mistake> {
     let Hardware { ty, settings, span, .. } = hardware;
-    let wrong = |(message, help)| Mistake { span: span.clone(), message, help };
+    let wrong = |(message, help)| Mistake { span: Some(span.clone()), message, help };
     let project = folder.join(NAME);
     let krate = match &hardware.krate {
         Some(own) => {

@@ -36,11 +36,12 @@ mod spot;
 mod time;
 mod tree;
 
+pub use afp_excerpt::Mistake;
 pub use file::{ProjectError, ProjectFile, ToolboxFile};
 pub use keys::{Key, keys};
 pub use krate::{CrateLink, HardwareLink, RobotLink};
 pub use path::shown;
-pub use project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
+pub use project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
 pub use read::read;
 pub use spot::{Spot, SpotKind, headings, spot};
 pub use time::duration;

@@ -1,7 +1,6 @@
 //! What a project file says, as values.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::Range;
 
 /// What `afp.toml` says. Paths are as written: relative to the folder of the file.
@@ -96,21 +95,4 @@ pub struct Target {
     pub slowdown: Option<f64>,
     /// What one poll takes at most in nanoseconds, by toolbox and template.
     pub budgets: BTreeMap<String, BTreeMap<String, u64>>,
-}
-
-/// Something wrong in a project file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
-    /// The place, in bytes.
-    pub span: Range<usize>,
-    /// What is wrong.
-    pub message: String,
-    /// What to write instead.
-    pub help: String,
-}
-
-impl fmt::Display for Mistake {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
 }

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use afp_excerpt::Mistake;
 use afp_excerpt::hidden::hidden;
 use afp_excerpt::words::instead;
 use toml_edit::{Document, Item, TableLike, Value};
 
 use crate::keys::{self, Key};
-use crate::project::{Crate, Hardware, Mistake, Origin, Project, Robot, Target, Toolbox};
+use crate::project::{Crate, Hardware, Origin, Project, Robot, Target, Toolbox};
 use crate::time::duration;
 
 /// Reads the text of an `afp.toml`. What is wrong is left out of the project and said beside it, in
@@ -22,13 +23,12 @@ pub fn read(text: &str) -> (Project, Vec<Mistake>) {
     }
     match Document::parse(text) {
         Ok(document) => reader.project(document.as_table(), &mut project),
-        Err(error) => reader.mistakes.push(Mistake {
-            span: error.span().unwrap_or(0..0),
-            message: error.message().replace('\n', ", "),
-            help: String::new(),
-        }),
+        Err(error) => {
+            let span = error.span().unwrap_or(0..0);
+            reader.mistakes.push(Mistake::new(Some(span), error.message().replace('\n', ", ")));
+        }
     }
-    reader.mistakes.sort_by_key(|mistake| mistake.span.start);
+    reader.mistakes.sort_by_key(|mistake| mistake.span.as_ref().map(|span| span.start));
     (project, reader.mistakes)
 }
 
@@ -340,7 +340,7 @@ impl Reader {
     }
 
     fn wrong(&mut self, span: Range<usize>, message: String, help: &str) {
-        self.mistakes.push(Mistake { span, message, help: help.to_owned() });
+        self.mistakes.push(Mistake::new(Some(span), message).with_help(help));
     }
 }
 

@@ -55,13 +55,7 @@ impl Again {
         let TextFile { name, text } = &self.recipe.world;
         let world = world::parse(text.clone(), Some(self.path.clone()), name, robot)?;
         let Some(start) = self.recipe.start else { return Ok(world) };
-        world.started_at(start).map_err(|why| RunError::Content {
-            path: self.path.clone(),
-            span: None,
-            text: String::new(),
-            message: why.message,
-            help: String::new(),
-        })
+        world.started_at(start).map_err(RunError::content(&self.path, ""))
     }
 
     /// Says where this run, to which something came from outside so many times, differs from that of the log, if it does.

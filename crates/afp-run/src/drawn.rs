@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afp_core::Instant;
 use afp_log::svg::{self, SoFar, follow};
 use afp_log::{LogData, WORLD};
-use afp_session::{AnyRobot, AnyWorld, NoWorld};
+use afp_session::{AnyRobot, AnyWorld, NoWorld, WorldError};
 
 use crate::error::RunError;
 use crate::run::HARDWARE;
@@ -68,22 +68,17 @@ fn world_of(log: &LogData, robot: &dyn AnyRobot) -> Result<Arc<dyn AnyWorld>, Ru
     if is_of_hardware(log) {
         return Ok(Arc::new(NoWorld));
     }
-    let content = |message: String, span, text: &str| RunError::Content {
-        path: WORLD.into(),
-        span,
-        text: text.to_owned(),
-        message,
-        help: String::new(),
-    };
     let Some(text) = log.attachments.get(WORLD) else {
         let help = "name the log of a run, which begins with its world";
         return Err(RunError::usage("the log does not say in which world the plan ran", help));
     };
-    let world = robot.world(text).map_err(|error| content(error.message, error.span, text))?;
+    // What helps with a file helps with no log.
+    let wrong = |why| RunError::content(WORLD, text)(WorldError { help: String::new(), ..why });
+    let world = robot.world(text).map_err(wrong)?;
     let recipe = log.recipe();
     let world = named(world, &recipe.world.name);
     match recipe.start {
         None => Ok(world),
-        Some(start) => world.started_at(start).map_err(|why| content(why.message, None, text)),
+        Some(start) => world.started_at(start).map_err(wrong),
     }
 }

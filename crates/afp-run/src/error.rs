@@ -2,11 +2,10 @@
 
 use std::fmt;
 use std::io;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use afp_excerpt::{Mark, Report, Severity};
+use afp_excerpt::{Mistake, Report, Severity};
 use afp_log::LogError;
 use afp_project::{ProjectError, shown};
 use afp_session::SessionError;
@@ -49,16 +48,7 @@ pub enum RunError {
         error: io::Error,
     },
     /// A file says something wrong.
-    Content {
-        path: PathBuf,
-        /// The bytes of its text, where known.
-        span: Option<Range<usize>>,
-        text: String,
-        /// What is wrong.
-        message: String,
-        /// What to write instead; empty where nobody knows.
-        help: String,
-    },
+    Content { path: PathBuf, text: String, mistake: Mistake },
     /// A run did not come out as it did before.
     Differs {
         message: String,
@@ -80,6 +70,15 @@ impl RunError {
     /// A mistake on the command line.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
         RunError::Usage { message: message.into(), help: Some(help.into()) }
+    }
+
+    /// For `map_err` around what reads the text of a file.
+    pub fn content(
+        path: impl Into<PathBuf>,
+        text: impl Into<String>,
+    ) -> impl FnOnce(Mistake) -> RunError {
+        let (path, text) = (path.into(), text.into());
+        |mistake| RunError::Content { path, text, mistake }
     }
 
     /// For `map_err` around file operations.
@@ -124,34 +123,33 @@ impl RunError {
 
     /// What is made of each thing that is wrong.
     fn reports<T>(&self, make: impl Fn(&Report<'_>) -> T) -> Vec<T> {
-        let report = |message: &str, help: &str, marks: Vec<Mark<'_>>| {
+        let report = |message: &str, help: &str| {
+            let marks = Vec::new();
             vec![make(&Report { severity: Severity::Error, code: "", message, help, marks })]
         };
         match self {
             RunError::Usage { message, help } => {
-                report(message, help.as_deref().unwrap_or_default(), Vec::new())
+                report(message, help.as_deref().unwrap_or_default())
             }
             RunError::Missing { message, help } | RunError::Differs { message, help } => {
-                report(message, help, Vec::new())
+                report(message, help)
             }
             RunError::File { what, path, error } => {
                 let help = match error.kind() {
                     io::ErrorKind::NotFound => afp_output::ELSEWHERE,
                     _ => "",
                 };
-                report(&format!("{what} '{}': {error}", path.display()), help, Vec::new())
+                report(&format!("{what} '{}': {error}", path.display()), help)
             }
-            RunError::Content { path, span, text, message, help } => {
-                let path = shown(path).display().to_string();
-                let (span, label) = (span.clone(), String::new());
-                report(message, help, vec![Mark { path: &path, text, lines: None, span, label }])
+            RunError::Content { path, text, mistake } => {
+                vec![mistake.report(&shown(path).display().to_string(), text, make)]
             }
             RunError::Panicked { said } => {
                 let message = format!("the run panicked, and no component of the plan did: {said}");
-                report(&message, "mend the Rust at that place", Vec::new())
+                report(&message, "mend the Rust at that place")
             }
             RunError::Project(error) => error.reports(make),
-            RunError::Log(error) => report(&error.to_string(), &error.help(), Vec::new()),
+            RunError::Log(error) => report(&error.to_string(), &error.help()),
         }
     }
 }

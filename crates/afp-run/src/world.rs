@@ -57,13 +57,9 @@ impl LoadedWorld {
             Some(_) => "",
             None => "it comes from the robot's 'Simulated::new': look there, or name another world",
         };
-        RunError::Content {
-            path: self.path.clone().unwrap_or_else(|| BUILT_IN.into()),
-            span: None,
-            text: self.text.clone(),
-            message: why.to_string(),
-            help: help.to_owned(),
-        }
+        let path = self.path.clone().unwrap_or_else(|| BUILT_IN.into());
+        let why = WorldError::new(None, why.to_string()).with_help(help);
+        RunError::content(path, &*self.text)(why)
     }
 
     /// What is strange about where the robot starts, but usually does not.
@@ -216,17 +212,11 @@ fn stem(path: &Path) -> Cow<'_, str> {
 
 /// The text of the world of a map, with the picture that lies beside it.
 fn map(path: &Path, yaml: String, robot: &dyn AnyRobot) -> Result<String, RunError> {
-    let wrong = |error: WorldError| RunError::Content {
-        path: path.to_owned(),
-        span: error.span,
-        text: yaml.clone(),
-        message: error.message,
-        help: error.help,
-    };
-    let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong)?);
+    let wrong = || RunError::content(path, &*yaml);
+    let picture = path.with_file_name(robot.picture_of_map(&yaml).map_err(wrong())?);
     let bytes =
         read_file(&picture, LONGEST_PICTURE).map_err(|error| no_picture(&picture, path, error))?;
-    robot.text_of_map(&stem(path), &yaml, &bytes).map_err(wrong)
+    robot.text_of_map(&stem(path), &yaml, &bytes).map_err(wrong())
 }
 
 /// A picture that cannot be read, as an error of the map that names it.
@@ -249,13 +239,7 @@ pub(crate) fn parse(
 ) -> Result<LoadedWorld, RunError> {
     match robot.world(&text) {
         Ok(world) => Ok(LoadedWorld { world: named(world, name), text, path, start: None }),
-        Err(error) => Err(RunError::Content {
-            path: path.unwrap_or_else(|| BUILT_IN.into()),
-            span: error.span,
-            text,
-            message: error.message,
-            help: error.help,
-        }),
+        Err(error) => Err(RunError::content(path.unwrap_or_else(|| BUILT_IN.into()), text)(error)),
     }
 }
 

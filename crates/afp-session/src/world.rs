@@ -3,8 +3,9 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::ops::Range;
 use std::sync::Arc;
+
+use afp_excerpt::Mistake;
 
 use crate::sample::{Pose2, Shape};
 
@@ -194,28 +195,7 @@ pub struct Patch {
 }
 
 /// What is wrong with the text of a world, or with that of a map.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{message}")]
-pub struct WorldError {
-    /// The bytes of the text, where the place is known.
-    pub span: Option<Range<usize>>,
-    /// What is wrong, without the place.
-    pub message: String,
-    /// What to write instead; empty where nobody knows.
-    pub help: String,
-}
-
-impl WorldError {
-    /// Something wrong at some bytes of the text, where the place is known.
-    pub fn new(span: Option<Range<usize>>, message: impl Into<String>) -> Self {
-        WorldError { span, message: message.into(), help: String::new() }
-    }
-
-    /// The same with what to write instead.
-    pub fn with_help(self, help: impl Into<String>) -> Self {
-        WorldError { help: help.into(), ..self }
-    }
-}
+pub type WorldError = Mistake;
 
 impl<W: World> AnyWorld for W {
     fn name(&self) -> &str {

@@ -186,7 +186,7 @@ fn source(file: &ToolboxFile) -> Source {
 fn misnamed(file: &ToolboxFile) -> Mistake {
     let (path, name) = (shown(&file.path), &file.toolbox.name);
     Mistake {
-        span: file.toolbox.span.clone(),
+        span: Some(file.toolbox.span.clone()),
         message: format!("'{}' does not begin with 'toolbox {name}'", path.display()),
         help: "write the name that stands behind 'toolbox' in the file".to_owned(),
     }

@@ -107,7 +107,7 @@ fn a_crate_that_is_not_there_is_said_at_the_toolbox() {
         let folder = project(&all);
         let project = find(folder.path());
         let mistake = project.toolboxes().unwrap().remove(0).krate.unwrap_err();
-        assert_eq!(&text[mistake.span.clone()], "a");
+        assert_eq!(&text[mistake.span.clone().unwrap()], "a");
         mistake.message
     };
     let plain = "[toolboxes]\na = { path = 'a/a.afp' }";

@@ -75,10 +75,10 @@ fn changed(world: &str, key: &str, text: &str) -> Result<(String, Option<f64>), 
 
 /// An error in a world that was changed: the excerpt is of a text that no file has.
 fn with_changes(error: RunError, changes: &[(&str, &str)]) -> RunError {
-    let RunError::Content { path, span, text, message, help } = error else { return error };
+    let RunError::Content { path, text, mistake } = error else { return error };
     let list = changes.iter().map(|(key, value)| format!("{PREFIX}{key}={value}"));
     let path = format!("{} with {}", path.display(), list.collect::<Vec<_>>().join(", "));
-    RunError::Content { path: path.into(), span, text, message, help }
+    RunError::Content { path: path.into(), text, mistake }
 }
 
 fn refused(key: &str, text: &str, why: &str) -> RunError {
