@@ -171,9 +171,9 @@ impl ProjectError {
         match self {
             ProjectError::Unreadable { path, error } => {
                 let path = shown(path);
-                let message =
-                    &*format!("cannot read the project file '{}': {error}", path.display());
-                let (severity, marks) = (Severity::Error, Vec::new());
+                let message = format!("cannot read the project file '{}': {error}", path.display());
+                let (message, marks) = (message.as_str(), Vec::new());
+                let severity = Severity::Error;
                 vec![make(&Report { severity, code: "", message, help: "", marks })]
             }
             ProjectError::Wrong { path, text, mistakes } => {
