@@ -133,9 +133,7 @@ impl Program {
             kind: names.kind,
             plan: ComponentId(place.plan),
             owner: place.owner.map(ComponentId),
-            inputs: (names.inputs.into_iter().map(|port| port.name))
-                .zip(place.inputs.iter().map(unit))
-                .collect(),
+            inputs: names.inputs.into_iter().map(|port| (port.name, port.unit)).collect(),
             outputs: (names.outputs.into_iter()).map(|(_, port)| (port.name, port.entry)).collect(),
             outcomes: names.outcomes,
             reactions: names.reactions.into_iter().map(reaction).collect(),
