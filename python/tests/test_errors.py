@@ -58,7 +58,7 @@ SAID: list[tuple[str, type[Exception], str]] = [
     ("afp.sweep(plan, press='escape')", ValueError, "press: 'escape': expected a control and a time, CONTROL@20s"),
     ("afp.sweep(plan, press='horn@1s')", ValueError, "no control 'horn'; it has 'touch', 'escape'"),
     ("afp.sweep(plan, fail=3)", TypeError, "fail is a text as on the command line, such as 'ultrasonic.frozen@5s..7s', or several, not 3"),
-    ("afp.sweep(plan, fail='hat.lost@1s')", ValueError, "nothing called 'hat' can fail; there are"),
+    ("afp.sweep(plan, fail='hat.lost@1s')", ValueError, "unknown device 'hat'; there are"),
     ("afp.sweep(plan, fail='wheels.slip=7@1s')", afp.AfpError, "such as 'wheels.slip=0.1@5s..7s'"),
     ("hall.polygon('p', [(1, 1), (2, 2)], height=1)", afp.AfpError, "a polygon has three corners or more, not 2"),
     ("simulate(log='')", FileNotFoundError, "cannot write the log: No such file or directory: ''"),

@@ -157,7 +157,7 @@ def test_stimuli_that_make_no_sense(wall_following: afp.Plan) -> None:
     simulation = afp.Simulation(wall_following)
     with pytest.raises(ValueError, match="it can be frozen, lost"):
         simulation.fail("ultrasonic", "melted")
-    with pytest.raises(ValueError, match="nothing called 'hat' can fail; there are"):
+    with pytest.raises(ValueError, match="unknown device 'hat'; there are"):
         simulation.fail("hat", "lost")
     with pytest.raises(ValueError, match="no actor or supervisor 'nobody'"):
         simulation.fire("nobody", "Done")

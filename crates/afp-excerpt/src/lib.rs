@@ -6,7 +6,6 @@
 pub mod hidden;
 mod json;
 mod mistake;
-
 mod table;
 pub mod words;
 

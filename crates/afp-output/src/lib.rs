@@ -23,7 +23,7 @@ pub use read::{read_bytes, read_file, read_text, read_text_file};
 use target::Target;
 
 /// What helps where a file or its folder is not there.
-pub const ELSEWHERE: &str = "check the path, which begins in the folder in which the command runs";
+pub const ELSEWHERE: &str = "check the path; relative paths start in the current folder";
 
 /// A file that is being written.
 ///

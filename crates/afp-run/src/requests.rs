@@ -153,7 +153,10 @@ pub fn no_fault(table: &[DeviceRow], device: &str, kind: &str) -> String {
     let mut devices: Vec<_> = faults(table).map(|(_, at, _)| at.name).collect();
     devices.sort_unstable();
     devices.dedup();
-    format!("nothing called '{device}' can fail; there are {}", devices.join(", "))
+    match nearest(device, devices.iter().copied()) {
+        Some(meant) => format!("unknown device '{device}'; did you mean '{meant}'?"),
+        None => format!("unknown device '{device}'; there are {}", devices.join(", ")),
+    }
 }
 
 #[cfg(test)]
@@ -184,7 +187,8 @@ mod tests {
             ("wheels@1s", "how 'wheels' fails is missing; it can be "),
             ("wheels@1s..2s", "such as 'wheels.slip@1s..2s'"),
             ("wheels.=0.2@1s", "such as 'wheels.slip=0.2@1s'"),
-            ("sonar.lost@1s", "nothing called 'sonar' can fail; there are battery, buttons"),
+            ("sonar.lost@1s", "unknown device 'sonar'; there are battery, buttons"),
+            ("wheel.slip@1s", "unknown device 'wheel'; did you mean 'wheels'?"),
             ("wheels.slip=3@1s", "no share from 0 to 1"),
             ("touch.lost=3@1s", "no more or less of it"),
             ("touch.slow=3@1s", "20s or 500ms"),

@@ -36,7 +36,7 @@ impl OutputFiles {
     /// The files that were asked for, or the default for this plan and grid; makes the folder.
     ///
     /// # Errors
-    /// A name that says no format, a folder that cannot be made, a table that may not be written: after hours of
+    /// A name whose ending is not supported, a folder that cannot be made, a table that may not be written: after hours of
     /// runs it would be too late to say so.
     pub fn new(
         asked: Option<&Path>,
@@ -96,9 +96,16 @@ fn named(path: &Path) -> Result<OutputFiles, RunError> {
              'cargo install --path crates/afpc --features parquet'",
         )),
         None => Err(RunError::usage(
-            format!("'{}' says no format", path.display()),
-            "end it in '.csv' or '.parquet'; a folder, with '/' behind its name, gets both",
+            unsupported(path),
+            "use '.csv' or '.parquet'; a folder, with '/' behind its name, gets both",
         )),
+    }
+}
+
+fn unsupported(path: &Path) -> String {
+    match path.extension() {
+        Some(ending) => format!("unsupported format '.{}'", ending.display()),
+        None => format!("'{}' has no file extension", path.display()),
     }
 }
 

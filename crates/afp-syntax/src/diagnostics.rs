@@ -4,6 +4,7 @@
 //! followed, mends it. Stages append to one list and never stop at the first error.
 
 mod codes;
+mod join;
 mod json;
 mod message;
 mod render;
@@ -17,6 +18,7 @@ use crate::source::Span;
 
 pub use afp_excerpt::{Severity, words};
 pub use codes::Code;
+pub use join::places;
 pub use message::{Arg, Message, ToArg, Words, holes, list};
 #[doc(hidden)]
 pub use shown::show_only_codes;
@@ -206,6 +208,11 @@ impl Diagnostic {
     /// Replaces what it says to do.
     pub fn set_help(&mut self, text: impl Into<Message>) {
         self.help = text.into();
+    }
+
+    /// Replaces what is wrong.
+    pub fn change_message(&mut self, change: impl FnOnce(&Message) -> Message) {
+        self.message = change(&self.message);
     }
 
     /// What is wrong, to be compared with others.

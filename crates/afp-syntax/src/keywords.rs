@@ -1,6 +1,7 @@
 //! The words of the grammar with their roles, and which of them was meant by another word.
 
 use crate::diagnostics::words;
+use crate::habits;
 use crate::kind::Kind;
 
 /// Roles of words of the grammar, one bit each.
@@ -97,23 +98,6 @@ const WORDS: &[(&str, Roles)] = &[
 /// How a plan ends: the words behind `end by`.
 pub const ENDS: [&str; 3] = ["OK", "Interrupted", "Error"];
 
-/// Words that stand for ours elsewhere.
-const USUAL: &[(&str, &[&str])] = &[
-    ("actor", &["state", "action", "step", "node", "behavior", "behaviour", "task"]),
-    ("supervise", &["supervisor", "guard", "watch", "monitor"]),
-    ("supervisor", &["supervise", "guard", "watch", "monitor"]),
-    ("in", &["input", "param", "parameter"]),
-    ("out", &["output", "result"]),
-    ("var", &["variable"]),
-    ("const", &["constant", "static", "final"]),
-    ("subplan", &["sub", "subtree", "submachine"]),
-    ("start", &["begin", "initial", "first", "entry"]),
-    ("uses", &["use"]),
-    ("every", &["each", "period", "interval", "rate"]),
-    ("deadline", &["within", "timeout"]),
-    ("expect", &["assert", "require"]),
-];
-
 /// Whether a word has one of these roles.
 pub(crate) fn has(word: &str, roles: Roles) -> bool {
     WORDS.iter().any(|(known, own)| *known == word && own & roles != 0)
@@ -128,7 +112,7 @@ pub(crate) fn with(roles: Roles) -> Vec<&'static str> {
 /// The word of a list that was meant: by one that says the same elsewhere, by a slip, or by its first letters.
 pub(crate) fn meant<'a>(word: &str, list: &[&'a str]) -> Option<&'a str> {
     let is_usual = |ours: &str| {
-        let mut usual = USUAL.iter().filter(|(known, _)| *known == ours);
+        let mut usual = habits::WORDS.iter().filter(|(known, _)| *known == ours);
         usual.any(|(_, others)| others.contains(&word))
     };
     let known = list.iter().copied().find(|ours| is_usual(ours));

@@ -14,8 +14,6 @@ use crate::kind::Kind;
 use crate::message;
 use crate::source::Span;
 
-pub(super) use foreign::CHOICE;
-
 /// A piece of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Token<'t> {
@@ -48,7 +46,8 @@ impl Token<'_> {
 pub(super) fn lex<'t>(text: &'t str, file: u16, diags: &mut Diagnostics) -> Vec<Token<'t>> {
     // Texts have about that many; growing would copy all of them again and again.
     let tokens = Vec::with_capacity(text.len() / 3);
-    let mut lexer = Lexer { text, at: 0, file, tokens, diags };
+    let mut lexer =
+        Lexer { text, at: 0, file, tokens, diags, line: Line::default(), unclosed_comment: false };
     while lexer.at < text.len() {
         lexer.token();
     }
@@ -62,6 +61,21 @@ struct Lexer<'t, 'd> {
     file: u16,
     tokens: Vec<Token<'t>>,
     diags: &'d mut Diagnostics,
+    line: Line,
+    /// Whether a comment is not closed, however it is read.
+    unclosed_comment: bool,
+}
+
+/// What is known of the current line. A file may be one line, which is then searched once and not for each token.
+#[derive(Clone, Copy, Default)]
+struct Line {
+    start: usize,
+    /// Its end, without the line break; behind `start` as soon as it is known.
+    end: usize,
+    /// Up to here no foreign quote ends a text.
+    unquoted: usize,
+    /// Where the next sign of a plan's text is, or the end of the line; not known before it is looked for.
+    sign: Option<usize>,
 }
 
 impl<'t> Lexer<'t, '_> {
@@ -126,6 +140,22 @@ impl<'t> Lexer<'t, '_> {
         span
     }
 
+    /// The line of the current place.
+    fn line(&mut self) -> Line {
+        if self.at >= self.line.end {
+            let start = self.text[..self.at].rfind('\n').map_or(0, |end| end + 1);
+            let end = self.at + line_length(&self.text[self.at..]);
+            self.line = Line { start, end, unquoted: 0, sign: None };
+        }
+        self.line
+    }
+
+    /// The text from here up to the line break.
+    fn rest_of_line(&mut self) -> &'t str {
+        let end = self.line().end;
+        self.text.get(self.at..end).unwrap_or_default()
+    }
+
     fn span(&self, start: usize, end: usize) -> Span {
         let offset = |at| u32::try_from(at).unwrap_or(u32::MAX);
         Span { file: self.file, start: offset(start), end: offset(end) }
@@ -140,12 +170,13 @@ impl<'t> Lexer<'t, '_> {
 
     fn block_comment(&mut self) {
         let rest = &self.text[self.at..];
-        let length = rest[2..].find("*/").map_or(rest.len(), |end| end + 4);
+        let length = self.nested_comment(rest).or_else(|| Some(rest[2..].find("*/")? + 4));
+        let length = length.unwrap_or(rest.len());
         let text = &rest[..length];
         let inner = text[2..].strip_suffix("*/").unwrap_or(&text[2..]);
         // A line comment swallows what follows on its line, so that goes to a line of its own.
-        let tail = &rest[length..];
-        let last = if tail[..line_length(tail)].trim().is_empty() { "" } else { "\n" };
+        let follows = rest[length..].trim_start_matches([' ', '\t', '\r']);
+        let last = if follows.is_empty() || follows.starts_with('\n') { "" } else { "\n" };
         let lines: Vec<_> =
             inner.lines().map(|line| format!("// {}", line.trim()).trim_end().to_owned()).collect();
         let span = self.push(Kind::BlockComment, length);
@@ -154,6 +185,41 @@ impl<'t> Lexer<'t, '_> {
                 .help("start each line of the comment with '//'")
                 .replace(lines.join("\n") + last),
         );
+    }
+
+    /// A text whose end is on the next line, where only words are before it: its length, and the text on one line.
+    fn text_of_lines(&self, line: &str) -> Option<(usize, String)> {
+        let behind = self.text.get(self.at + line.len()..)?.trim_start_matches(['\r', '\n']);
+        let end = behind[..line_length(behind)].find('"')?;
+        let words = behind[..end].trim();
+        let length = self.text.len() - self.at - behind.len() + end + 1;
+        let is_text = !words.contains(['{', '}', '(', ')', '=', '>', ':', '/']);
+        is_text.then(|| (length, format!("{} {words}\"", line.trim_end())))
+    }
+
+    /// The length of a comment in which others may be; nothing if one of them is not closed.
+    fn nested_comment(&mut self, rest: &str) -> Option<usize> {
+        let (mut depth, mut at) = (1_usize, 2);
+        while depth > 0 && !self.unclosed_comment {
+            let Some(next) = rest[at..].find(['/', '*']) else {
+                // So is every other one behind it.
+                self.unclosed_comment = true;
+                break;
+            };
+            at += next;
+            at += match rest.as_bytes()[at..] {
+                [b'/', b'*', ..] => {
+                    depth += 1;
+                    2
+                }
+                [b'*', b'/', ..] => {
+                    depth -= 1;
+                    2
+                }
+                _ => 1,
+            };
+        }
+        (depth == 0).then_some(at)
     }
 
     fn word(&mut self) {
@@ -181,8 +247,7 @@ impl<'t> Lexer<'t, '_> {
 
     /// A text up to the closing quote, at most to the end of the line.
     fn quoted(&mut self) {
-        let rest = &self.text[self.at..];
-        let line = &rest[..line_length(rest)];
+        let line = self.rest_of_line();
         let mut escaped = false;
         for (index, each) in line.char_indices().skip(1) {
             match each {
@@ -195,7 +260,15 @@ impl<'t> Lexer<'t, '_> {
                 _ => {}
             }
         }
+        let joined = self.text_of_lines(line);
         let span = self.push(Kind::Text, line.trim_end().len());
+        if let Some((length, text)) = joined {
+            let place = Span { end: span.start + u32::try_from(length).unwrap_or(0), ..span };
+            let error = Diagnostic::new(Code::E0104, place, "a text stands on one line");
+            self.diags.push(error.write(text));
+            self.push(Kind::BlockComment, length - line.trim_end().len());
+            return;
+        }
         self.diags.push(
             Diagnostic::new(Code::E0104, span, "the text is not closed on its line")
                 .help("end it with '\"'")

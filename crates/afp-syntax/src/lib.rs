@@ -6,6 +6,7 @@
 pub mod ast;
 pub mod diagnostics;
 pub mod dimension;
+pub mod habits;
 pub mod item;
 mod keywords;
 pub mod kind;

@@ -7,6 +7,7 @@
 mod bind;
 mod braces;
 mod device;
+mod elsewhere;
 mod file;
 mod formula;
 mod habits;
@@ -35,12 +36,16 @@ const MAX_DEPTH: usize = 64;
 
 /// Parses a whole file.
 pub(super) fn parse(mut tokens: Vec<Token<'_>>, file: u16, diags: &mut Diagnostics) -> GreenNode {
+    let foreign = diags.iter().filter(|it| it.span.file == file && it.code == Code::E0101);
+    let foreign = foreign.map(|it| it.span.start).collect();
     let mended = braces::mend(&mut tokens, file, diags);
     let mut parser = Parser::new(&tokens, file, diags);
+    parser.foreign = foreign;
     parser.note_reported(&mended.reported);
     (parser.balanced, parser.balanced_as_written) = (mended.balanced, mended.as_written);
     parser.file();
     parser.withdraw_fixes();
+    parser.drop_superseded();
     parser.builder.finish()
 }
 
@@ -75,6 +80,17 @@ struct Parser<'t, 'd> {
     globals: BTreeSet<&'t str>,
     /// The names with '-' in them.
     hyphens: BTreeSet<String>,
+    /// The last element, template and state or event that was read, for texts that help.
+    element: &'t str,
+    template: &'t str,
+    event: &'t str,
+    /// The last entry that is an int.
+    int: &'t str,
+    /// Whether the file uses `std`.
+    has_std: bool,
+    /// Where the lexer has found signs of other languages, and the places of those which belong to a habit.
+    foreign: BTreeSet<u32>,
+    superseded: Vec<(u32, u32)>,
     marks: Marks,
     /// The token, among those that are read, that is read as another word than it is.
     slip: Option<(usize, &'static str)>,
@@ -115,6 +131,13 @@ impl<'t, 'd> Parser<'t, 'd> {
             in_range: false,
             entries: BTreeMap::new(),
             hyphens: BTreeSet::new(),
+            element: "terminate",
+            template: "",
+            event: "",
+            int: "n",
+            has_std: uses_std(tokens),
+            foreign: BTreeSet::new(),
+            superseded: Vec::new(),
             marks,
             slip: None,
             names: Cell::new((1, 0)),
@@ -409,6 +432,17 @@ fn own_trivia(trivia: &[Token<'_>]) -> usize {
 /// What is said of a token that is found in the place of something else.
 fn found(token: Option<Token<'_>>) -> Message {
     token.map_or_else(|| "the end of the file".into(), |token| token.shown())
+}
+
+/// Whether a file names `std` behind 'use', or is a toolbox, which has no plans.
+fn uses_std(tokens: &[Token<'_>]) -> bool {
+    let mut names = tokens.iter().filter(|token| !token.kind.is_trivia()).map(|token| token.text);
+    let (mut before, mut uses) = ("", false);
+    names.by_ref().take_while(|text| *text != "plan").for_each(|text| {
+        uses |= before == "use" && text == "std";
+        before = text;
+    });
+    uses
 }
 
 /// The names behind 'supervise' in the braces of plans, and in no others within them.

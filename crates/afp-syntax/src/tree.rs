@@ -39,6 +39,7 @@ impl Parse {
 pub fn parse(text: &str, file: u16, diags: &mut Diagnostics) -> Parse {
     let tokens = lexer::lex(text, file, diags);
     let green = parser::parse(tokens, file, diags);
+    diags.join(file, text);
     Parse { green, file }
 }
 

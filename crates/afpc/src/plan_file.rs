@@ -19,7 +19,7 @@ use crate::reader::Reader;
 /// A plan to work on.
 #[derive(Args, Clone, Debug)]
 pub struct PlanArgument {
-    /// File with the plan; FILE:Plan for another than its first
+    /// File with the plan; append ':Plan' to select a plan other than the first
     #[arg(value_name = "FILE[:PLAN]")]
     pub plan: String,
 }

@@ -8,7 +8,7 @@ use afp_core::{Duration, Fault, Instant, faults};
 faults! {
     /// The wheels stand though they should turn.
     pub DRIVE_BLOCKED = "drive-blocked",
-        "the wheels stood still for 300 ms though they were to turn: something blocks them, or the battery is empty";
+        "the wheels did not turn for 300 ms although commanded; check for an obstacle or an empty battery";
     /// The robot moves otherwise than it should.
     pub DRIVE_STALLED = "drive-stalled",
         "the robot moved otherwise than it was told for 300 ms: a wheel does not follow, or the battery is low";

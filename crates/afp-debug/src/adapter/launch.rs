@@ -18,7 +18,7 @@ use super::{Adapter, Answer, Guard, Refusal, Run, parse};
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 pub struct Launch {
-    /// The plan's file; `FILE:Plan` for another than its first.
+    /// The plan's file; append `:Plan` to select a plan other than the first.
     pub program: String,
     /// The log of a run that is over, to be looked at in place of a run.
     pub log: Option<String>,

@@ -11,7 +11,7 @@ use super::{PlanHead, Program, meant};
 use crate::gather::PlanFile;
 use afp_syntax::ast::{Element, Item, Name};
 use afp_syntax::diagnostics::{
-    Code, Diagnostic, Diagnostics, Message, Severity, Sought, Subject, words::nearest,
+    Code, Diagnostic, Diagnostics, Message, Severity, Sought, Subject, places, words::nearest,
 };
 use afp_syntax::message;
 use afp_syntax::source::Span;
@@ -68,6 +68,15 @@ pub(super) fn hold_back(program: &Program<'_>, files: &[PlanFile], diags: &mut D
     if diags.iter().any(|each| UNKNOWN.contains(&each.code)) {
         join(program, diags);
     }
+    let plans: Vec<Span> = program.plans.iter().map(|head| head.node.span()).collect();
+    let mut explained = 0;
+    diags.change(|each| {
+        if each.code == Code::E0239 && explained < MOST_EXPLAINED {
+            explained += 1;
+            let plan = plans.iter().position(|plan| plan.contains(each.span));
+            *each = meant::explain(program, plan, each.clone());
+        }
+    });
 }
 
 /// What cannot be read.
@@ -352,6 +361,9 @@ fn at_declaration(error: &Diagnostic, others: &[Span], name: &Name, meant: &str)
 fn also_at(mut error: Diagnostic, others: &[Span]) -> Diagnostic {
     if !others.is_empty() {
         error.fix = None;
+    }
+    if others.len() > MOST_PLACES {
+        error.change_message(|said| places(said, others.len() + 1));
     }
     others.iter().take(MOST_PLACES).fold(error, |error, other| error.note(*other, "and here"))
 }

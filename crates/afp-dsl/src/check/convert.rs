@@ -127,7 +127,20 @@ fn mismatch(formula: &Formula, want: &Type, range: Option<(f64, f64)>, text: &st
             let whole = bracketed(formula, text);
             let number = message!("'{} / 1 {}' for the number of '{}'", whole, unit, unit);
             let error = Diagnostic::new(Code::E0204, span, expected);
-            match without_unit(text) {
+            let bare = without_unit(text);
+            let value = bare.and_then(|bare| bare.parse::<f64>().ok()).zip(range);
+            match bare {
+                Some(_)
+                    if let Some((_, (least, greatest))) =
+                        value.filter(|(value, range)| !(range.0..=range.1).contains(value)) =>
+                {
+                    let [least, greatest] = [least, greatest].map(|end| text::value(end, want));
+                    error.help(message!(
+                        "write a bare number from {} to {}",
+                        Words(least),
+                        Words(greatest)
+                    ))
+                }
                 Some(bare) => error.help(message!("write '{}', or {}", bare, number)).replace(bare),
                 None => {
                     error.help(message!("write {}", number)).replace(format!("{whole} / 1 {unit}"))

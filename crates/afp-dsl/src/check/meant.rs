@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{PlanHead, Program};
 use crate::toolbox::Toolbox;
+use crate::types::text::written;
 use afp_syntax::ast;
 use afp_syntax::diagnostics::{Code, Diagnostic, Message};
 use afp_syntax::message;
@@ -20,7 +21,10 @@ pub(super) fn explain(program: &Program<'_>, plan: Option<usize>, error: Diagnos
         return error;
     };
     match error.code {
-        Code::E0209 => unit(text, &error).or_else(|| entry(head?, name, &error)),
+        Code::E0209 => unit(text, &error)
+            .or_else(|| unit_alone(name, &error))
+            .or_else(|| entry(head?, name, &error)),
+        Code::E0239 => head.and_then(|head| path(program, head, (text, name), &error)),
         Code::E0216 => element(program, plan, name, &error)
             .or_else(|| no_element(program, head?, name, &error)),
         _ => None,
@@ -56,6 +60,59 @@ fn unit(text: &str, error: &Diagnostic) -> Option<Diagnostic> {
     place.start = u32::try_from(first.len()).ok()?;
     let help = message!("a unit has no blanks: write '{}'", whole);
     Some(said.help(help).fix(place, whole))
+}
+
+/// `d / cm`: a unit without its number.
+fn unit_alone(name: &str, error: &Diagnostic) -> Option<Diagnostic> {
+    let unit = Unit::parse(name).filter(|_| name.len() > 1)?;
+    let better = format!("1 {name}");
+    let help = message!("a unit needs a number: write '{}'", better);
+    (!unit.celsius).then(|| error.bare().help(help).replace(better))
+}
+
+/// `leg.driven`, `Main.far`: a point before the entry of an element or of another plan.
+fn path(
+    program: &Program<'_>,
+    head: &PlanHead,
+    (text, home): (&str, &str),
+    error: &Diagnostic,
+) -> Option<Diagnostic> {
+    let behind = text.get(error.span.end as usize..)?.strip_prefix('.')?;
+    let ends = behind.find(|each: char| !each.is_ascii_alphanumeric() && each != '_');
+    let port = &behind[..ends.unwrap_or(behind.len())];
+    let said = |message: Message| Diagnostic::new(error.code, error.span, message);
+    let plan_of = |name: &str| {
+        let is_it = |head: &&PlanHead| head.name.as_ref().is_some_and(|it| it.text == name);
+        program.plans.iter().find(is_it)
+    };
+    let type_of = |plan: Option<&PlanHead>| {
+        let entry = plan?.entries.iter().find(|entry| entry.name.text == port)?;
+        entry.ty.as_ref().map(written)
+    };
+    let elements = head.node.elements();
+    if let Some(element) = elements.iter().find(|it| it.name().is_some_and(|it| it.text == home)) {
+        let of = element.template().and_then(|template| template.name()).map(|name| name.text);
+        let of = of.unwrap_or_default();
+        let ty = type_of(plan_of(&of)).unwrap_or_else(|| "float".to_owned());
+        let help = message!(
+            "declare 'var {}: {}', write '{}({} => {})', and read '{}'",
+            port,
+            ty,
+            of,
+            port,
+            port,
+            port
+        );
+        let said = said(message!("formulas read entries, and '{}' is an element", home));
+        return Some(said.note(element.name()?.span, "declared here").help(help));
+    }
+    let ty = type_of(Some(plan_of(home)?)).unwrap_or_else(|| "float".to_owned());
+    let own = head.name.as_ref().map_or("", |name| &name.text);
+    let help =
+        message!("declare 'in {}: {}' in '{}', and pass it where that is used", port, ty, own);
+    let said =
+        said(message!("'{}' sees only its own entries, and '{}' is another plan", own, home));
+    Some(said.help(help))
 }
 
 /// An element is no entry.

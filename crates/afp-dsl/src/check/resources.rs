@@ -30,8 +30,8 @@ pub(crate) struct Users {
 /// Greatest number of other places that one diagnostic shows.
 const MAX_NOTES: usize = 3;
 
-/// A resource and the place of a component that commands it.
-type Command<'a> = (&'a str, Span);
+/// A resource, the place of a component that commands it, and that component's name.
+type Command<'a> = (&'a str, Span, &'a str);
 
 /// Reports every pair once, at the later supervisor; `order` has sub-plans before their users.
 pub(crate) fn check(plans: &[PlanHead], users: &[Users], order: &[usize], diags: &mut Diagnostics) {
@@ -54,7 +54,7 @@ pub(crate) fn check(plans: &[PlanHead], users: &[Users], order: &[usize], diags:
             commands.extend(of(element));
         }
         commands.sort_unstable();
-        commands.dedup_by_key(|(resource, _)| *resource);
+        commands.dedup_by_key(|(resource, ..)| *resource);
         inside[*plan] = commands;
     }
 }
@@ -68,7 +68,7 @@ fn own<'a>(
         Some(plan) => (&[][..], &inside[plan][..]),
         None => (&user.uses[..], &[][..]),
     };
-    let uses = uses.iter().map(|resource| (resource.as_str(), user.span));
+    let uses = uses.iter().map(|resource| (resource.as_str(), user.span, &*user.name));
     uses.chain(within.iter().copied())
 }
 
@@ -78,20 +78,19 @@ fn report<'a>(
     diags: &mut Diagnostics,
 ) {
     for resource in &supervisor.uses {
-        let same = others.clone().filter(|(name, _)| name == resource);
-        let mut places: Vec<Span> = same.map(|(_, place)| place).collect();
+        let same = others.clone().filter(|(name, ..)| name == resource);
+        let mut places: Vec<_> = same.map(|(_, place, name)| (place, name)).collect();
         places.sort();
         places.dedup();
-        if places.is_empty() {
-            continue;
-        }
+        let Some((_, other)) = places.first() else { continue };
         let message = message!(
-            "'{}' commands '{}', which is in use while it watches",
+            "'{}' and '{}' both control '{}' at the same time",
+            *other,
             supervisor.name,
             resource
         );
         let conflict = Diagnostic::new(Code::E0223, supervisor.span, message);
-        let shown = places.iter().take(MAX_NOTES).fold(conflict, |conflict, place| {
+        let shown = places.iter().take(MAX_NOTES).fold(conflict, |conflict, (place, _)| {
             conflict.note(*place, message!("this commands '{}' at the same time", resource))
         });
         diags.push(shown.help(message!(

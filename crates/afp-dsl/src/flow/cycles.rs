@@ -298,7 +298,7 @@ impl<'a, 'b> Quick<'a, 'b> {
         let all = list(labels.iter().map(String::as_str), "and");
         let more = if conditions.len() > MAX_NAMES { " and others" } else { "" };
         let message = match labels.len() {
-            1 => message!("{} holding on ends the run in a livelock", all),
+            1 => message!("if {} stays true, the plan loops without time passing", all),
             _ => message!("{}{} together end the run in a livelock", all, Words(more)),
         };
         let mut found = Diagnostic::new(Code::E0306, self.view.span(closing.cause), message);

@@ -75,6 +75,18 @@ pub(crate) fn a_type(ty: &Type) -> String {
     }
 }
 
+/// A type as a plan writes it; of a generic one a type that fits.
+pub(crate) fn written(ty: &Type) -> String {
+    match ty {
+        Type::Bool => "bool".to_owned(),
+        Type::Int => "int".to_owned(),
+        Type::Text => "string".to_owned(),
+        Type::Quantity(dimension) if *dimension != Dimension::NONE => dimension.name().to_string(),
+        Type::Enum(_) | Type::Object(_) => ty.declared_name().to_owned(),
+        _ => "float".to_owned(),
+    }
+}
+
 /// A dimension with its article; none is a bare number.
 pub(crate) fn a_dimension(dimension: Dimension) -> String {
     if dimension == Dimension::NONE {

@@ -3,6 +3,7 @@
 mod errors;
 mod explanations;
 mod graph;
+mod habits;
 mod index;
 mod limits;
 mod mutations;

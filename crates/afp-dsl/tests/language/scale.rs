@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use afp_dsl::Compiled;
 use afp_dsl::timing::timing;
+use afp_syntax::diagnostics::{Code, Severity};
 
 /// Sub-plans in sub-plans.
 fn nested(depth: usize) -> String {
@@ -199,15 +200,35 @@ fn ten_times_the_unknown_names_take_about_ten_times_as_long() {
 }
 
 #[test]
-fn a_line_that_is_wrong_thousands_of_times_is_not_shown_as_often() {
+fn of_thousands_of_errors_twenty_are_shown() {
     let wrong = (0..4000).map(|at| format!("const a{at} = 1 m + 1 s "));
     let text = format!("plan P {{ {}}}", wrong.collect::<String>());
     let compiled = support::compile(&text, &support::toolboxes());
-    let count = compiled.diags.len();
-    assert!(count > 1000, "{count}");
+    let errors = compiled.diags.iter().filter(|each| each.severity == Severity::Error).count();
+    assert_eq!(errors, 4001);
     let shown = compiled.render(false);
-    assert!(shown.ends_with(&format!("... and {} more about line 1", count - 20)), "{count}");
+    assert!(shown.ends_with("and 3,981 more errors"), "{}", &shown[shown.len() - 100..]);
     assert!(shown.len() < 30 * text.len(), "{} bytes", shown.len());
+    let lines = compiled.diags.json_lines(&compiled.sources);
+    assert_eq!(lines.lines().count(), 1001);
+    assert!(lines.lines().last().is_some_and(|it| it.contains("and 3,001 more errors")));
+}
+
+#[test]
+fn one_cause_is_reported_once_however_often_it_is_there() {
+    let toolboxes = support::toolboxes();
+    let edges =
+        |count: usize| "    actor a: Forward { ForwardSuccessful -> zurück }\n".repeat(count);
+    for (piece, places) in [
+        (edges(2001), "the name 'zurück' has characters that are not ASCII, at 2,001 places"),
+        ("    const a = 1;\n".repeat(2001), "';' has no meaning here, at 2,001 places"),
+    ] {
+        let compiled =
+            support::compile(&format!("plan P {{\n    start a\n{piece}}}\n"), &toolboxes);
+        let found = compiled.diags.iter().filter(|each| each.code < Code::E0201);
+        let found: Vec<_> = found.map(|each| each.message_text()).collect();
+        assert_eq!(found, [places]);
+    }
 }
 
 /// Files that are one line, wrong at every token, took time by the square of their length; so did many errors, and errors that point
@@ -227,6 +248,17 @@ fn sixteen_times_the_junk_takes_about_sixteen_times_as_long() {
         "plan P {}\n",
         "actor a: Forward(\n",
         "actor a: W { a, a, a, ",
+        "\"",
+        "\u{201c}",
+        "#=",
+        "/**/",
+        "& ",
+        "\u{e9} ",
+        "; ",
+        "after 3 s -> ",
+        "n [n < 3] -> ",
+        "-> { n = ",
+        "if ( ",
     ];
     let shown = |compiled: &Compiled| assert!(!compiled.render(false).is_empty());
     for piece in pieces {

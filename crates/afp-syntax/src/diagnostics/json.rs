@@ -1,19 +1,29 @@
 //! Diagnostics for tools: one JSON object on a line.
 
-use afp_excerpt::place;
+use afp_excerpt::{Report, place};
 use serde_json::json;
 
 use super::tables::Tables;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostic, Diagnostics, Severity};
 use crate::source::Sources;
 
 impl Diagnostics {
-    /// All diagnostics, one JSON object on each line.
+    /// The diagnostics, one JSON object on each line: the first [`MOST_WRITTEN`] errors and as many others. If more are
+    /// left, the last object has no code and no place, and its message counts them.
     pub fn json_lines(&self, sources: &Sources) -> String {
         let tables = Tables::new(sources);
-        self.iter().map(|each| each.json_by(&tables) + "\n").collect()
+        let (shown, left) = self.first(MOST_WRITTEN);
+        let rest = left.map(|message| {
+            let severity = Severity::Note;
+            Report { severity, code: "", message: &message, help: "", marks: Vec::new() }.json()
+        });
+        let lines = shown.into_iter().map(|each| each.json_by(&tables));
+        lines.chain(rest.map(|rest| rest.to_string())).map(|line| line + "\n").collect()
     }
 }
+
+/// So many errors are written for tools.
+const MOST_WRITTEN: usize = 1000;
 
 impl Diagnostic {
     /// The diagnostic as one JSON object without line breaks.

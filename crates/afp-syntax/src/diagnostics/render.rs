@@ -3,45 +3,47 @@
 use afp_excerpt::{Mark, Report};
 
 use super::tables::Tables;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::{Diagnostic, Diagnostics, Severity};
 use crate::source::{Sources, Span};
 
 impl Diagnostics {
-    /// All diagnostics as text, one blank line between them, with terminal colours when asked.
+    /// The diagnostics as text, one blank line between them, with terminal colours when asked: the first [`MOST_SHOWN`]
+    /// errors, as many others, and how many are left.
     pub fn render(&self, sources: &Sources, colour: bool) -> String {
         let tables = Tables::new(sources);
-        let line = |span: Span| {
-            let start = tables.lines(span.file).map(|lines| lines.line(span.start as usize).start);
-            (span.file, start)
+        let (shown, left) = self.first(MOST_SHOWN);
+        let texts = shown.into_iter().map(|each| each.render_by(&tables, colour));
+        texts.chain(left).collect::<Vec<_>>().join("\n\n")
+    }
+
+    /// The first so many errors and as many others, and a line that counts the rest, if there is one.
+    pub(super) fn first(&self, most: usize) -> (Vec<&Diagnostic>, Option<String>) {
+        let mut counts = [0_usize; 2];
+        let is_shown = |each: &&Diagnostic| {
+            let count = &mut counts[usize::from(each.severity != Severity::Error)];
+            *count += 1;
+            *count <= most
         };
-        let mut texts = Vec::new();
-        let mut rest = self.iter().peekable();
-        while let Some(first) = rest.next() {
-            let first_line = line(first.span);
-            texts.push(first.render_by(&tables, colour));
-            for shown in 1.. {
-                let here = |each: &&Diagnostic| line(each.span) == first_line;
-                let Some(next) = rest.next_if(here) else { break };
-                if shown < MOST_OF_A_LINE {
-                    texts.push(next.render_by(&tables, colour));
-                    continue;
-                }
-                let mut left = 1;
-                while rest.next_if(here).is_some() {
-                    left += 1;
-                }
-                let (number, _) = tables.line_column(first.span);
-                texts.push(format!("... and {left} more about line {number}"));
-                break;
-            }
-        }
-        texts.join("\n\n")
+        let shown = self.iter().filter(is_shown).collect();
+        let left = counts.into_iter().zip(["error", "warning"]).filter_map(|(count, what)| {
+            let left = count.checked_sub(most).filter(|left| *left > 0)?;
+            let plural = if left == 1 { "" } else { "s" };
+            Some(format!("{} more {what}{plural}", thousands(left)))
+        });
+        let left: Vec<_> = left.collect();
+        (shown, (!left.is_empty()).then(|| format!("and {}", left.join(" and "))))
     }
 }
 
-/// How many diagnostics about one line are shown: a line that is wrong again and again is one
-/// mistake, and each time it is shown as a whole.
-const MOST_OF_A_LINE: usize = 20;
+/// So many errors are shown: a file that has more is wrong throughout, and the rest may come of these.
+const MOST_SHOWN: usize = 20;
+
+/// A number with a comma between the thousands.
+pub(crate) fn thousands(number: usize) -> String {
+    let digits = number.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev();
+    groups.map(String::from_utf8_lossy).collect::<Vec<_>>().join(",")
+}
 
 impl Diagnostic {
     /// The diagnostic as text without a final line break, with terminal colours when asked.

@@ -2,8 +2,9 @@
 //!
 //! Each is read as what was meant, so that nothing else is said about its line.
 
-use super::{Lexer, is_blank, is_word, line_length, sign};
+use super::{Lexer, Line, is_blank, is_word, line_length, sign};
 use crate::diagnostics::{Code, Diagnostic, Message};
+use crate::habits::BRANCH;
 use crate::kind::Kind;
 use crate::message;
 use afp_excerpt::hidden::trick;
@@ -38,11 +39,7 @@ const COMMENTS: [&str; 3] = ["--", ";", "%"];
 /// What lines begin with that part two versions of a text.
 const VERSION_MARKS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
-/// What to write where other languages compare or choose.
-pub(crate) const CHOICE: &str =
-    "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
-
-impl Lexer<'_, '_> {
+impl<'t> Lexer<'t, '_> {
     /// Takes characters that have no meaning, as what they may have been meant for.
     pub(super) fn unknown(&mut self) {
         let rest = &self.text[self.at..];
@@ -62,14 +59,17 @@ impl Lexer<'_, '_> {
         {
             return self.instead(*kind, foreign.len(), message!("write '{}'", ours), ours);
         }
+        if let Some(behind) = rest.strip_prefix("#define ") {
+            return self.define(&behind[..line_length(behind)]);
+        }
         let behind = rest.strip_prefix("#include").map(|behind| behind.chars().next());
         if behind.is_some_and(|next| next.is_none_or(|next| !is_word(next))) {
             return self.include();
         }
-        if rest.starts_with('#') && begins_comment(rest) {
+        if rest.starts_with('#') && self.begins_comment() {
             return self.foreign_comment("#");
         }
-        if let Some((length, inner)) = quoted(rest) {
+        if let Some((length, inner)) = self.foreign_text() {
             let text = format!("\"{}\"", inner.replace('\\', "\\\\").replace('"', "\\\""));
             return self.instead(Kind::Text, length, "put the text in '\"'", &text);
         }
@@ -95,8 +95,8 @@ impl Lexer<'_, '_> {
                 self.diags.push(error);
             }
             "&&" | "&" | "!" | "?" => {
-                let error = self.error(Kind::Unknown, length, CHOICE);
-                self.diags.push(error.elsewhere(CHOICE));
+                let error = self.error(Kind::Unknown, length, BRANCH);
+                self.diags.push(error.elsewhere(BRANCH));
             }
             "#" => {
                 self.instead(Kind::Unknown, length, "remove it, or start a comment with '//'", "")
@@ -112,22 +112,42 @@ impl Lexer<'_, '_> {
         is_first.then_some(before.len())
     }
 
-    /// Whether this line begins with the word of a claim, unless it is longer than people write.
-    fn begins_claim(&self) -> bool {
-        const LINE: usize = 1000;
-        let from = self.at.saturating_sub(LINE);
-        let end = self.text.as_bytes()[from..self.at].iter().rposition(|byte| *byte == b'\n');
-        let begin = match end {
-            Some(end) => from + end + 1,
-            None if from == 0 => 0,
-            None => return false,
-        };
-        let first = self.text[begin..self.at].split_whitespace().next();
+    /// Whether this line begins with the word of a claim.
+    fn begins_claim(&mut self) -> bool {
+        let first = self.text[self.line().start..].split_whitespace().next();
         matches!(first, Some("expect" | "never"))
     }
 
+    /// Whether a comment of another language begins here: nothing that plans are made of stands behind its sign.
+    fn begins_comment(&mut self) -> bool {
+        let Line { end, sign, .. } = self.line();
+        let sign = sign.filter(|sign| *sign >= self.at).unwrap_or_else(|| {
+            let next = self.rest_of_line().find(['{', '}', '(', ')', '>', '=', ':']);
+            next.map_or(end, |next| self.at + next)
+        });
+        self.line.sign = Some(sign);
+        sign == end
+    }
+
+    /// The length of a text in foreign quotes, and what stands between them.
+    fn foreign_text(&mut self) -> Option<(usize, &'t str)> {
+        let (opening, closing) = QUOTES;
+        let line = self.rest_of_line();
+        let first = line.chars().next().filter(|first| opening.contains(*first))?;
+        if self.at < self.line.unquoted {
+            return None;
+        }
+        let behind = &line[first.len_utf8()..];
+        let Some((end, last)) = behind.char_indices().find(|(_, each)| closing.contains(*each))
+        else {
+            self.line.unquoted = self.line.end;
+            return None;
+        };
+        Some((first.len_utf8() + end + last.len_utf8(), &behind[..end]))
+    }
+
     /// The sign of a comment of other languages that a line begins with: words follow it, as none do in a formula.
-    pub(super) fn comment_sign(&self) -> Option<&'static str> {
+    pub(super) fn comment_sign(&mut self) -> Option<&'static str> {
         let rest = &self.text[self.at..];
         let sign = COMMENTS.into_iter().find(|sign| rest.starts_with(sign))?;
         let before = self.text[..self.at].trim_end_matches([' ', '\t']);
@@ -135,11 +155,11 @@ impl Lexer<'_, '_> {
         if !before.is_empty() && !before.ends_with('\n') {
             return None;
         }
-        let line = &rest[sign.len()..line_length(rest)];
+        let line = self.rest_of_line().get(sign.len()..).unwrap_or_default();
         let is_text = |word: &str| word.chars().all(|each| is_word(each) || each == '\'');
         let mut words = line.split_whitespace();
         let follow = words.next().is_some_and(is_text) && words.next().is_some_and(is_text);
-        (line.starts_with(' ') && follow && begins_comment(rest)).then_some(sign)
+        (line.starts_with(' ') && follow && self.begins_comment()).then_some(sign)
     }
 
     /// Takes the rest of a line that is a comment elsewhere.
@@ -178,6 +198,15 @@ impl Lexer<'_, '_> {
         self.diags.push(error.elsewhere(help));
     }
 
+    /// `#define LEFT 1`
+    fn define(&mut self, what: &str) {
+        let (name, value) = what.trim().split_once(' ').unwrap_or((what.trim(), "1"));
+        let span = self.push(Kind::Comment, "#define ".len() + what.len());
+        let help = message!("write 'const {} = {}' in a plan", name.to_lowercase(), value.trim());
+        let message = "'#define' has no meaning here";
+        self.diags.push(Diagnostic::new(Code::E0101, span, message).help(help));
+    }
+
     /// `#include "walls.afp"`, `#include <carbot>`
     fn include(&mut self) {
         let rest = &self.text[self.at..];
@@ -212,21 +241,6 @@ impl Lexer<'_, '_> {
         let span = self.push(kind, length);
         Diagnostic::new(Code::E0101, span, message).help(help)
     }
-}
-
-/// Whether a `#` begins a comment: nothing that plans are made of stands behind it.
-fn begins_comment(rest: &str) -> bool {
-    !rest[..line_length(rest)].contains(['{', '}', '(', ')', '>', '=', ':'])
-}
-
-/// The length of a text in foreign quotes, and what stands between them.
-fn quoted(rest: &str) -> Option<(usize, &str)> {
-    let (opening, closing) = QUOTES;
-    let first = rest.chars().next().filter(|first| opening.contains(*first))?;
-    let behind = &rest[first.len_utf8()..];
-    let behind = &behind[..line_length(behind)];
-    let (end, last) = behind.char_indices().find(|(_, each)| closing.contains(*each))?;
-    Some((first.len_utf8() + end + last.len_utf8(), &behind[..end]))
 }
 
 /// Whether a character has a meaning, or stands for one that has.

@@ -84,7 +84,7 @@ impl Parser<'_, '_> {
                 self.bump();
             } else if changes {
                 let sign = self.token(0).map_or("", |token| token.text);
-                let message = message!("no '{}=' between a port and its value", sign);
+                let message = message!("unexpected '{}=' between a port and its value", sign);
                 let help = message!("write '=' and a formula, such as 'x {} 1'", sign);
                 self.error(Diagnostic::new(Code::E0108, self.ahead(2), message).help(help));
                 self.pass(2);
@@ -92,7 +92,9 @@ impl Parser<'_, '_> {
                 let assigns = self.at(Kind::Colon) && self.nth(1) == Kind::Equal;
                 self.wrong_arrow(1 + usize::from(assigns), "'=' carries data in to a port", "=");
             }
+            let value = self.at;
             self.formula();
+            self.no_second_quantity(value);
             self.no_operators();
             self.close_item();
             return;

@@ -4,6 +4,7 @@ use rowan::Language;
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, list};
+use crate::habits::FILE;
 use crate::keywords::{self, PLAN, TOOL, TOP};
 use crate::kind::{Afp, Kind};
 use crate::message;
@@ -42,6 +43,7 @@ impl Parser<'_, '_> {
                 self.template();
             }
             word if keywords::has(word, PLAN) => self.misplaced(),
+            _ if !self.is_toolbox && self.habit(FILE) => {}
             _ => {
                 let what = match self.is_toolbox {
                     true => "an item of a toolbox",
@@ -145,7 +147,7 @@ impl Parser<'_, '_> {
         self.keyword();
         let is_named = self.nth(1) == Kind::Name && !self.begins_line(1);
         if matches!(self.word(0), "class" | "struct") && is_named {
-            let message = message!("no {} behind 'enum'", self.found());
+            let message = message!("unexpected {} after 'enum'", self.found());
             self.instead(1, message, "remove it", "");
         }
         self.name("give the enum a name");

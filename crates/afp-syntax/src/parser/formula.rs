@@ -6,6 +6,7 @@ use super::habits::is_operator;
 use super::{MAX_DEPTH, Parser};
 use crate::diagnostics::{Code, Diagnostic, Message, Words, words};
 use crate::dimension::Dimension;
+use crate::habits;
 use crate::keywords::{self, BEHIND_NUMBER};
 use crate::kind::Kind;
 use crate::message;
@@ -38,6 +39,10 @@ impl Parser<'_, '_> {
             return self.too_deep();
         }
         self.depth += 1;
+        if self.habit_of_operand() {
+            self.depth -= 1;
+            return;
+        }
         if let Some(operand) = self.no_prefix() {
             if operand {
                 self.unary();
@@ -153,7 +158,61 @@ impl Parser<'_, '_> {
         self.close();
     }
 
+    /// `1 m 20 cm`: reports the quantity behind one that begins at a token, and reads past it.
+    pub(super) fn no_second_quantity(&mut self, first: usize) {
+        let is_quantity = |p: &Self, from: usize| {
+            matches!(p.nth(from), Kind::Int | Kind::Float) && p.nth(from + 1) == Kind::Unit
+        };
+        let ends_with_unit = self.before().is_some_and(|token| token.kind == Kind::Unit);
+        if self.on_same_line() && ends_with_unit && is_quantity(self, 0) {
+            let place = self.place_between(first, self.at + 2);
+            let [one, two] = [(first, self.at), (self.at, self.at + 2)];
+            let [one, two] = [one, two].map(|(from, end)| self.text_between(from, end));
+            let message = "a quantity has one number and one unit";
+            self.error(
+                Diagnostic::new(Code::E0102, place, message).write(format!("{one} + {two}")),
+            );
+            self.pass(2);
+        }
+    }
+
+    /// `30`, and its unit on the next line: reports that, and reads it.
+    fn unit_of_another_line(&mut self) -> bool {
+        let word = self.word(0);
+        let ends = matches!(self.nth(1), Kind::CloseParen | Kind::Comma | Kind::CloseBrace);
+        let is_unit = ends && !self.on_same_line() && Unit::parse(word).is_some();
+        if let Some(number) = self.before().filter(|_| is_unit) {
+            let place = self.span_of(number).to(self.next_span());
+            let error =
+                Diagnostic::new(Code::E0236, place, "a unit follows its number on one line");
+            self.error(error.write(format!("{} {word}", number.text)));
+            self.bump_as(Kind::Unit);
+        }
+        is_unit
+    }
+
+    /// `12 in`: reports a unit that the language does not have, and reads past it.
+    fn foreign_unit(&mut self) -> bool {
+        let word = self.word(0);
+        let begins_item =
+            self.nth(1) == Kind::Name && matches!(self.nth(2), Kind::Colon | Kind::Equal);
+        let number = self.before().filter(|_| self.on_same_line() && !begins_item);
+        let better = number.and_then(|number| habits::converted(number.text, word));
+        let (Some(number), Some(better)) = (number, better.filter(|_| !self.names_something(0)))
+        else {
+            return false;
+        };
+        let place = self.span_of(number).to(self.next_span());
+        let error = Diagnostic::new(Code::E0236, place, message!("'{}' is not a unit", word));
+        self.error(error.write(better));
+        self.pass(1);
+        true
+    }
+
     fn unknown_unit(&mut self) {
+        if self.foreign_unit() || self.unit_of_another_line() {
+            return;
+        }
         let word = self.word(0);
         let strange = !word.is_empty()
             && self.on_same_line()
@@ -249,7 +308,7 @@ impl Parser<'_, '_> {
             true => self.take_word(),
             false => _ = self.name("write a name"),
         }
-        if self.eat(Kind::Dot) || self.double_colon() {
+        if self.nth(1) != Kind::Caret && self.eat(Kind::Dot) || self.double_colon() {
             // An item on the next line is none of what is still being typed here.
             if self.at(Kind::Name) && (self.on_same_line() || !self.leaves_body()) {
                 self.bump();

@@ -10,35 +10,26 @@ mod names;
 mod numbers;
 
 use super::Parser;
-use crate::diagnostics::{Code, Diagnostic, Message, Words};
+use crate::diagnostics::{Code, Diagnostic, Message, Subject, Words};
 use crate::dimension::Dimension;
 use crate::kind::Kind;
-use crate::lexer::{CHOICE, Token};
+use crate::lexer::Token;
 use crate::message;
 use crate::source::Span;
 use numbers::hundredth;
 
-/// How something is done several times.
-pub(super) const LOOP: &str =
-    "lead an edge back to an element; 'Count' of 'std' counts how often that is done";
-
 /// Words that are written where a `->` belongs.
 const ARROW_WORDS: &[&str] = &["goto", "to", "then", "next"];
 
-/// Words of formulas elsewhere, each with what to write instead.
-const OPERATORS: &[(&str, Option<&str>)] = &[
-    ("and", None),
-    ("or", None),
-    ("xor", None),
-    ("is", None),
-    ("if", None),
-    ("mod", Some("write '%'")),
-    ("div", Some("write '/'")),
-];
+/// `forward` for `Forward`.
+fn with_small_first(name: &str) -> String {
+    let (first, rest) = name.split_at_checked(1).unwrap_or((name, ""));
+    first.to_ascii_lowercase() + rest
+}
 
 /// Whether formulas elsewhere have the word between operands.
 pub(super) fn is_operator(word: &str) -> bool {
-    OPERATORS.iter().any(|(operator, _)| *operator == word)
+    matches!(word, "and" | "or" | "xor" | "is" | "if" | "mod" | "div" | "in")
 }
 
 /// Whether a word is a type that every file knows.
@@ -50,7 +41,7 @@ impl Parser<'_, '_> {
     /// `start -> go`, `start: go`
     pub(super) fn no_sign_behind_start(&mut self) {
         if matches!(self.nth(0), Kind::Arrow | Kind::FatArrow | Kind::Equal | Kind::Colon) {
-            let message = message!("no {} behind 'start'", self.found());
+            let message = message!("unexpected {} after 'start'", self.found());
             let element = Some(self.word(1)).filter(|word| !word.is_empty()).unwrap_or("NAME");
             self.instead(1, message, message!("write 'start {}'", element), "");
         }
@@ -67,7 +58,7 @@ impl Parser<'_, '_> {
             })
         };
         if self.at(Kind::Equal) && self.nth(1) == Kind::Name {
-            self.instead(1, "no '=' before a template", "write ':'", ":");
+            self.instead(1, "unexpected '=' before a template", "write ':'", ":");
             return true;
         }
         if swapped && looks(template, true) && looks(name, false) {
@@ -76,6 +67,24 @@ impl Parser<'_, '_> {
             return false;
         }
         self.expect(Kind::Colon, "write ':' and the template")
+    }
+
+    /// `actor Forward(...)`: reports that the name before a template is missing. Returns whether it is.
+    pub(super) fn template_without_name(&mut self) -> bool {
+        let template = self.word(0);
+        let is_large = template.starts_with(|first: char| first.is_ascii_uppercase());
+        let is_nameless = is_large
+            && matches!(self.nth(1), Kind::OpenParen | Kind::OpenBrace)
+            && self.on_same_line();
+        if is_nameless {
+            let (here, word) = (self.next_span().before(), self.word_before());
+            let name = with_small_first(template);
+            let error =
+                Diagnostic::new(Code::E0102, here, message!("missing name after '{}'", word));
+            let error = error.help(message!("write '{} {}: {}'", word, name, template));
+            self.error(error.about(Subject::MissingName).fix(here, format!("{name}: ")));
+        }
+        is_nameless
     }
 
     /// The type of an entry.
@@ -87,7 +96,7 @@ impl Parser<'_, '_> {
         } else if self.at(Kind::Name) && self.on_same_line() && !begins {
             let (before, word) = (self.word_before(), self.word(0));
             let is_swapped = is_type(before) && !is_type(word);
-            let message = "no ':' before the type";
+            let message = "missing ':' before the type";
             let here = self.here().before();
             let error = Diagnostic::new(Code::E0102, here, message);
             match is_swapped {
@@ -156,7 +165,7 @@ impl Parser<'_, '_> {
         let stands = self.at(Kind::Colon) && self.nth(1) == Kind::Colon && self.is_adjacent();
         let named = self.nth(2) == Kind::Name && !self.begins_line(2);
         if stands && named {
-            self.instead(2, "no '::' between two names", "write '.'", ".");
+            self.instead(2, "unexpected '::' between two names", "write '.'", ".");
         }
         stands && named
     }
@@ -168,13 +177,11 @@ impl Parser<'_, '_> {
 
     /// Reports what formulas elsewhere have behind their operands, and reads past it.
     pub(super) fn no_operators(&mut self) {
-        while let Some(help) = self.operator_help() {
+        while !self.habit_of_operator()
+            && let Some(help) = self.operator_help()
+        {
             let (here, message) = (self.next_span(), message!("formulas have no {}", self.found()));
-            let error = Diagnostic::new(Code::E0102, here, message);
-            self.error(match help {
-                Some(help) => error.help(help),
-                None => error.elsewhere(CHOICE),
-            });
+            self.error(Diagnostic::new(Code::E0102, here, message).help(help));
             self.open(Kind::Error);
             self.bump();
             self.formula();
@@ -182,15 +189,12 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// What to write for an operator that formulas do not have; nothing for one that chooses.
-    fn operator_help(&self) -> Option<Option<&'static str>> {
-        match self.nth(0) {
-            Kind::Caret => Some(Some("write a product, such as 'x * x'")),
-            kind if kind.is_comparison() || kind == Kind::Pipe => Some(None),
-            Kind::Name if self.on_same_line() && !self.names_something(0) => {
-                let word = OPERATORS.iter().find(|(word, _)| *word == self.word(0));
-                word.map(|(_, help)| *help)
-            }
+    /// What to write for an operator that formulas do not have.
+    fn operator_help(&self) -> Option<&'static str> {
+        match self.word(0) {
+            _ if self.at(Kind::Caret) => Some("write a product, such as 'x * x'"),
+            "mod" if self.on_same_line() => Some("write '%'"),
+            "div" if self.on_same_line() => Some("write '/'"),
             _ => None,
         }
     }
@@ -201,17 +205,6 @@ impl Parser<'_, '_> {
         let before = self.before();
         let doubled = self.is_adjacent() && before.is_some_and(|token| token.kind == self.nth(0));
         match self.nth(0) {
-            Kind::Name if self.word(0) == "not" && !self.names_something(0) => {
-                let operand = matches!(self.nth(1), Kind::Name | Kind::OpenParen);
-                if !operand || self.begins_line(1) {
-                    return None;
-                }
-                let here = self.next_span();
-                let message = "formulas have no 'not'";
-                self.error(Diagnostic::new(Code::E0102, here, message).elsewhere(CHOICE));
-                self.pass(1);
-                Some(true)
-            }
             Kind::Star if doubled => {
                 let here = self.next_span();
                 let error = Diagnostic::new(Code::E0102, here, "formulas have no '**'");
@@ -327,7 +320,9 @@ impl Parser<'_, '_> {
             return false;
         };
         let word = self.word(0);
+        let is_suffix = matches!(word, "f" | "F" | "L" | "u" | "U" | "f32" | "f64" | "i32" | "u8");
         let better = match word.strip_prefix(['x', 'X']).filter(|_| before.text == "0") {
+            _ if is_suffix => Some(before.text.to_owned()),
             Some(digits) => i64::from_str_radix(digits, 16).ok().map(|value| value.to_string()),
             None => {
                 let digits = word.replace('_', "");
@@ -339,7 +334,8 @@ impl Parser<'_, '_> {
         let Some(better) = better.filter(|_| self.is_adjacent()) else { return false };
         let place = self.span_of(before).to(self.next_span());
         self.error(
-            Diagnostic::new(Code::E0115, place, "a number has decimal digits alone").write(better),
+            Diagnostic::new(Code::E0115, place, message!("unexpected '{}' in a number", word))
+                .write(better),
         );
         self.pass(1);
         true
@@ -350,12 +346,12 @@ impl Parser<'_, '_> {
         if self.at(Kind::Dot) && self.is_adjacent() && !matches!(self.nth(1), Kind::Dot | Kind::Int)
         {
             if self.nth(1) == Kind::Name && self.names_something(1) {
-                return self.instead(1, "no ',' between two values", "write ','", ",");
+                return self.instead(1, "missing ',' between two values", "write ','", ",");
             }
             let here = self.next_span();
             self.error(
-                Diagnostic::new(Code::E0115, here, "a number ends with a digit")
-                    .help("write '0' behind the point")
+                Diagnostic::new(Code::E0115, here, "expected a digit after '.'")
+                    .help(message!("write '{}.0'", self.word_before()))
                     .fix(here.after(), "0"),
             );
             self.pass(1);

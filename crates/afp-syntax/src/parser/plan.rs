@@ -3,6 +3,7 @@
 use super::Parser;
 use super::recovery::Body;
 use crate::diagnostics::{Code, Diagnostic};
+use crate::habits;
 use crate::keywords::{self, ENTRY, NAMED, PLAN};
 use crate::kind::Kind;
 use crate::message;
@@ -19,6 +20,7 @@ impl Parser<'_, '_> {
     pub(super) fn plan(&mut self) {
         self.open_item(Kind::Plan);
         self.entries.clear();
+        self.element = "terminate";
         self.keyword();
         self.name("give the plan a name");
         self.eat_meant("forever", |next| next == Kind::OpenBrace);
@@ -54,6 +56,9 @@ impl Parser<'_, '_> {
     fn no_plan_item(&mut self) {
         if self.live_before_in() {
             return self.plan_item();
+        }
+        if self.habit(habits::PLAN) {
+            return;
         }
         let help = match self.item_help() {
             _ if self.at_reactions() => {
@@ -105,6 +110,9 @@ impl Parser<'_, '_> {
                 self.open_item(Kind::Start);
                 self.keyword();
                 self.no_sign_behind_start();
+                if self.at(Kind::Name) {
+                    self.element = self.word(0);
+                }
                 // The name of an edge or entry is that of the next item.
                 if self.on_same_line() || !self.names_something(0) {
                     self.name("name the first element");
@@ -134,6 +142,9 @@ impl Parser<'_, '_> {
         let end = self.at;
         self.ty_of_entry();
         let is_typed = self.at != end;
+        if is_typed && self.word_before() == "int" {
+            self.int = name;
+        }
         self.value_and_range();
         if !is_typed && self.at != end {
             self.type_behind_value(end);
@@ -151,7 +162,10 @@ impl Parser<'_, '_> {
         if let Some(body) = body {
             while !self.ends_body(&body) {
                 self.repeat(|parser| {
-                    if parser.reaction_without_braces() || parser.reaction_as_edge() {
+                    if parser.habit_of_body(habits::BODY)
+                        || parser.reaction_without_braces()
+                        || parser.reaction_as_edge()
+                    {
                         return;
                     }
                     if parser.at_word("supervise") {
@@ -186,9 +200,15 @@ impl Parser<'_, '_> {
     /// `NAME ":" ref [args]`
     fn head(&mut self, what: &'static str, watches: bool) {
         self.times_before_template(watches);
-        self.name("give it a name");
+        if !watches && self.at(Kind::Name) {
+            self.element = self.word(0);
+        }
+        let is_nameless = self.template_without_name();
+        if !is_nameless {
+            self.name("give it a name");
+        }
         self.times_before_template(watches);
-        if self.colon_of_head() {
+        if is_nameless || self.colon_of_head() {
             self.times_before_template(watches);
             // The name of an edge or of the next item is no template.
             let template = !self.names_something(0) && !self.begins_item();
@@ -206,6 +226,7 @@ impl Parser<'_, '_> {
     }
 
     fn template_name(&mut self) {
+        self.template = self.word(0);
         if self.tokens_of_name(0) == 1 {
             return self.reference();
         }
@@ -228,7 +249,7 @@ impl Parser<'_, '_> {
         self.open(Kind::Timing);
         self.keyword();
         if matches!(self.nth(0), Kind::Colon | Kind::Equal) {
-            let message = message!("no {} before a time", self.found());
+            let message = message!("unexpected {} before a time", self.found());
             self.instead(1, message, "remove it", "");
         }
         // A time that is missing has the other word behind it.
@@ -267,7 +288,7 @@ impl Parser<'_, '_> {
 
     pub(super) fn edge_or_skip(&mut self, what: &'static str) {
         if self.at_word_before_edge() {
-            let message = message!("no {} before an edge", self.found());
+            let message = message!("unexpected {} before an edge", self.found());
             return self.instead(1, message, "remove it", "");
         }
         if self.port_in_braces() {
@@ -337,6 +358,7 @@ impl Parser<'_, '_> {
     fn edge(&mut self) {
         self.open_item(Kind::Edge);
         let whole = self.at_edge() || self.at_bare_names();
+        self.event = self.word(0);
         self.take_name();
         while whole && self.eat(Kind::Comma) {
             self.take_name();
@@ -358,8 +380,9 @@ impl Parser<'_, '_> {
         if self.at(Kind::Name) && (self.on_same_line() || self.target_of_another_line()) {
             let brackets = self.no_brackets();
             self.target(brackets);
+            self.habit_behind_target();
             self.no_more_targets();
-        } else if !self.target_in_signs() {
+        } else if !self.habit_of_target() && !self.target_in_signs() {
             let here = self.behind();
             self.error(
                 Diagnostic::new(Code::E0109, here, "no target on the line of its '->'")
@@ -385,7 +408,7 @@ impl Parser<'_, '_> {
             None if self.at(Kind::Name) && self.on_same_line() && !self.names_something(0) => {
                 let here = self.here().before();
                 self.error(
-                    Diagnostic::new(Code::E0109, here, "no '->' before the target")
+                    Diagnostic::new(Code::E0109, here, "missing '->' before the target")
                         .help("write '->'")
                         .fix(here, "-> "),
                 );

@@ -2,6 +2,7 @@
 
 use super::Parser;
 use crate::diagnostics::{Code, Diagnostic, Message};
+use crate::habits::EVENTS;
 use crate::kind::Kind;
 use crate::message;
 
@@ -96,6 +97,7 @@ impl Parser<'_, '_> {
             while !self.ends_body(&body) && (!self.at_watch() || self.is_nested()) {
                 self.repeat(|parser| match parser.is_nested() {
                     true => parser.nested(),
+                    false if parser.habit_of_body(EVENTS) => {}
                     false => parser.edge_or_skip("an edge"),
                 });
             }

@@ -3,7 +3,6 @@
 //! One thing is said about a line: what else does not fit there comes of it, more often than not.
 
 use super::Parser;
-use super::habits::LOOP;
 use crate::diagnostics::{Code, Diagnostic, Message, Subject, Words};
 use crate::kind::Kind;
 use crate::message;
@@ -25,7 +24,9 @@ impl Body {
 impl Parser<'_, '_> {
     /// Reports what is wrong, unless something before it on the same line is.
     pub(super) fn error(&mut self, diagnostic: Diagnostic) {
+        let mut diagnostic = diagnostic;
         let place = diagnostic.span.start;
+        self.with_semicolon(&mut diagnostic);
         if let Some(cause) = self.reported_before(place) {
             self.hidden.insert(self.next_line(cause));
             return;
@@ -41,6 +42,24 @@ impl Parser<'_, '_> {
             false => self.be_quiet(place),
         }
         self.diags.push(diagnostic);
+    }
+
+    /// Takes back what is said of a ';' at the end of a line on which something else is wrong; an edit removes it, too.
+    fn with_semicolon(&mut self, diagnostic: &mut Diagnostic) {
+        let place = diagnostic.span.start;
+        let Some(cause) = self.reported_before(place).filter(|cause| *cause > place) else {
+            return;
+        };
+        let at = self.tokens.partition_point(|token| token.start < cause);
+        let is_sign = self.tokens.get(at).is_some_and(|token| token.text == ";");
+        let behind = self.tokens.get(at + 1);
+        if !is_sign || !behind.is_none_or(|token| token.ends_line()) {
+            return;
+        }
+        self.supersede(diagnostic.span);
+        if let Some(fix) = diagnostic.fix.as_mut().filter(|fix| fix.span.end == cause) {
+            fix.span.end += 1;
+        }
     }
 
     /// Takes back edits that do not mend all that is wrong on their lines.
@@ -291,7 +310,6 @@ impl Parser<'_, '_> {
     ) {
         let here = self.next_span();
         match (self.nth(0), meant) {
-            (Kind::Name, _) if self.word(0) == "repeat" => self.reserved(LOOP),
             (Kind::CloseParen, _) => {
                 let error = Diagnostic::new(Code::E0102, here, "this ')' is too much");
                 self.error(error.help("remove it").replace(""));

@@ -24,7 +24,7 @@ use toolbox::ToolboxFile;
 /// Arguments of `afpc check`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Files to check; FILE:Plan for another than its first plan
+    /// Files to check; append ':Plan' to select a plan other than the first
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
 

@@ -218,8 +218,8 @@ impl Arguments {
         let Some(ending) = path.extension() else { return Ok(Format::Svg) };
         let format = ending.to_str().and_then(|ending| Format::from_str(ending, true).ok());
         format.ok_or_else(|| {
-            let help = "end it in '.svg', '.png', '.dot', '.json' or '.scxml', or add '--format'";
-            RunError::usage(format!("'{}' says no format", path.display()), help)
+            let help = "use '.svg', '.png', '.dot', '.json' or '.scxml', or add '--format'";
+            RunError::usage(format!("unsupported format '.{}'", ending.display()), help)
         })
     }
 

@@ -41,7 +41,7 @@ fn a_picture_is_what_its_name_says() {
         assert!(place.bytes("a.PNG").starts_with(b"\x89PNG"), "{writer}");
     }
     place.afpc("run p.afp --svg a.gif").fails(2, &["neither an SVG nor a PNG"]);
-    place.afpc("graph p.afp -o a.gif").fails(2, &["'a.gif' says no format", "'.svg'"]);
+    place.afpc("graph p.afp -o a.gif").fails(2, &["unsupported format '.gif'", "'.svg'"]);
     place.afpc("graph p.afp -o a.gif --format png").succeeds();
     assert!(place.bytes("a.gif").starts_with(b"\x89PNG"));
 }

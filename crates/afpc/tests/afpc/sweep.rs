@@ -278,7 +278,7 @@ fn what_cannot_be_varied_is_said_before_anything_runs() {
         ("--vary walldist=20cm..1m", ["same unit", "--vary"]),
         ("--seeds 0..99999999999", ["these are 99999999999 runs", "give a part of the seeds"]),
         ("--seeds 5..5", ["no seeds in '5..5'", "--seeds"]),
-        ("-o a.txt", ["says no format", "'.csv' or '.parquet'"]),
+        ("-o a.txt", ["unsupported format '.txt'", "'.csv' or '.parquet'"]),
         #[cfg(not(feature = "parquet"))]
         ("-o a.parquet", ["built without Parquet", "--features parquet"]),
     ] {

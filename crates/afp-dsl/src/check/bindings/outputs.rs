@@ -8,7 +8,7 @@ use crate::check::names::unknown;
 use crate::check::signature::Signature;
 use crate::graph::{EntryId, EntryKind, Output};
 use crate::types::Type;
-use crate::types::text::a_type;
+use crate::types::text::{a_type, written};
 use afp_syntax::ast::Name;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Sought, Words};
 use afp_syntax::message;
@@ -69,11 +69,12 @@ fn output(
     diags: &mut Diagnostics,
 ) -> Option<Output> {
     let Some(index) = scope.entry(entry) else {
+        let wanted = ty.map_or_else(|| "float".to_owned(), written);
         let writable =
             scope.entries.iter().filter(|e| matches!(e.kind, EntryKind::Var | EntryKind::Out));
         let known = writable.map(|known| known.name.text.as_str());
         let message = message!("there is no entry '{}'", entry.text);
-        let none = message!("declare it in the plan, such as 'var {}: float'", entry.text);
+        let none = message!("declare it in the plan: 'var {}: {}'", entry.text, wanted);
         let error = unknown(Code::E0209, entry.span, message, &entry.text, known, none);
         diags.push(error.unknown(Sought::Entry, &entry.text));
         return None;
@@ -81,11 +82,12 @@ fn output(
     let target = &scope.entries[index];
     if matches!(target.kind, EntryKind::In | EntryKind::Const) {
         let word = target.kind.word();
-        let message = message!("'{}' is an entry that the plan does not write", entry.text);
+        let what = if target.kind == EntryKind::In { "an input" } else { "a constant" };
+        let message = message!("cannot write to '{}': it is {}", entry.text, Words(what));
         diags.push(
             Diagnostic::new(Code::E0219, entry.span, message)
                 .note(target.name.span, message!("declared as '{}' here", word))
-                .help("use an entry declared with 'var' or 'out'"),
+                .help("declare it as 'var' or 'out', or write to another entry"),
         );
         return None;
     }

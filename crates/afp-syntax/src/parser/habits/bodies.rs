@@ -31,22 +31,9 @@ impl Parser<'_, '_> {
             return false;
         }
         let (here, name) = (self.next_span(), self.word(0));
-        let (message, help) = match self.assignment_help(true) {
-            Some(help) => (
-                message!(
-                    "braces hold no '{} {} ...'",
-                    name,
-                    self.token(1).map_or("", |sign| sign.text)
-                ),
-                help,
-            ),
-            None => {
-                let sign = if self.nth(1) == Kind::FatArrow { "=>" } else { "=" };
-                let help =
-                    message!("move it before the '{{', in brackets: '({} {} ...)'", name, sign);
-                (message!("'{}' stands in braces where it has no place", name), help)
-            }
-        };
+        let sign = if self.nth(1) == Kind::FatArrow { "=>" } else { "=" };
+        let message = message!("'{}' stands in braces where it has no place", name);
+        let help = message!("move it before the '{{', in brackets: '({} {} ...)'", name, sign);
         self.error(Diagnostic::new(Code::E0114, here, message).help(help));
         self.open(Kind::Error);
         while self.at_port() {
@@ -83,17 +70,12 @@ impl Parser<'_, '_> {
             self.guard();
             return true;
         }
-        let chooses = matches!(self.word(0), "if" | "else" | "elif" | "switch" | "case" | "match")
-            || matches!(self.word(0), "when" | "while" | "for" | "loop");
-        let chooses = chooses
-            && matches!(self.nth(1), Kind::Name | Kind::Int | Kind::OpenParen | Kind::OpenBrace);
         let help = match self.meant(&["actor", "computation", "subplan", "supervise"]) {
-            _ if chooses => self.item_help().unwrap_or_default(),
             Some("supervise") => "move it behind the '}' of this supervisor".into(),
             Some(word) => message!("write '{}' behind the '}}' of this element", word),
             None => "write 'supervise' before the name of a supervisor".into(),
         };
-        if !(is_item || chooses) || self.names_something(0) {
+        if !is_item || self.names_something(0) {
             return false;
         }
         self.skip(what, help, |p| {

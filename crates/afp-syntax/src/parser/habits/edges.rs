@@ -26,7 +26,7 @@ impl Parser<'_, '_> {
         };
         let sign =
             if self.nth(1) == Kind::OpenParen { "brackets".into() } else { self.found_at(1) };
-        let message = message!("no {} behind '{}'", sign, word);
+        let message = message!("unexpected {} after '{}'", sign, word);
         self.error(Diagnostic::new(Code::E0102, self.ahead(tokens + 1), message).write(better));
         tokens
     }

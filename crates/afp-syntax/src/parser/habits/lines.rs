@@ -28,7 +28,7 @@ impl Parser<'_, '_> {
         let adjacent = self.token_index(1) == self.token_index(0) + 1;
         let stands = self.at(Kind::Less) && self.nth(1) == Kind::Greater && self.on_same_line();
         if stands && adjacent {
-            let message = "no '<>' between two values";
+            let message = "unexpected '<>' between two values";
             let error = Diagnostic::new(Code::E0102, self.ahead(2), message);
             self.error(error.help("write '!='").replace("!="));
             self.bump_together(2, Kind::NotEqual);
@@ -58,7 +58,7 @@ impl Parser<'_, '_> {
                 error.write(better)
             }
             None => {
-                let message = message!("no time at which to {}", Words(self.word(0)));
+                let message = message!("missing time at which to {}", Words(self.word(0)));
                 let help =
                     message!("write it in front, such as 'at 1 s: {}'", self.text_of(0, tokens));
                 Diagnostic::new(Code::E0102, place, message).help(help)

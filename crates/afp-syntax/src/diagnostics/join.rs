@@ -1,0 +1,62 @@
+//! One cause that is there many times is reported once, with the number of its places.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use super::render::thousands;
+use super::{Code, Diagnostic, Diagnostics, Edit, Message, Words};
+use crate::message;
+use crate::source::Span;
+
+/// An edit of several places covers at most so many bytes of a text.
+const LONGEST_EDIT: usize = 64 << 10;
+
+/// A sentence about something that is there at so many places.
+pub fn places(sentence: &Message, count: usize) -> Message {
+    message!("{}, at {} places", sentence.clone(), Words(thousands(count)))
+}
+
+impl Diagnostics {
+    /// Joins what is said of the same characters and names of a file, whose text is at hand.
+    pub(crate) fn join(&mut self, file: u16, text: &str) {
+        let mut first: HashMap<(Code, &str), usize> = HashMap::new();
+        let mut others: HashMap<usize, Vec<Option<Edit>>> = HashMap::new();
+        let mut kept: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
+        for each in std::mem::take(&mut self.list) {
+            let is_of_lexer = matches!(each.code, Code::E0101 | Code::E0113);
+            if !is_of_lexer || each.span.file != file {
+                kept.push(each);
+                continue;
+            }
+            let span = each.span.start as usize..each.span.end as usize;
+            match first.entry((each.code, text.get(span).unwrap_or_default())) {
+                Entry::Occupied(known) => others.entry(*known.get()).or_default().push(each.fix),
+                Entry::Vacant(new) => {
+                    new.insert(kept.len());
+                    kept.push(each);
+                }
+            }
+        }
+        for (at, fixes) in others {
+            let Some(said) = kept.get_mut(at) else { continue };
+            said.message = places(&said.message, fixes.len() + 1);
+            let all = std::iter::once(said.fix.take()).chain(fixes).collect::<Option<Vec<_>>>();
+            said.fix = all.and_then(|all| in_one(&all, text));
+        }
+        self.list = kept;
+        self.note_all();
+    }
+}
+
+/// One edit that does all of them, which are in the order of the text.
+fn in_one(edits: &[Edit], text: &str) -> Option<Edit> {
+    let (first, last) = (edits.first()?.span, edits.last()?.span);
+    let (mut better, mut at) = (String::new(), first.start as usize);
+    let is_short = last.end.checked_sub(first.start)? as usize <= LONGEST_EDIT;
+    for Edit { span, text: new } in edits.iter().filter(|_| is_short) {
+        better += text.get(at..span.start as usize)?;
+        better += new;
+        at = span.end as usize;
+    }
+    is_short.then(|| Edit { span: Span { end: last.end, ..first }, text: better })
+}

@@ -1,0 +1,352 @@
+//! Habits of other languages: what is written, what is wrong with it, and the plan text that says the same.
+//!
+//! The only table of them. A pattern is a list of tokens with blanks between them; the parser looks for it where something does
+//! not fit its grammar, on one line:
+//!
+//! - `NAME` is a name, `ENTRY` one of an entry, `SAME` the first name again, `NUM` a number with its unit, `..` anything up to the next token of the pattern, brackets and braces as a
+//!   whole. Each of these is captured. A `..` at the end is the rest of the line.
+//! - `a|b` is one of several, which is not captured; an alternative that is empty, as in `|:`, makes it optional.
+//! - Any other word or sign is itself, `PIPE` and `POWER` are '|' and '^'. A ';' is passed over unless the pattern has one.
+//! - `^` is where reading goes on; without it that is behind the pattern.
+//!
+//! In the sentences `{1}` is a capture, and a word in braces is something else that the parser knows (see its `elsewhere`).
+
+/// Where habits are looked for, one bit each.
+pub(crate) type Places = u8;
+
+/// Where an item of a file begins.
+pub(crate) const FILE: Places = 1;
+/// Where an item of a plan begins.
+pub(crate) const PLAN: Places = 1 << 1;
+/// Where a part of an element's body begins.
+pub(crate) const BODY: Places = 1 << 2;
+/// Where an edge of a supervisor begins.
+pub(crate) const EVENTS: Places = 1 << 3;
+/// Behind the arrow of an edge.
+pub(crate) const TARGET: Places = 1 << 4;
+/// Behind the target of an edge.
+pub(crate) const BEHIND: Places = 1 << 5;
+/// Where an operand of a formula begins.
+pub(crate) const VALUE: Places = 1 << 6;
+/// Behind an operand.
+pub(crate) const OPERATOR: Places = 1 << 7;
+const EDGES: Places = BODY | EVENTS;
+const ITEMS: Places = FILE | PLAN;
+const INSIDE: Places = PLAN | BODY;
+
+/// What a help does.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Write {
+    /// Puts this text in place of what is written.
+    Edit(&'static str),
+    /// Says this.
+    Say(&'static str),
+}
+use Write::{Edit, Say};
+
+/// A habit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Habit {
+    pub at: Places,
+    pub pattern: &'static str,
+    /// What is wrong.
+    pub says: &'static str,
+    pub write: Write,
+}
+
+const fn habit(at: Places, pattern: &'static str, says: &'static str, write: Write) -> Habit {
+    Habit { at, pattern, says, write }
+}
+
+const TIME_LIMIT: &str = "a time limit is a supervisor of its element";
+const LIMIT: &str = "write in the element's braces: 'supervise late: CheckTimeout(duration = {1}) { TimedOut -> {2} }'";
+const GUARD: &str = "an edge has no condition: lead it to a computation that chooses";
+const CHOOSE: &str = "write '{1} -> choose', and in the plan: '{choose:2:3}'";
+const ACTION: &str = "an edge only leads on, it does nothing itself";
+const NO_IF: &str = "a plan has no '{word}': a computation chooses where to go on";
+const NO_FORMULA_IF: &str = "formulas have no '{word}': a computation chooses where to go on";
+const CHOICE: &str = "write a computation, such as 'computation choose: Compare(left = {left}, right = {right}) \
+                      { Less -> {here}, Equal, Greater -> terminate }'";
+const CHOSEN: &str = "branch with a computation: '{chosen}'";
+const LOOP: &str = "a plan has no '{word}': an edge leads back to an element";
+const COUNTED: &str = "declare 'var rounds: int = 0', and write 'computation again: Count(value = rounds, \
+                       limit = {number:1}, next => rounds) { Again -> {here}, Done -> terminate }'";
+const BACK: &str = "lead the last edge back to the first element: '-> {here}'";
+const FUNCTION: &str = "there is no '{word}': a program is a plan, and plans use plans";
+const PLAN_OF_ITS_OWN: &str = "write 'plan {Large:1} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file; \
+                               'subplan' uses it";
+const PARALLEL: &str = "one element is active at a time; what runs beside it is a supervisor";
+const BESIDE: &str = "put what watches into the braces of an element: 'supervise late: CheckTimeout { TimedOut -> {here} }'";
+const NO_HOOK: &str = "an element does one thing and has no '{word}' action";
+const NEXT_ELEMENT: &str = "lead its edge to an element that does it: 'actor pause: Wait(duration = 1 s) { Elapsed -> {here} }'";
+const NO_SENSOR: &str = "formulas read no sensor: a supervisor watches it";
+const WATCH: &str = "watch it in an element's braces: 'supervise touch: CheckTouchSensor { TouchSensorPressed -> {here} }'";
+const NO_CLOCK: &str = "formulas have no clock: a supervisor measures time";
+const TIMED: &str = "write in an element's braces: 'supervise late: CheckTimeout(duration = 3 s) { TimedOut -> {here} }'";
+const SHOW: &str = "a plan has no '{word}': a computation shows a value in the log";
+const LOG: &str = "write 'computation show: Log(value = {1}) { Done -> {here} }'";
+const WAITS: &str = "a plan has no '{word}': waiting is an actor";
+const WRITES: &str = "a plan has no assignment: a computation writes to an entry";
+const NO_LIST: &str = "there are no lists: constants stand in a table";
+const TABLE: &str =
+    "write 'table values(value: int) { (1) (2) }' in the file, and read it with 'Row' of 'std'";
+const NO_HISTORY: &str = "a plan has no history: what is active goes on with 'resume'";
+const RESUME: &str = "lead the event, or the computation behind it, to 'resume'";
+const NO_MESSAGES: &str = "plans send nothing: an entry holds a value, and a supervisor watches it";
+const CHANGED: &str = "write the entry with 'Assign', and watch it with 'supervise changed: Changed(value = {left}) { Changed -> {here} }'";
+const EDGE_OUTSIDE: &str = "an edge stands in the braces of the element that it leaves";
+const SEQUENCE: &str = "a plan has no '{word}': edges say what comes next";
+
+/// Where a sign of a choice is written that no plan text can be given for.
+pub(crate) const BRANCH: &str =
+    "let a computation such as 'Compare' or 'Is' of 'std' choose the way";
+
+/// Every habit; of those that fit the first counts.
+#[rustfmt::skip]
+pub(crate) const HABITS: &[Habit] = &[
+    // Times.
+    habit(BODY, "after |: NUM ->|=>|: NAME", TIME_LIMIT, Edit("supervise late: CheckTimeout(duration = {1}) { TimedOut -> {2} }")),
+    habit(BODY, "after ( NUM ) ->|=>|: NAME", TIME_LIMIT, Edit("supervise late: CheckTimeout(duration = {1}) { TimedOut -> {2} }")),
+    habit(PLAN | EVENTS, "after |: NUM ->|=>|: NAME", TIME_LIMIT, Say(LIMIT)),
+    habit(BODY, "after|timeout|delay |: ..", TIME_LIMIT, Say(TIMED)),
+    habit(INSIDE, "timeout ( NUM ) ..", TIME_LIMIT, Say("write in the element's braces: 'supervise late: CheckTimeout(duration = {1}) { TimedOut -> {here} }'")),
+    habit(PLAN, "timeout|after ..", TIME_LIMIT, Say(TIMED)),
+    habit(PLAN, "timer|every NAME : NUM ..", "a plan has no '{word}': a supervisor reports again and again", Say("write 'supervise {1}: Every(period = {2}) { Due -> {here} }'")),
+    habit(PLAN, "rate NUM ..", "a plan has no '{word}': a supervisor reports again and again", Say("write 'supervise tick: Every(period = 1 / {1}) { Due -> {here} }'")),
+
+    // Conditions.
+    habit(EDGES, "NAME [ .. ] ->|=> NAME", GUARD, Say(CHOOSE)),
+    habit(EDGES, "NAME when|if|unless|where|while .. ->|=> NAME", GUARD, Say(CHOOSE)),
+    habit(BEHIND, "[ .. ]", GUARD, Say("write '{event} -> choose', and in the plan: '{choose:1:target}'")),
+    habit(BEHIND, "when|if|unless|where ..", GUARD, Say("write '{event} -> choose', and in the plan: '{choose:1:target}'")),
+    habit(EDGES, "NAME ( NAME => NAME ) -> NAME", "outputs follow the template, not its events", Say("write '{template}({2} => {3})' and '{1} -> {4}'")),
+    habit(EDGES, "guard|cond|condition : ..", GUARD, Say("write a computation in the plan: '{choose:1:here}'")),
+    habit(PLAN, "if|elif|switch|case|match|when|else|choice|condition|decision|unless true|True|false|False|{ ..", NO_IF, Say(CHOICE)),
+    habit(PLAN, "switch|case|match ( .. ) ..", NO_IF, Say("write 'computation choose: Compare(left = {1}, right = 3) { Less -> {here}, Equal, Greater -> terminate }', or 'Switch' for an enum")),
+    habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless ( .. ) ..", NO_IF, Say("write '{choose:1:here}'")),
+    habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless .. { ..", NO_IF, Say("write '{choose:1:here}'")),
+    habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless .. :", NO_IF, Say("write '{choose:1:here}'")),
+    habit(PLAN | EDGES, "if|elif|switch|case|match|when|condition|unless ..", NO_IF, Say("write '{choose:1:here}'")),
+    habit(PLAN, "else|choice|decision ..", NO_IF, Say(CHOICE)),
+    habit(EDGES, "else|otherwise|default ->|=>|: NAME", "edges have no '{word}': each state and event has an edge of its own", Say("write the names with commas before one arrow: 'Less, Equal -> {1}'")),
+    habit(EDGES, "if|elif|else|switch|case|match|when|unless (|{|NAME ..", NO_IF, Say(CHOICE)),
+    habit(EDGES, "NAME => { NAME }", "an edge has '->' and its target without braces", Edit("{1} -> {2}")),
+    habit(VALUE, "if .. then|: .. else ..", NO_FORMULA_IF, Say("branch before it: '{choose:1:here}'")),
+    habit(VALUE, "NAME ==|!=|<|>|<=|>= .. ? .. : ..", "formulas have no '?': a computation chooses where to go on", Say(CHOSEN)),
+    habit(OPERATOR, "==|!=|<|>|<=|>= .. ? .. : ..", "formulas have no '?': a computation chooses where to go on", Say(CHOSEN)),
+    habit(OPERATOR, "if .. else ..", NO_FORMULA_IF, Say("branch before it: '{choose:1:here}'")),
+    habit(OPERATOR, "&&|&|or|and|xor|is|if|?|PIPE ..", NO_FORMULA_IF, Say(CHOSEN)),
+    habit(OPERATOR, "~ = ..", NO_FORMULA_IF, Say(CHOICE)),
+    habit(OPERATOR, "==|!=|<|>|<=|>= ..", NO_FORMULA_IF, Say(CHOSEN)),
+    habit(VALUE, "not|! NAME", NO_FORMULA_IF, Say("branch with 'computation choose: Is(value = {1}, equals = true) { Yes -> {here}, No -> terminate }'")),
+    habit(VALUE, "not|! (", NO_FORMULA_IF, Say(CHOICE)),
+
+    // Actions of states.
+    habit(BODY, "entry|exit|onEntry|onExit|onentry|onexit|on_entry|on_exit|enter|leave|do|during :|/|(|{ ..", NO_HOOK, Say(NEXT_ELEMENT)),
+    // Loops.
+    habit(INSIDE, "repeat until .. { ..", LOOP, Say("write '{choose:1:here}'")),
+    habit(INSIDE, "repeat|loop|times|retry|for |( NUM ..", LOOP, Say(COUNTED)),
+    habit(INSIDE, "for NAME =|in NUM : NUM ..", LOOP, Say("declare 'var {1}: int = 0', and write 'computation again: Count(value = {1}, limit = {3}, next => {1}) { Again -> {here}, Done -> terminate }'")),
+    habit(INSIDE, "for NAME =|in range ( NUM ) ..", LOOP, Say("declare 'var {1}: int = 0', and write 'computation again: Count(value = {1}, limit = {2}, next => {1}) { Again -> {here}, Done -> terminate }'")),
+    habit(INSIDE, "for ( int|let|var|auto| NAME = NUM ; NAME < NUM ..", LOOP, Say("declare 'var {1}: int = 0', and write 'computation again: Count(value = {1}, limit = {4}, next => {1}) { Again -> {here}, Done -> terminate }'")),
+    habit(INSIDE, "repeat|for|foreach ..", LOOP, Say("declare 'var rounds: int = 0', and write 'computation again: Count(value = rounds, limit = 3, next => rounds) { Again -> {here}, Done -> terminate }'")),
+    habit(INSIDE, "while ( 1|true|True|TRUE ) ..", LOOP, Say(BACK)),
+    habit(INSIDE, "while 1|true|True|TRUE ..", LOOP, Say(BACK)),
+    habit(INSIDE, "while|until ( .. ) ..", LOOP, Say("write '{choose:1:here}'")),
+    habit(INSIDE, "while|until .. : ..", LOOP, Say("write '{choose:1:here}'")),
+    habit(INSIDE, "while|until .. { ..", LOOP, Say("write '{choose:1:here}'")),
+    habit(INSIDE, "forever|loop|do|while|until ..", LOOP, Say(BACK)),
+    habit(FILE, "forever ^ plan NAME {", "'forever' follows the name of the plan", Edit("plan {1} forever {")),
+
+    // Waiting and showing.
+    habit(PLAN, "wait until .. ", WAITS, Say("write 'actor wait: Idle { supervise value: CheckValue(value = {left:1}, limit = {right:1}) { Above -> {here}, Below -> ignore } }'")),
+    habit(INSIDE, "delay ( NUM )", WAITS, Say("write 'actor wait: Wait(duration = {ms:1}) { Elapsed -> {here} }' in the plan")),
+    habit(INSIDE, "sleep|pause|wait ( NUM )", WAITS, Say("write 'actor wait: Wait(duration = {s:1}) { Elapsed -> {here} }' in the plan")),
+    habit(INSIDE, "time . sleep ( NUM )", WAITS, Say("write 'actor wait: Wait(duration = {s:1}) { Elapsed -> {here} }' in the plan")),
+    habit(INSIDE, "delay|sleep|pause|wait NUM", WAITS, Say("write 'actor wait: Wait(duration = {s:1}) { Elapsed -> {here} }' in the plan")),
+    habit(INSIDE, "print|println|printf|disp|display|log|echo|puts ( .. )", SHOW, Say(LOG)),
+    habit(INSIDE, "Serial|console . NAME ( .. )", SHOW, Say("write 'computation show: Log(value = {2}) { Done -> {here} }'")),
+    habit(INSIDE, "tic|toc|millis|clock |( ..", NO_CLOCK, Say(TIMED)),
+    habit(INSIDE, "digitalWrite|analogWrite|pinMode|tone ( ..", "a plan has no '{word}': actors of a toolbox drive its devices", Say("write an actor, such as 'actor show: Signal { Signalled -> {here} }'")),
+    habit(INSIDE, "move|drive|turn|go|forward|backward|left|right |( NUM ..", "a plan has no '{word}': actors of a toolbox drive the robot", Say("write an actor, such as 'actor drive: Forward(distance = 10 cm) { ForwardSuccessful -> {here} }'")),
+
+    // Sensors and clocks in formulas.
+    habit(VALUE, "millis|micros|clock|now|time|toc|tic ( ..", NO_CLOCK, Say(TIMED)),
+    habit(VALUE, "NAME . time|now|ticks_ms|monotonic ( ..", NO_CLOCK, Say(TIMED)),
+    habit(VALUE, "digitalRead|analogRead|pulseIn|readSensor|getDistance|read ( ..", NO_SENSOR, Say(WATCH)),
+    habit(VALUE, "ultrasonic|sensor|bumper|lidar|sonar|encoder . NAME ..", NO_SENSOR, Say("write in an element's braces: 'supervise near: CheckDistance(distance = 30 cm) { Nearer -> {here}, Farther -> ignore }'")),
+    habit(VALUE, "len|size|length|count ( ..", "there are no lists, so nothing has a length", Say("read a 'table' with 'Row' of 'std': its state 'End' says that there are no more rows")),
+
+    // Lists.
+    habit(VALUE, "[ ..", NO_LIST, Say(TABLE)),
+    habit(OPERATOR, "[ .. ] ..", NO_LIST, Say(TABLE)),
+    habit(INSIDE, "NAME = [ ..", NO_LIST, Say("write 'table {1}(value: int) { (1) (2) }' in the file, and read it with 'Row' of 'std'")),
+    habit(INSIDE, "NAME [ .. ] = ..", NO_LIST, Say(TABLE)),
+
+    // Signs in formulas.
+    habit(OPERATOR, ". POWER ..", "formulas have no '.^'", Say("write a product, such as '{left} * {left}'")),
+
+    // Actions.
+    habit(TARGET, "{ NAME = .. ; NAME }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {3} }'")),
+    habit(TARGET, "{ NAME = .. }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(TARGET, "{ NAME }", "a target stands without braces", Edit("{1}")),
+    habit(TARGET, "[ * ]", "a plan has no final state: an edge ends it", Edit("terminate")),
+    habit(BEHIND, ". history|hist|last ..", NO_HISTORY, Say(RESUME)),
+    habit(BEHIND, "/ NAME = ..", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {target} }'")),
+    habit(BEHIND, "{ NAME = .. }", ACTION, Say("write '{event} -> set', and in the plan: 'computation set: Assign(value = {2}, result => {1}) { Done -> {target} }'")),
+    habit(BEHIND, "/|{|do ..", ACTION, Say("lead it to an element that does it: 'actor pause: Wait(duration = 1 s) { Elapsed -> {target} }'")),
+    habit(BEHIND, "&|&& NAME", "one element is active at a time", Edit("")),
+    habit(BODY, "internal ..", ACTION, Say(NEXT_ELEMENT)),
+    habit(BODY, "actions|action|invoke|activity : ..", NO_HOOK, Say(NEXT_ELEMENT)),
+    habit(PLAN, "invoke|activity|do|call : NAME ..", "an element runs when an edge leads to it", Say("write 'actor {1}: Wait(duration = 1 s) { Elapsed -> {here} }'")),
+
+    // States and events.
+    habit(BODY, "on |: { NAME : NAME }", "edges stand in the braces without 'on'", Say("write '{1} -> {2}'; an event stands in the braces of its supervisor")),
+    habit(BODY, "on : ..", "edges stand in the braces without 'on'", Say("write 'State -> {here}'; an event stands in the braces of its supervisor")),
+    habit(PLAN, "on |: { ..", "a plan has no 'on': a supervisor watches", Say("write 'supervise escape: CheckEscapeButton { EscapeButtonPressed -> terminate }'")),
+    habit(EDGES, "target : NAME", "an edge begins with its state or event", Say("write 'State -> {1}'")),
+    habit(EDGES, "always ->|=>|: NAME", "edges have no 'always': an element that goes on at once is not needed", Say("remove it, and lead the edges that lead here to '{1}'")),
+    habit(PLAN, "initial|init|begin|root|entry |:|=|-> NAME", "a plan begins with 'start'", Edit("start {1}")),
+    habit(PLAN, "[ * ] - -> NAME", "a plan begins with 'start'", Edit("start {1}")),
+    habit(ITEMS, "states|nodes|steps|tasks :|=|{ ..", "elements are not listed: each is an item of the plan", Say("write each as 'actor idle: Wait(duration = 1 s) { Elapsed -> {here} }'")),
+    habit(PLAN, "parallel|concurrent|fork|join|region|orthogonal ..", PARALLEL, Say(BESIDE)),
+    habit(PLAN, "type : ..", PARALLEL, Say(BESIDE)),
+    habit(ITEMS, "parallel ..", PARALLEL, Say(BESIDE)),
+    habit(PLAN, "final state NAME", "a plan has no final state: an edge ends it", Say("write '-> terminate' where an edge leads to '{1}'")),
+    habit(PLAN, "final|final_state NAME", "a plan has no final state: an edge ends it", Say("write '-> terminate' where an edge leads to '{1}'")),
+    habit(PLAN, "state|action|step|task|behavior|behaviour NAME { ..", "a state of a plan is an actor, made from a template", Say("write 'actor {1}: Wait(duration = 1 s) { Elapsed -> {here} }'")),
+    habit(PLAN, "history ..", NO_HISTORY, Say(RESUME)),
+    habit(PLAN, "context|data|variables|vars : { NAME : .. }", "each entry is an item of its own", Say("write 'var {1}: int = {2}'")),
+    habit(PLAN, "transition|edge NAME : NAME -> NAME", EDGE_OUTSIDE, Say("write '{1} -> {3}' in the braces of '{2}'")),
+    habit(PLAN, "transition|edge| NAME -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
+    habit(PLAN, "NAME - - -> NAME", EDGE_OUTSIDE, Say("write 'State -> {2}' in the braces of '{1}'")),
+    habit(INSIDE, "send|raise|emit|trigger|broadcast|notify|publish|dispatch ..", NO_MESSAGES, Say(CHANGED)),
+    habit(INSIDE, "goto|goTo|transition_to|next NAME", "a plan has no '{word}': an edge leads on", Say("write 'State -> {1}' in the braces of an element")),
+    habit(INSIDE, "break|continue|return|stop|exit|end |NAME ..", "a plan has no '{word}': an edge leads on or ends it", Say("write '-> terminate' behind a state or event, or give a value out with an 'out' entry")),
+
+    // Behaviour trees.
+    habit(ITEMS, "sequence|seq|chain |NAME { NAME |, NAME ..", SEQUENCE, Say("write 'State -> {2}' in the braces of '{1}'")),
+    habit(ITEMS, "fallback|selector |NAME { NAME |, NAME ..", "a plan has no '{word}': an 'Error' edge leads to what comes instead", Say("write 'Error -> {2}' in the braces of '{1}'")),
+    habit(ITEMS, "sequence|seq|chain|fallback|selector ..", SEQUENCE, Say("write 'State -> {here}' in the braces of the element before it")),
+    habit(PLAN, "inverter|invert|force_success|force_failure|succeeder ..", "a plan has no '{word}': each state has an edge of its own", Say("lead the edge of each state where it should: 'Error -> {here}'")),
+    habit(PLAN, "subtree|submachine|sub NAME", "a plan in a plan is a 'subplan'", Say("write 'subplan {1}: {Large:1} { OK -> {here} }'")),
+
+    // ROS.
+    habit(PLAN, "topic NAME : NAME", "a plan has no topics: an entry holds a value", Say("write 'in {1}: {2}', and a value behind it")),
+    habit(PLAN, "subscribe|subscriber|callback|listen ..", "a plan has no '{word}': a supervisor watches", Say("write in an element's braces or in the plan: 'supervise near: CheckDistance { Nearer -> {here}, Farther -> ignore }'")),
+    habit(PLAN, "publisher|advertise|topic ..", NO_MESSAGES, Say(CHANGED)),
+    habit(PLAN, "service|rosservice|action_client|action_server ..", "a plan has no '{word}': a plan is used by a plan", Say("write a plan of its own, and use it with 'subplan'")),
+    habit(PLAN, "spin|spinOnce|ros|rclpy |( ..", "a plan runs by itself", Say("remove it")),
+    habit(BODY, "feedback|result ..", "outputs go to entries, in the brackets of the template", Say("write 'driven => {left}' in the brackets behind '{template}'")),
+    habit(ITEMS, "node NAME { ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
+
+    // Declarations.
+    habit(PLAN, "int|long|short|uint8_t|int32 NAME = NUM", "an entry begins with 'var', and its type follows the name", Edit("var {1}: int = {2}")),
+    habit(PLAN, "float|double|real NAME = NUM", "an entry begins with 'var', and its type follows the name", Edit("var {1}: float = {2}")),
+    habit(PLAN, "bool|boolean NAME = true|false", "an entry begins with 'var', and its type follows the name", Edit("var {1}: bool = {last}")),
+    habit(PLAN, "let|auto|local|global|val mut| NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
+    habit(FILE, "const|let|var|static NAME = ..", "entries stand in the braces of a plan", Say("move it into the plan, as 'const {small:1}: int = {2}'")),
+    habit(PLAN, "ENTRY = ..", WRITES, Say("write 'computation set: Assign(value = {2}, result => {1}) { Done -> {here} }'")),
+    habit(INSIDE, "ENTRY + = ..", WRITES, Say("write 'computation set: Assign(value = {1} + {2}, result => {1}) { Done -> {here} }' in the plan")),
+    habit(INSIDE, "ENTRY - = ..", WRITES, Say("write 'computation set: Assign(value = {1} - {2}, result => {1}) { Done -> {here} }' in the plan")),
+    habit(INSIDE, "ENTRY * = ..", WRITES, Say("write 'computation set: Assign(value = {1} * {2}, result => {1}) { Done -> {here} }' in the plan")),
+    habit(INSIDE, "ENTRY / = ..", WRITES, Say("write 'computation set: Assign(value = {1} / {2}, result => {1}) { Done -> {here} }' in the plan")),
+    habit(INSIDE, "ENTRY + +", WRITES, Say("write 'computation set: Assign(value = {1} + 1, result => {1}) { Done -> {here} }' in the plan")),
+    habit(INSIDE, "ENTRY - -", WRITES, Say("write 'computation set: Assign(value = {1} - 1, result => {1}) { Done -> {here} }' in the plan")),
+    habit(BODY, "ENTRY = ENTRY +|-|*|/ ..", WRITES, Say("write 'computation set: Assign(value = {written:2}, result => {1}) { Done -> {here} }' in the plan")),
+    habit(PLAN, "NAME = SAME +|-|*|/ ..", WRITES, Say("declare 'var {1}: int = 0', and write 'computation set: Assign(value = {written:2}, result => {1}) { Done -> {here} }'")),
+    habit(PLAN, "NAME = ..", "an entry begins with 'var'", Edit("var {1} = {2}")),
+
+    habit(PLAN, "param|parameter|input|argument NAME = NUM", "an entry that is given from outside begins with 'in', and has a type", Edit("in {1}: {type:2} = {2}")),
+
+    // Functions, classes and files.
+    habit(ITEMS, "void|int|fn|func|function|def|sub|proc|async loop|Loop ( ) ..", FUNCTION, Say("write 'plan Loop forever { start wait actor wait: Wait { Elapsed -> wait } }'")),
+    habit(ITEMS, "void|int|fn|func|function|def|sub|proc|async NAME ( ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
+    habit(ITEMS, "function NAME = NAME ( ..", FUNCTION, Say("write 'plan {Large:2} { start wait actor wait: Wait { Elapsed -> terminate } }' in the file; 'subplan' uses it")),
+    habit(ITEMS, "class|module|namespace|program|main NAME ..", FUNCTION, Say(PLAN_OF_ITS_OWN)),
+    habit(ITEMS, "struct|record|type NAME ..", "there are no structs: each field is an entry", Say("declare each field in the plan, such as 'var x: length = 0 m'")),
+    habit(PLAN, "import|include|from|require|using ..", "'use' stands at the top of the file", Say("write 'use std' there")),
+    habit(FILE, "import|include|from|require|using std|carbot", "a file names its toolboxes with 'use'", Edit("use {last}")),
+    habit(FILE, "import|include|from|require|using ..", "a file names its toolboxes with 'use'", Say("write 'use std' or 'use carbot'")),
+    habit(INSIDE, "try|catch|except|finally|throw ..", "a plan has no '{word}': a failure takes the 'Error' edge", Say("write 'Error -> {here}' in the braces of the element")),
+];
+
+/// Words that stand for ours elsewhere, by the role that ours have.
+pub(crate) const WORDS: &[(&str, &[&str])] = &[
+    ("actor", &["state", "action", "step", "node", "behavior", "behaviour", "task"]),
+    ("supervise", &["supervisor", "guard", "watch", "monitor"]),
+    ("supervisor", &["supervise", "guard", "watch", "monitor"]),
+    ("in", &["input", "param", "parameter"]),
+    ("out", &["output", "result"]),
+    ("var", &["variable"]),
+    ("const", &["constant", "static", "final"]),
+    ("subplan", &["sub", "subtree", "submachine"]),
+    ("start", &["begin", "initial", "first", "entry"]),
+    ("uses", &["use"]),
+    ("every", &["each", "period", "interval", "rate"]),
+    ("deadline", &["within", "timeout"]),
+    ("expect", &["assert", "require"]),
+];
+
+/// Words that stand behind `->` elsewhere: for the ends of plans, and for reactions to events.
+pub const ENDS: &[(&str, &[&str])] = &[
+    (
+        "terminate",
+        &[
+            "stop", "end", "done", "finish", "finished", "exit", "quit", "halt", "success",
+            "return", "final",
+        ],
+    ),
+    ("fail", &["error", "failure", "failed", "abort", "aborted", "panic"]),
+];
+pub const REACTIONS: &[(&str, &[&str])] = &[
+    ("ignore", &["none", "nothing", "nop", "noop", "pass", "skip", "null", "nil"]),
+    (
+        "resume",
+        &[
+            "continue", "proceed", "go_on", "goon", "carry_on", "history", "hist", "previous",
+            "last",
+        ],
+    ),
+];
+
+/// Types that are called otherwise elsewhere.
+pub const TYPES: &[(&str, &[&str])] = &[
+    ("bool", &["boolean"]),
+    ("int", &["integer", "long", "short", "uint", "int32", "int64", "uint8", "i32", "i64", "u8"]),
+    (
+        "float",
+        &["double", "real", "number", "float32", "float64", "f32", "f64", "percent", "ratio"],
+    ),
+    ("string", &["str", "text", "char"]),
+    ("length", &["distance", "meters", "meter"]),
+    ("duration", &["time", "seconds", "second"]),
+    ("angle", &["degrees", "radians", "heading"]),
+    ("speed", &["velocity"]),
+    ("angular_speed", &["angular_velocity", "angularVelocity"]),
+];
+
+/// Units that the language does not have: so many of another one.
+const UNITS: &[(&[&str], f64, &str)] = &[
+    (&["in", "inch", "inches"], 2.54, "cm"),
+    (&["ft", "foot", "feet"], 30.48, "cm"),
+    (&["yd", "yard", "yards"], 91.44, "cm"),
+    (&["mi", "mile", "miles"], 1.609_344, "km"),
+    (&["mph"], 0.447_04, "m/s"),
+    (&["lb", "lbs", "pound", "pounds"], 0.453_592_37, "kg"),
+    (&["rpm"], 6.0, "deg/s"),
+];
+
+/// Our word for one of another language, in any case of letters.
+pub fn ours(words: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> {
+    let is_it = |others: &&[&str]| others.iter().any(|it| it.eq_ignore_ascii_case(name));
+    words.iter().find(|(_, others)| is_it(others)).map(|(ours, _)| *ours)
+}
+
+/// A quantity of a foreign unit in one that the language has: `30.48 cm` for `12` and `in`.
+pub(crate) fn converted(number: &str, unit: &str) -> Option<String> {
+    let (_, factor, ours) = UNITS.iter().find(|(words, ..)| words.contains(&unit))?;
+    // Fewer digits than a float has, so that no rounding is seen.
+    let rounded: f64 = format!("{:.11e}", number.parse::<f64>().ok()? * factor).parse().ok()?;
+    Some(format!("{rounded} {ours}"))
+}

@@ -1,0 +1,524 @@
+//! Looks for the habits of other languages, of which there is one table, and says what the plan text for them is.
+
+use std::collections::BTreeMap;
+
+use super::Parser;
+use super::habits::is_operator;
+use crate::diagnostics::{Code, Diagnostic, Words};
+use crate::habits::{BEHIND, HABITS, Habit, OPERATOR, PLAN, Places, TARGET, VALUE, Write};
+use crate::keywords;
+use crate::kind::Kind;
+use crate::lexer::Token;
+use crate::message;
+use crate::source::Span;
+use crate::units::Unit;
+
+/// So many tokens are looked at.
+const MOST_TOKENS: usize = 64;
+/// Templates of `std` that the table uses.
+const OF_STD: &[&str] = &[
+    "Assign(",
+    "Changed(",
+    "Compare(",
+    "Count(",
+    "CheckTimeout",
+    "CheckValue(",
+    "Every(",
+    "Idle ",
+    "Is(",
+    "Log(",
+    "Wait",
+];
+
+/// A habit that was found.
+struct Found<'t> {
+    habit: &'static Habit,
+    captures: Vec<String>,
+    /// The tokens that may be looked at.
+    line: Vec<Token<'t>>,
+    /// How many of them are the pattern, and from which on reading goes on.
+    end: usize,
+    next: usize,
+}
+
+impl<'t> Parser<'t, '_> {
+    /// Reports a habit that is there, and reads past it. Returns whether one is there.
+    pub(super) fn habit(&mut self, place: Places) -> bool {
+        let Some(found) = self.find_habit(place) else { return false };
+        let line = &found.line;
+        let (Some(first), Some(last)) = (line.first(), line.get(found.end - 1)) else {
+            return false;
+        };
+        let here = self.span_of(*first).to(self.span_of(*last));
+        // A ';' at the end of the line goes with it.
+        let behind = line.get(found.end).filter(|token| token.text == ";");
+        let whole = behind.map_or(here, |sign| here.to(self.span_of(*sign)));
+        let says = self.filled(found.habit.says, &found, place);
+        let error = Diagnostic::new(Code::E0102, here, message!("{}", Words(says)));
+        let error = match found.habit.write {
+            Write::Edit("") => error.help("remove it").fix(whole, ""),
+            Write::Edit(text) => error.write_at(whole, self.filled(text, &found, place)),
+            Write::Say(text) => {
+                let mut help = self.filled(text, &found, place);
+                let written =
+                    found.captures.first().filter(|_| found.habit.pattern.starts_with("ENTRY"));
+                let declared =
+                    written.and_then(|name| Some((name, self.entries.get(name.as_str())?)));
+                if let Some((name, word @ (&"in" | &"const"))) = declared {
+                    help = format!("declare '{name}' with 'var', not '{word}', and {help}");
+                }
+                if !self.has_std && OF_STD.iter().any(|template| help.contains(template)) {
+                    help += "; 'use std' at the top";
+                }
+                error.help(message!("{}", Words(help)))
+            }
+        };
+        self.supersede(here);
+        self.error(error);
+        let next = line.get(found.next).map_or(whole.end, |token| token.start);
+        if place & PLAN != 0 && self.items_in_braces(line) {
+            return true;
+        }
+        self.pass_to(|p| p.token(0).is_none_or(|token| token.start >= next));
+        true
+    }
+
+    /// The habit that is written here, unless something is said of this line already.
+    fn find_habit(&self, place: Places) -> Option<Found<'t>> {
+        let start = self.next_written()?;
+        if self.tokens.get(start)?.start < self.quiet {
+            return None;
+        }
+        let word = self.tokens.get(start)?.text;
+        let mut fitting = HABITS.iter().filter(|it| it.at & place != 0 && begins(it.pattern, word));
+        let first = fitting.next()?;
+        let line = self.written_line(start, place);
+        let mut all = std::iter::once(first).chain(fitting);
+        let is_formula = place & (VALUE | OPERATOR) != 0;
+        all.find_map(|habit| {
+            let entries = &self.entries;
+            let mut matcher =
+                Matcher { line: &line, entries, captures: Vec::new(), next: None, is_formula };
+            let end = matcher.matches(habit.pattern, 0)?;
+            let Matcher { captures, next, .. } = matcher;
+            if end == 0 {
+                return None;
+            }
+            let line = line.clone();
+            Some(Found { habit, captures, line, end, next: next.unwrap_or(end) })
+        })
+    }
+
+    /// The token with a text behind the last one that was read; it may be a sign of another language.
+    fn next_written(&self) -> Option<usize> {
+        let before = self.at.checked_sub(1).and_then(|before| self.solid.get(before));
+        let from = before.map_or(0, |before| *before as usize + 1);
+        Some(from + self.tokens.get(from..)?.iter().position(is_written)?)
+    }
+
+    /// The tokens from one on to the end of its line; brackets and braces go on over lines.
+    fn written_line(&self, start: usize, place: Places) -> Vec<Token<'t>> {
+        let (mut line, mut depth) = (Vec::new(), 0_usize);
+        for token in self.tokens.get(start..).unwrap_or_default() {
+            if depth == 0 && token.ends_line() || line.len() == MOST_TOKENS {
+                break;
+            }
+            match token.kind {
+                Kind::OpenBrace | Kind::OpenParen | Kind::OpenBracket => depth += 1,
+                Kind::CloseBrace | Kind::CloseParen | Kind::CloseBracket if depth == 0 => break,
+                Kind::CloseBrace | Kind::CloseParen | Kind::CloseBracket => depth -= 1,
+                Kind::Comma if depth == 0 && place & (VALUE | OPERATOR) != 0 => break,
+                _ => {}
+            }
+            if is_written(token) {
+                line.push(*token);
+            }
+        }
+        line
+    }
+
+    /// Drops what the lexer has said of signs of a habit and of the rest of its line.
+    pub(super) fn supersede(&mut self, here: Span) {
+        let end = self.next_line(here.end);
+        let cause = self.reported_before(here.start);
+        if cause.is_some_and(|cause| cause >= here.start && self.foreign.contains(&cause)) {
+            self.reported.remove(&self.next_line(here.start));
+            self.superseded.push((here.start, end));
+        }
+    }
+
+    /// Takes back what is superseded.
+    pub(super) fn drop_superseded(&mut self) {
+        let (file, ranges) = (self.file, std::mem::take(&mut self.superseded));
+        if ranges.is_empty() {
+            return;
+        }
+        self.diags.retain(|each| {
+            let start = each.span.start;
+            let at = ranges.partition_point(|(from, _)| *from <= start);
+            let is_in = at.checked_sub(1).is_some_and(|at| start < ranges[at].1);
+            each.span.file != file || each.code != Code::E0101 || !is_in
+        });
+    }
+
+    /// `while (true) { actor go: ... }`: reads the items in the braces of a habit. Returns whether there are some.
+    fn items_in_braces(&mut self, line: &[Token<'t>]) -> bool {
+        let Some(brace) = line.iter().position(|token| token.kind == Kind::OpenBrace) else {
+            return false;
+        };
+        let Some(first) = line.get(brace + 1).filter(|_| self.balanced && self.depth == 0) else {
+            return false;
+        };
+        let ahead = self.solid.get(self.at..).unwrap_or_default();
+        let ahead = ahead.partition_point(|at| self.tokens[*at as usize].start < first.start);
+        if !keywords::has(self.word(ahead), keywords::PLAN) || self.nth(ahead + 1) != Kind::Name {
+            return false;
+        }
+        self.pass(ahead);
+        self.depth += 1;
+        while self.at_plan_item() {
+            self.repeat(Self::plan_item);
+        }
+        self.depth -= 1;
+        self.pass_to(|p| p.at(Kind::CloseBrace));
+        if self.at(Kind::CloseBrace) {
+            self.pass(1);
+        }
+        true
+    }
+
+    /// A sentence of the table with its holes filled.
+    fn filled(&self, sentence: &str, found: &Found<'_>, place: Places) -> String {
+        let mut text = String::new();
+        let mut rest = sentence;
+        while let Some(at) = rest.find('{') {
+            let (before, behind) = rest.split_at(at);
+            text += before;
+            let end = behind.find('}').unwrap_or(behind.len());
+            let hole = behind.get(1..end).unwrap_or_default();
+            if hole.is_empty() || !hole.bytes().all(|it| it.is_ascii_alphanumeric() || it == b':') {
+                text.push('{');
+                rest = &behind[1..];
+                continue;
+            }
+            text += &self.hole(hole, found, place);
+            rest = &behind[end + 1..];
+        }
+        text + rest
+    }
+
+    /// What fills a hole.
+    fn hole(&self, hole: &str, found: &Found<'_>, place: Places) -> String {
+        let parts: Vec<_> = hole.split(':').collect();
+        let capture = |at: &str| -> Option<&String> {
+            at.parse::<usize>().ok().and_then(|at| found.captures.get(at.checked_sub(1)?))
+        };
+        let number = |unit: &str| {
+            let text = parts.get(1).and_then(|at| capture(at)).map_or("", String::as_str);
+            time(text, unit)
+        };
+        match parts[..] {
+            ["word"] => found.line.first().map_or("", |token| token.text).to_owned(),
+            ["last"] => found.line[..found.end].last().map_or("", |it| it.text).to_owned(),
+            ["here"] => self.element.to_owned(),
+            ["event"] => self.event.to_owned(),
+            ["target"] => self.word_before().to_owned(),
+            ["template"] => self.template.to_owned(),
+            ["left"] if place & OPERATOR != 0 => self.operand_before(),
+            ["chosen"] => {
+                let end = found.line.iter().position(|token| token.text == "?");
+                let right = between(&found.line[..end.unwrap_or(found.end)]);
+                let left =
+                    if place & OPERATOR == 0 { String::new() } else { self.operand_before() };
+                choose(&format!("{left} {right}"), self.element)
+            }
+            ["left"] => self.int.to_owned(),
+            ["right"] => {
+                let next = found.line.get(1).filter(|it| it.kind == Kind::Int);
+                next.map_or("3", |token| token.text).to_owned()
+            }
+            ["type", at] => type_of(capture(at).map_or("", String::as_str)),
+            ["ms", _] => number("ms"),
+            ["s", _] => number("s"),
+            ["number", at] => {
+                let number = capture(at).map_or("3", String::as_str);
+                number.split(' ').next().unwrap_or_default().to_owned()
+            }
+            // From a capture on to the end.
+            ["written", at] => {
+                let value = found.line.iter().position(|token| token.text == "=");
+                let from = value.filter(|_| at == "2").map_or(0, |value| value + 1);
+                between(found.line.get(from..found.end).unwrap_or_default())
+            }
+            ["Large", at] => with_first(capture(at), |first| first.to_ascii_uppercase()),
+            ["small", at] => capture(at).map_or_else(String::new, |name| name.to_lowercase()),
+            ["left" | "right", at] => {
+                let condition = capture(at).map_or("", String::as_str);
+                let (left, _, right) = comparison(condition).unwrap_or(("n", ">", "3"));
+                if parts[0] == "left" { left.to_owned() } else { right.to_owned() }
+            }
+            ["choose", at, then] => {
+                let then = match then {
+                    "here" => self.element,
+                    "target" => self.word_before(),
+                    at => capture(at).map_or("terminate", String::as_str),
+                };
+                let condition = capture(at).map_or("", String::as_str);
+                choose(condition, then)
+            }
+            [at] => capture(at).cloned().unwrap_or_default(),
+            _ => String::new(),
+        }
+    }
+
+    /// The operand behind which something is written.
+    fn operand_before(&self) -> String {
+        let has_unit = self.before().is_some_and(|token| token.kind == Kind::Unit);
+        self.text_between(self.at.saturating_sub(1 + usize::from(has_unit)), self.at)
+    }
+
+    /// Whether what stands behind an arrow, or behind its target, is a habit; reports it.
+    pub(super) fn habit_of_target(&mut self) -> bool {
+        self.on_same_line() && self.habit(TARGET)
+    }
+
+    /// The same behind the target.
+    pub(super) fn habit_behind_target(&mut self) {
+        let is_foreign = || self.next_written().is_some_and(|at| at < self.token_index(0));
+        if self.on_same_line() || is_foreign() {
+            self.habit(BEHIND);
+        }
+    }
+
+    /// Whether a habit is written where an edge could begin, or another part of a body; reports it.
+    pub(super) fn habit_of_body(&mut self, place: Places) -> bool {
+        let is_state = self.word(0).starts_with(|first: char| first.is_ascii_uppercase());
+        let is_usual = is_state && matches!(self.nth(1), Kind::Arrow | Kind::Comma)
+            || self.at_word("supervise")
+            || self.at_word_before_edge();
+        !is_usual && self.habit(place)
+    }
+
+    /// Whether a habit is written behind an operand; reports it.
+    pub(super) fn habit_of_operator(&mut self) -> bool {
+        let is_foreign = self.next_written().is_some_and(|at| at < self.token_index(0));
+        let is_word = self.on_same_line() && !self.names_something(0);
+        let is_strange = is_foreign
+            || match self.nth(0) {
+                Kind::Name => is_word && is_operator(self.word(0)),
+                Kind::Pipe | Kind::OpenBracket | Kind::Dot => self.on_same_line(),
+                kind => kind.is_comparison(),
+            };
+        is_strange && self.habit(OPERATOR)
+    }
+
+    /// Whether a habit is written where an operand begins; reports it.
+    pub(super) fn habit_of_operand(&mut self) -> bool {
+        let is_foreign = self.next_written().is_some_and(|at| at < self.token_index(0));
+        let is_strange = is_foreign
+            || self.at(Kind::OpenBracket)
+            || matches!(self.word(0), "if" | "not")
+            || self.at(Kind::Name) && matches!(self.nth(1), Kind::OpenParen | Kind::Dot)
+            || self.nth(1).is_comparison();
+        is_strange && !self.names_something(0) && self.habit(VALUE)
+    }
+}
+
+/// Whether a token has a text that somebody wrote as part of a plan.
+fn is_written(token: &Token<'_>) -> bool {
+    !token.kind.is_trivia() && !token.text.is_empty()
+}
+
+/// Whether a pattern may begin with a token.
+fn begins(pattern: &str, token: &str) -> bool {
+    let is_name = || token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+    let fits = |each: &str| each == token || matches!(each, "NAME" | "ENTRY") && is_name();
+    let is_optional = |part: &&str| part.split('|').any(str::is_empty);
+    let optional = pattern.split(' ').take_while(is_optional).count();
+    pattern.split(' ').take(optional + 1).any(|part| part.split('|').any(fits))
+}
+
+struct Matcher<'l, 't> {
+    line: &'l [Token<'t>],
+    entries: &'l BTreeMap<&'t str, &'t str>,
+    captures: Vec<String>,
+    next: Option<usize>,
+    is_formula: bool,
+}
+
+impl Matcher<'_, '_> {
+    /// The token behind the pattern, if it is written from one token on.
+    fn matches(&mut self, pattern: &str, mut at: usize) -> Option<usize> {
+        let mut rest = pattern.trim_end();
+        while !rest.is_empty() {
+            let (part, behind) = rest.split_once(' ').unwrap_or((rest, ""));
+            if part != ";" && self.text(at) == ";" && !self.is_formula {
+                at += 1;
+                continue;
+            }
+            at = match part {
+                "^" => {
+                    self.next = Some(at);
+                    at
+                }
+                ".." => return self.anything(behind, at),
+                _ => self.part(part, at)?,
+            };
+            rest = behind;
+        }
+        Some(at)
+    }
+
+    /// Anything, as short as what is behind it in the pattern allows.
+    fn anything(&mut self, behind: &str, from: usize) -> Option<usize> {
+        if matches!(self.text(from), "->") {
+            return None;
+        }
+        if behind.is_empty() {
+            self.captures.push(self.between(from, self.line.len()));
+            return Some(self.line.len());
+        }
+        let known = self.captures.len();
+        let mut depth = 0_usize;
+        for at in from..=self.line.len() {
+            if depth == 0 {
+                self.captures.push(self.between(from, at));
+                if let Some(end) = self.matches(behind, at) {
+                    return Some(end);
+                }
+                self.captures.truncate(known);
+            }
+            match self.text(at) {
+                "(" | "[" | "{" => depth += 1,
+                ")" | "]" | "}" => depth = depth.checked_sub(1)?,
+                _ => {}
+            }
+        }
+        None
+    }
+
+    fn part(&mut self, part: &str, at: usize) -> Option<usize> {
+        let kind = self.line.get(at).map(|token| token.kind);
+        let text = self.text(at);
+        match part {
+            "NAME" if kind == Some(Kind::Name) => self.captures.push(text.to_owned()),
+            "NUM" if matches!(kind, Some(Kind::Int | Kind::Float)) => {
+                let unit = self.line.get(at + 1).is_some_and(|token| token.kind == Kind::Unit);
+                self.captures.push(self.between(at, at + 1 + usize::from(unit)));
+                return Some(at + 1 + usize::from(unit));
+            }
+            "ENTRY" if self.entries.contains_key(text) => self.captures.push(text.to_owned()),
+            "SAME" => return (self.captures.first()? == text).then_some(at + 1),
+            "NAME" | "NUM" | "ENTRY" => return None,
+            _ => {
+                let is_it = |each: &str| match each {
+                    "NAME" => kind == Some(Kind::Name),
+                    "PIPE" => text == "|",
+                    "POWER" => text == "^",
+                    _ => !each.is_empty() && each == text,
+                };
+                return match part.split('|').any(is_it) {
+                    true => Some(at + 1),
+                    false => part.split('|').any(str::is_empty).then_some(at),
+                };
+            }
+        }
+        Some(at + 1)
+    }
+
+    fn text(&self, at: usize) -> &str {
+        self.line.get(at).map_or("", |token| token.text)
+    }
+
+    fn between(&self, from: usize, to: usize) -> String {
+        between(self.line.get(from..to).unwrap_or_default())
+    }
+}
+
+/// The text of tokens, with a blank where there is something between them, and without a ';' at the end.
+fn between(tokens: &[Token<'_>]) -> String {
+    let mut text = String::new();
+    let mut end = None;
+    for token in tokens {
+        if end.is_some_and(|end| end < token.start) {
+            text.push(' ');
+        }
+        text += token.text;
+        end = u32::try_from(token.text.len()).ok().map(|length| token.start + length);
+    }
+    text.trim_end_matches(';').trim().to_owned()
+}
+
+/// A time as it is written, or a bare number as so many of a unit: `1 s` for `1000` ms.
+fn time(text: &str, unit: &str) -> String {
+    let Ok(number) = text.parse::<f64>() else { return text.to_owned() };
+    let ms = if unit == "s" { number * 1000.0 } else { number };
+    if ms >= 1000.0 && ms % 1000.0 == 0.0 {
+        format!("{} s", ms / 1000.0)
+    } else {
+        format!("{ms} ms")
+    }
+}
+
+/// The type of a number or a quantity.
+fn type_of(text: &str) -> String {
+    match text.split_once(' ').and_then(|(_, unit)| Unit::parse(unit)) {
+        Some(unit) => unit.dimension.name().to_string(),
+        None if text.contains('.') => "float".to_owned(),
+        None => "int".to_owned(),
+    }
+}
+
+fn with_first(name: Option<&String>, change: impl Fn(&str) -> String) -> String {
+    let name = name.map_or("", String::as_str);
+    name.split_at_checked(1).map_or_else(String::new, |(first, rest)| change(first) + rest)
+}
+
+/// The first of several conditions, without brackets around them.
+fn first_of(condition: &str) -> &str {
+    let inner = condition.trim().trim_end_matches(':').trim();
+    let inner = inner.strip_prefix('(').and_then(|it| it.strip_suffix(')')).unwrap_or(inner);
+    let signs = ["&&", "&", "|", " and ", " or ", " xor "];
+    let end = signs.into_iter().filter_map(|sign| inner.find(sign)).min();
+    inner[..end.unwrap_or(inner.len())].trim()
+}
+
+/// Both sides of a comparison and its sign.
+fn comparison(condition: &str) -> Option<(&str, &str, &str)> {
+    let signs = ["==", "!=", "<=", ">=", "<", ">", "=", " is "];
+    let first = first_of(condition);
+    let sign = signs.into_iter().find(|sign| first.contains(sign))?;
+    let (left, right) = first.split_once(sign)?;
+    Some((left.trim(), sign.trim(), right.trim()))
+}
+
+/// The computation that chooses by a condition: if it holds, an edge leads on to `then`.
+fn choose(condition: &str, then: &str) -> String {
+    let Some((left, sign, right)) = comparison(condition) else {
+        let value = first_of(condition);
+        let negated = value.strip_prefix("not ").or_else(|| value.strip_prefix('!'));
+        let (value, equals) = negated.map_or((value, true), |value| (value.trim(), false));
+        let value = if value.is_empty() { "n" } else { value };
+        return format!(
+            "computation choose: Is(value = {value}, equals = {equals}) {{ Yes -> {then}, No -> terminate }}"
+        );
+    };
+    let is_number = right.starts_with(|it: char| it.is_ascii_digit() || it == '-');
+    if matches!(sign, "==" | "!=" | "=" | "is") && !is_number {
+        let (yes, no) = if sign == "!=" { ("terminate", then) } else { (then, "terminate") };
+        return format!(
+            "computation choose: Is(value = {left}, equals = {right}) {{ Yes -> {yes}, No -> {no} }}"
+        );
+    }
+    let (holds, fails) = match sign {
+        "<" => ("Less", "Equal, Greater"),
+        "<=" => ("Less, Equal", "Greater"),
+        ">" => ("Greater", "Less, Equal"),
+        ">=" => ("Greater, Equal", "Less"),
+        "!=" => ("Less, Greater", "Equal"),
+        _ => ("Equal", "Less, Greater"),
+    };
+    format!(
+        "computation choose: Compare(left = {left}, right = {right}) {{ {holds} -> {then}, {fails} -> terminate }}"
+    )
+}
