@@ -27,11 +27,22 @@ pub mod test;
 use std::io::{ErrorKind, Write};
 
 use afp_run::{EXIT_OK, RunError};
+use anstyle::{AnsiColor, Style};
+use clap::ValueEnum;
 
 use crate::no_plan::NoPlan;
 
+const GOOD: Style = AnsiColor::Green.on_default().bold();
+const BAD: Style = AnsiColor::BrightRed.on_default().bold();
+const QUIET: Style = Style::new().dimmed();
+
 /// The exit code of what does many runs and was stopped before all of them were done.
 const EXIT_STOPPED: u8 = 130;
+
+/// The name of a value on the command line.
+fn name_of(value: &impl ValueEnum) -> String {
+    value.to_possible_value().map(|it| it.get_name().to_owned()).unwrap_or_default()
+}
 
 /// Prints a result on standard output; a reader that has seen enough is no error.
 pub(crate) fn print(text: &str) -> Result<u8, NoPlan> {

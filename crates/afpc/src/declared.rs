@@ -52,7 +52,7 @@ pub fn inputs(arguments: &[OsString]) -> Option<String> {
 }
 
 /// A text on one line, single blanks only.
-fn one_line(text: &str) -> String {
+pub(crate) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

@@ -12,7 +12,7 @@ use afp_toolboxes::project::OwnToolbox;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::print;
+use super::{name_of, print};
 use crate::no_plan::NoPlan;
 use crate::plan_file::{PlanArgument, PlanFile};
 use crate::reader::Reader;
@@ -198,7 +198,7 @@ fn is_fast_enough(
     graph: &Graph,
     reader: Reader,
 ) -> Result<(), NoPlan> {
-    let targets = targets::choose(&file.own.project.project, Some(machine.name()))?;
+    let targets = targets::choose(&file.own.project.project, Some(&name_of(&machine)))?;
     let diags = targets::check(graph, &file.own, &targets)?;
     reader.tell(&diags, &file.compiled.sources)?;
     if diags.has_errors() { Err(NoPlan::Wrong) } else { Ok(()) }

@@ -19,7 +19,7 @@ use crate::{Linked, runner};
 pub use simulator::Simulator;
 use talk::serve;
 #[cfg(feature = "studio")]
-pub use talk::{Arrived, converse, read};
+pub use talk::{Arrived, converse, read, wait};
 
 /// Arguments of `afpc dap`.
 #[derive(Args, Debug)]

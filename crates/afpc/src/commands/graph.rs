@@ -13,7 +13,7 @@ use afp_run::{EXIT_FAILED, EXIT_OK, PictureFormat, RunError, check_apart, say, w
 use afp_syntax::source::Source;
 use clap::{Args, ValueEnum};
 
-use super::print;
+use super::{name_of, print};
 use crate::no_plan::NoPlan;
 use crate::picture;
 use crate::plan_file::{PlanArgument, PlanFile};
@@ -234,7 +234,7 @@ impl Arguments {
 
     /// Refuses options that would not change anything.
     fn fit(&self, format: Format) -> Result<(), RunError> {
-        use Format::{Dot, Json, Png, Scxml, Svg};
+        use Format::{Dot, Png, Scxml, Svg};
 
         let given: [(bool, &str, &[Format]); 4] = [
             (self.theme.is_some(), "--theme", &[Svg, Png]),
@@ -244,16 +244,9 @@ impl Arguments {
         ];
         let wrong = given.iter().find(|(given, _, formats)| *given && !formats.contains(&format));
         let Some((_, option, formats)) = wrong else { return Ok(()) };
-        let name = |format: Format| match format {
-            Svg => "svg",
-            Png => "png",
-            Dot => "dot",
-            Json => "json",
-            Scxml => "scxml",
-        };
-        let formats: Vec<_> = formats.iter().map(|format| name(*format)).collect();
+        let formats: Vec<_> = formats.iter().map(name_of).collect();
         Err(RunError::usage(
-            format!("'{option}' means nothing for '--format {}'", name(format)),
+            format!("'{option}' means nothing for '--format {}'", name_of(&format)),
             format!("it is for {}", formats.join(", ")),
         ))
     }

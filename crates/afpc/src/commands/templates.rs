@@ -13,6 +13,7 @@ use afp_toolboxes::project::OwnToolboxes;
 use clap::Args;
 
 use super::print;
+use crate::declared::one_line;
 use crate::no_plan::NoPlan;
 
 /// Arguments of `afpc templates`.
@@ -90,10 +91,10 @@ fn unknown(toolboxes: &Toolboxes, of: Option<&str>, asked: &str) -> RunError {
 
 /// A toolbox with its templates, a line each.
 fn list(toolbox: &Toolbox) -> String {
-    let mut text = format!("{}: {}\n", toolbox.name, line_of(&toolbox.doc));
+    let mut text = format!("{}: {}\n", toolbox.name, one_line(&toolbox.doc));
     for template in &toolbox.templates {
         let name = format!("  {} {}", kind(template), template.name);
-        let _ = writeln!(text, "{name:COLUMN$} {}", line_of(&template.doc));
+        let _ = writeln!(text, "{name:COLUMN$} {}", one_line(&template.doc));
     }
     text
 }
@@ -101,7 +102,7 @@ fn list(toolbox: &Toolbox) -> String {
 /// A template as its file declares it, help behind each line.
 fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String {
     let mut text = format!("{} {} of '{}'\n", kind(template), template.name, toolbox.name);
-    match line_of(&template.doc).as_str() {
+    match one_line(&template.doc).as_str() {
         "" => text.push('\n'),
         doc => {
             let _ = writeln!(text, "  {doc}\n");
@@ -111,20 +112,20 @@ fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String
     let inputs = template.inputs.iter().map(|port| match &template.reads_table {
         // What no type of a port can say.
         Some(reads) if reads.port.name == port.name => {
-            (format!("in {}: (a table)", port.name), line_of(&port.doc))
+            (format!("in {}: (a table)", port.name), one_line(&port.doc))
         }
-        _ if port.live => (written("in live ", port.span), line_of(&port.doc)),
-        _ => (written("in ", port.span), line_of(&port.doc)),
+        _ if port.live => (written("in live ", port.span), one_line(&port.doc)),
+        _ => (written("in ", port.span), one_line(&port.doc)),
     });
     let outputs =
-        template.outputs.iter().map(|port| (written("out ", port.span), line_of(&port.doc)));
+        template.outputs.iter().map(|port| (written("out ", port.span), one_line(&port.doc)));
     let word = if template.kind == TemplateKind::Supervisor { "event" } else { "state" };
     let outcomes = template.outcomes.iter().map(|outcome| {
         let once = if outcome.once { " once" } else { "" };
-        (format!("{word} {}{once}", outcome.name), line_of(&outcome.doc))
+        (format!("{word} {}{once}", outcome.name), one_line(&outcome.doc))
     });
     let states = template.states_of.iter();
-    let states = states.map(|states| (written("", states.span), line_of(&states.doc)));
+    let states = states.map(|states| (written("", states.span), one_line(&states.doc)));
     let lines: Vec<_> = inputs.chain(outputs).chain(outcomes).chain(states).collect();
     let width = lines.iter().map(|(line, _)| line.chars().count()).max().unwrap_or(0);
     for (line, help) in lines {
@@ -176,11 +177,6 @@ fn declared(name: Span, sources: &Sources) -> String {
 const PARTS: [&str; 11] = [
     "budget", "deadline", "event", "every", "icon", "in", "out", "state", "states", "stop", "uses",
 ];
-
-/// A text on one line, single blanks only.
-fn line_of(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
 
 #[cfg(test)]
 mod tests {

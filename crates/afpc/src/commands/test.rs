@@ -152,8 +152,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
             return Err(RunError::usage(message, "name the files of the scenarios").into());
         }
         link(&read, linked)?;
-        let Arguments { seed, at_least, json, .. } = *arguments;
-        return mutate::run(&read, code, &mutate::Wanted { seed, at_least, json }, linked);
+        return mutate::run(&read, code, arguments, linked);
     }
     let cases: Vec<_> =
         read.iter().flat_map(cases).filter(|case| matches(case, &filters)).collect();

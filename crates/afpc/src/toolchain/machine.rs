@@ -30,16 +30,6 @@ pub struct Linux {
 }
 
 impl Machine {
-    /// The name behind `--target`, which is that of the target that plans are checked against.
-    pub fn name(self) -> &'static str {
-        match self {
-            Machine::Host => "host",
-            Machine::Pi => "pi",
-            Machine::Pi32 => "pi32",
-            Machine::Mcu => "mcu",
-        }
-    }
-
     /// How the tools call it, if it is another machine that runs Linux.
     pub fn linux(self) -> Option<&'static Linux> {
         match self {

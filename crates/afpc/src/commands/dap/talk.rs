@@ -136,7 +136,7 @@ pub(super) fn serve(
 }
 
 /// Waits, at most as long as the run can.
-pub(super) fn wait<T>(arrived: &Receiver<T>, due: Option<Duration>) -> Result<T, RecvTimeoutError> {
+pub fn wait<T>(arrived: &Receiver<T>, due: Option<Duration>) -> Result<T, RecvTimeoutError> {
     match due {
         None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),
         Some(due) => arrived.recv_timeout(due),

@@ -13,7 +13,7 @@ use afp_studio::{Debugging, Trusted};
 use afp_toolboxes::project::OwnToolboxes;
 use serde_json::{Value, json};
 
-use super::super::dap::{Arrived, Simulator, converse};
+use super::super::dap::{Arrived, Simulator, converse, wait};
 use crate::no_plan::NoPlan;
 use crate::{Linked, runner};
 use relay::{Conversation, relay};
@@ -46,11 +46,7 @@ impl DebugService<'_> {
         let mut before = Conversation::default();
         let mut elsewhere = None;
         let next = |due: Option<Duration>| {
-            let message = match due {
-                None => said.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Some(due) => said.recv_timeout(due),
-            };
-            let message = match message {
+            let message = match wait(&said, due) {
                 Ok(message) => message,
                 Err(RecvTimeoutError::Timeout) => return Ok(Arrived::Nothing),
                 Err(RecvTimeoutError::Disconnected) => return Ok(Arrived::End),

@@ -5,16 +5,11 @@ use std::fmt::Write;
 
 use afp_run::say;
 use afp_sweep::{Ending, Findings, Group, Measure, Outcome, OutputFiles, Spread, Sweep, Touched};
-use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 
-use crate::commands::print;
+use crate::commands::{BAD, GOOD, QUIET, print};
 use crate::no_plan::NoPlan;
-
-const GOOD: Style = AnsiColor::Green.on_default().bold();
-const BAD: Style = AnsiColor::BrightRed.on_default().bold();
-const QUIET: Style = Style::new().dimmed();
 
 /// So many ways to end are told; the table has all of them.
 const GROUPS: usize = 12;

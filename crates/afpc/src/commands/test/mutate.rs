@@ -11,6 +11,7 @@ use afp_test::mutate::{Bench, Judged, Mutant, MutantStatus, Suite, Tally, mutant
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use serde_json::json;
 
+use super::Arguments;
 use crate::Linked;
 use crate::commands::{EXIT_STOPPED, print};
 use crate::no_plan::NoPlan;
@@ -18,14 +19,6 @@ use crate::plan_file::PlanFile;
 
 /// So many scenarios are named in a line of the table.
 const NAMED: usize = 3;
-
-pub(super) struct Wanted {
-    /// Chooses among the ways to change something.
-    pub seed: u64,
-    /// The least share of noticed mutants, percent.
-    pub at_least: Option<f64>,
-    pub json: bool,
-}
 
 /// What mutants of a plan came to.
 enum Came {
@@ -44,7 +37,7 @@ enum Came {
 pub(super) fn run(
     files: &[PlanFile],
     code: u8,
-    wanted: &Wanted,
+    wanted: &Arguments,
     linked: &Linked<'_>,
 ) -> Result<u8, NoPlan> {
     let stop =
@@ -107,7 +100,7 @@ fn too_few(plan: &str, percent: f64, least: f64) -> String {
 fn one_plan(
     plan: &str,
     files: &[&PlanFile],
-    wanted: &Wanted,
+    wanted: &Arguments,
     linked: &Linked<'_>,
     stop: &StopFlag,
 ) -> Result<Came, NoPlan> {

@@ -9,16 +9,11 @@ use afp_core::Ending;
 use afp_run::say;
 use afp_test::Verdict;
 use anstream::adapter::strip_str;
-use anstyle::{AnsiColor, Style};
 use serde_json::json;
 
 use super::{Case, Done, Failure, Used};
-use crate::commands::print;
+use crate::commands::{BAD, GOOD, QUIET, print};
 use crate::no_plan::NoPlan;
-
-const GOOD: Style = AnsiColor::Green.on_default().bold();
-const BAD: Style = AnsiColor::BrightRed.on_default().bold();
-const QUIET: Style = Style::new().dimmed();
 
 /// Tells how it goes.
 pub(super) struct Reporter {
