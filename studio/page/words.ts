@@ -12,6 +12,8 @@ export const words = {
   takePen: "Change it myself",
 
   saved: "saved",
+  save: "Save",
+  savedBySelf: "Everything is saved. The studio does that by itself.",
   saving: "saving …",
   notSaved: "not saved",
   notSavedBecause: (why: string) => `not saved: ${why}`,

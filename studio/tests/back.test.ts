@@ -29,7 +29,7 @@ const places = (page: Page, items: readonly string[]) => async (): Promise<strin
   return JSON.stringify(boxes.map((box) => box && [box.x, box.y].map(Math.round)));
 };
 
-inBrowser("a move that is undone, or given back to the automatic layout, moves back; so does one whose file is emptied elsewhere", { "plan.afp": PLAN }, async (studio) => {
+inBrowser("the first move writes every place; undone or tidied up, everything is back; so does one whose file is emptied elsewhere", { "plan.afp": PLAN }, async (studio) => {
   const { page } = studio;
   await page.locator('.node [data-item="P.drive"]').first().waitFor();
   const at = places(page, ["P.drive", "P.turn"]);
@@ -41,7 +41,7 @@ inBrowser("a move that is undone, or given back to the automatic layout, moves b
     await page.mouse.move(x - 60, y + 100);
     await page.mouse.move(x - 130, y + 200);
     await page.mouse.up();
-    await studio.becomes("plan.afp.layout", /^P\.drive -?\d+ \d+\n$/);
+    await studio.becomes("plan.afp.layout", /^P\.drive -?\d+ \d+\nP\.start -?\d+ -?\d+\nP\.turn -?\d+ \d+\n$/);
     assert.notEqual(await settled(at, (now) => now !== first), first);
   };
   const isBack = async (): Promise<void> => assert.equal(await settled(at, (now) => now === first), first);
@@ -50,6 +50,10 @@ inBrowser("a move that is undone, or given back to the automatic layout, moves b
   await isBack();
   await studio.holds("plan.afp.layout", "");
   await move();
+  await page.keyboard.press("Control+Shift+l");
+  await isBack();
+  await studio.becomes("plan.afp.layout", /^P\.start -?\d+ -?\d+\nP\.turn -?\d+ \d+\n$/);
+  await page.keyboard.press("Escape");
   await page.keyboard.press("Control+Shift+l");
   await isBack();
   await studio.holds("plan.afp.layout", "");

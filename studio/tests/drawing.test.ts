@@ -15,9 +15,9 @@ import type { Answer, Drawing, Edge, Element, Point, Rect } from "../page/drawin
 import { quantity, slider, spelled, stepped } from "../page/drawing/value";
 import { first, fitted, shown, toPane, toPlan, zoomed } from "../page/drawing/view";
 
-const piece = (item: string, kind: string, rect: Rect, name = "") => ({ item, part: { kind, name, nth: 1 }, rect, severity: null });
+const piece = (item: string, kind: string, rect: Rect, name = "") => ({ item, part: { kind, name, nth: 1 }, rect, severity: null, tag: null });
 const element = (item: string, [x, y]: Point): Element => ({
-  item, rect: [x, y, 120, 60], outer: [x, y, 240, 70], svg: "", kind: "actor", template: "Forward", plan: null, help: "", note: "",
+  item, rect: [x, y, 120, 60], outer: [x, y, 240, 70], svg: "", kind: "actor", template: "Forward", plan: null, file: null, help: "", note: "",
   pieces: [piece(item, "whole", [x, y, 120, 60]), piece(item, "exit", [x + 20, y + 51, 80, 18], "Done"), piece(`${item}.touch`, "whole", [x + 120, y, 120, 44])],
 });
 const edge = (from: string, to: string, points: Point[]): Edge => ({ id: `${from}!Done`, from, to, points, kind: "state", part: { kind: "exit", name: "Done", nth: 1 }, svg: "", severity: null });

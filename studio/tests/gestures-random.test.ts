@@ -1,11 +1,11 @@
-// Random gestures: whatever is pressed and dragged, the page says no error, the text can be read, a fresh page shows the same,
-// and undo of all gives the first bytes. `AFP_GESTURES=2000` makes so many, fifty to a plan.
+// Random gestures: the page says no error, the text can be read, a fresh page shows the same, and undo of all gives the
+// first bytes and the first picture. `AFP_GESTURES=2000` makes so many, fifty to a plan.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
-import { AFPC, inBrowser, SKIP } from "./browser";
+import { AFPC, inBrowser, settled, SKIP } from "./browser";
 import { random as numbers } from "./random";
 
 const PLAN = `use carbot
@@ -121,6 +121,10 @@ async function leave(page: Page): Promise<void> {
 const shown = (page: Page): Promise<string[]> =>
   page.evaluate(() => [...document.querySelectorAll(".node")].map((node) => `${node.getAttribute("aria-label")} ${[...node.querySelectorAll("text")].map((text) => text.textContent).join(" ")}`).sort());
 
+/** Each box and edge as it is drawn. */
+const picture = (page: Page): Promise<string[]> =>
+  page.evaluate(() => [...document.querySelectorAll(".node > .element, .way > .edge")].map((group) => group.outerHTML).sort());
+
 /** What is wrong with the text itself: plans may be unfinished, but what was written can be read. */
 function unreadable(folder: string): string {
   const { stdout, stderr } = spawnSync(AFPC, ["check", join(folder, "plan.afp")], { encoding: "utf8" });
@@ -136,6 +140,7 @@ for (let round = 0; round < Math.max(1, ALL / GESTURES); round++) {
     const random = new Random(seed);
     await page.locator('.node [data-item="P.go"]').waitFor();
     await page.locator(".board").focus();
+    const first = await picture(page);
     const done: string[] = [];
     for (let nth = 0; nth < GESTURES; nth++) {
       done.push(await gesture(page, random));
@@ -155,6 +160,11 @@ for (let round = 0; round < Math.max(1, ALL / GESTURES); round++) {
     for (let undone = 0; undone < 2 * GESTURES; undone++) await page.keyboard.press("Control+z");
     await holds("plan.afp", PLAN);
     await holds("plan.afp.layout", "");
+    await leave(page);
+    for (const key of ["Backspace", "Backspace", "Backspace", "Escape", "Home"]) await page.keyboard.press(key);
+    const text = JSON.stringify(first);
+    const now = async (): Promise<string> => JSON.stringify(await picture(page));
+    assert.equal(await settled(now, (shown) => shown === text), text, done.join("\n"));
   });
 }
 

@@ -26,10 +26,10 @@ test("each step follows from what the plan has", () => {
 });
 
 test("a drawing is read: elements, supervisors of an element and of the plan", () => {
-  const piece = (item: string, kind: string) => ({ item, part: { kind, name: "x" }, rect: [0, 0, 1, 1] as const, severity: null });
+  const piece = (item: string, kind: string) => ({ item, part: { kind, name: "x" }, rect: [0, 0, 1, 1] as const, severity: null, tag: null });
   const element = (item: string, kind: string | null, pieces: Element["pieces"]): [string, Element] => [
     item,
-    { item, kind, pieces, rect: [0, 0, 1, 1], outer: [0, 0, 1, 1], svg: "", template: null, plan: null, help: null, note: null },
+    { item, kind, pieces, rect: [0, 0, 1, 1], outer: [0, 0, 1, 1], svg: "", template: null, file: null, plan: null, help: null, note: null },
   ];
   const elements = new Map([
     element("P.start", null, [piece("P", "whole"), piece("P.gap", "whole"), piece("P.escape", "exit")]),

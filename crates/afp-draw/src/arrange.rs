@@ -5,9 +5,6 @@ use super::polyline::Point;
 /// Width by height that a picture should have: that of a screen or a slide.
 pub(super) const WANTED: f64 = 4.0 / 3.0;
 
-/// A picture that was arranged before stays so as long as neither side is more than so many times the other.
-const MOST: f64 = 2.0;
-
 /// Distance between the drawings of two plans.
 const BETWEEN: f64 = 64.0;
 
@@ -23,13 +20,8 @@ pub(super) struct Arranged {
     pub(super) size: Point,
 }
 
-/// Arranges drawings of these sizes so that the whole comes nearest to the wanted ratio. Which of them began a row before is
-/// kept while that does.
-pub(super) fn arrange(sizes: &[Point], before: Option<&[bool]>) -> Arranged {
-    let kept = before.map(|starts| in_rows(sizes, |at, _| starts.get(at) == Some(&true)));
-    if let Some(kept) = kept.filter(|kept| kept.ratio().ln().abs() <= MOST.ln()) {
-        return kept;
-    }
+/// Arranges drawings of these sizes so that the whole comes nearest to the wanted ratio.
+pub(super) fn arrange(sizes: &[Point]) -> Arranged {
     let row = |sizes: &[Point]| sizes.iter().map(|size| size.0 + BETWEEN).sum::<f64>() - BETWEEN;
     let least = sizes.iter().map(|size| size.0).fold(0.0, f64::max);
     let mut widths = vec![least];
@@ -37,21 +29,19 @@ pub(super) fn arrange(sizes: &[Point], before: Option<&[bool]>) -> Arranged {
     for first in 0..firsts {
         widths.extend((first + 1..=sizes.len()).map(|end| row(&sizes[first..end])));
     }
-    let all = widths
-        .into_iter()
-        .filter(|width| *width >= least)
-        .map(|most| in_rows(sizes, |_, width| width > most + 0.01));
+    let all =
+        widths.into_iter().filter(|width| *width >= least).map(|most| in_rows(sizes, most + 0.01));
     let far = |one: &Arranged| (one.ratio() / WANTED).ln().abs();
     // Among equals the narrowest is the first.
     all.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default()
 }
 
-/// Drawings one after the other; one begins a row if `begins` says so of its place and the width that the row would have.
-fn in_rows(sizes: &[Point], begins: impl Fn(usize, f64) -> bool) -> Arranged {
+/// Drawings one after the other, in rows of at most such a width.
+fn in_rows(sizes: &[Point], most: f64) -> Arranged {
     let mut all = Arranged::default();
     let (mut x, mut y) = (0.0, 0.0);
     for (at, (width, height)) in sizes.iter().enumerate() {
-        if at > 0 && begins(at, x + width) {
+        if at > 0 && x + width > most {
             (x, y) = (0.0, all.size.1 + BETWEEN);
         }
         all.corners.push((x, y));
@@ -73,9 +63,9 @@ mod tests {
     use super::{BETWEEN, Point, arrange};
 
     /// The place of each drawing: its row and its place in that.
-    fn places(sizes: &[Point], before: Option<&[bool]>) -> Vec<(usize, usize)> {
+    fn places(sizes: &[Point]) -> Vec<(usize, usize)> {
         let mut places: Vec<(usize, usize)> = Vec::new();
-        for (x, _) in arrange(sizes, before).corners {
+        for (x, _) in arrange(sizes).corners {
             let next = match places.last() {
                 Some((row, place)) if x > 0.0 => (*row, place + 1),
                 Some((row, _)) => (row + 1, 0),
@@ -89,34 +79,25 @@ mod tests {
     #[test]
     fn the_whole_comes_near_the_ratio_of_a_screen() {
         let (tall, wide, small) = ((500.0, 1000.0), (1000.0, 300.0), (200.0, 150.0));
-        assert_eq!(places(&[tall, tall], None), [(0, 0), (0, 1)]);
-        assert_eq!(places(&[wide, wide], None), [(0, 0), (1, 0)]);
-        assert_eq!(places(&[small; 6], None)[3..], [(1, 0), (1, 1), (1, 2)]);
-        assert_eq!(places(&[wide, small, small, small], None), [(0, 0), (1, 0), (1, 1), (1, 2)]);
-        assert!(arrange(&[], None).corners.is_empty());
+        assert_eq!(places(&[tall, tall]), [(0, 0), (0, 1)]);
+        assert_eq!(places(&[wide, wide]), [(0, 0), (1, 0)]);
+        assert_eq!(places(&[small; 6])[3..], [(1, 0), (1, 1), (1, 2)]);
+        assert_eq!(places(&[wide, small, small, small]), [(0, 0), (1, 0), (1, 1), (1, 2)]);
+        assert!(arrange(&[]).corners.is_empty());
     }
 
     #[test]
     fn drawings_of_a_row_begin_at_one_height_and_keep_their_distance() {
-        let found = arrange(&[(500.0, 900.0), (400.0, 1000.0)], None);
+        let found = arrange(&[(500.0, 900.0), (400.0, 1000.0)]);
         assert_eq!(found.corners, [(0.0, 0.0), (500.0 + BETWEEN, 0.0)]);
         assert_eq!(found.size, (900.0 + BETWEEN, 1000.0));
-    }
-
-    #[test]
-    fn what_was_arranged_stays_so_while_it_is_neither_too_wide_nor_too_high() {
-        let before = [true, true];
-        let grown = |height| places(&[(600.0, 400.0), (500.0, height)], Some(&before))[1];
-        assert_eq!(places(&[(600.0, 400.0), (500.0, 500.0)], None)[1], (0, 1));
-        assert_eq!(grown(500.0), (1, 0));
-        assert_eq!(grown(1200.0), (0, 1), "too high");
     }
 
     #[test]
     fn many_drawings_are_arranged_too() {
         let sizes: Vec<Point> =
             (0..300).map(|at| (100.0 + f64::from(at % 7) * 30.0, 90.0)).collect();
-        let (width, height) = arrange(&sizes, None).size;
+        let (width, height) = arrange(&sizes).size;
         assert!((0.5..2.0).contains(&(width / height)), "{width} x {height}");
     }
 }

@@ -111,7 +111,7 @@ pub(super) fn element<'a>(
     card.rect = rect;
     let severity = view.severity(element.findings.worst());
     let item = element.item.clone();
-    card.sketch.piece(Piece { item, part: Part::Whole, rect, severity }, 2.0);
+    card.sketch.piece(Piece { item, part: Part::Whole, rect, severity, tag: None }, 2.0);
     hung.attach(view, &mut card, rect);
     card
 }

@@ -19,7 +19,7 @@ mod placed;
 mod rows;
 
 use grid::Grid;
-pub(super) use placed::{NEAR, layout_around};
+pub(super) use placed::{places, routed};
 use rows::Rows;
 
 use super::router::{self, Bounds, Connector, Heading, Point};
@@ -34,10 +34,20 @@ pub(super) struct Node {
     pub(super) height: f64,
     /// Where edges may arrive on the upper border, from the left edge.
     pub(super) entry: (f64, f64),
+    /// What of it has a position, from its upper left corner.
+    pub(super) anchor: Point,
+}
+
+impl Node {
+    /// The corner nearest to one at which the position of the node is whole.
+    fn whole(&self, (x, y): Point) -> Point {
+        let (dx, dy) = self.anchor;
+        ((x + dx).round() - dx, (y + dy).round() - dy)
+    }
 }
 
 /// An edge from a place on one box to the upper border of another (or of the same).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Link {
     /// Where it starts, an index into the nodes.
     pub(super) from: usize,
@@ -55,21 +65,6 @@ pub(super) enum Exit {
     /// Downwards.
     Below(f64, f64),
     Right(f64, f64),
-}
-
-/// What is known about places before.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Placement {
-    /// The upper left corner of each node that has to be somewhere, by node.
-    pub(super) fixed: Vec<Option<Point>>,
-    /// Where the nodes were in the layout before.
-    pub(super) before: Vec<Option<Point>>,
-    /// Where nodes stood that were not in the layout before, or had to be somewhere else in it.
-    pub(super) once: Vec<Option<Point>>,
-    /// Where nodes stood before they gave way to some that had to be there.
-    pub(super) origins: Vec<Option<Point>>,
-    /// The routes that the links had.
-    pub(super) routes: Vec<Option<Vec<Point>>>,
 }
 
 /// The result: places in pixels. Where nothing has a place of its own, the uppermost box touches
@@ -108,7 +103,7 @@ pub(super) fn towards(nodes: &[Node], links: &[Link]) -> Vec<f64> {
 }
 
 /// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
-fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
+pub(super) fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
     if nodes.is_empty() {
         return LaidOut::default();
     }
@@ -195,7 +190,11 @@ mod tests {
 
     /// The least time of two for boxes, each of the first ones with an edge to the next.
     fn chain(count: usize, edges: usize) -> Duration {
-        let nodes = vec![Node { width: 100.0, height: 60.0, entry: (20.0, 80.0) }; count];
+        let nodes =
+            vec![
+                Node { width: 100.0, height: 60.0, entry: (20.0, 80.0), anchor: (0.0, 0.0) };
+                count
+            ];
         let link = |to: usize| Link { from: to - 1, to, exit: Exit::Below(50.0, 60.0), kind: "" };
         let links: Vec<_> = (1..=edges).map(link).collect();
         let run = || {

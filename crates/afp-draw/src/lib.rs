@@ -41,7 +41,7 @@ pub use dot::dot;
 pub use json::json;
 pub use names::free_names;
 pub use polyline::Point;
-pub use scene::{EdgeScene, ElementScene, PieceScene, PlanScene, Scene};
+pub use scene::{Boxes, EdgeScene, ElementScene, PieceScene, PlanScene, Scene};
 pub use scxml::scxml;
 pub use sketch::Rect;
 pub use svg::paint::Symbol;

@@ -1,21 +1,20 @@
 //! The scene: each part of a drawing with its identity, its place and a fragment of SVG.
 //!
 //! Pictures are put together from it, and editors take it piece by piece. Coordinates are those of
-//! the plan: a box that has a position stands exactly there. A new scene can be made from the one
-//! before: boxes stay where they were, and edges whose ends and surroundings are the same keep
-//! their routes to the last digit.
+//! the plan: a box that has a position stands exactly there. Where boxes stand depends on the plan
+//! and its positions alone ([`standing`]). The scene before saves work: fragments that are the same are not
+//! painted again, and a large plan keeps the routes of edges whose ends and surroundings are the same.
 
-mod gone;
-mod held;
 mod lines;
 mod painted;
+mod standing;
 
 use std::sync::Arc;
 
 use super::Options;
 use super::arrange::arrange;
 use super::card::{self, Card, Leaving};
-use super::layout::{self, Link, Node, Placement};
+use super::layout::{self, Link, Node};
 use super::legend::legend;
 use super::polyline::Point;
 #[cfg(test)]
@@ -27,16 +26,19 @@ use super::view::View;
 use afp_dsl::outline::{Component, Outline, Part};
 use afp_syntax::diagnostics::Severity;
 use afp_syntax::item::Item;
-use gone::Gone;
-use held::Held;
 use painted::Painted;
 use rustc_hash::FxHashMap;
+pub use standing::Boxes;
+use standing::Standing;
 
 /// Space around everything, in pixels.
 const MARGIN: f64 = 24.0;
 
 /// Distance between the drawings and the legend.
 const LEGEND: f64 = 32.0;
+
+/// The routes of more edges than this take too long to be found again at each change.
+const FEW: usize = 40;
 
 /// A drawing of plans.
 #[derive(Clone, Debug, Default)]
@@ -67,10 +69,6 @@ pub struct PlanScene {
     pub elements: Vec<ElementScene>,
     /// The edges that lead to elements; later ones lie above earlier ones.
     pub edges: Vec<EdgeScene>,
-    /// What was drawn in scenes before: it comes back to where it stood.
-    gone: Gone,
-    /// What stands where it does because of positions.
-    held: Held,
 }
 
 /// A box with everything attached to it.
@@ -98,6 +96,8 @@ pub struct PieceScene {
     pub rect: Rect,
     /// The worst that is wrong with it, where it is marked.
     pub severity: Option<Severity>,
+    /// The tag of an exit that leads nowhere.
+    pub tag: Option<Rect>,
 }
 
 /// An edge from an exit to an element.
@@ -125,9 +125,7 @@ pub struct EdgeScene {
 impl Scene {
     /// The drawing of the main plan and, unless the options say otherwise, of the plans it uses.
     ///
-    /// With the scene `before` a change, boxes stay where they were, unless they have positions or
-    /// are in the way of one that has; one that was gone for a while comes back to where it stood, and
-    /// one whose position is gone to where it stood without, and so do those that gave way to it.
+    /// The scene `before` a change saves work; no box is elsewhere because of it.
     pub fn new(outline: &Outline, options: &Options, before: Option<&Scene>) -> Scene {
         let drawn = Drawn::new(outline, options, before);
         let mut painter = Painter::new(options.icons);
@@ -192,20 +190,12 @@ impl<'a> Drawn<'a> {
         options: &'a Options<'a>,
         before: Option<&Scene>,
     ) -> Drawn<'a> {
-        let mut plans = Vec::new();
-        // Which plans began a row, if all of them were there.
-        let mut starts = before.map(|_| Vec::new());
-        let mut row = f64::NEG_INFINITY;
-        for view in View::all(outline, options) {
-            let known = before.and_then(|before| before.plan(&view.plan.item, view.plan.file()));
-            let top = known.map(|known| known.offset.1 + known.bounds.y);
-            starts = starts.zip(top).map(|(starts, top)| [starts, vec![top > row + 0.5]].concat());
-            row = top.unwrap_or(row);
-            plans.push(DrawnPlan::new(view, known));
-        }
+        let known = |view: &View| before?.plan(&view.plan.item, view.plan.file());
+        let views = View::all(outline, options).into_iter();
+        let mut plans: Vec<_> = views.map(|view| DrawnPlan::new(view, known(&view))).collect();
         let sizes: Vec<Point> =
             plans.iter().map(|plan| (plan.bounds.width, plan.bounds.height)).collect();
-        let arranged = arrange(&sizes, starts.as_deref());
+        let arranged = arrange(&sizes);
         for (plan, (x, y)) in plans.iter_mut().zip(arranged.corners) {
             plan.offset = (MARGIN + x - plan.bounds.x, MARGIN + y - plan.bounds.y);
         }
@@ -222,14 +212,17 @@ impl<'a> Drawn<'a> {
 
 impl<'a> DrawnPlan<'a> {
     fn new(view: View<'a>, before: Option<&PlanScene>) -> DrawnPlan<'a> {
-        let cards = match before {
-            Some(before) => as_before(&view, before),
-            None => where_they_lead(&view),
-        };
+        let Standing { corners, automatic, .. } = Standing::new(&view.unfolded(), &[]);
+        let cards = standing::leading(&view, &corners);
+        let corner = |(card, (x, y)): (&Card, Point)| (x - card.rect.x, y - card.rect.y);
+        let corners: Vec<_> = cards.iter().zip(corners).map(corner).collect();
         let (nodes, exits) = (nodes(&cards), exits(&cards));
         let links = links(&exits);
-        let placement = placement(&view, &cards, &exits, before);
-        let placed = layout::layout_around(&nodes, &links, placement);
+        let automatic = automatic.filter(|known| known.links == links && view.folded.is_empty());
+        let placed = match automatic {
+            Some(automatic) => automatic.laid_out,
+            None => layout::routed(&nodes, &links, corners, routes(&exits, before)),
+        };
         let edges = exits.iter().zip(placed.routes).map(|((_, exit), points)| DrawnEdge {
             item: exit.item.clone(),
             part: exit.part.clone(),
@@ -277,9 +270,6 @@ impl<'a> DrawnPlan<'a> {
             doc: self.view.plan.doc.clone(),
             offset: self.offset,
             bounds: self.bounds,
-            held: Held::since(before, &self.view, &elements),
-            gone: before
-                .map_or_else(Gone::default, |before| Gone::since(before, &elements, &edges)),
             elements,
             edges,
         }
@@ -304,31 +294,13 @@ fn cards<'a>(view: &View<'a>, towards: &dyn Fn(&Item, &Part) -> Option<f64>) -> 
     std::iter::once(card::start(view)).chain(view.plan.elements.iter().map(card)).collect()
 }
 
-/// The cards with states where they have been; new ones come behind them.
-fn as_before<'a>(view: &View<'a>, before: &PlanScene) -> Vec<Card<'a>> {
-    let elements = before.elements.iter().chain(before.gone.elements());
-    let pieces = elements.flat_map(|element| &element.pieces);
-    let pieces = pieces.filter(|piece| matches!(piece.part, Part::Exit { .. }));
-    let known: FxHashMap<_, _> =
-        pieces.map(|piece| ((&piece.item, &piece.part), piece.rect.x)).collect();
-    cards(view, &|item, part| Some(known.get(&(item, part)).copied().unwrap_or(f64::INFINITY)))
-}
-
-/// The cards with states on the side to which they lead, so that few edges cross.
-fn where_they_lead<'a>(view: &View<'a>) -> Vec<Card<'a>> {
-    let declared = cards(view, &|_, _| None);
-    let exits = exits(&declared);
-    let wishes = layout::towards(&nodes(&declared), &links(&exits));
-    let wishes: FxHashMap<_, _> = exits
-        .iter()
-        .zip(wishes)
-        .map(|((_, exit), wish)| ((&exit.item, &exit.part), wish))
-        .collect();
-    cards(view, &|item, part| wishes.get(&(item, part)).copied())
-}
-
 fn nodes(cards: &[Card]) -> Vec<Node> {
-    let node = |card: &Card| Node { width: card.width, height: card.height, entry: card.entry };
+    let node = |card: &Card| Node {
+        width: card.width,
+        height: card.height,
+        entry: card.entry,
+        anchor: (card.rect.x, card.rect.y),
+    };
     cards.iter().map(node).collect()
 }
 
@@ -349,41 +321,19 @@ fn links(exits: &[(usize, &Leaving)]) -> Vec<Link> {
     exits.iter().map(link).collect()
 }
 
-/// Where cards have to be, where they were, and which routes there were.
-fn placement<'a>(
-    view: &View,
-    cards: &[Card],
-    exits: &[(usize, &Leaving)],
-    before: Option<&'a PlanScene>,
-) -> Placement {
-    let corner = |card: &Card, (x, y): Point| (x - card.rect.x, y - card.rect.y);
-    let fixed = cards.iter().map(|card| {
-        let position = view.position(&card.item)?;
-        Some(corner(card, (position.x.into(), position.y.into())))
-    });
-    let at = |known: &'a ElementScene| (&known.item, (known.rect.x, known.rect.y));
-    let stood = |known: FxHashMap<&Item, Point>| {
-        cards.iter().map(|card| Some(corner(card, *known.get(&card.item)?))).collect()
-    };
-    let is_loose =
-        |known: &&ElementScene| before.is_some_and(|before| !before.held.has(&known.item));
-    let elements = before.iter().flat_map(|before| &before.elements).filter(is_loose).map(at);
-    let gone = before.iter().flat_map(|before| before.gone.elements()).map(at);
-    let gone = gone.chain(before.iter().flat_map(|before| before.held.stood()));
-    let origins = before.iter().flat_map(|before| before.held.origins());
-    let edges = before.iter().flat_map(|before| before.gone.edges().chain(&before.edges));
+/// The routes that the edges of a large plan had.
+fn routes<'c>(
+    exits: &[(usize, &'c Leaving)],
+    before: Option<&'c PlanScene>,
+) -> Vec<Option<Vec<Point>>> {
+    let before = before.filter(|_| exits.len() > FEW);
+    let edges = before.iter().flat_map(|before| &before.edges);
     let edges: FxHashMap<_, _> =
         edges.map(|known| ((&known.item, &known.part), &known.points)).collect();
-    let routes = exits
-        .iter()
-        .map(|(_, exit)| edges.get(&(&exit.item, &exit.part)).map(|points| points.to_vec()));
-    Placement {
-        fixed: fixed.collect(),
-        before: stood(elements.collect()),
-        once: stood(gone.collect()),
-        origins: stood(origins.collect()),
-        routes: routes.collect(),
-    }
+    let known = |(_, exit): &(usize, &'c Leaving)| {
+        edges.get(&(&exit.item, &exit.part)).map(|points| points.to_vec())
+    };
+    exits.iter().map(known).collect()
 }
 
 #[cfg(test)]

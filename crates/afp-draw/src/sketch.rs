@@ -113,6 +113,8 @@ pub(super) struct Piece {
     pub(super) part: Part,
     pub(super) rect: Rect,
     pub(super) severity: Option<Severity>,
+    /// The tag of an exit that leads nowhere.
+    pub(super) tag: Option<Rect>,
 }
 
 /// A line with an arrow tip at its end.
@@ -176,6 +178,14 @@ impl Rect {
     /// Lower border.
     pub fn bottom(&self) -> f64 {
         self.y + self.height
+    }
+
+    /// Whether another one does not reach out of it by half a pixel.
+    pub(super) fn holds(&self, other: &Rect) -> bool {
+        self.x - 0.5 < other.x
+            && self.y - 0.5 < other.y
+            && other.right() < self.right() + 0.5
+            && other.bottom() < self.bottom() + 0.5
     }
 }
 

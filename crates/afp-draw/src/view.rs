@@ -23,6 +23,7 @@ pub(super) struct View<'a> {
     pub(super) outline: &'a Outline,
     pub(super) plan: &'a Plan,
     pub(super) options: &'a Options<'a>,
+    pub(super) folded: &'a [Item],
     usage: Option<&'a PlanUsage>,
 }
 
@@ -115,11 +116,16 @@ impl<'a> View<'a> {
         order.into_iter().map(|plan| View::new(outline, plan, options)).collect()
     }
 
-    fn new(outline: &'a Outline, plan: PlanId, options: &'a Options<'a>) -> View<'a> {
+    pub(super) fn new(outline: &'a Outline, plan: PlanId, options: &'a Options<'a>) -> View<'a> {
         let plan = outline.plan(plan);
         let is_own = |usage: &&PlanUsage| plan.span.contains(usage.plan);
         let usage = options.usage.and_then(|usage| usage.plans.iter().find(is_own));
-        View { outline, plan, options, usage }
+        View { outline, plan, options, folded: options.folded, usage }
+    }
+
+    /// The same with nothing folded.
+    pub(super) fn unfolded(self) -> View<'a> {
+        View { folded: &[], ..self }
     }
 
     pub(super) fn name(&self) -> &'a str {
@@ -190,7 +196,7 @@ impl<'a> View<'a> {
 
     /// Whether an element, or the start tag, is drawn without its details.
     pub(super) fn is_folded(&self, item: &Item) -> bool {
-        self.options.folded.contains(item)
+        self.folded.contains(item)
     }
 
     /// What is marked: errors always, the rest where that is wanted.

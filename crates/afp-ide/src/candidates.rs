@@ -19,7 +19,7 @@ pub struct Candidate {
 }
 
 /// What a port can be bound to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PortCandidates {
     /// Entries, and values where there are few, those that fit first.
     #[serde(rename = "candidates")]
@@ -38,6 +38,8 @@ pub struct PortCandidates {
     pub unit: String,
     /// All units that it can be written in.
     pub units: Vec<String>,
+    /// What one of each of these units is worth.
+    pub scales: Vec<f64>,
 }
 
 /// Where a state or event can lead; `None` where there is no such component or exit.
@@ -86,8 +88,7 @@ pub fn of_port(view: &View, item: &Item, port: &str) -> Option<PortCandidates> {
     let value = bound.map(|value| value.text.clone());
     let mut list: Vec<_> = entries.collect();
     list.sort_by_key(|candidate| candidate.refused.is_some());
-    let (unit, units) = (String::new(), Vec::new());
-    Some(PortCandidates { list, ty, value, default: None, range: None, step: None, unit, units })
+    Some(PortCandidates { list, ty, value, ..PortCandidates::default() })
 }
 
 fn component<'a>(
@@ -131,6 +132,7 @@ fn of_input(entries: &[Entry], input: &Input) -> PortCandidates {
         _ => None,
     };
     let unit = dimension.map(Dimension::usual_unit).unwrap_or_default();
+    let units = dimension.map(units).unwrap_or_default();
     let bound_to = input.binding.as_ref().and_then(|it| it.value.as_ref());
     PortCandidates {
         list,
@@ -139,9 +141,16 @@ fn of_input(entries: &[Entry], input: &Input) -> PortCandidates {
         default: input.default.as_ref().map(|default| constant(default, ty)),
         range: input.range.map(|(from, to)| (bound(from, ty), bound(to, ty))),
         step: step(input, &unit),
-        units: dimension.map(units).unwrap_or_default(),
+        scales: units.iter().map(|unit| worth(unit)).collect(),
+        units,
         unit,
     }
+}
+
+/// What one of a unit is worth.
+fn worth(unit: &str) -> f64 {
+    let one = Literal::parse(&format!("1 {unit}")).and_then(|literal| literal.value());
+    one.filter(|one| *one > 0.0).unwrap_or(1.0)
 }
 
 /// About a tenth of the default, at most a hundredth of the range, as 1, 2 or 5 of a power of ten.
@@ -153,8 +162,7 @@ fn step(input: &Input, unit: &str) -> Option<f64> {
         Some(Type::Quantity(_) | Type::Number) => {}
         _ => return None,
     }
-    let one = Literal::parse(&format!("1 {unit}")).and_then(|literal| literal.value());
-    let one = one.filter(|one| *one > 0.0).unwrap_or(1.0);
+    let one = worth(unit);
     let default = match input.default {
         Some(Constant::Float(value)) if value != 0.0 => Some(value.abs() / 10.0),
         _ => None,

@@ -1,5 +1,9 @@
 //! What is wrong with a document, as the protocol has it.
 
+use std::collections::BTreeMap;
+
+use afp_dsl::files::joined;
+use afp_syntax::ast::{Item, Name};
 use afp_syntax::diagnostics::{Diagnostic, Severity};
 use afp_syntax::source::Span;
 use gen_lsp_types as lsp;
@@ -20,7 +24,56 @@ pub(crate) fn of(workspace: &mut Workspace, path: &str) -> Vec<lsp::Diagnostic> 
     let own = all.filter(|diagnostic| diagnostic.span.file == analysis.file);
     let Some(source) = analysis.compiled.sources.get(analysis.file) else { return Vec::new() };
     let places = Places::new(&source.text, workspace.encoding);
-    own.map(|diagnostic| one(workspace, &analysis, &places, diagnostic)).collect()
+    let own = own.map(|diagnostic| one(workspace, &analysis, &places, diagnostic));
+    own.chain(of_used(workspace, &analysis, &source.name, &places)).collect()
+}
+
+/// Errors of the files that a file uses, each file at the line that leads to it: the plan cannot run with them.
+fn of_used(
+    workspace: &Workspace,
+    analysis: &Analysis,
+    path: &str,
+    places: &Places<'_>,
+) -> Vec<lsp::Diagnostic> {
+    let compiled = &analysis.compiled;
+    let errors = compiled.diags.iter().filter(|it| it.severity == Severity::Error);
+    let mut by_file: BTreeMap<u16, Vec<&Diagnostic>> = BTreeMap::new();
+    errors.for_each(|it| by_file.entry(it.span.file).or_default().push(it));
+    by_file.remove(&analysis.file);
+    by_file.retain(|file, _| compiled.plan_files.contains(&usize::from(*file)));
+    if by_file.is_empty() {
+        return Vec::new();
+    }
+    let uses: Vec<_> = compiled
+        .tree(analysis.file)
+        .into_iter()
+        .flat_map(|own| own.file().items())
+        .filter_map(|item| if let Item::Use(line) = item { line.path() } else { None })
+        .collect();
+    let at = |(file, errors): (u16, Vec<&Diagnostic>)| {
+        let source = compiled.sources.get(file)?;
+        let leads = |used: &&Name| joined(path, used.text.trim_matches('"')) == source.name;
+        let used = uses.iter().find(leads).or_else(|| uses.first())?;
+        let related = errors.iter().filter_map(|error| {
+            let location = workspace.location(compiled, error.span)?;
+            Some(lsp::DiagnosticRelatedInformation { location, message: error.message_text() })
+        });
+        let name = source.name.rsplit('/').next().unwrap_or_default();
+        let count = errors.len();
+        let many = if count == 1 { "an error".to_owned() } else { format!("{count} errors") };
+        Some(lsp::Diagnostic {
+            range: places.range(used.span),
+            severity: Some(lsp::DiagnosticSeverity::Error),
+            source: Some("afp".to_owned()),
+            message: lsp::Message::String(said(
+                &format!("'{name}' has {many}"),
+                "open it and correct it",
+            )),
+            related_information: Some(related.collect()),
+            ..lsp::Diagnostic::default()
+        })
+    };
+    by_file.into_iter().filter_map(at).collect()
 }
 
 /// A diagnostic of a document.

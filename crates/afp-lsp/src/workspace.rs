@@ -11,11 +11,13 @@ use afp_dsl::Toolboxes;
 use afp_dsl::toolbox::Toolbox;
 use afp_dsl::{Compiled, compile};
 use afp_ide::View;
+use afp_ide::edit::apply;
 use afp_project::Project;
 use afp_syntax::ast::Item;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::{Encoding, Source};
 
+use crate::convert::FileEdits;
 use crate::documents::Documents;
 use crate::host::Host;
 use crate::uri::BUILT_IN;
@@ -64,6 +66,8 @@ pub(crate) struct Workspace {
     pub folders: Vec<String>,
     sets: BTreeMap<String, Arc<ToolboxSet>>,
     analyses: BTreeMap<String, Arc<Analysis>>,
+    /// Texts that count instead of those that the client has, by path.
+    drafts: BTreeMap<String, String>,
 }
 
 impl Workspace {
@@ -75,13 +79,15 @@ impl Workspace {
             folders: Vec::new(),
             sets: BTreeMap::new(),
             analyses: BTreeMap::new(),
+            drafts: BTreeMap::new(),
         }
     }
 
     /// The text of a path: the client's, the host's, or that of a built-in toolbox.
     pub fn text(&self, path: &str) -> Result<String, String> {
-        if let Some(document) = self.documents.get(path) {
-            return Ok(document.text.clone());
+        let open = || self.documents.get(path).map(|document| &document.text);
+        if let Some(text) = self.drafts.get(path).or_else(open) {
+            return Ok(text.clone());
         }
         if let Some(name) = path.strip_prefix(BUILT_IN) {
             let name = name.trim_start_matches('/');
@@ -115,6 +121,15 @@ impl Workspace {
         let analysis = Arc::new(self.analyse(path)?);
         self.analyses.insert(path.to_owned(), Arc::clone(&analysis));
         Some(analysis)
+    }
+
+    /// What a file would mean after edits.
+    pub fn drafted(&mut self, path: &str, edits: &[FileEdits]) -> Option<Arc<Analysis>> {
+        let edited = |file: &FileEdits| (file.path.clone(), apply(&file.text, &file.edits));
+        self.drafts = edits.iter().map(edited).collect();
+        let analysis = self.analyse(path);
+        self.drafts.clear();
+        analysis.map(Arc::new)
     }
 
     fn analyse(&mut self, path: &str) -> Option<Analysis> {

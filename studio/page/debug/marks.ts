@@ -56,7 +56,8 @@ export function marks(layers: Layers): () => void {
       [last, shown, before] = [null, "", null];
       return show(layers, [], [], new Set());
     }
-    const found = at(frames.value, drawn.plan, now.stack, now.watching);
+    // Nobody watches once a run is over.
+    const found = at(frames.value, drawn.plan, now.stack, active.value ? now.watching : []);
     const key = JSON.stringify([found, phase.value]);
     if (key === shown && drawn === before) return;
     [shown, before] = [key, drawn];

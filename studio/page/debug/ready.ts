@@ -1,18 +1,19 @@
 // Whether the plan that is shown can be run: what is in the way is shown, and said as long as it is.
 import { effect } from "@preact/signals";
 import { current } from "../documents/documents";
-import { drawing, plan, trail, wanted } from "../drawing/model";
+import { drawing, plan, trail, wanted, type Place } from "../drawing/model";
 import type { Entry } from "../drawing/shapes";
 import { trouble } from "../panes/files";
 import { point } from "../plan/places";
-import { number, problems } from "../plan/problems";
+import { problemsOf, severityOf } from "../plan/problems";
 import { select } from "../plan/selection";
 import { trusted } from "../jobs/trust";
 import { words } from "../words";
 import { isWritten } from "./written";
 
 /** The plan to be run: the one that led to what is shown. What was chosen last counts, though its drawing may still be on its way. */
-export const planToRun = (): string => trail.value[0] ?? wanted.value ?? plan.value ?? "";
+export const toRun = (): Place => trail.value[0] ?? { uri: current.value, plan: wanted.value ?? plan.value ?? "" };
+export const planToRun = (): string => toRun().plan;
 
 /** Inputs of the plan to be run that neither it nor `given` says a value of, as far as it is drawn. */
 function inputsMissing(given: object): Entry[] {
@@ -23,12 +24,13 @@ function inputsMissing(given: object): Entry[] {
 
 /** Whether a run may begin, in which inputs are `given` values. */
 export async function canRun(given: object): Promise<boolean> {
-  const uri = current.value;
-  const isHere = (): boolean => current.value === uri;
-  const errors = number("error");
-  if (errors) {
-    refuse(words.notRun(errors), () => isHere() && number("error") === errors);
-    await point(uri, problems.value[0]!.range);
+  const { uri } = toRun();
+  const isHere = (): boolean => toRun().uri === uri;
+  const errors = (): number => problemsOf(uri).filter((each) => severityOf(each) === "error").length;
+  const count = errors();
+  if (count) {
+    refuse(words.notRun(count), () => isHere() && errors() === count);
+    await point(uri, problemsOf(uri)[0]!.range);
     return false;
   }
   if (drawing.peek()?.plan === null) return refuse(words.notRunNoPlan, () => isHere() && drawing.value?.plan === null);

@@ -12,7 +12,7 @@ import * as arranged from "./arranged";
 import { asked, breakpoints, filters } from "./breakpoints";
 import type { Frame } from "./follow";
 import { olderThan } from "./older";
-import { canRun, planToRun } from "./ready";
+import { canRun, toRun } from "./ready";
 import type { Ended, Phase, Said, State } from "./told";
 import { extended, packed, type Record } from "./trace";
 
@@ -46,6 +46,8 @@ const FAREWELL = 2000;
 const MOST = 1000;
 
 let dap: Dap | null = null;
+/** The file of the plan that runs, or ran last. */
+let ran = "";
 
 export const address = (): string => `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/dap`;
 
@@ -53,10 +55,10 @@ export const address = (): string => `${location.protocol === "https:" ? "wss" :
 export async function start(hold = false): Promise<void> {
   if (active.value) return;
   try {
-    const plan = planToRun();
-    const uri = current.value;
+    const { uri, plan } = toRun();
     if (!(await canRun(given.value)) || active.value) return;
     const program = `${pathOf(uri)}${plan ? `:${plan}` : ""}`;
+    ran = uri;
     await launch({ program, ...wantedWorld(), ...{ stopOnEntry: hold, seed: seed.value, set: given.value } }, plan);
   } catch (why) {
     report(why);
@@ -270,8 +272,12 @@ export function revealSaid({ path, line }: Said): void {
   if (path && path === pathOf(uri)) void reveal(uri, { start: place, end: place }, "other");
 }
 
-/** Begins to notice where the run shall stop. */
+/** Begins to notice where the run shall stop, and that a run which is over is none of the file that is shown next. */
 export function begin(): () => void {
+  effect(() => {
+    const { uri } = toRun();
+    if (uri && uri !== ran && !log.peek()) queueMicrotask(dismiss);
+  });
   return effect(() => {
     void [breakpoints.value, filters.value];
     // Lines of a text that is not the one that runs would be others.

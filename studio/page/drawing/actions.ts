@@ -43,10 +43,7 @@ export function beneath(part: Part): Point | null {
 export function exitsOf(drawn: Drawing, item: string): { part: Part; open: boolean }[] {
   const holder = holderOf(drawn, item);
   const pieces = holder?.pieces.filter((piece) => piece.item === item && piece.part.kind === "exit") ?? [];
-  const [ox, oy] = holder?.outer ?? [0, 0];
-  const drawnOpen = [...(holder?.svg.matchAll(/class="box open" x="([-\d.]+)" y="([-\d.]+)"/g) ?? [])].map((found) => [Number(found[1]) + ox, Number(found[2]) + oy] as const);
-  const open = ([x, y]: Rect): boolean => drawnOpen.some(([px, py]) => Math.abs(px - x) < 0.5 && Math.abs(py - y) < 0.5);
-  const exits = pieces.map((piece) => ({ part: { item: piece.item, part: piece.part }, open: open(piece.rect) }));
+  const exits = pieces.map(({ item, part, tag }) => ({ part: { item, part }, open: tag !== null }));
   return [...exits.filter((exit) => exit.open), ...exits.filter((exit) => !exit.open)];
 }
 
@@ -235,7 +232,7 @@ export function open(part: Part): void {
 /** Into the plan behind an element. */
 export function into(part: Part | null): void {
   const element = part && drawing.peek()?.elements.get(part.item);
-  if (element?.plan) enter(element.plan);
+  if (element?.plan) void enter(element.plan, element.file).catch(refuse);
   else refuse(words.noSubPlan);
 }
 

@@ -6,6 +6,7 @@ import { offset } from "../documents/positions";
 import { lsp } from "../server/session";
 import { refuse } from "./say";
 import type { Part, PartOf, Point } from "./shapes";
+import { words } from "./words";
 
 /** A change of meaning, as `afp/edit` takes it: one key, its name, with its fields. */
 export type Change = Record<string, Record<string, unknown>>;
@@ -38,6 +39,8 @@ export interface PortAnswer {
   step: number | null;
   unit: string;
   units: string[];
+  /** What one of each unit is worth. */
+  scales: number[];
 }
 
 const document = (): { textDocument: { uri: string } } => ({ textDocument: { uri: current.peek() } });
@@ -123,6 +126,7 @@ function placed(edit: WorkspaceEdit): WorkspaceEdit {
 
 async function attempt(make: () => Promise<Made>, chosen?: Part[]): Promise<string[] | null> {
   let added: string[] = [];
+  waits();
   try {
     await change(async () => {
       const { label, edit, select } = await make();
@@ -137,8 +141,18 @@ async function attempt(make: () => Promise<Made>, chosen?: Part[]): Promise<stri
   }
 }
 
+/** Whether a change would be made; where it would not, why. */
+export const refused = (changes: Change[]): Promise<string | null> =>
+  ask<Made>("afp/edit", { changes }).then(() => null, (why: Error) => why.message);
+
+/** Says that a change waits, where there is nobody who could make it. */
+function waits(): void {
+  if (!lsp().open.peek()) refuse(words.waits);
+}
+
 /** Writes places of elements; null gives one back to the automatic layout. False where it was refused. */
 export async function place(places: Places, label: string): Promise<boolean> {
+  waits();
   try {
     await change(async () => ({ label, edit: await ask<WorkspaceEdit>("afp/place", { places }) }));
     return true;

@@ -24,7 +24,7 @@ function piece(drawing: Drawing, at: Point): Hit | null {
     for (const piece of element.pieces) {
       const size = piece.rect[2] * piece.rect[3];
       // Of two, the smaller one lies on top: exits on boxes.
-      if (!inside(piece.rect, at) || (found && found.size <= size)) continue;
+      if (!(inside(piece.rect, at) || (piece.tag && inside(piece.tag, at))) || (found && found.size <= size)) continue;
       const part: Part = { item: piece.item, part: piece.part };
       found = { size, hit: { on: kindOf(element, part), part, element: element.item } };
     }

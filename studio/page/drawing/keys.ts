@@ -27,7 +27,7 @@ import { around, nameOf, same, type Part } from "./shapes";
 import { several, toggle } from "./several";
 import { size, view, type Stage } from "./stage";
 import { turn } from "./turn";
-import { editing } from "./value";
+import { discard, editing } from "./value";
 import { fitted, panned, STEP, zoomed } from "./view";
 import { words } from "./words";
 import * as entries from "./entries";
@@ -167,6 +167,7 @@ async function paste(): Promise<void> {
 /** Leaves the innermost thing: the selection is the last one. */
 function escape(): void {
   if (renaming.peek()) return renaming.peek()!.done(null);
+  if (editing.peek()) return discard();
   if (several.peek()) return toggle(false);
   if (ended.peek() && !active.peek()) return dismiss();
   select([], "drawing");

@@ -1,6 +1,6 @@
 // The drawing as the page keeps it: asked for once, then kept by differences, held while something is dragged.
 import { batch, computed, effect, signal } from "@preact/signals";
-import { current } from "../documents/documents";
+import { current, open } from "../documents/documents";
 import { LOST, Refused } from "../server/lsp";
 import { lsp } from "../server/session";
 import { calledNow, changed, itemsNow, whole } from "./differences";
@@ -13,8 +13,16 @@ export const drawing = signal<Drawing | null>(null);
 export const wanted = signal<string | null>(null);
 /** The name of the plan that is shown. */
 export const plan = computed(() => drawing.value?.plan ?? null);
+/** A plan of a file. */
+export interface Place {
+  uri: string;
+  plan: string;
+}
+
 /** The plans that were shown before, to go back to. */
-export const trail = signal<string[]>([]);
+export const trail = signal<readonly Place[]>([]);
+/** What is shown of the file that comes next. */
+let next: { plan: string | null; trail: readonly Place[] } | null = null;
 
 let held = 0;
 let kept: Changed[] = [];
@@ -37,7 +45,10 @@ function take(change: Changed): void {
   batch(() => {
     // The plan that is shown has another name, or is gone, and the server tells of the first one.
     if (wanted.peek() === before.plan && change.plan !== before.plan) wanted.value = wanted.peek() && change.plan;
-    trail.value = trail.peek().flatMap((name) => calledNow(name, before.plans, change.plans) ?? []);
+    trail.value = trail.peek().flatMap((place) => {
+      const plan = place.uri === before.uri ? calledNow(place.plan, before.plans, change.plans) : place.plan;
+      return plan === null ? [] : [{ ...place, plan }];
+    });
     drawing.value = changed(before, change);
     const shut = folded.peek()[before.uri];
     const now = shut && itemsNow(shut, before.plans, change.plans);
@@ -70,7 +81,8 @@ export function follow(): () => void {
     const connected = lsp().open.value;
     if (uri !== before) {
       batch(() => {
-        [wanted.value, trail.value, drawing.value] = [null, [], null];
+        [wanted.value, trail.value, drawing.value] = [next?.plan ?? null, next?.trail ?? [], null];
+        next = null;
       });
     }
     before = uri;
@@ -84,23 +96,25 @@ export function follow(): () => void {
   };
 }
 
-/** Shows another plan of the file, and remembers the way back. */
-export function enter(name: string): void {
+/** Shows a plan, of another file, too. */
+export async function show({ uri, plan }: { uri: string; plan: string | null }, before: readonly Place[]): Promise<void> {
+  if (uri === current.peek()) return batch(() => void ([wanted.value, trail.value] = [plan, before]));
+  await open(uri);
+  next = { plan, trail: before };
+  current.value = uri;
+}
+
+/** Shows another plan of the file, or of one that it uses, and remembers the way back. */
+export async function enter(name: string, file: string | null = null): Promise<void> {
+  const drawn = drawing.peek();
   const here = plan.peek();
-  if (!here || here === name || !drawing.peek()?.plans.includes(name)) return;
-  batch(() => {
-    trail.value = [...trail.peek(), here];
-    wanted.value = name;
-  });
+  if (!drawn || !here || (file === null && (here === name || !drawn.plans.includes(name)))) return;
+  await show({ uri: file ?? drawn.uri, plan: name }, [...trail.peek(), { uri: drawn.uri, plan: here }]);
 }
 
 /** Goes back to the plan that was shown before; false where there is none. */
-export function leave(): boolean {
-  const back = trail.peek().at(-1);
-  if (back === undefined) return false;
-  batch(() => {
-    trail.value = trail.peek().slice(0, -1);
-    wanted.value = back;
-  });
-  return true;
+export function leave(to = trail.peek().length - 1): boolean {
+  const back = trail.peek()[to];
+  if (back !== undefined) void show(back, trail.peek().slice(0, to));
+  return back !== undefined;
 }

@@ -14,10 +14,10 @@ import { drawing, hold, release } from "./model";
 import { say } from "./say";
 import { several } from "./several";
 import { planOf, same, touches, type Point, type Rect } from "./shapes";
-import { view, type Stage } from "./stage";
+import { size, view, type Stage } from "./stage";
 import { pressed } from "./turn";
 import { editing } from "./value";
-import { panned, toPlan, wheelFactor, zoomed } from "./view";
+import { panned, toPane, toPlan, wheelFactor, zoomed } from "./view";
 import { words } from "./words";
 
 /** A box that is being drawn, in units of the plan. */
@@ -31,6 +31,9 @@ let state: State = IDLE;
 let lifted: readonly string[] = [];
 /** Ends when a finger has rested. */
 let resting: ReturnType<typeof setTimeout>;
+
+/** Whether the space bar is held: then a drag pans, as with the middle button. */
+let spaced = false;
 
 /** Whether a drag is under way. */
 export const busy = (): boolean => state.is !== "idle";
@@ -61,7 +64,7 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
     const drawn = drawing.peek();
     const selection = drawn ? movable(drawn, selected.peek().map((part) => part.item)) : [];
     const { pointerId: id } = event;
-    feed({ type: "down", id, at: place, hit: under(place, touch), shift: event.shiftKey || several.peek(), middle: event.button === 1, touch, selection });
+    feed({ type: "down", id, at: place, hit: under(place, touch), shift: event.shiftKey || several.peek(), middle: event.button === 1 || spaced, touch, selection });
     clearTimeout(resting);
     if (touch) resting = setTimeout(() => feed({ type: "rest", id }), RESTS);
     event.preventDefault();
@@ -75,6 +78,9 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
   };
   const up = (event: PointerEvent): void => feed({ type: "up", id: event.pointerId, at: at(event), free: event.altKey });
   const cancel = (): void => feed({ type: "cancel" });
+  const space = (event: KeyboardEvent): void => {
+    if (event.key === " ") spaced = event.type === "keydown";
+  };
   const escape = (event: KeyboardEvent): void => {
     if (event.key !== "Escape" || state.is === "idle") return;
     event.preventDefault();
@@ -110,9 +116,11 @@ export function pointers(host: HTMLElement, stage: Stage): () => void {
   ];
   for (const [name, take, options] of all) host.addEventListener(name, take, options);
   window.addEventListener("keydown", escape, true);
+  for (const type of ["keydown", "keyup"] as const) window.addEventListener(type, space, true);
   return () => {
     for (const [name, take] of all) host.removeEventListener(name, take);
     window.removeEventListener("keydown", escape, true);
+    for (const type of ["keydown", "keyup"] as const) window.removeEventListener(type, space, true);
   };
 }
 
@@ -170,7 +178,20 @@ function lift(elements: readonly string[]): void {
 function about(found: Hit | null, at: Point): void {
   hovered.value = null;
   if (found && !selected.peek().some((other) => same(other, found.part))) select([found.part], "drawing");
-  openMenu(found?.on ?? null, at);
+  openMenu(found?.on ?? null, beside(found, at));
+}
+
+/** Room for the menu, in pixels. */
+const MENU = 300;
+
+/** A place beside the element that was pressed, so that its menu covers nothing of it. */
+function beside(found: Hit | null, at: Point): Point {
+  const outer = found && "element" in found ? drawing.peek()?.elements.get(found.element)?.outer : undefined;
+  if (!outer) return at;
+  const [left] = toPane(view.peek(), [outer[0], outer[1]]);
+  const [right] = toPane(view.peek(), [outer[0] + outer[2], outer[1]]);
+  if (right + MENU < size.peek().width) return [right + 8, at[1]];
+  return left > MENU ? [left - MENU, at[1]] : at;
 }
 
 const scaled = ([x, y]: Point): Point => [x / view.peek().zoom, y / view.peek().zoom];

@@ -30,11 +30,17 @@ export async function extract(): Promise<void> {
   const elements = chosen();
   if (!at || elements.length === 0) return refuse(words.selectFirst);
   const plans = new Set(at.drawn.plans);
+  const change = (newPlan: string): ask.Change => {
+    const element = free(newPlan.charAt(0).toLowerCase() + newPlan.slice(1), taken(at.drawn));
+    return { extract: { plan: at.plan, elements: elements.map(nameOf), newPlan, element } };
+  };
+  const why = await ask.refused([change(free("Part", plans))]);
+  if (why !== null) return refuse(new Error(why));
   const wrong = (name: string): string | null => (!isName(name) ? words.nameHint : plans.has(name) ? words.planTaken(name) : null);
   const newPlan = await askLine(words.extract, words.extractHint(elements.length), free("Part", plans), words.extractDone, wrong);
   if (newPlan === null) return;
-  const element = free(newPlan.charAt(0).toLowerCase() + newPlan.slice(1), taken(at.drawn));
-  await ask.edit([{ extract: { plan: at.plan, elements: elements.map(nameOf), newPlan, element } }], {}, [{ item: `${at.plan}.${element}` }]);
+  const extracted = change(newPlan);
+  await ask.edit([extracted], {}, [{ item: `${at.plan}.${extracted.extract!.element}` }]);
 }
 
 /** Whether one sub-plan is selected. */

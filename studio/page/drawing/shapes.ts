@@ -20,6 +20,8 @@ export interface Piece {
   part: PartOf;
   rect: Rect;
   severity: "error" | "warning" | null;
+  /** the tag of an exit that leads nowhere */
+  tag: Rect | null;
 }
 
 export interface Element {
@@ -35,6 +37,8 @@ export interface Element {
   template: string | null;
   /** the plan behind a sub-plan */
   plan: string | null;
+  /** the address of its file, where that is another one */
+  file: string | null;
   help: string | null;
   note: string | null;
 }

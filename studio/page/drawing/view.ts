@@ -91,4 +91,4 @@ export function sight(view: View, size: Size): Rect {
 export const STEP = 1.25;
 
 /** What a turn of the wheel zooms by; pinches of touchpads come as small turns with `Ctrl`. */
-export const wheelFactor = (deltaY: number): number => Math.exp(-clamp(deltaY, -60, 60) / 150);
+export const wheelFactor = (deltaY: number): number => Math.exp(-clamp(deltaY, -14, 14) / 120);

@@ -45,7 +45,8 @@ export const words = {
   escape: "Leave the selection",
   add: "Add an element or supervisor",
   move: "Move the selection",
-  automatic: "Place automatically",
+  automatic: "Tidy up",
+  waits: "There is no connection to the server. The change is made when it is back.",
   connect: "Connect an exit",
   remove: "Remove the selection",
   setStart: "Start with this element",
@@ -120,7 +121,7 @@ export const words = {
   pasted: "Paste",
   copied: (count: number) => `${many(count, "item")} copied`,
   movePlaces: "move",
-  automaticPlaces: "place automatically",
+  automaticPlaces: "tidy up",
 
   // Palette.
   paletteSearch: "Search templates",

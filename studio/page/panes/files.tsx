@@ -66,7 +66,7 @@ export const makeExample = (name: string): Promise<void> => make(free(`plans/${n
 export async function makeNew(): Promise<void> {
   const wrong = (name: string) =>
     !/^[A-Za-z][A-Za-z0-9_]*$/.test(name) ? words.nameWrong : isTaken(`${name}.afp`) ? words.nameTaken(`${name}.afp`) : null;
-  const name = await askLine(words.newPlanName, words.newPlanHint, free("plan", "").replace(/\.afp$/, ""), words.create, wrong);
+  const name = await askLine(words.newPlanName, words.newPlanHint, free("plan", ".afp").replace(/\.afp$/, ""), words.create, wrong);
   if (name) await make(`${name}.afp`, { text: planText(planName(name)) });
 }
 

@@ -8,6 +8,7 @@ import { Icon } from "../drawing/choices";
 import * as entries from "../drawing/entries";
 import { about } from "../drawing/messages";
 import { drawing } from "../drawing/model";
+import { draft, putBack, written } from "../drawing/drafts";
 import { isName } from "../drawing/rename";
 import { refuse } from "../drawing/say";
 import { nameOf, type Drawing, type Entry, type Part } from "../drawing/shapes";
@@ -35,20 +36,28 @@ export function Inspector() {
 }
 
 /**
- * A line that is taken over with `Enter` or when it is left, and put back with `Escape` or where it is refused; what is `wrong` as
- * it is written stays to be mended. null while its value is fetched.
+ * A line that is taken over with `Enter` or when it is left; what is wrong or refused stays to be mended, and `Escape` puts it back.
+ * null while its value is fetched.
  */
-function Line({ label, value, take, wrong, hint, hidden }: { label: string; value: string | null; take(text: string): Promise<unknown>; wrong?(text: string): string | null; hint?: string; hidden?: boolean }) {
+function Line({ item, label, value, take, wrong, hint, hidden }: { item: string; label: string; value: string | null; take(text: string): Promise<unknown>; wrong?(text: string): string | null; hint?: string; hidden?: boolean }) {
+  const field = `${item} ${label}`;
   // What is typed counts over the value that it was typed over, from the first key on.
-  const [typed, setTyped] = useState({ over: value, text: value ?? "" });
-  const text = typed.over === value ? typed.text : (value ?? "");
-  const back = (): void => setTyped({ over: value, text: value ?? "" });
+  const [typed, setTyped] = useState({ over: value, text: draft(field) ?? value ?? "" });
+  const [refused, setRefused] = useState(draft(field) !== undefined);
+  const text = typed.over === value || refused ? typed.text : (value ?? "");
+  const set = (text: string): void => {
+    setTyped({ over: value, text });
+    setRefused(false);
+  };
+  const back = (): void => {
+    putBack(field);
+    set(value ?? "");
+  };
   const end = (): void => {
     if (text.trim() === value) return;
     const why = wrong?.(text.trim()) ?? null;
-    if (why !== null) return refuse(why);
-    // What is typed while the answer is on its way stays.
-    void take(text.trim()).then((done) => done || setTyped((now) => (now.text === text ? { over: value, text: value ?? "" } : now)));
+    if (why !== null) refuse(why);
+    void written(field, text, async () => why === null && (await take(text.trim()))).then((done) => setRefused(!done));
   };
   const key = (event: KeyboardEvent): void => {
     if (event.key === "Enter") end();
@@ -57,13 +66,13 @@ function Line({ label, value, take, wrong, hint, hidden }: { label: string; valu
   return (
     <label class="line">
       <span class={hidden ? "hidden" : ""}>{label}</span>
-      <input type="text" value={text} disabled={value === null} aria-invalid={wrong !== undefined && wrong(text.trim()) !== null} placeholder={hint} spellcheck={false} autocomplete="off" onInput={(event) => setTyped({ over: value, text: event.currentTarget.value })} onKeyDown={key} onBlur={end} />
+      <input type="text" value={text} disabled={value === null} aria-invalid={refused || (wrong !== undefined && wrong(text.trim()) !== null)} placeholder={hint} spellcheck={false} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} onKeyDown={key} onBlur={end} />
     </label>
   );
 }
 
 const Name = ({ item }: { item: string }) => (
-  <Line label={words.name} value={nameOf(item)} wrong={(name) => (isName(name) ? null : words.nameHint)} take={(to) => ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }])} />
+  <Line item={item} label={words.name} value={nameOf(item)} wrong={(name) => (isName(name) ? null : words.nameHint)} take={(to) => ask.edit([{ rename: { item, to } }], {}, [{ item: [...item.split(".").slice(0, -1), to].join(".") }])} />
 );
 
 /** The help above an item, as one line. */
@@ -74,7 +83,7 @@ function Help({ item, drawn }: { item: string; drawn: Drawing }) {
     ask.help(item).then((found) => wanted && setText(found.replaceAll("\n", " ")), () => {});
     return () => void (wanted = false);
   }, [item, drawn]);
-  return <Line label={words.help} value={text} hint={words.helpHint} take={(text) => ask.edit([{ setDoc: { item, text } }], {}, [{ item }])} />;
+  return <Line item={item} label={words.help} value={text} hint={words.helpHint} take={(text) => ask.edit([{ setDoc: { item, text } }], {}, [{ item }])} />;
 }
 
 function Wrong({ drawn, part }: { drawn: Drawing; part: Part }) {
@@ -123,9 +132,9 @@ function Component({ drawn, part }: { drawn: Drawing; part: Part }) {
         </button>
       ))}
       {timing && <h3>{words.timing}</h3>}
-      {timing && <Line label={words.every} value={timing.every} hint={words.unlessSaid} take={time("every")} />}
+      {timing && <Line item={item} label={words.every} value={timing.every} hint={words.unlessSaid} take={time("every")} />}
       {timing && <div class="periods" role="group" aria-label={words.periods}>{PERIODS.map((each) => <button type="button" aria-pressed={timing.every === each} onClick={() => void time("every")(each)} key={each}>{each}</button>)}</div>}
-      {timing && <Line label={words.deadline} value={timing.deadline} hint={words.unlessSaid} take={time("deadline")} />}
+      {timing && <Line item={item} label={words.deadline} value={timing.deadline} hint={words.unlessSaid} take={time("deadline")} />}
       <Help item={item} drawn={drawn} />
     </>
   );
@@ -181,8 +190,8 @@ function EntryForm({ drawn, entry }: { drawn: Drawing; entry: Entry }) {
           {Object.entries(words.entryKinds).map(([kind, label]) => <option key={kind} value={kind}>{label}</option>)}
         </select>
       </label>
-      <Line label={words.typeOf} value={entry.type ?? ""} take={(ty) => edit("setEntryType", { ty: ty || null })} />
-      <Line label={words.valueTitle} value={entry.value ?? ""} take={(value) => edit("setEntryValue", { value: value || null })} />
+      <Line item={item} label={words.typeOf} value={entry.type ?? ""} take={(ty) => edit("setEntryType", { ty: ty || null })} />
+      <Line item={item} label={words.valueTitle} value={entry.value ?? ""} take={(value) => edit("setEntryValue", { value: value || null })} />
       <Help item={item} drawn={drawn} />
       <button type="button" class="quiet" onClick={() => void actions.remove([{ item }])}>{words.removeEntry(entry.name ?? "")}</button>
     </>

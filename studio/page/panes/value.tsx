@@ -2,9 +2,10 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import * as ask from "../drawing/ask";
 import { useInSight } from "../drawing/choices";
+import { draft, putBack, written } from "../drawing/drafts";
 import { refuse } from "../drawing/say";
 import type { Part } from "../drawing/shapes";
-import { editing, quantity, slider, spelled, stepped } from "../drawing/value";
+import { editing, fieldOf, quantity, slider, spelled, stepped, converted } from "../drawing/value";
 import { words } from "../drawing/words";
 
 /** The popup over the drawing. */
@@ -36,13 +37,12 @@ function Popup({ part, at }: { part: Part; at: readonly [number, number] | null 
     event.stopPropagation();
     close();
   };
-  const out = (event: FocusEvent): void => {
-    if (event.relatedTarget instanceof Node && !host.current?.contains(event.relatedTarget)) close();
-  };
+  // The value is another one's from now on, if that has been opened meanwhile.
+  const done = (): void => void (editing.peek()?.part === part && close());
   return (
-    <div class="over value-popup" ref={host} role="dialog" aria-label={words.valueOf(name)} tabIndex={-1} onKeyDown={key} onFocusOut={out}>
+    <div class="over value-popup" ref={host} role="dialog" aria-label={words.valueOf(name)} tabIndex={-1} onKeyDown={key}>
       <div class="chooser-title">{name}{answer && <span> {answer.type}</span>}</div>
-      {answer && <Value part={part} out={kind === "output"} answer={answer} done={close} />}
+      {answer && <Value part={part} out={kind === "output"} answer={answer} done={done} left={done} />}
     </div>
   );
 }
@@ -52,18 +52,47 @@ interface Given {
   out: boolean;
   answer: ask.PortAnswer;
   done(): void;
+  /** It was left as it was. */
+  left?(): void;
 }
 
-/** The controls for a value; in the popup and in the inspector. */
-export function Value({ part, out, answer, done }: Given) {
+/**
+ * The controls for a value; in the popup and in the inspector. What was set is written however it is left; what cannot be
+ * stays, marked. Escape alone discards.
+ */
+export function Value({ part, out, answer, done, left }: Given) {
   const name = part.part?.name ?? "";
+  const field = fieldOf(part);
   const first = answer.value ?? answer.default ?? "";
-  const [text, setText] = useState(first);
+  const form = useRef<HTMLFormElement>(null);
+  const discarded = useRef(false);
+  const [text, setText] = useState(draft(field) ?? first);
+  const [wrong, setWrong] = useState(draft(field) !== undefined);
   // An answer that says nothing new leaves what is being typed alone; one that does comes before the next key.
-  useLayoutEffect(() => setText(first), [first]);
+  useLayoutEffect(() => setText(draft(field) ?? first), [first]);
+  const set = (text: string): void => {
+    setText(text);
+    setWrong(false);
+    discarded.current = false;
+  };
   const bind = async (to: string): Promise<void> => {
     const binding = out ? { out: to } : { in: to };
-    if (await ask.edit([{ bind: { component: part.item, port: name, to: binding } }], {}, [part])) done();
+    const change = { bind: { component: part.item, port: name, to: binding } };
+    const isWritten = await written(field, to, () => ask.edit([change], {}, [part]));
+    setWrong(!isWritten);
+    if (isWritten) done();
+  };
+  const leave = (event: FocusEvent): void => {
+    const host = form.current?.closest(".value-popup") ?? form.current;
+    if (!document.hasFocus() || (event.relatedTarget instanceof Node && host?.contains(event.relatedTarget))) return;
+    if (!discarded.current && text.trim() && text.trim() !== first) void bind(text.trim());
+    else left?.();
+  };
+  const key = (event: KeyboardEvent): void => {
+    if (event.key !== "Escape") return;
+    putBack(field);
+    set(first);
+    discarded.current = true;
   };
   const unbind = async (): Promise<void> => {
     if (await ask.edit([{ unbind: { component: part.item, port: name } }], {}, [{ item: part.item }])) done();
@@ -75,12 +104,12 @@ export function Value({ part, out, answer, done }: Given) {
   const fitting = answer.candidates.filter((candidate) => !candidate.refused);
   const known = quantity(text);
   return (
-    <form class="value" onSubmit={submit}>
-      {!out && known && answer.step !== null && <Steps text={text} set={setText} answer={answer} />}
+    <form class="value" ref={form} onSubmit={submit} onFocusOut={leave} onKeyDown={key}>
+      {!out && known && answer.step !== null && <Steps text={text} set={set} answer={answer} />}
       {!out && (
         <div class="value-line">
-          <input type="text" aria-label={words.formula} value={text} spellcheck={false} autocomplete="off" onInput={(event) => setText(event.currentTarget.value)} />
-          {known && answer.units.length > 1 && <Units text={text} set={setText} units={answer.units} />}
+          <input type="text" aria-label={words.formula} value={text} aria-invalid={wrong} spellcheck={false} autocomplete="off" onInput={(event) => set(event.currentTarget.value)} />
+          {known && answer.units.length > 1 && <Units text={text} set={set} answer={answer} />}
           <button type="submit" class="main" aria-label={words.set} title={words.set}>✓</button>
         </div>
       )}
@@ -106,7 +135,7 @@ function Steps({ text, set, answer }: Field) {
   const { number, unit } = quantity(text)!;
   // In another unit than the usual one a step is one.
   const step = unit === answer.unit ? answer.step! : 1;
-  const by = (times: number): void => set(spelled(stepped(number, step, times), unit));
+  const by = (times: 1 | -1): void => set(spelled(stepped(number, step, times), unit));
   const range = slider(answer.range, unit, step);
   return (
     <div class="value-steps">
@@ -118,10 +147,12 @@ function Steps({ text, set, answer }: Field) {
   );
 }
 
-function Units({ text, set, units }: { text: string; set(text: string): void; units: string[] }) {
+function Units({ text, set, answer: { units, scales } }: Field) {
   const { number, unit } = quantity(text)!;
+  const scale = (unit: string): number => scales[units.indexOf(unit)] ?? 1;
+  const change = (to: string): void => set(spelled(units.includes(unit) ? converted(number, scale(unit), scale(to)) : number, to));
   return (
-    <select aria-label={words.unit} value={unit} onChange={(event) => set(spelled(number, event.currentTarget.value))}>
+    <select aria-label={words.unit} value={unit} onChange={(event) => change(event.currentTarget.value)}>
       {!units.includes(unit) && <option value={unit}>{unit}</option>}
       {units.map((unit) => <option key={unit} value={unit}>{unit}</option>)}
     </select>

@@ -25,11 +25,12 @@ export interface Action {
 
 export const diagnostics = signal<ReadonlyMap<string, { version: number | null; list: Diagnostic[] }>>(new Map());
 /** The problems of the file that is shown, errors first, then as they stand in the text. */
-export const problems = computed(() => {
-  const list = diagnostics.value.get(current.value)?.list ?? [];
+export const problems = computed(() => problemsOf(current.value));
+export function problemsOf(uri: string): Diagnostic[] {
+  const list = diagnostics.value.get(uri)?.list ?? [];
   const place = (each: Diagnostic) => each.range.start.line * 1e5 + each.range.start.character;
   return [...list].sort((a, b) => (a.severity ?? 1) - (b.severity ?? 1) || place(a) - place(b));
-});
+}
 export const number = (severity: Severity): number => problems.value.filter((each) => severityOf(each) === severity).length;
 export const severityOf = ({ severity }: Diagnostic): Severity => (severity === 2 ? "warning" : (severity ?? 1) > 2 ? "note" : "error");
 

@@ -5,6 +5,8 @@ import { redo, redoLabel, undo, undoLabel } from "../documents/history";
 import { bottom, isBottom, narrow, palette, right, show, world, type Narrow } from "./layout";
 import { makeNew, report } from "../panes/files";
 import { current } from "../documents/documents";
+import { isWritten } from "../debug/written";
+import { refuse } from "../drawing/say";
 import { sought } from "../plan/seek";
 import { words } from "../words";
 
@@ -15,6 +17,7 @@ export function register(): void {
   command({ id: "keys", label: words.keys, key: "?", run: () => (showingKeys.value = true) });
   command({ id: "undo", label: words.undo("…"), key: "Ctrl+Z", run: () => void undo().catch(report), enabled: () => undoLabel.value !== null });
   command({ id: "redo", label: words.redo("…"), key: ["Ctrl+Shift+Z", "Ctrl+Y"], run: () => void redo().catch(report), enabled: () => redoLabel.value !== null });
+  command({ id: "save", label: words.save, key: "Ctrl+S", run: () => void announce() });
   command({ id: "pane-next", label: words.nextPane, key: "F6", run: () => step(1) });
   command({ id: "pane-before", label: words.lastPane, key: "Shift+F6", run: () => step(-1) });
   command({ id: "palette", label: words.palette, run: () => toggle("palette") });
@@ -28,6 +31,11 @@ export function register(): void {
   command({ id: "jobs", label: words.jobs, run: () => toggle("jobs") });
   command({ id: "outline", label: words.outline, run: () => toggle("outline") });
   command({ id: "new", label: words.newPlan, run: makeNew });
+}
+
+/** Says that everything is saved, once it is: nobody has to do that. */
+async function announce(): Promise<void> {
+  refuse((await isWritten()) ? words.savedBySelf : words.notSaved);
 }
 
 function toggle(name: Narrow): void {

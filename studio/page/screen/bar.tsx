@@ -45,8 +45,8 @@ function Breadcrumb() {
   if (!current.value || !plan.value) return null;
   return (
     <nav class="crumbs" aria-label={words.plans}>
-      {trail.value.map((name, at) => (
-        <button onClick={() => backTo(at)} title={words.out(name)} key={name}>{name}</button>
+      {trail.value.map(({ plan: name }, at) => (
+        <button onClick={() => leave(at)} title={words.out(name)} key={at}>{name}</button>
       ))}
       {plans.length < 2 && <span aria-current="page">{plan.value}</span>}
       {plans.length > 1 && (
@@ -72,10 +72,6 @@ function goTo(name: string): void {
   batch(() => {
     [trail.value, wanted.value] = [[], name];
   });
-}
-
-function backTo(place: number): void {
-  while (trail.value.length > place && leave());
 }
 
 function Saved() {

@@ -59,7 +59,7 @@ function Shown({ question }: { question: Question }) {
         {line && (
           <p>
             <input aria-labelledby="question" aria-invalid={wrong !== null} aria-describedby="wrong" value={value.value} onInput={(event) => (value.value = event.currentTarget.value)} spellcheck={false} />
-            <span id="wrong" class="wrong" role="status">{value.value !== line.value && wrong}</span>
+            <span id="wrong" class="wrong" role="status">{wrong}</span>
           </p>
         )}
         <div class="choices">

@@ -93,7 +93,7 @@ impl<'a> Tab<'a> {
             let severity = found.chain(view.severity(each.findings.worst())).min();
             worst = worst.into_iter().chain(severity).min();
             let (item, part) = (each.item.clone(), Part::Whole);
-            card.sketch.pieces.push(Piece { item, part, rect: tab, severity });
+            card.sketch.pieces.push(Piece { item, part, rect: tab, severity, tag: None });
         }
         card.sketch.mark(worst, (tab.x + 2.0, tab.y + 2.0));
         for ((each, exit), nth) in self.leading().zip(0_u16..) {

@@ -111,7 +111,13 @@ pub(super) fn inflow(
     sketch.arrows.push(Arrow::data(points));
     port(sketch, at, input.port, side);
     let part = Part::Input { name: input.port.to_owned(), nth: input.nth };
-    sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: input.severity });
+    sketch.pieces.push(Piece {
+        item: of.item.clone(),
+        part,
+        rect,
+        severity: input.severity,
+        tag: None,
+    });
     sketch.mark(input.severity, signed(rect, at));
 }
 
@@ -129,7 +135,13 @@ pub(super) fn outflow(
     sketch.arrows.push(Arrow::data(points));
     port(sketch, at, output.port, side);
     let part = Part::Output { name: output.port.to_owned(), nth: output.nth };
-    sketch.pieces.push(Piece { item: of.item.clone(), part, rect, severity: output.severity });
+    sketch.pieces.push(Piece {
+        item: of.item.clone(),
+        part,
+        rect,
+        severity: output.severity,
+        tag: None,
+    });
     sketch.mark(output.severity, signed(rect, at));
 }
 
@@ -204,8 +216,18 @@ pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
     card.sketch.arrows.push(Arrow::flow(points, exit_class(exit)));
     let width = tag_width(tag);
     let rect = Rect { x: x - width / 2.0, y: bottom + STUB, width, height: PILL };
-    card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
+    end(card, exit, tag, rect);
     card.height = card.height.max(rect.bottom());
+}
+
+/// Draws the tag that an exit leads to. One that leads nowhere can be pressed for its exit.
+fn end(card: &mut Card, exit: &Exit, tag: Tag, rect: Rect) {
+    card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
+    if exit.to.is_none()
+        && let Some(piece) = card.sketch.pieces.last_mut()
+    {
+        piece.tag = Some(rect);
+    }
 }
 
 /// An event on the right border of a box at `at`, with its tag or its arrow back.
@@ -229,7 +251,7 @@ pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
     let points = vec![(right, y), (right + STUB, y)];
     card.sketch.arrows.push(Arrow::flow(points, exit_class(exit)));
     let rect = Rect { x: right + STUB, y: y - PILL / 2.0, width: tag_width(tag), height: PILL };
-    card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
+    end(card, exit, tag, rect);
 }
 
 /// The arrow back of an exit that resumes.
@@ -242,7 +264,7 @@ fn chip(card: &mut Card, of: &Component, rect: Rect, exit: &Exit, text: &str) {
     let class = if exit.to.is_none() { "open".into() } else { exit_class(exit) };
     card.sketch.pill(rect, class, text, CHIP_SIZE);
     let (part, severity) = (part(exit), exit.severity);
-    card.sketch.piece(Piece { item: of.item.clone(), part, rect, severity }, 0.0);
+    card.sketch.piece(Piece { item: of.item.clone(), part, rect, severity, tag: None }, 0.0);
 }
 
 pub(super) fn part(exit: &Exit) -> Part {

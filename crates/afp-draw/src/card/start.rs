@@ -59,7 +59,7 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     card.height = rect.bottom().max(table.height);
     card.rect = rect;
     let severity = view.severity(plan.findings.worst());
-    card.sketch.piece(Piece { item: plan.item.clone(), part: Part::Whole, rect, severity }, 4.0);
+    card.sketch.piece(Piece { item: plan.item.clone(), part: Part::Whole, rect, severity, tag: None }, 4.0);
     leave(view, &mut card, rect);
     card.entry = (rect.x, rect.right());
     hung.attach(view, &mut card, rect);
@@ -91,7 +91,7 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
                 let top = rect.bottom() + STUB;
                 let tag = Rect { x: x - width / 2.0, y: top, width, height: 18.0 };
                 card.sketch.pill(tag, class, text, PORT_SIZE);
-                card.sketch.piece(Piece { item, part, rect: tag, severity }, 0.0);
+                card.sketch.piece(Piece { item, part, rect: tag, severity, tag: None }, 0.0);
                 card.height = card.height.max(tag.bottom());
             }
         }
@@ -122,7 +122,7 @@ fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
         let pill = Rect { x: 12.0 + KIND, y: y - 9.0, width, height: 18.0 };
         sketch.pill(pill, *class, text_in_pill, PORT_SIZE);
         let (item, severity) = (entry.item.clone(), view.severity(entry.findings.worst()));
-        sketch.piece(Piece { item, part: Part::Whole, rect: pill, severity }, 0.0);
+        sketch.piece(Piece { item, part: Part::Whole, rect: pill, severity, tag: None }, 0.0);
         let place = (22.0 + KIND + names, base);
         sketch.labels.push(Label::new(place, text, PORT_SIZE, "port declared"));
     }

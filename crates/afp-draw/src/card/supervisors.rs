@@ -153,7 +153,7 @@ impl<'a> Row<'a> {
         self.heading(view, &mut card.sketch, rect);
         let severity = view.severity(self.supervisor.findings.worst());
         let item = self.supervisor.item.clone();
-        card.sketch.piece(Piece { item, part: Part::Whole, rect, severity }, 2.0);
+        card.sketch.piece(Piece { item, part: Part::Whole, rect, severity, tag: None }, 2.0);
         let single = self.events.len() == 1 && self.inputs.is_empty() && self.outputs.is_empty();
         let events: f64 = self.events.iter().map(exit_height).sum();
         let above = if single { (rect.height - events) / 2.0 } else { 4.0 };

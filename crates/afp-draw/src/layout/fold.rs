@@ -11,6 +11,9 @@ use super::grid::Grid;
 /// Height by width from which on layers are folded.
 const TALL: f64 = 2.0;
 
+/// What is lower fits on a screen as it is.
+const SCREEN: f64 = 760.0;
+
 /// What an edge that passes a cut is worth: so much of a column's height the cut may lie elsewhere.
 const EDGE: f64 = 0.05;
 
@@ -33,7 +36,7 @@ struct Cut {
 pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec<Point>> {
     let layers = extents(grid, nodes, corners);
     let whole = layers.iter().copied().reduce(Bounds::with)?;
-    if whole.height() <= TALL * whole.width() {
+    if whole.height() <= SCREEN.max(TALL * whole.width()) {
         return None;
     }
     let cuts: Vec<Cut> =
@@ -56,7 +59,7 @@ pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec
     let moved = |(node, (x, y)): (usize, &Point)| {
         let layer = grid.items[node].layer;
         let (dx, dy) = shifts[columns.partition_point(|column| column.first <= layer) - 1];
-        (x + dx, y + dy)
+        nodes[node].whole((x + dx, y + dy))
     };
     Some(corners.iter().enumerate().map(moved).collect())
 }

@@ -4,31 +4,27 @@
 //! nearest ones that are free. Edges then find their ways through the gaps that are left.
 
 use super::super::router::{self, Bounds, Connector, Point};
-use super::{LaidOut, Link, Node, Placement, Rows, arranged, bounds, connectors, layout};
+use super::{LaidOut, Link, Node, Rows, arranged, bounds, connectors};
 
-/// Least distance between a box that gives way and the next one.
+/// Distance between two boxes, unless the automatic layout puts them nearer to each other.
 const GAP: f64 = 48.0;
 
-/// Least distance of boxes that stay where they were, and of a route that does from a box: less than
-/// the router keeps.
-pub(in super::super) const NEAR: f64 = 6.0;
+/// Least distance of boxes, and of a route that is kept from a box: less than the router keeps.
+const NEAR: f64 = 6.0;
 
-/// Lays out the nodes around those that have places. Those that were somewhere before stay there
-/// unless another one is in the way, and routes stay whose ends do and that no box has come near.
-pub(in super::super) fn layout_around(
+/// Least distance between a box whose place somebody wished for and the next one.
+const BESIDE: f64 = 24.0;
+
+/// The edges of nodes that have their places. Routes stay whose ends do and that no box has come near.
+pub(in super::super) fn routed(
     nodes: &[Node],
     links: &[Link],
-    placement: Placement,
+    corners: Vec<Point>,
+    known: Vec<Option<Vec<Point>>>,
 ) -> LaidOut {
-    let known = [&placement.fixed, &placement.before, &placement.once];
-    if known.into_iter().flatten().all(Option::is_none) {
-        return layout(nodes, links);
-    }
-    let corners = places(nodes, links, &placement);
     let (boxes, connectors) = (bounds(nodes, &corners), connectors(nodes, links, &corners));
     let near = NearBoxes::new(&boxes);
-    let kept: Vec<_> = placement
-        .routes
+    let kept: Vec<_> = known
         .into_iter()
         .zip(&connectors)
         .map(|(route, connector)| route.filter(|route| is_still_good(route, connector, &near)))
@@ -99,33 +95,18 @@ impl<'b> NearBoxes<'b> {
     }
 }
 
-/// The corner of each node.
-fn places(nodes: &[Node], links: &[Link], placement: &Placement) -> Vec<Point> {
-    let mut corners: Vec<Option<Point>> = placement.fixed.clone();
-    let mut moved: Vec<(usize, Point)> = Vec::new();
-    for (node, before) in placement.before.iter().enumerate() {
-        let Some(before) = before.filter(|_| corners[node].is_none()) else { continue };
-        match obstacle(nodes, &corners, node, before, |_| NEAR) {
-            None => corners[node] = Some(before),
-            Some(_) => moved.push((node, before)),
-        }
-    }
-    for (node, mut corner) in moved {
-        while let Some(way) = obstacle(nodes, &corners, node, corner, |_| GAP) {
-            corner.1 = way.bottom + GAP;
-        }
-        corners[node] = Some(corner);
-    }
-    // Who gave way goes back as soon as there is room again.
-    for (node, origin) in placement.origins.iter().enumerate() {
-        let Some(origin) = origin.filter(|_| placement.fixed[node].is_none()) else { continue };
-        let Some(now) = corners[node].take() else { continue };
-        let is_free = obstacle(nodes, &corners, node, origin, |_| NEAR).is_none();
-        corners[node] = Some(if is_free { origin } else { now });
-    }
-    for (node, once) in placement.once.iter().enumerate() {
-        let Some(once) = once.filter(|_| corners[node].is_none()) else { continue };
-        corners[node] = obstacle(nodes, &corners, node, once, |_| NEAR).is_none().then_some(once);
+/// The corner of each node: those that are `fixed` stay, the others take the nearest free places to where they are `wished`,
+/// or to where the automatic layout puts them beside the fixed ones.
+pub(in super::super) fn places(
+    nodes: &[Node],
+    links: &[Link],
+    fixed: &[Option<Point>],
+    wished: &[Option<Point>],
+) -> Vec<Point> {
+    let mut corners = fixed.to_vec();
+    for (node, wish) in wished.iter().enumerate() {
+        let Some(wish) = wish.filter(|_| corners[node].is_none()) else { continue };
+        corners[node] = Some(nodes[node].whole(nearest(nodes, &corners, node, wish, |_| BESIDE)));
     }
     if corners.iter().all(Option::is_some) {
         return corners.into_iter().flatten().collect();
@@ -141,7 +122,7 @@ fn places(nodes: &[Node], links: &[Link], placement: &Placement) -> Vec<Point> {
         let wish = (automatic[node].0 + dx, automatic[node].1 + dy);
         // Two boxes may stand as near to each other as the automatic layout puts them.
         let gap = |other: usize| apart(nodes, &automatic, node, other).clamp(NEAR, GAP);
-        corners[node] = Some(nearest(nodes, &corners, node, wish, gap));
+        corners[node] = Some(nodes[node].whole(nearest(nodes, &corners, node, wish, gap)));
     }
     corners.into_iter().zip(automatic).map(|(corner, other)| corner.unwrap_or(other)).collect()
 }

@@ -39,7 +39,7 @@ impl Rows {
     pub(super) fn corners(&self, grid: &Grid, nodes: &[Node]) -> Vec<Point> {
         let tops = self.tops();
         let corner = |item: usize| (grid.items[item].x, tops[grid.items[item].layer].0);
-        (0..nodes.len()).map(corner).collect()
+        nodes.iter().enumerate().map(|(item, node)| node.whole(corner(item))).collect()
     }
 
     /// Makes room where edges found too little: between two layers, or in a layer to the right.

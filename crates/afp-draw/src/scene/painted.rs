@@ -48,6 +48,7 @@ impl<'s> Painted<'s> {
             part: piece.part,
             rect: piece.rect.moved(at),
             severity: piece.severity,
+            tag: piece.tag.map(|tag| tag.moved(at)),
         };
         ElementScene {
             rect: rect.moved(at),

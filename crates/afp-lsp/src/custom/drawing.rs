@@ -96,7 +96,11 @@ fn draw(
         }
         None => Arc::default(),
     };
-    let facts = main.map(|plan| Facts::new(plan, outline, folded)).unwrap_or_default();
+    let address = |file| {
+        let source = analysis.compiled.sources.get(file)?;
+        Some(server.workspace.uri(&source.name).0)
+    };
+    let facts = main.map(|plan| Facts::new(plan, outline, folded, &address)).unwrap_or_default();
     let plans = plans(&analysis);
     let plan = main.map(|plan| plan.item.name().to_owned());
     let (analysis, reads) = (Arc::clone(&analysis), reads.into_inner());

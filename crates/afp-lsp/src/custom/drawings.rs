@@ -11,9 +11,8 @@ const MOST: usize = 32;
 
 /// The scenes that were drawn last, of each plan of each document.
 ///
-/// A new drawing is made from the one before, so that what did not change stays where it is and takes no time. Servers that
-/// share these go on from one another's drawings: a page that is loaded again, a second one beside it, a plan that is come
-/// back to.
+/// What a new drawing has in common with the one before takes no time; no box is elsewhere because of it. Servers that share
+/// these save that time for one another: a page that is loaded again, a second one, a plan that is shown again.
 #[derive(Clone, Default)]
 pub struct Drawings(Arc<Mutex<VecDeque<Kept>>>);
 

@@ -1,7 +1,9 @@
 //! Changes of meaning and of places, answered with the edits that make them.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
+use afp_draw::Boxes;
 use afp_draw::layout_file::Position;
 use afp_ide::edit::{Change, Given, Made, edit_all, item, path};
 use afp_syntax::ast::Item as AstItem;
@@ -54,9 +56,18 @@ fn changed(
     let Made { edits, changes: done, given, added } = made;
     let mut all = by_file(|file| files.get(usize::from(file)), edits);
     let placed = positions(places, &given)?;
+    let after = server.workspace.drafted(&home_path, &all).unwrap_or_else(|| Arc::clone(&analysis));
+    let (new, placed): (Vec<_>, Vec<_>) =
+        placed.into_iter().partition(|(item, _)| added.contains(item));
+    let wishes: Vec<_> = new.into_iter().filter_map(|(item, at)| Some((item, at?))).collect();
     all.extend(server.placed(&home_path, |layout| {
+        let before = Boxes::new(&analysis.compiled.outline, analysis.file, layout, &[]);
+        before.write(layout);
         done.iter().for_each(|change| afp_ide::edit::follow(layout, change));
         put(layout, &placed);
+        let mut boxes = Boxes::new(&after.compiled.outline, after.file, layout, &wishes);
+        boxes.make_room(&before);
+        boxes.write(layout);
     }));
     ok(json!({
         "label": label(&done),
@@ -138,10 +149,17 @@ pub(crate) struct Place {
     places: Places,
 }
 
-/// The edit of the file of positions.
+/// The edit of the file of positions. Where something is put somewhere, all other boxes are written where they stand.
 pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
     let placed = positions(&params.places, &Given::default())?;
-    let file = server.placed(&uri::path(&params.text_document.uri), |layout| put(layout, &placed));
+    let analysis = server.analysis(&params.text_document.uri);
+    let analysis = analysis.filter(|_| placed.iter().any(|(_, at)| at.is_some()));
+    let file = server.placed(&uri::path(&params.text_document.uri), |layout| {
+        if let Some(analysis) = analysis {
+            Boxes::new(&analysis.compiled.outline, analysis.file, layout, &[]).write(layout);
+        }
+        put(layout, &placed);
+    });
     ok(whole(server, &file.into_iter().collect::<Vec<_>>()))
 }
 

@@ -23,18 +23,26 @@ pub(super) struct Facts {
 struct Fact {
     kind: &'static str,
     template: Option<String>,
-    /// The plan behind a sub-plan.
+    /// The plan behind a sub-plan, and the address of its file where that is another one.
     plan: Option<String>,
+    file: Option<String>,
     help: String,
     note: String,
     folded: bool,
 }
 
 impl Facts {
-    pub fn new(plan: &Plan, outline: &Outline, folded: &[Item]) -> Facts {
+    pub fn new(
+        plan: &Plan,
+        outline: &Outline,
+        folded: &[Item],
+        address: &dyn Fn(u16) -> Option<String>,
+    ) -> Facts {
         let fact = |one: &Component| {
             let folded = folded.contains(&one.item);
-            (one.item.clone(), Fact { folded, ..Fact::new(one, outline) })
+            let used = one.sub_plan().map(|id| outline.plan(id).file());
+            let file = used.filter(|file| *file != plan.file()).and_then(address);
+            (one.item.clone(), Fact { folded, file, ..Fact::new(one, outline) })
         };
         Facts {
             elements: plan.elements.iter().map(fact).collect(),
@@ -53,6 +61,7 @@ impl Fact {
             help: component.doc.clone(),
             note: component.note.clone(),
             folded: false,
+            file: None,
         }
     }
 }
@@ -191,6 +200,7 @@ fn element(one: &ElementScene, fact: Option<&Fact>) -> Value {
         "kind": fact.map(|it| it.kind),
         "template": fact.and_then(|it| it.template.as_ref()),
         "plan": fact.and_then(|it| it.plan.as_ref()),
+        "file": fact.and_then(|it| it.file.as_ref()),
         "help": fact.map(|it| &it.help),
         "note": fact.map(|it| &it.note),
         "folded": fact.is_some_and(|it| it.folded),
@@ -203,6 +213,7 @@ fn piece(piece: &PieceScene) -> Value {
         "part": part(&piece.part),
         "rect": rect(piece.rect),
         "severity": piece.severity.map(Severity::as_str),
+        "tag": piece.tag.map(rect),
     })
 }
 

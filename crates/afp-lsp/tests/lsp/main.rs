@@ -8,3 +8,4 @@ mod killed;
 mod others;
 mod plans;
 mod random;
+mod still;

@@ -1,0 +1,16 @@
+// What was typed into a field and cannot be written as it is: it stays there, marked, until it is mended or put back with Escape.
+const drafts = new Map<string, string>();
+
+/** What stays in a field; undefined where nothing does. */
+export const draft = (field: string): string | undefined => drafts.get(field);
+
+/** Writes what was typed, and keeps it where it is refused; whether it was written. */
+export async function written(field: string, text: string, write: () => Promise<unknown>): Promise<boolean> {
+  const done = Boolean(await write());
+  if (done) drafts.delete(field);
+  else drafts.set(field, text);
+  return done;
+}
+
+/** Forgets what stayed. */
+export const putBack = (field: string): void => void drafts.delete(field);

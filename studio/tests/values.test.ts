@@ -1,0 +1,105 @@
+// Values are kept however a field is left; what cannot be written stays there, marked; Escape alone discards.
+import assert from "node:assert/strict";
+import type { Page } from "playwright-core";
+import { inBrowser, settled } from "./browser";
+import { middle, name } from "./spots";
+
+const PLAN = `use carbot
+
+plan P {
+    var gap: length = 20 cm
+
+    start go
+
+    actor go: Forward(distance = 2 cm) {
+        ForwardSuccessful -> turn
+    }
+
+    actor turn: Turn(angle = 90 deg) {
+        TurnSuccessful -> terminate
+    }
+}
+`;
+
+/** Opens the value of a port, by a click on it; the field has the focus. */
+async function open(page: Page, item: string): Promise<void> {
+  await page.locator(`.node [data-item="${item}"]`).first().waitFor();
+  await page.mouse.click(...(await middle(page, `.node [data-item="${item}"] text.formula`)));
+  await page.locator(".value-popup input[type=text]:focus").waitFor();
+}
+
+/** A place of the drawing with nothing on it. */
+const ground = [900, 690] as const;
+
+inBrowser("a value that was typed or stepped is written when its field is left", { "plan.afp": PLAN }, async (studio) => {
+  const { page } = studio;
+  await open(page, "P.turn");
+  await page.keyboard.type("-75 deg");
+  await page.mouse.click(...ground);
+  await studio.becomes("plan.afp", /angle = -75 deg/);
+  await page.locator(".value-popup").waitFor({ state: "detached" });
+  await open(page, "P.turn");
+  await page.locator(".value-popup").getByRole("button", { name: "more" }).click();
+  await page.mouse.click(...ground);
+  await studio.becomes("plan.afp", /angle = -(?!75)\d+ deg/);
+  // Onto another element, and by Tab out of it.
+  await open(page, "P.turn");
+  await page.keyboard.type("10 deg");
+  await page.mouse.click(...(await middle(page, name("P.go"))));
+  await studio.becomes("plan.afp", /angle = 10 deg/);
+  await page.keyboard.press("Control+z");
+  await studio.becomes("plan.afp", /angle = -\d+ deg/);
+});
+
+inBrowser("what cannot be written stays in its field, marked, and nothing is written; Escape discards", { "plan.afp": PLAN }, async (studio) => {
+  const { page, read } = studio;
+  const field = page.locator(".value-popup input[type=text]");
+  await open(page, "P.turn");
+  await page.keyboard.type("90 +");
+  await page.mouse.click(...ground);
+  await page.locator('.value-popup input[aria-invalid="true"]').waitFor();
+  assert.equal(await field.inputValue(), "90 +");
+  assert.equal(await read("plan.afp"), PLAN);
+  // It is still there after another one was open.
+  await open(page, "P.go");
+  await page.keyboard.press("Escape");
+  await open(page, "P.turn");
+  assert.equal(await field.inputValue(), "90 +");
+  await page.keyboard.press("Escape");
+  await page.locator(".value-popup").waitFor({ state: "detached" });
+  await open(page, "P.turn");
+  assert.equal(await field.inputValue(), "90 deg");
+  await page.keyboard.type("45 deg");
+  await page.keyboard.press("Escape");
+  await page.locator(".value-popup").waitFor({ state: "detached" });
+  await page.waitForTimeout(400);
+  assert.equal(await read("plan.afp"), PLAN);
+});
+
+inBrowser("a line of the inspector that is refused stays, marked", { "plan.afp": PLAN }, async (studio) => {
+  const { page, read } = studio;
+  await page.locator('.node [data-item="P.go"]').first().waitFor();
+  await page.mouse.click(...(await middle(page, '.node [data-item="P.start"] text.entry')));
+  const line = page.locator(".inspector label.line", { hasText: "value" }).locator("input");
+  await line.fill("20 +");
+  await page.mouse.click(...ground);
+  await page.locator(".board-notice").waitFor();
+  assert.equal(await read("plan.afp"), PLAN);
+  await page.mouse.click(...(await middle(page, '.node [data-item="P.start"] text.entry')));
+  assert.equal(await settled(() => line.inputValue(), (now) => now === "20 +"), "20 +");
+  assert.equal(await line.getAttribute("aria-invalid"), "true");
+  await line.press("Escape");
+  assert.equal(await line.inputValue(), "20 cm");
+});
+
+inBrowser("a step goes to the next number of the grid, and another unit keeps the value", { "plan.afp": PLAN }, async (studio) => {
+  const { page } = studio;
+  await open(page, "P.go");
+  const popup = page.locator(".value-popup");
+  const field = popup.locator("input[type=text]");
+  await popup.getByRole("button", { name: "less" }).click();
+  assert.equal(await field.inputValue(), "0 cm");
+  await field.fill("2 m");
+  await popup.getByRole("combobox").selectOption("cm");
+  assert.equal(await field.inputValue(), "200 cm");
+});
