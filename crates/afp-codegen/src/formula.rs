@@ -257,7 +257,7 @@ fn checked(divisor: Part<'_>, value: TokenStream) -> TokenStream {
     if is_computed(divisor) { quote!(divisor(#value)?) } else { value }
 }
 
-/// Whether a number is the result of an operation. Entries, literals and what is converted are finite.
+/// Whether a number is the result of an operation. Entries, literals and conversions are finite.
 fn is_computed(number: Part<'_>) -> bool {
     match number.op() {
         Op::Neg => number.operand().is_some_and(is_computed),

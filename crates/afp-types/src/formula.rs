@@ -25,7 +25,7 @@ pub enum Operator {
     Rem,
 }
 
-/// What a node computes. Operands have the types that the operation needs: conversions are nodes of
+/// The operation of a node. Operands have the types that the operation needs: conversions are nodes of
 /// their own. `C` says what is converted into what.
 #[derive(Clone, Debug)]
 pub enum Op<C> {
@@ -71,13 +71,13 @@ pub enum Shape {
 /// One node of a formula, with a note of the phase that made it.
 #[derive(Clone, Debug)]
 pub struct Node<C, N = ()> {
-    /// What it computes.
+    /// The operation.
     pub op: Op<C>,
     /// The kind of its value.
     pub shape: Shape,
     /// How many nodes the part has that ends here, this one included.
     pub len: u16,
-    /// What else is known of it.
+    /// The note of the phase that made it.
     pub note: N,
 }
 
@@ -92,10 +92,10 @@ pub struct Part<'a, C, N = ()> {
     pub below: &'a [Node<C, N>],
 }
 
-/// What a formula reads while it is evaluated.
+/// The entries and conversions of a formula that is evaluated.
 pub trait Source<C> {
     /// Whether constants are folded, as in the compiler. Then each operation without a finite result is an error,
-    /// and so is a division by a constant zero, whatever is divided.
+    /// and so is a division by a constant zero, even of an unknown number.
     ///
     /// Otherwise a number that is not finite goes on to the reader, which shows it. It is an error earlier if the next
     /// operation could give a finite result for it.
@@ -176,7 +176,7 @@ impl<'a, C, N> Part<'a, C, N> {
         Some(Part { root, below: before.get(first..)? })
     }
 
-    /// What it computes.
+    /// The operation.
     pub fn op(self) -> &'a Op<C> {
         &self.root.op
     }

@@ -5,7 +5,7 @@
 
 use crate::{Error, finite};
 
-/// What a function takes and gives. All operands are numbers of one dimension.
+/// The types of operands and value. All operands are numbers of one dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Signature {
     /// It gives one of its operands. Ints stay ints.
@@ -68,7 +68,7 @@ macro_rules! functions {
                 }
             }
 
-            /// What it takes and gives.
+            /// The types of its operands and its value.
             pub fn signature(self) -> Signature {
                 match self {
                     $(Function::$function => Signature::$signature,)*
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn only_functions_that_are_said_to_fail_do_so() {
+    fn functions_fail_only_if_the_table_has_it() {
         for function in Function::ALL {
             let floats = [[f64::NAN, 1.0, 2.0], [1.0, 2.0, 1.0], [-1.0, f64::INFINITY, 2.0]];
             let fails = floats.into_iter().any(|floats| function.of_floats(floats).is_err());

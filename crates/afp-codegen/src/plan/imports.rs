@@ -21,7 +21,7 @@ const CORE: &[&str] = &[
     "ValueRef",
     "WriteError",
 ];
-/// What lives in `afp_core::rt` beside the functions of formulas.
+/// Names of `afp_core::rt` besides the functions of formulas.
 const RT: &[&str] = &[
     "Actor",
     "AtElement",
@@ -117,7 +117,7 @@ pub fn imported() -> impl Iterator<Item = &'static str> {
     [CORE, QUANTITY, TRACE].into_iter().flatten().copied().chain(in_rt())
 }
 
-/// What lives in `afp_core::rt`, in the order of names.
+/// All names of `afp_core::rt`, in order.
 fn in_rt() -> BTreeSet<&'static str> {
     let functions = Function::ALL.iter();
     let functions = functions.flat_map(|it| [true, false].map(|ints| it.rust_name(ints)));

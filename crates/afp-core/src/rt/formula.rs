@@ -1,4 +1,4 @@
-//! What generated formulas call beside the functions of `afp-types`, and the errors of those as faults.
+//! Functions that generated formulas call besides those of `afp-types`, and the errors of both as faults.
 
 use afp_types::{Error, Quantity, Text, ValueRef, finite};
 
@@ -18,7 +18,7 @@ impl From<Error> for Fault {
     }
 }
 
-/// The divisor of a quotient. What is divided by infinity is zero, so that a fault would disappear.
+/// The divisor of a quotient. A number divided by infinity is zero, which would hide the fault.
 ///
 /// # Errors
 /// [`Error::NotFinite`].

@@ -20,7 +20,7 @@ pub struct Formula {
     below: Vec<Node>,
 }
 
-/// What is known of a part of a formula.
+/// Type and place of a part of a formula.
 #[derive(Clone, Debug)]
 pub struct Note {
     /// The type of its value.
@@ -61,7 +61,7 @@ impl Formula {
         Part { root: &self.root, below: &self.below }
     }
 
-    /// What its root computes.
+    /// The operation of its root.
     pub fn op(&self) -> &Op<Conversion> {
         &self.root.op
     }

@@ -1,4 +1,4 @@
-//! Conversions between types, with what they need to know of them.
+//! Conversions between types, with the units and names that they need.
 
 use afp_types::{
     Error, Quantity, Scale, Text, Unit, Value, bool_to_float, bool_to_int, finite, float_to_int,
@@ -18,7 +18,7 @@ pub enum Converter {
     PrintQuantity(String),
     /// A value of an enum prints its name.
     PrintChoice(Vec<String>),
-    /// Everything else prints as it stands.
+    /// Other values print without a unit.
     Print,
     ReadBool,
     ReadInt,

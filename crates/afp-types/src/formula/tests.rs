@@ -1,4 +1,4 @@
-//! What formulas of constants are worth, and which of them fail before the plan runs.
+//! Values of constant formulas, and formulas that fail before the plan runs.
 
 use super::*;
 
@@ -38,7 +38,7 @@ fn value<const N: usize>(
 }
 
 #[test]
-fn what_divides_by_a_constant_zero_fails_whatever_is_divided() {
+fn a_constant_zero_divides_no_number() {
     for operator in [Operator::Div, Operator::Rem] {
         for zero in [0.0, -0.0] {
             let left = [None, Some(1.0)];
@@ -57,7 +57,7 @@ fn what_divides_by_a_constant_zero_fails_whatever_is_divided() {
 }
 
 #[test]
-fn bounds_the_wrong_way_round_fail_whatever_is_between() {
+fn bounds_in_the_wrong_order_fail_for_any_value() {
     let clamp = |operands| value(Op::Call(Function::Clamp), operands, Shape::Int);
     assert_eq!(clamp([None, Some(2.0), Some(1.0)]), Err(Error::NoRange));
     assert_eq!(clamp([None, Some(1.0), Some(2.0)]), Err(Error::Unknown));
