@@ -19,7 +19,7 @@ mod placed;
 mod rows;
 
 use grid::Grid;
-pub(super) use placed::{places, routed};
+pub(super) use placed::{ABOVE, places, routed};
 use rows::Rows;
 
 use super::router::{self, Bounds, Connector, Heading, Point};

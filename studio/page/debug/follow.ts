@@ -4,6 +4,8 @@
 export interface Frame {
   path: string;
   plan: string;
+  /** The address of its file, where that is known. */
+  uri?: string;
 }
 
 export interface At {

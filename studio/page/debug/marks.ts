@@ -63,7 +63,7 @@ export function marks(layers: Layers): () => void {
     [shown, before] = [key, drawn];
     const innermost = found.active.find((each) => !each.inside)?.item ?? null;
     const held = phase.value === "held";
-    show(layers, borders(drawn, found, held), signs(drawn, found, held), new Set(innermost ? [innermost] : []));
+    show(layers, borders(drawn, found, held), signs(drawn, found, held), new Set(found.active.map(({ item }) => item)));
     const isPassed = (item: string): boolean => drawn.elements.get(item)?.kind === "computation";
     flash(layers, drawn, taken(drawn.edges.values(), last, innermost, isPassed));
     last = innermost ?? last;

@@ -1,6 +1,6 @@
 // A run of the plan: launched, paused, stepped, ended; what the page knows of it.
 import { computed, effect, signal } from "@preact/signals";
-import { pathOf } from "../documents/addresses";
+import { pathOf, uriOf } from "../documents/addresses";
 import { connect, type Dap } from "../server/dap";
 import { current } from "../documents/documents";
 import { report, trouble } from "../panes/files";
@@ -154,16 +154,19 @@ function take(own: Dap, now: State): void {
 
 /** Learns which plans the active elements are of, where there are sub-plans among them. */
 async function follow(own: Dap, now: State): Promise<void> {
-  const outermost = { path: "", plan: frames.peek()[0]?.plan ?? "" };
+  const outermost = { path: "", plan: frames.peek()[0]?.plan ?? "", uri: ran };
   if (now.stack.length < 2) {
     frames.value = [outermost];
     return;
   }
-  const { stackFrames } = await own.request<{ stackFrames: { name: string }[] }>("stackTrace", { threadId: 1 });
+  const { stackFrames } = await own.request<{ stackFrames: { name: string; source?: { path?: string } }[] }>("stackTrace", { threadId: 1 });
   const named = new Map(stackFrames.map(({ name }) => name.split(": ") as [string, string]));
+  const files = new Map(stackFrames.map(({ name, source }) => [name.split(": ")[0], source?.path]));
   if (state.peek()?.stack.join() !== now.stack.join()) return;
-  const inner = [...now.stack].sort((a, b) => a.length - b.length).slice(0, -1);
-  frames.value = [outermost, ...inner.map((path) => ({ path, plan: named.get(path) ?? "" }))];
+  const stack = [...now.stack].sort((a, b) => a.length - b.length);
+  // The elements of a plan are written in its file.
+  const uri = (at: number): { uri?: string } => (files.get(stack[at + 1]!) ? { uri: uriOf(files.get(stack[at + 1]!)!) } : {});
+  frames.value = [outermost, ...stack.slice(0, -1).map((path, at) => ({ path, plan: named.get(path) ?? "", ...uri(at) }))];
 }
 
 function finish(how: Ended | null): void {

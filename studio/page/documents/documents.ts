@@ -106,6 +106,14 @@ export async function create(what: { uri: string; text: string } | { uri: string
   opening.set(uri, Promise.resolve());
 }
 
+/** Closes a document whose file is gone, or has another name. */
+export function forget(uri: string): void {
+  const rest = new Map(documents.peek());
+  if (rest.delete(uri)) lsp().notify("textDocument/didClose", { textDocument: { uri } });
+  documents.value = rest;
+  opening.delete(uri);
+}
+
 function take(kept: Kept): void {
   put({ ...kept, written: kept.version, pending: pending.known(kept.text), failed: null });
   const { uri, version, text } = kept;

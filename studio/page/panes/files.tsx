@@ -1,13 +1,14 @@
 // The files of the folder: opened, begun, copied from examples; and what is shown while there is none.
 import { effect, signal } from "@preact/signals";
 import { uriOf } from "../documents/addresses";
-import { create, current, isOpen, open } from "../documents/documents";
+import { create, current, isOpen, nameOf, open } from "../documents/documents";
+import { download, duplicate, putBack, remove, rename } from "../documents/files";
 import { askLine } from "../screen/dialogs";
 import { showLog } from "../debug/logs";
 import { guide } from "../plan/guide";
 import { Sign } from "../screen/icons";
 import { run } from "../jobs/jobs";
-import { files, hello, more } from "../server/session";
+import { files, hello, more, pen } from "../server/session";
 import { planText, words } from "../words";
 
 /** What went wrong last, as a sentence; shown until it is closed. */
@@ -85,6 +86,33 @@ export async function makeProject(): Promise<void> {
   }
 }
 
+/** The name of the file that is shown without its ending, as a question begins with it. */
+const shown = (): string => nameOf(current.peek()).replace(/\.afp$/, "");
+const wrongFile = (name: string): string | null =>
+  !/^([\w-]+\/)*[A-Za-z][\w-]*$/.test(name) ? words.nameWrong : isTaken(`${name}.afp`) ? words.nameTaken(`${name}.afp`) : null;
+
+async function renameFile(): Promise<void> {
+  const name = await askLine(words.renameFile, words.renameFileHint, shown(), words.renameFileDone, (name) => (name === shown() ? words.nameSame : wrongFile(name)));
+  if (name) await rename(current.peek(), `${name}.afp`).then(show, report);
+}
+
+const duplicateFile = (): Promise<void> => duplicate(current.peek(), free(shown(), ".afp")).then(show, report);
+
+async function removeFile(): Promise<void> {
+  const uri = current.peek();
+  try {
+    await remove(uri);
+    const next = plans().find((file) => file.uri !== uri)?.uri;
+    if (next) await show(next);
+    else current.value = "";
+  } catch (why) {
+    report(why);
+  }
+}
+
+/** Puts back the file that was removed last, and shows it. */
+export const putFileBack = (): Promise<void> => putBack().then((uri) => (uri ? show(uri) : undefined), report);
+
 /** Waits until the folder has a file; its address. */
 const appears = (wanted: (file: { uri: string; name: string }) => boolean): Promise<string> =>
   new Promise((done) => {
@@ -113,6 +141,15 @@ export function Files({ done }: { done: () => void }) {
       ))}
       {more.value && <p class="group" role="presentation">{words.moreFiles}</p>}
       <hr role="presentation" />
+      {current.value && pen.value && (
+        <>
+          <button role="menuitem" onClick={pick(renameFile)}>{words.renameFile}</button>
+          <button role="menuitem" onClick={pick(duplicateFile)}>{words.duplicateFile}</button>
+          <button role="menuitem" onClick={pick(removeFile)}>{words.removeFile}</button>
+        </>
+      )}
+      {current.value && <button role="menuitem" onClick={pick(() => download(current.peek()))}>{words.downloadFile}</button>}
+      {current.value && <hr role="presentation" />}
       <button role="menuitem" onClick={pick(makeNew)}>
         <Sign name="plus" />
         {words.newPlan}

@@ -12,7 +12,8 @@ import { mountCanvas } from "../drawing/canvas";
 import { Finder } from "./finder";
 import { Sign } from "./icons";
 import { bottom, clamp, narrow, palette, right, show, widths, world, type Bottom as Lower, type Narrow, type Right } from "./layout";
-import { report, trouble, Welcome } from "../panes/files";
+import { removed } from "../documents/files";
+import { putFileBack, report, trouble, Welcome } from "../panes/files";
 import { ForcedBar } from "../panes/forced";
 import { Guide } from "../panes/guide";
 import { Inspector } from "../panes/inspector";
@@ -68,6 +69,12 @@ function Banners() {
           </span>
         </p>
       ))}
+      {removed.value && (
+        <p class="banner">
+          {words.removedFile(removed.value[0]!.name)} <button onClick={putFileBack}>{words.putFileBack}</button>
+          <Tool icon="close" label={words.close(words.files)} run={() => (removed.value = null)} />
+        </p>
+      )}
       {trouble.value && (
         <p class="banner error">
           {trouble.value} <Tool icon="close" label={words.close(words.problems)} run={() => (trouble.value = null)} />

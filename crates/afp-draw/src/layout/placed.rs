@@ -9,10 +9,13 @@ use super::{LaidOut, Link, Node, Rows, arranged, bounds, connectors};
 /// Distance between two boxes, unless the automatic layout puts them nearer to each other.
 const GAP: f64 = 48.0;
 
-/// Least distance of boxes, and of a route that is kept from a box: less than the router keeps.
+/// Least distance of a route that is kept from a box: less than the router keeps.
 const NEAR: f64 = 6.0;
 
-/// Least distance between a box whose place somebody wished for and the next one.
+/// Least distance between two boxes one below the other: there is room for an edge and for the tip of an arrow.
+pub(in super::super) const ABOVE: f64 = 36.0;
+
+/// Least distance between two boxes beside one another: there is room for an edge.
 const BESIDE: f64 = 24.0;
 
 /// The edges of nodes that have their places. Routes stay whose ends do and that no box has come near.
@@ -121,7 +124,7 @@ pub(in super::super) fn places(
         let (dx, dy) = shift(node, links, &fixed, &automatic);
         let wish = (automatic[node].0 + dx, automatic[node].1 + dy);
         // Two boxes may stand as near to each other as the automatic layout puts them.
-        let gap = |other: usize| apart(nodes, &automatic, node, other).clamp(NEAR, GAP);
+        let gap = |other: usize| apart(nodes, &automatic, node, other).clamp(BESIDE, GAP);
         corners[node] = Some(nodes[node].whole(nearest(nodes, &corners, node, wish, gap)));
     }
     corners.into_iter().zip(automatic).map(|(corner, other)| corner.unwrap_or(other)).collect()
@@ -199,10 +202,11 @@ fn obstacle(
         let (right, bottom) = (left + nodes[other].width, top + nodes[other].height);
         // What was added up twice differs in the last digits.
         let gap = gap(other) - 0.01;
+        let above = gap.max(ABOVE);
         let apart = x + own.width + gap <= left
             || right + gap <= x
-            || y + own.height + gap <= top
-            || bottom + gap <= y;
+            || y + own.height + above <= top
+            || bottom + above <= y;
         (!apart).then_some(Bounds { left, top, right, bottom })
     };
     (0..nodes.len()).filter_map(meets).reduce(Bounds::with)

@@ -7,15 +7,16 @@ use rustc_hash::FxHashMap;
 
 use super::{Card, Point, cards, exits, links, nodes};
 use crate::Options;
-use crate::layout::{self, LaidOut, Link};
+use crate::layout::{self, ABOVE, LaidOut, Link};
 use crate::layout_file::{Layout, Position};
 use crate::sketch::Rect;
 use crate::view::View;
 use afp_dsl::outline::{Outline, PlanId};
 use afp_syntax::item::Item;
 
-/// Nearer than that, one box covers another: an arrow needs so much room above its target.
-const COVERED: f64 = 24.0;
+/// Nearer than that beside one another, or one below the other, one box covers another: an edge needs so much room, and more
+/// above its target.
+const COVERED: (f64, f64) = (12.0, ABOVE);
 
 /// Distance between a box that has grown and one that gives way to it.
 const BELOW: f64 = 48.0;
@@ -166,11 +167,15 @@ impl Boxes {
         let mut growing: Vec<usize> = (0..self.0.len()).filter(has_grown).collect();
         while let Some(one) = growing.pop() {
             for other in (0..self.0.len()).filter(|other| *other != one) {
-                let apart = self.0[one].apart(&self.0[other]);
-                let touched = known[one].zip(known[other]).map(|(one, other)| one.apart(other));
-                // Boxes that somebody has put on one another stay so.
-                let is_nearer = touched.is_none_or(|was| was >= 0.0 && apart < was - 0.5);
-                if apart >= COVERED || !is_nearer {
+                let (across, down) = self.0[one].apart(&self.0[other]);
+                let is_nearer = known[one].zip(known[other]).is_none_or(|(one, other)| {
+                    let was = one.apart(other);
+                    // Boxes that somebody has put on one another stay so.
+                    let by_hand = was.0 < 0.0 && was.1 < 0.0;
+                    !by_hand && (across < was.0 - 0.5 || down < was.1 - 0.5)
+                });
+                let is_covered = across < COVERED.0 && down < COVERED.1;
+                if self.0[one].plan != self.0[other].plan || !is_covered || !is_nearer {
                     continue;
                 }
                 let down = self.0[one].outer.bottom() + BELOW - self.0[other].outer.y;
@@ -182,12 +187,11 @@ impl Boxes {
 }
 
 impl Standee {
-    /// How far two boxes are apart, across or down, whichever is more; less than nothing where they overlap.
-    fn apart(&self, other: &Standee) -> f64 {
+    /// How far two boxes are apart across and down; less than nothing where they overlap.
+    fn apart(&self, other: &Standee) -> (f64, f64) {
         let (one, two) = (&self.outer, &other.outer);
         let across = (two.x - one.right()).max(one.x - two.right());
-        let down = (two.y - one.bottom()).max(one.y - two.bottom());
-        if self.plan == other.plan { across.max(down) } else { f64::INFINITY }
+        (across, (two.y - one.bottom()).max(one.y - two.bottom()))
     }
 
     fn lower(&mut self, by: i32) {

@@ -153,7 +153,7 @@ pub(crate) struct Place {
 pub(crate) fn place(server: &mut Server, params: Place) -> Answer {
     let placed = positions(&params.places, &Given::default())?;
     let analysis = server.analysis(&params.text_document.uri);
-    let analysis = analysis.filter(|_| placed.iter().any(|(_, at)| at.is_some()));
+    let analysis = analysis.ok().filter(|_| placed.iter().any(|(_, at)| at.is_some()));
     let file = server.placed(&uri::path(&params.text_document.uri), |layout| {
         if let Some(analysis) = analysis {
             Boxes::new(&analysis.compiled.outline, analysis.file, layout, &[]).write(layout);

@@ -20,7 +20,7 @@ impl Shown {
     /// Whether the other one is nearer than an arrow's tip needs.
     fn covers(&self, other: &Shown) -> bool {
         let ([a, b, c, d], [e, f, g, h]) = (self.outer, other.outer);
-        a < g + 25.0 && e < c + 25.0 && b < h + 25.0 && f < d + 25.0
+        a < g + 13.0 && e < c + 13.0 && b < h + 37.0 && f < d + 37.0
     }
 }
 
