@@ -34,7 +34,7 @@ pub(super) struct Node {
     pub(super) height: f64,
     /// Where edges may arrive on the upper border, from the left edge.
     pub(super) entry: (f64, f64),
-    /// What of it has a position, from its upper left corner.
+    /// The corner that has its position, from the upper left corner.
     pub(super) anchor: Point,
 }
 

@@ -140,7 +140,7 @@ fn drawings_stay_calm() {
         all.add(counted);
         let ratio = plan.bounds.width / plan.bounds.height;
         // Two elements with their supervisors have one shape alone. The first of them is the start.
-        // What is lower than a screen is not folded.
+        // A drawing that fits on a screen is not folded.
         let free = plan.elements.len() > 3 && plan.bounds.height > 760.0;
         assert!(!free || (0.5..=2.0).contains(&ratio), "'{}': {ratio:.2}", plan.name);
         for edge in &plan.edges {

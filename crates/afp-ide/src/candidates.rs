@@ -38,7 +38,7 @@ pub struct PortCandidates {
     pub unit: String,
     /// All units that it can be written in.
     pub units: Vec<String>,
-    /// What one of each of these units is worth.
+    /// The SI value of one of each of these units.
     pub scales: Vec<f64>,
 }
 
@@ -147,7 +147,7 @@ fn of_input(entries: &[Entry], input: &Input) -> PortCandidates {
     }
 }
 
-/// What one of a unit is worth.
+/// The SI value of one of a unit.
 fn worth(unit: &str) -> f64 {
     let one = Literal::parse(&format!("1 {unit}")).and_then(|literal| literal.value());
     one.filter(|one| *one > 0.0).unwrap_or(1.0)

@@ -123,7 +123,7 @@ impl Workspace {
         Some(analysis)
     }
 
-    /// What a file would mean after edits.
+    /// The meaning of a file after edits.
     pub fn drafted(&mut self, path: &str, edits: &[FileEdits]) -> Option<Arc<Analysis>> {
         let edited = |file: &FileEdits| (file.path.clone(), apply(&file.text, &file.edits));
         self.drafts = edits.iter().map(edited).collect();

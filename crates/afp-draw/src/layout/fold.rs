@@ -11,7 +11,7 @@ use super::grid::Grid;
 /// Height by width from which on layers are folded.
 const TALL: f64 = 2.0;
 
-/// What is lower fits on a screen as it is.
+/// A drawing of this height fits on a screen without folding.
 const SCREEN: f64 = 760.0;
 
 /// What an edge that passes a cut is worth: so much of a column's height the cut may lie elsewhere.

@@ -71,7 +71,7 @@ fn point(at: Position) -> Point {
     (at.x.into(), at.y.into())
 }
 
-/// The cards of boxes that stand somewhere, with states on the side to which they lead: what leads back up leaves at a border.
+/// The cards of boxes that stand somewhere, with states on the side to which they lead. An edge back up leaves at the border.
 pub(super) fn leading<'a>(view: &View<'a>, corners: &[Point]) -> Vec<Card<'a>> {
     ordered(view, cards(view, &|_, _| None), |cards, links| {
         let middle = |at: usize| corners[at].0 + cards[at].rect.width / 2.0;
@@ -91,7 +91,7 @@ pub(super) fn leading<'a>(view: &View<'a>, corners: &[Point]) -> Vec<Card<'a>> {
 /// Further than anything is drawn.
 const FAR: f64 = 1e9;
 
-/// Cards with states in the order of what their links wish.
+/// Cards with states in the order of the wishes of their links.
 fn ordered<'a>(
     view: &View<'a>,
     declared: Vec<Card<'a>>,

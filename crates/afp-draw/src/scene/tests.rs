@@ -222,7 +222,7 @@ fn a_box_that_grows_moves_down_what_it_covers_and_nothing_else() {
     let layout = Layout::read("P.start 0 0\nP.a 0 100\nP.b 0 230\nP.c 0 800\nP.d 900 130\n").0;
     let down = lowered(watched, &layout, &grown);
     assert!(matches!(&down[..], [(name, by)] if name == "b" && *by > 0), "{down:?}");
-    // What was put on one another by hand stays so.
+    // Boxes that somebody put on one another stay so.
     let layout = Layout::read("P.start 0 0\nP.a 0 100\nP.b 0 130\nP.c 0 800\nP.d 900 130\n").0;
     assert_eq!(lowered(watched, &layout, &grown), []);
     assert_eq!(lowered(&grown, &layout, watched), []);

@@ -11,8 +11,8 @@ const MOST: usize = 32;
 
 /// The scenes that were drawn last, of each plan of each document.
 ///
-/// What a new drawing has in common with the one before takes no time; no box is elsewhere because of it. Servers that share
-/// these save that time for one another: a page that is loaded again, a second one, a plan that is shown again.
+/// The part that a new drawing shares with the last one takes no time; no box moves because of it. Servers share these
+/// drawings: a page that reloads, a second page, a plan that is shown again.
 #[derive(Clone, Default)]
 pub struct Drawings(Arc<Mutex<VecDeque<Kept>>>);
 

@@ -1,4 +1,4 @@
-//! A drawing stands still: whatever is changed in it, no box moves but those that one that grows would cover.
+//! Drawings are stable: a change moves only the boxes that a growing box would cover.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::client::{Client, Files};
 const URI: &str = "file:///w/plan.afp";
 const PLAN: &str = include_str!("../../../../plans/wall_following.afp");
 
-/// What a box takes, left, top, right and bottom, and the corner that has its position.
+/// The area of a box, left, top, right and bottom, and the corner that has its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Shown {
     outer: [f64; 4],

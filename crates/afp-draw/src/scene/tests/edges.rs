@@ -52,29 +52,6 @@ fn edges_can_be_seen_in_the_plans_that_are_shipped_and_in_random_ones() {
     }
 }
 
-/// Positions are written, some boxes are new, and others have grown since.
-#[test]
-fn edges_can_be_seen_after_edits() {
-    for text in shipped().into_iter().chain(plans()) {
-        let mut layout = Layout::default();
-        boxes(&whatever(&text), &layout).write(&mut layout);
-        let elements: Vec<_> = layout.iter().map(|(item, _)| item.clone()).collect();
-        elements.iter().step_by(4).for_each(|item| layout.remove(item));
-        boxes(&whatever(&text), &layout).write(&mut layout);
-        let grown = text
-            .replace(
-                "Forward(distance = -walldist)",
-                "Forward(distance = -walldist, speed = 2 cm/s)",
-            )
-            .replace("limit = limit", "limit = limit + limit * limit + limit")
-            .replace("supervise near", "supervise one: CheckTouchSensor {}\nsupervise near");
-        let mut now = boxes(&whatever(&grown), &layout);
-        now.make_room(&boxes(&whatever(&text), &layout));
-        now.write(&mut layout);
-        placed(&grown, &layout, None).plans.iter().for_each(|plan| check(plan, &grown));
-    }
-}
-
 /// It ran behind its own box.
 #[test]
 fn a_loop_goes_around_its_box() {
