@@ -1,10 +1,10 @@
 //! Formulas, conversions, texts and times: where plain operators would panic, wrap or round.
 
+use afp_core::quantity::{Force, Frequency, Quantity, Speed};
 use afp_core::rt::{
     Scale, Unit, bool_to_int, float_to_int, int_add, int_mul, int_neg, int_rem, int_sub, join,
     parse_bool, parse_choice, parse_float, parse_int, parse_quantity, print_quantity, rem,
 };
-use afp_core::quantity::{Force, Frequency, Quantity, Speed};
 use afp_core::{Duration, Instant, Text};
 use afp_types::Error;
 

@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
+use afp_excerpt::hidden::trick;
+
 use super::render::thousands;
 use super::{Code, Diagnostic, Diagnostics, Edit, Message, Words};
 use crate::message;
@@ -24,12 +26,15 @@ impl Diagnostics {
         let mut kept: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
         for each in std::mem::take(&mut self.list) {
             let is_of_lexer = matches!(each.code, Code::E0101 | Code::E0113);
-            if !is_of_lexer || each.span.file != file {
+            let span = each.span.start as usize..each.span.end as usize;
+            let cause = text.get(span).unwrap_or_default();
+            // Each place that hides something is a danger of its own.
+            let hides = cause.chars().all(|each| trick(each).is_some());
+            if !is_of_lexer || each.span.file != file || hides {
                 kept.push(each);
                 continue;
             }
-            let span = each.span.start as usize..each.span.end as usize;
-            match first.entry((each.code, text.get(span).unwrap_or_default())) {
+            match first.entry((each.code, cause)) {
                 Entry::Occupied(known) => others.entry(*known.get()).or_default().push(each.fix),
                 Entry::Vacant(new) => {
                     new.insert(kept.len());

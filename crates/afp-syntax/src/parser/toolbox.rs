@@ -155,7 +155,7 @@ impl Parser<'_, '_> {
     /// A value and its bounds, each of which may be missing.
     pub(super) fn value_and_range(&mut self) {
         if self.at(Kind::Colon) && self.nth(1) == Kind::Equal && self.on_same_line() {
-            self.instead(1, "no ':' before '='", "write '='", "");
+            self.instead(1, "unexpected ':' before '='", "write '='", "");
         }
         let has_value = self.eat(Kind::Equal);
         if has_value {
@@ -184,7 +184,7 @@ impl Parser<'_, '_> {
         self.formula();
         if self.word(0) == "to" && self.nth(1) == Kind::Colon && self.nth(2).begins_formula() {
             self.keyword();
-            let message = "no ':' behind 'to'";
+            let message = "unexpected ':' after 'to'";
             self.instead(1, message, "remove it", "");
             self.formula();
             self.close();
