@@ -49,7 +49,7 @@ inBrowser("a first plan by the mouse alone", {}, async ({ page, becomes }) => {
   const mouse = new Mouse(page);
   await mouse.click(".card.main");
   await page.locator('.node [data-item="Plan.start"]').waitFor();
-  await mouse.drag(template("Forward"), [480, 420]);
+  await mouse.drag(template("Forward"), [480, 260]);
   await mouse.drag(open("forward"), [330, 560]);
   await mouse.choose("end the plan");
   await page.locator(".count", { hasText: "ready" }).waitFor();
