@@ -189,7 +189,8 @@ fn belongs(scenario: &Scenario, text: &str) {
 pub fn settings(data: &[u8]) {
     let text = text(data);
     for mistake in afp_project::read(&text).1 {
-        assert!(text.get(mistake.span.clone()).is_some(), "{mistake:?}");
+        let place = mistake.span.clone().and_then(|span| text.get(span));
+        assert!(place.is_some(), "{mistake:?}");
         assert!(!mistake.message.is_empty());
     }
 }

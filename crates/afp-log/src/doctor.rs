@@ -8,7 +8,7 @@ use mcap::records::{MessageHeader, Record, Statistics};
 
 use crate::error::LogError;
 use crate::read::read_all;
-use crate::scan::{behind, load, scan};
+use crate::scan::{behind, leads_to_chunk, load, scan};
 
 /// Everything that is wrong with a log; empty for a sound one.
 ///
@@ -118,11 +118,8 @@ impl Doctor {
     fn find_index(&mut self, bytes: &[u8]) {
         // That there is no summary, or none that can be read, has been said.
         let Ok(Some(summary)) = Summary::read(bytes) else { return };
-        let broken = summary.chunk_indexes.iter().filter(|index| {
-            let messages = summary.stream_chunk(bytes, index);
-            messages.is_err() || messages.is_ok_and(|mut all| all.any(|message| message.is_err()))
-        });
-        let count = broken.count();
+        let indexes = summary.chunk_indexes.iter();
+        let count = indexes.filter(|index| !leads_to_chunk(bytes, index)).count();
         if count > 0 {
             self.found.push(format!("its index leads to {count} chunks that cannot be read"));
         }

@@ -72,6 +72,21 @@ fn walk(
     Ok(())
 }
 
+/// Options for some records of a file.
+fn of_part() -> LinearReaderOptions {
+    LinearReaderOptions::default().with_skip_start_magic(true).with_skip_end_magic(true)
+}
+
+/// Whether an index leads to a chunk that can be read.
+pub(crate) fn leads_to_chunk(bytes: &[u8], index: &ChunkIndex) -> bool {
+    let place = |at: u64| usize::try_from(at).ok();
+    let end = index.chunk_start_offset.checked_add(index.chunk_length).and_then(place);
+    let record =
+        place(index.chunk_start_offset).zip(end).and_then(|(from, to)| bytes.get(from..to));
+    let chunk = record.filter(|record| record.first() == Some(&op::CHUNK));
+    chunk.is_some_and(|chunk| walk(of_part(), chunk, |_| Ok(())).is_ok())
+}
+
 /// The bytes that follow the end of a log: none where it has no end.
 pub(crate) fn behind(bytes: &[u8]) -> &[u8] {
     let mut at = mcap::MAGIC.len();
@@ -109,8 +124,6 @@ pub(crate) fn salvage(
     let mut chunks = summary.map(chunks).unwrap_or_default();
     // A summary may be of a file that was longer.
     chunks.retain(|begin, length| begin.saturating_add(*length) <= bytes.len());
-    let options =
-        || LinearReaderOptions::default().with_skip_start_magic(true).with_skip_end_magic(true);
     let mut at = mcap::MAGIC.len();
     loop {
         let next = chunks.range(at + 1..).next().map(|(next, _)| *next);
@@ -127,7 +140,7 @@ pub(crate) fn salvage(
             return Ok(());
         }
         let mut refused = None;
-        let walked = walk(options(), record, |record| {
+        let walked = walk(of_part(), record, |record| {
             take(Ok(record)).map_err(|why| {
                 refused = Some(why);
                 LogError::Writer

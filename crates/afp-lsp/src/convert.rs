@@ -2,7 +2,7 @@
 
 use afp_dsl::Compiled;
 use afp_ide::edit::TextEdit;
-use afp_syntax::source::{Encoding, LineColumn, Lines, Source, Span};
+use afp_syntax::source::{Encoding, LineColumn, Lines, Span};
 use gen_lsp_types::{Location, Position, Range, Uri};
 
 use crate::uri::uri;
@@ -34,13 +34,6 @@ impl<'t> Places<'t> {
     }
 }
 
-pub(crate) struct FileEdits {
-    pub path: String,
-    /// The text that they are made on.
-    pub text: String,
-    pub edits: Vec<TextEdit>,
-}
-
 impl Workspace {
     /// The place of a span of a compilation.
     pub fn location(&self, compiled: &Compiled, span: Span) -> Option<Location> {
@@ -53,25 +46,6 @@ impl Workspace {
     pub fn uri(&self, path: &str) -> Uri {
         self.documents.get(path).map_or_else(|| uri(path), |document| document.uri.clone())
     }
-}
-
-/// Edits by the file that they are made on.
-pub(crate) fn by_file<'s>(
-    source: impl Fn(u16) -> Option<&'s Source>,
-    edits: Vec<TextEdit>,
-) -> Vec<FileEdits> {
-    let mut all: Vec<FileEdits> = Vec::new();
-    for edit in edits {
-        let Some(Source { name, text }) = source(edit.span.file) else { continue };
-        match all.iter_mut().find(|file| file.path == *name) {
-            Some(file) => file.edits.push(edit),
-            None => {
-                let (path, text) = (name.clone(), text.clone());
-                all.push(FileEdits { path, text, edits: vec![edit] });
-            }
-        }
-    }
-    all
 }
 
 /// An edit of a text as the protocol has it.

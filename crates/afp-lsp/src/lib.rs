@@ -16,6 +16,7 @@ mod custom;
 mod diagnostics;
 mod dispatch;
 mod documents;
+mod file_edits;
 mod host;
 mod server;
 mod standard;

@@ -17,8 +17,8 @@ use afp_syntax::ast::Item;
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::source::{Encoding, Source};
 
-use crate::convert::FileEdits;
 use crate::documents::Documents;
+use crate::file_edits::FileEdits;
 use crate::host::Host;
 use crate::uri::BUILT_IN;
 

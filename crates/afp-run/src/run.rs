@@ -160,6 +160,29 @@ struct Setting<'a> {
     rasterizer: Option<Rasterizer<'a>>,
 }
 
+/// Begins the log of a run.
+fn log_of(
+    path: &Path,
+    session: &dyn AnySession,
+    setting: &Setting<'_>,
+) -> Result<SessionLog, RunError> {
+    let Setting { options, world, .. } = *setting;
+    let (devices, scene) = (session.devices(), world.world.scene());
+    // The robot does not wait for the disk.
+    let when_full = match options.time_keeper() {
+        TimeKeeper::Robot => WhenFull::Drop,
+        TimeKeeper::Nobody | TimeKeeper::Gate(_) => WhenFull::Wait,
+    };
+    let recorder = Recorder::create(path, &about(setting), session.owned_names(), when_full)?;
+    if let Some(kept) = recorder.kept() {
+        let kept = kept.display();
+        warn(&format!(
+            "an earlier run of this log was killed: 'afpc log {kept} recover' saves what there is of it"
+        ));
+    }
+    Ok(SessionLog::new(recorder, devices, scene, options.camera))
+}
+
 /// Drives a session to its end and says what it came to.
 fn drive(
     session: &mut dyn AnySession,
@@ -173,26 +196,7 @@ fn drive(
     let keeper = options.time_keeper();
     let stop = stop_flag(keeper).map_err(RunError::file("cannot handle", "signals".as_ref()))?;
     stop.set_last_resort(last_resort);
-    let mut log = match &paths.log {
-        None => None,
-        Some(path) => {
-            let (about, names) = (about(setting), session.owned_names());
-            let (devices, scene) = (session.devices(), world.world.scene());
-            // What is there goes on meanwhile.
-            let when_full = match options.time_keeper() {
-                TimeKeeper::Robot => WhenFull::Drop,
-                TimeKeeper::Nobody | TimeKeeper::Gate(_) => WhenFull::Wait,
-            };
-            let recorder = Recorder::create(path, &about, names, when_full)?;
-            if let Some(kept) = recorder.kept() {
-                let kept = kept.display();
-                warn(&format!(
-                    "an earlier run of this log was killed: 'afpc log {kept} recover' saves what there is of it"
-                ));
-            }
-            Some(SessionLog::new(recorder, devices, scene, options.camera))
-        }
-    };
+    let mut log = paths.log.as_deref().map(|path| log_of(path, session, setting)).transpose()?;
     let report = Report::new(options.json, end, keeper);
     let report =
         RefCell::new(report.map_err(RunError::file("cannot write to", STANDARD_OUTPUT.as_ref()))?);

@@ -226,8 +226,18 @@ mod tests {
     /// What a real shell makes of the words of a command.
     #[cfg(unix)]
     fn in_shell(command: &str) -> Vec<String> {
+        let mut shell = std::process::Command::new("sh")
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
         let script = format!("printf '%s\\0' {command}");
-        let out = std::process::Command::new("sh").args(["-c", &script]).output().unwrap();
+        // The words are read from a pipe, since a program takes only so many arguments.
+        let mut input = shell.stdin.take().unwrap();
+        let writer =
+            std::thread::spawn(move || std::io::Write::write_all(&mut input, script.as_bytes()));
+        let out = shell.wait_with_output().unwrap();
+        writer.join().unwrap().unwrap();
         let text = String::from_utf8(out.stdout).unwrap();
         text.strip_suffix('\0').unwrap().split('\0').map(str::to_owned).collect()
     }

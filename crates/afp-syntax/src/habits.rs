@@ -64,7 +64,7 @@ const GUARD: &str = "an edge has no condition: lead it to a computation that cho
 const CHOOSE: &str = "write '{1} -> choose', and in the plan: '{choose:2:3}'";
 const ACTION: &str = "an edge only leads on, it does nothing itself";
 const NO_IF: &str = "a plan has no '{word}': a computation chooses where to go on";
-const NO_FORMULA_IF: &str = "formulas have no '{word}': a computation chooses where to go on";
+const NO_FORMULA_IF: &str = "formulas have no '{word}'";
 const CHOICE: &str = "write a computation, such as 'computation choose: Compare(left = {left}, right = {right}) \
                       { Less -> {here}, Equal, Greater -> terminate }'";
 const CHOSEN: &str = "branch with a computation: '{chosen}'";
@@ -132,8 +132,8 @@ pub(crate) const HABITS: &[Habit] = &[
     habit(EDGES, "if|elif|else|switch|case|match|when|unless (|{|NAME ..", NO_IF, Say(CHOICE)),
     habit(EDGES, "NAME => { NAME }", "an edge has '->' and its target without braces", Edit("{1} -> {2}")),
     habit(VALUE, "if .. then|: .. else ..", NO_FORMULA_IF, Say("branch before it: '{choose:1:here}'")),
-    habit(VALUE, "NAME ==|!=|<|>|<=|>= .. ? .. : ..", "formulas have no '?': a computation chooses where to go on", Say(CHOSEN)),
-    habit(OPERATOR, "==|!=|<|>|<=|>= .. ? .. : ..", "formulas have no '?': a computation chooses where to go on", Say(CHOSEN)),
+    habit(VALUE, "NAME ==|!=|<|>|<=|>= .. ? .. : ..", "formulas have no '?'", Say(CHOSEN)),
+    habit(OPERATOR, "==|!=|<|>|<=|>= .. ? .. : ..", "formulas have no '?'", Say(CHOSEN)),
     habit(OPERATOR, "if .. else ..", NO_FORMULA_IF, Say("branch before it: '{choose:1:here}'")),
     habit(OPERATOR, "&&|&|or|and|xor|is|if|?|PIPE ..", NO_FORMULA_IF, Say(CHOSEN)),
     habit(OPERATOR, "~ = ..", NO_FORMULA_IF, Say(CHOICE)),

@@ -29,7 +29,7 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics, Message};
 use crate::kind::{Afp, Kind};
 use crate::lexer::Token;
 use crate::source::Span;
-use marks::Marks;
+use marks::{Marks, globals};
 
 /// Greatest depth of brackets and signs in formulas and skipped text.
 const MAX_DEPTH: usize = 64;
@@ -443,21 +443,4 @@ fn uses_std(tokens: &[Token<'_>]) -> bool {
         before = text;
     });
     uses
-}
-
-/// The names behind 'supervise' in the braces of plans, and in no others within them.
-fn globals<'t>(tokens: &[Token<'t>], solid: &[u32]) -> BTreeSet<&'t str> {
-    let (mut depth, mut found) = (0_usize, BTreeSet::new());
-    let mut solid = solid.iter().filter_map(|index| tokens.get(*index as usize)).peekable();
-    while let Some(token) = solid.next() {
-        match token.kind {
-            Kind::OpenBrace => depth += 1,
-            Kind::CloseBrace => depth = depth.saturating_sub(1),
-            Kind::Name if token.text == "supervise" && depth == 1 => {
-                found.extend(solid.peek().filter(|it| it.kind == Kind::Name).map(|it| it.text));
-            }
-            _ => {}
-        }
-    }
-    found
 }

@@ -1,5 +1,6 @@
 //! Follows the records of a run: which edges are taken, what is active, what entries hold, what was expected.
 
+mod broken;
 mod claims;
 mod expected;
 pub(crate) mod hits;
@@ -16,10 +17,10 @@ use afp_dsl::scenario::{
     Cause, Claim, EndCause, Expectation, Operand, Outcome, Scenario, Subject, Wanted,
 };
 use afp_dsl::unfold::{Goal, Place, places};
-
 use afp_session::{Datum, Holder, SampleRef};
-use afp_syntax::source::Span;
 use afp_types::{Measured, Quantity};
+
+pub use broken::Broken;
 
 use expected::Expected;
 use hits::Hits;
@@ -45,19 +46,6 @@ pub(crate) struct Watch<'a> {
     expects_error: bool,
     pub(crate) moments: Moments<'a>,
     pub(crate) hits: Hits,
-}
-
-/// Something that was not as expected.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Broken {
-    /// The line of the scenario.
-    pub text: String,
-    /// Its place.
-    pub span: Span,
-    /// When it became clear.
-    pub at: Instant,
-    /// What happened instead.
-    pub why: String,
 }
 
 /// A stretch of time in which an element was active.

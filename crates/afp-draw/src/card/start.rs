@@ -59,7 +59,10 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     card.height = rect.bottom().max(table.height);
     card.rect = rect;
     let severity = view.severity(plan.findings.worst());
-    card.sketch.piece(Piece { item: plan.item.clone(), part: Part::Whole, rect, severity, tag: None }, 4.0);
+    card.sketch.piece(
+        Piece { item: plan.item.clone(), part: Part::Whole, rect, severity, tag: None },
+        4.0,
+    );
     leave(view, &mut card, rect);
     card.entry = (rect.x, rect.right());
     hung.attach(view, &mut card, rect);

@@ -92,7 +92,7 @@ fn what_cannot_be_watched_says_why() {
         ("way == 1 m == 2 m", "'== 2 m' stands behind the formula (help: write an entry"),
         ("way way", "'way' stands behind the formula (help: write an entry"),
         ("way, left", "', left' stands behind the formula"),
-        ("?", "'?' has no meaning here (help: write an entry"),
+        ("?", "formulas have no '?' (help: write an entry"),
         ("not lost", "formulas have no 'not' (help: write an entry"),
         ("lost && lost", "(help: write an entry by its name"),
         ("lost ? way : 1 m", "(help: write an entry by its name"),

@@ -271,7 +271,7 @@ fn whatever_does_not_belong_to_a_log_is_found() {
     let bad = dir.path().join("bad.mcap");
     let found = |bytes: &[u8]| {
         fs::write(&bad, bytes).unwrap();
-        doctor(&bad).map_or_else(|why| vec![why.to_string()], |found| found)
+        doctor(&bad).unwrap_or_else(|why| vec![why.to_string()])
     };
     for (rest, told) in [
         (&b"rubbish"[..], "7 bytes that are not part of it follow its end"),

@@ -17,7 +17,7 @@ use super::Document;
 use super::drawing::{find, no_file};
 use super::items::no_item;
 use crate::answer::{Answer, Failure, ok};
-use crate::convert::{FileEdits, by_file};
+use crate::file_edits::{FileEdits, by_file};
 use crate::server::Server;
 use crate::uri;
 

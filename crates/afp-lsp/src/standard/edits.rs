@@ -10,7 +10,8 @@ use gen_lsp_types as lsp;
 use serde_json::{Value, json};
 
 use crate::answer::{Answer, Failure, ok};
-use crate::convert::{FileEdits, Places, by_file, text_edit};
+use crate::convert::{Places, text_edit};
+use crate::file_edits::{FileEdits, by_file};
 use crate::server::Server;
 use crate::uri;
 use crate::workspace::Analysis;

@@ -141,36 +141,33 @@ impl Check<'_> {
 
     fn the_box(&self, key: &Key, i: usize, it: tables::Box) -> Result<Obstacle, WorldError> {
         self.positive(&key.at("size_m"), &it.size_m)?;
-        let outline = || {
-            let pose = self.pose(&key.at("pose_m_deg"), it.pose_m_deg)?;
-            Ok(Outline::Box { pose, half: it.size_m.map(|size| size / 2.0) })
-        };
-        self.solid(key, ("box", i), BOX_COLOR, it.solid, outline)
-    }
-
-    fn polygon(&self, key: &Key, i: usize, it: tables::Polygon) -> Result<Obstacle, WorldError> {
-        let outline = || self.convex(&key.at("points_m"), it.points_m).map(Outline::Polygon);
-        self.solid(key, ("polygon", i), POLYGON_COLOR, it.solid, outline)
-    }
-
-    /// What has a number among those of its sort, which it is called by where it has no name.
-    fn solid(
-        &self,
-        key: &Key,
-        (sort, i): (&str, usize),
-        color: Rgb,
-        it: tables::Solid,
-        outline: impl FnOnce() -> Result<Outline, WorldError>,
-    ) -> Result<Obstacle, WorldError> {
         self.positive(&key.at("height_m"), &[it.height_m])?;
         let mobility = self.mobility(key, it.mass_kg, it.path)?;
         let mapped = self.mapped(key, it.mapped, &mobility)?;
         Ok(Obstacle {
-            name: it.name.unwrap_or_else(|| format!("{sort} {}", i + 1)),
-            outline: outline()?,
+            name: it.name.unwrap_or_else(|| format!("box {}", i + 1)),
+            outline: Outline::Box {
+                pose: self.pose(&key.at("pose_m_deg"), it.pose_m_deg)?,
+                half: it.size_m.map(|size| size / 2.0),
+            },
             height: it.height_m,
             mobility,
-            look: self.look(key, color, it.color, it.texture)?,
+            look: self.look(key, BOX_COLOR, it.color, it.texture)?,
+            echo: self.share(&key.at("echo"), it.echo)?,
+            mapped,
+        })
+    }
+
+    fn polygon(&self, key: &Key, i: usize, it: tables::Polygon) -> Result<Obstacle, WorldError> {
+        self.positive(&key.at("height_m"), &[it.height_m])?;
+        let mobility = self.mobility(key, it.mass_kg, it.path)?;
+        let mapped = self.mapped(key, it.mapped, &mobility)?;
+        Ok(Obstacle {
+            name: it.name.unwrap_or_else(|| format!("polygon {}", i + 1)),
+            outline: Outline::Polygon(self.convex(&key.at("points_m"), it.points_m)?),
+            height: it.height_m,
+            mobility,
+            look: self.look(key, POLYGON_COLOR, it.color, it.texture)?,
             echo: self.share(&key.at("echo"), it.echo)?,
             mapped,
         })

@@ -63,5 +63,5 @@ fn in_one(edits: &[Edit], text: &str) -> Option<Edit> {
         better += new;
         at = span.end as usize;
     }
-    is_short.then(|| Edit { span: Span { end: last.end, ..first }, text: better })
+    is_short.then_some(Edit { span: Span { end: last.end, ..first }, text: better })
 }

@@ -1,6 +1,7 @@
 //! Looks for the habits of other languages, of which there is one table, and says what the plan text for them is.
 
-use std::collections::BTreeMap;
+mod matcher;
+mod words;
 
 use super::Parser;
 use super::habits::is_operator;
@@ -11,7 +12,8 @@ use crate::kind::Kind;
 use crate::lexer::Token;
 use crate::message;
 use crate::source::Span;
-use crate::units::Unit;
+use matcher::{Matcher, begins, between, is_written};
+use words::{choose, comparison, time, type_of, with_first};
 
 /// So many tokens are looked at.
 const MOST_TOKENS: usize = 64;
@@ -70,7 +72,7 @@ impl<'t> Parser<'t, '_> {
                 if !self.has_std && OF_STD.iter().any(|template| help.contains(template)) {
                     help += "; 'use std' at the top";
                 }
-                error.help(message!("{}", Words(help)))
+                error.elsewhere(message!("{}", Words(help)))
             }
         };
         self.supersede(here);
@@ -322,203 +324,4 @@ impl<'t> Parser<'t, '_> {
             || self.nth(1).is_comparison();
         is_strange && !self.names_something(0) && self.habit(VALUE)
     }
-}
-
-/// Whether a token has a text that somebody wrote as part of a plan.
-fn is_written(token: &Token<'_>) -> bool {
-    !token.kind.is_trivia() && !token.text.is_empty()
-}
-
-/// Whether a pattern may begin with a token.
-fn begins(pattern: &str, token: &str) -> bool {
-    let is_name = || token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
-    let fits = |each: &str| each == token || matches!(each, "NAME" | "ENTRY") && is_name();
-    let is_optional = |part: &&str| part.split('|').any(str::is_empty);
-    let optional = pattern.split(' ').take_while(is_optional).count();
-    pattern.split(' ').take(optional + 1).any(|part| part.split('|').any(fits))
-}
-
-struct Matcher<'l, 't> {
-    line: &'l [Token<'t>],
-    entries: &'l BTreeMap<&'t str, &'t str>,
-    captures: Vec<String>,
-    next: Option<usize>,
-    is_formula: bool,
-}
-
-impl Matcher<'_, '_> {
-    /// The token behind the pattern, if it is written from one token on.
-    fn matches(&mut self, pattern: &str, mut at: usize) -> Option<usize> {
-        let mut rest = pattern.trim_end();
-        while !rest.is_empty() {
-            let (part, behind) = rest.split_once(' ').unwrap_or((rest, ""));
-            if part != ";" && self.text(at) == ";" && !self.is_formula {
-                at += 1;
-                continue;
-            }
-            at = match part {
-                "^" => {
-                    self.next = Some(at);
-                    at
-                }
-                ".." => return self.anything(behind, at),
-                _ => self.part(part, at)?,
-            };
-            rest = behind;
-        }
-        Some(at)
-    }
-
-    /// Anything, as short as what is behind it in the pattern allows.
-    fn anything(&mut self, behind: &str, from: usize) -> Option<usize> {
-        if matches!(self.text(from), "->") {
-            return None;
-        }
-        if behind.is_empty() {
-            self.captures.push(self.between(from, self.line.len()));
-            return Some(self.line.len());
-        }
-        let known = self.captures.len();
-        let mut depth = 0_usize;
-        for at in from..=self.line.len() {
-            if depth == 0 {
-                self.captures.push(self.between(from, at));
-                if let Some(end) = self.matches(behind, at) {
-                    return Some(end);
-                }
-                self.captures.truncate(known);
-            }
-            match self.text(at) {
-                "(" | "[" | "{" => depth += 1,
-                ")" | "]" | "}" => depth = depth.checked_sub(1)?,
-                _ => {}
-            }
-        }
-        None
-    }
-
-    fn part(&mut self, part: &str, at: usize) -> Option<usize> {
-        let kind = self.line.get(at).map(|token| token.kind);
-        let text = self.text(at);
-        match part {
-            "NAME" if kind == Some(Kind::Name) => self.captures.push(text.to_owned()),
-            "NUM" if matches!(kind, Some(Kind::Int | Kind::Float)) => {
-                let unit = self.line.get(at + 1).is_some_and(|token| token.kind == Kind::Unit);
-                self.captures.push(self.between(at, at + 1 + usize::from(unit)));
-                return Some(at + 1 + usize::from(unit));
-            }
-            "ENTRY" if self.entries.contains_key(text) => self.captures.push(text.to_owned()),
-            "SAME" => return (self.captures.first()? == text).then_some(at + 1),
-            "NAME" | "NUM" | "ENTRY" => return None,
-            _ => {
-                let is_it = |each: &str| match each {
-                    "NAME" => kind == Some(Kind::Name),
-                    "PIPE" => text == "|",
-                    "POWER" => text == "^",
-                    _ => !each.is_empty() && each == text,
-                };
-                return match part.split('|').any(is_it) {
-                    true => Some(at + 1),
-                    false => part.split('|').any(str::is_empty).then_some(at),
-                };
-            }
-        }
-        Some(at + 1)
-    }
-
-    fn text(&self, at: usize) -> &str {
-        self.line.get(at).map_or("", |token| token.text)
-    }
-
-    fn between(&self, from: usize, to: usize) -> String {
-        between(self.line.get(from..to).unwrap_or_default())
-    }
-}
-
-/// The text of tokens, with a blank where there is something between them, and without a ';' at the end.
-fn between(tokens: &[Token<'_>]) -> String {
-    let mut text = String::new();
-    let mut end = None;
-    for token in tokens {
-        if end.is_some_and(|end| end < token.start) {
-            text.push(' ');
-        }
-        text += token.text;
-        end = u32::try_from(token.text.len()).ok().map(|length| token.start + length);
-    }
-    text.trim_end_matches(';').trim().to_owned()
-}
-
-/// A time as it is written, or a bare number as so many of a unit: `1 s` for `1000` ms.
-fn time(text: &str, unit: &str) -> String {
-    let Ok(number) = text.parse::<f64>() else { return text.to_owned() };
-    let ms = if unit == "s" { number * 1000.0 } else { number };
-    if ms >= 1000.0 && ms % 1000.0 == 0.0 {
-        format!("{} s", ms / 1000.0)
-    } else {
-        format!("{ms} ms")
-    }
-}
-
-/// The type of a number or a quantity.
-fn type_of(text: &str) -> String {
-    match text.split_once(' ').and_then(|(_, unit)| Unit::parse(unit)) {
-        Some(unit) => unit.dimension.name().to_string(),
-        None if text.contains('.') => "float".to_owned(),
-        None => "int".to_owned(),
-    }
-}
-
-fn with_first(name: Option<&String>, change: impl Fn(&str) -> String) -> String {
-    let name = name.map_or("", String::as_str);
-    name.split_at_checked(1).map_or_else(String::new, |(first, rest)| change(first) + rest)
-}
-
-/// The first of several conditions, without brackets around them.
-fn first_of(condition: &str) -> &str {
-    let inner = condition.trim().trim_end_matches(':').trim();
-    let inner = inner.strip_prefix('(').and_then(|it| it.strip_suffix(')')).unwrap_or(inner);
-    let signs = ["&&", "&", "|", " and ", " or ", " xor "];
-    let end = signs.into_iter().filter_map(|sign| inner.find(sign)).min();
-    inner[..end.unwrap_or(inner.len())].trim()
-}
-
-/// Both sides of a comparison and its sign.
-fn comparison(condition: &str) -> Option<(&str, &str, &str)> {
-    let signs = ["==", "!=", "<=", ">=", "<", ">", "=", " is "];
-    let first = first_of(condition);
-    let sign = signs.into_iter().find(|sign| first.contains(sign))?;
-    let (left, right) = first.split_once(sign)?;
-    Some((left.trim(), sign.trim(), right.trim()))
-}
-
-/// The computation that chooses by a condition: if it holds, an edge leads on to `then`.
-fn choose(condition: &str, then: &str) -> String {
-    let Some((left, sign, right)) = comparison(condition) else {
-        let value = first_of(condition);
-        let negated = value.strip_prefix("not ").or_else(|| value.strip_prefix('!'));
-        let (value, equals) = negated.map_or((value, true), |value| (value.trim(), false));
-        let value = if value.is_empty() { "n" } else { value };
-        return format!(
-            "computation choose: Is(value = {value}, equals = {equals}) {{ Yes -> {then}, No -> terminate }}"
-        );
-    };
-    let is_number = right.starts_with(|it: char| it.is_ascii_digit() || it == '-');
-    if matches!(sign, "==" | "!=" | "=" | "is") && !is_number {
-        let (yes, no) = if sign == "!=" { ("terminate", then) } else { (then, "terminate") };
-        return format!(
-            "computation choose: Is(value = {left}, equals = {right}) {{ Yes -> {yes}, No -> {no} }}"
-        );
-    }
-    let (holds, fails) = match sign {
-        "<" => ("Less", "Equal, Greater"),
-        "<=" => ("Less, Equal", "Greater"),
-        ">" => ("Greater", "Less, Equal"),
-        ">=" => ("Greater, Equal", "Less"),
-        "!=" => ("Less, Greater", "Equal"),
-        _ => ("Equal", "Less, Greater"),
-    };
-    format!(
-        "computation choose: Compare(left = {left}, right = {right}) {{ {holds} -> {then}, {fails} -> terminate }}"
-    )
 }

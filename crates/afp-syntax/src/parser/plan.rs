@@ -443,14 +443,4 @@ impl Parser<'_, '_> {
             self.no_text_behind_target();
         }
     }
-
-    pub(super) fn wrong_arrow(&mut self, tokens: usize, message: &'static str, right: &str) {
-        let here = self.ahead(tokens);
-        self.error(Diagnostic::new(Code::E0108, here, message).write(right));
-        // A word is no name of the edge.
-        match self.at(Kind::Name) {
-            true => self.pass(tokens),
-            false => (0..tokens).for_each(|_| self.bump()),
-        }
-    }
 }

@@ -22,6 +22,17 @@ impl Body {
 }
 
 impl Parser<'_, '_> {
+    /// Reports an arrow of another language, and reads past it.
+    pub(super) fn wrong_arrow(&mut self, tokens: usize, message: &'static str, right: &str) {
+        let here = self.ahead(tokens);
+        self.error(Diagnostic::new(Code::E0108, here, message).write(right));
+        // A word is no name of the edge.
+        match self.at(Kind::Name) {
+            true => self.pass(tokens),
+            false => (0..tokens).for_each(|_| self.bump()),
+        }
+    }
+
     /// Reports what is wrong, unless something before it on the same line is.
     pub(super) fn error(&mut self, diagnostic: Diagnostic) {
         let mut diagnostic = diagnostic;

@@ -159,7 +159,7 @@ mod tests {
                     0 => bytes[at] = below(256) as u8,
                     1 => bytes.truncate(at + 1),
                     2 => drop(bytes.drain(at..(at + below(40)).min(bytes.len()))),
-                    3 => bytes.insert(at, b"\r\n{}[]\":,\0\xff"[below(13)]),
+                    3 => bytes.insert(at, b"\r\n{}[]\":,\0\xff"[below(11)]),
                     _ => {
                         let header = format!("Content-Length: {}\r\n\r\n", lengths[below(7)]);
                         bytes.splice(at..at, header.into_bytes());

@@ -19,7 +19,7 @@ fn check(plan: &PlanScene, text: &str) {
         let [.., before, tip] = edge.points[..] else { panic!("{name}") };
         assert!(before.1 < tip.1 && (tip.1 - to.y).abs() < 0.1, "not from above: {name}");
         assert!(to.x <= tip.0 && tip.0 <= to.right(), "beside its target: {name}");
-        let length: f64 = edge.points.windows(2).map(|pair| length(pair)).sum();
+        let length: f64 = edge.points.windows(2).map(length).sum();
         assert!(length > 12.0, "cannot be seen: {name}");
         let own = |item, part| item == &edge.item && part == &edge.part;
         let pieces = plan.elements.iter().flat_map(|one| &one.pieces);

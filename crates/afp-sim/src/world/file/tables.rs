@@ -1,4 +1,4 @@
-//! The tables of a world file as serde reads them, once [`super::keys`] has looked for keys that cannot be there.
+//! The tables of a world file as serde reads them.
 
 use serde::Deserialize;
 
@@ -25,23 +25,27 @@ pub(super) struct File {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Map {
     pub(super) corners_m: Vec<[f64; 2]>,
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Robot {
     pub(super) pose_m_deg: [f64; 3],
     pub(super) charge: Option<f64>,
 }
 
 #[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Floor {
     pub(super) color: Option<String>,
     pub(super) texture: Option<String>,
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Wall {
     pub(super) name: Option<String>,
     pub(super) points_m: Vec<[f64; 2]>,
@@ -56,24 +60,11 @@ pub(super) struct Wall {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Box {
+    pub(super) name: Option<String>,
     pub(super) pose_m_deg: [f64; 3],
     pub(super) size_m: [f64; 2],
-    #[serde(flatten)]
-    pub(super) solid: Solid,
-}
-
-#[derive(Deserialize)]
-pub(super) struct Polygon {
-    pub(super) points_m: Vec<[f64; 2]>,
-    #[serde(flatten)]
-    pub(super) solid: Solid,
-}
-
-/// What boxes and polygons have.
-#[derive(Deserialize)]
-pub(super) struct Solid {
-    pub(super) name: Option<String>,
     pub(super) height_m: f64,
     pub(super) mass_kg: Option<f64>,
     pub(super) path: Option<Path>,
@@ -84,6 +75,21 @@ pub(super) struct Solid {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Polygon {
+    pub(super) name: Option<String>,
+    pub(super) points_m: Vec<[f64; 2]>,
+    pub(super) height_m: f64,
+    pub(super) mass_kg: Option<f64>,
+    pub(super) path: Option<Path>,
+    pub(super) color: Option<String>,
+    pub(super) texture: Option<String>,
+    pub(super) echo: Option<f64>,
+    pub(super) mapped: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Path {
     pub(super) by_m: Vec<[f64; 2]>,
     pub(super) speed_m_s: f64,
@@ -96,6 +102,7 @@ pub(super) struct Path {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Patch {
     pub(super) name: Option<String>,
     pub(super) points_m: Vec<[f64; 2]>,
@@ -103,6 +110,7 @@ pub(super) struct Patch {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Infrared {
     pub(super) name: Option<String>,
     pub(super) position_m: [f64; 2],

@@ -233,88 +233,93 @@ mod tests {
     use super::*;
 
     /// The cells of nav2's `map_io.cpp`: `OCC_GRID_OCCUPIED`, `OCC_GRID_FREE`, shares and `OCC_GRID_UNKNOWN`.
+    /// Mode and 'negate'; greys of 8 bits with their opacity, and the cells that they are.
+    type Case = (&'static str, u8, &'static [(u8, Option<u16>, Cell)]);
+
+    const CLEAR: Option<u16> = Some(0);
+    const OPAQUE: Option<u16> = Some(255);
+
+    const CASES: [Case; 9] = [
+        (
+            "trinary",
+            0,
+            &[
+                (255, None, Free),
+                (206, None, Free),
+                (205, None, Unknown),
+                (90, None, Unknown),
+                (89, None, Occupied),
+                (0, None, Occupied),
+            ],
+        ),
+        (
+            "trinary",
+            1,
+            &[
+                (255, None, Occupied),
+                (166, None, Occupied),
+                (165, None, Unknown),
+                (49, None, Free),
+                (0, None, Free),
+            ],
+        ),
+        // How opaque it is counts as a fourth colour.
+        (
+            "trinary",
+            0,
+            &[
+                (80, OPAQUE, Unknown),
+                (34, OPAQUE, Unknown),
+                (33, OPAQUE, Occupied),
+                (0, OPAQUE, Occupied),
+                (189, OPAQUE, Free),
+                (188, OPAQUE, Unknown),
+                (255, CLEAR, Unknown),
+                (119, CLEAR, Unknown),
+                (118, CLEAR, Occupied),
+                (255, Some(128), Free),
+            ],
+        ),
+        ("trinary", 1, &[(255, OPAQUE, Occupied), (0, OPAQUE, Unknown), (0, CLEAR, Free)]),
+        (
+            "scale",
+            0,
+            &[
+                (255, None, Free),
+                (206, None, Free),
+                (205, None, Partly),
+                (90, None, Partly),
+                (89, None, Occupied),
+                (0, OPAQUE, Occupied),
+                (205, OPAQUE, Partly),
+                (0, CLEAR, Unknown),
+                (0, Some(254), Unknown),
+                (255, CLEAR, Unknown),
+            ],
+        ),
+        ("scale", 1, &[(255, OPAQUE, Occupied), (0, OPAQUE, Free), (255, Some(1), Unknown)]),
+        // A percentage, whatever 'negate' and how opaque it is.
+        (
+            "raw",
+            0,
+            &[
+                (0, None, Free),
+                (19, None, Free),
+                (20, None, Unknown),
+                (65, None, Unknown),
+                (66, None, Occupied),
+                (100, None, Occupied),
+                (101, None, Unknown),
+                (255, None, Unknown),
+            ],
+        ),
+        ("raw", 1, &[(0, None, Free), (100, None, Occupied), (255, None, Unknown)]),
+        ("raw", 0, &[(0, CLEAR, Free), (100, CLEAR, Occupied), (100, OPAQUE, Occupied)]),
+    ];
+
     #[test]
     fn cells_are_those_of_nav2() {
-        // Each case: mode and 'negate', greys of 8 bit with how opaque they are, and what they are.
-        let (clear, opaque) = (Some(0), Some(255));
-        let cases: [(&str, u8, &[(u8, Option<u16>, Cell)]); 9] = [
-            (
-                "trinary",
-                0,
-                &[
-                    (255, None, Free),
-                    (206, None, Free),
-                    (205, None, Unknown),
-                    (90, None, Unknown),
-                    (89, None, Occupied),
-                    (0, None, Occupied),
-                ],
-            ),
-            (
-                "trinary",
-                1,
-                &[
-                    (255, None, Occupied),
-                    (166, None, Occupied),
-                    (165, None, Unknown),
-                    (49, None, Free),
-                    (0, None, Free),
-                ],
-            ),
-            // How opaque it is counts as a fourth colour.
-            (
-                "trinary",
-                0,
-                &[
-                    (80, opaque, Unknown),
-                    (34, opaque, Unknown),
-                    (33, opaque, Occupied),
-                    (0, opaque, Occupied),
-                    (189, opaque, Free),
-                    (188, opaque, Unknown),
-                    (255, clear, Unknown),
-                    (119, clear, Unknown),
-                    (118, clear, Occupied),
-                    (255, Some(128), Free),
-                ],
-            ),
-            ("trinary", 1, &[(255, opaque, Occupied), (0, opaque, Unknown), (0, clear, Free)]),
-            (
-                "scale",
-                0,
-                &[
-                    (255, None, Free),
-                    (206, None, Free),
-                    (205, None, Partly),
-                    (90, None, Partly),
-                    (89, None, Occupied),
-                    (0, opaque, Occupied),
-                    (205, opaque, Partly),
-                    (0, clear, Unknown),
-                    (0, Some(254), Unknown),
-                    (255, clear, Unknown),
-                ],
-            ),
-            ("scale", 1, &[(255, opaque, Occupied), (0, opaque, Free), (255, Some(1), Unknown)]),
-            // A percentage, whatever 'negate' and how opaque it is.
-            (
-                "raw",
-                0,
-                &[
-                    (0, None, Free),
-                    (19, None, Free),
-                    (20, None, Unknown),
-                    (65, None, Unknown),
-                    (66, None, Occupied),
-                    (100, None, Occupied),
-                    (101, None, Unknown),
-                    (255, None, Unknown),
-                ],
-            ),
-            ("raw", 1, &[(0, None, Free), (100, None, Occupied), (255, None, Unknown)]),
-            ("raw", 0, &[(0, clear, Free), (100, clear, Occupied), (100, opaque, Occupied)]),
-        ];
-        for (mode, negate, cells) in cases {
+        for (mode, negate, cells) in CASES {
             for mode in [mode.to_owned(), mode.to_uppercase()] {
                 let yaml = format!(
                     "image: a.png\nmode: {mode}\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: {negate}\n\

@@ -114,8 +114,8 @@ impl Rules {
     pub fn new() -> Self {
         let pattern = |text: &str| Regex::new(&format!("(?i-u:{text})")).unwrap();
         let rule = |(advice, triggers, right, wrong): &(_, _, &str, &[&str])| Rule {
-            advice: *advice,
-            triggers: *triggers,
+            advice,
+            triggers,
             right: (!right.is_empty()).then(|| pattern(right)),
             wrong: pattern(&wrong.join("|")),
         };

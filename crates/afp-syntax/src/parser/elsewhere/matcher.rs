@@ -1,0 +1,131 @@
+//! Compares tokens with the pattern of a habit.
+
+use std::collections::BTreeMap;
+
+use crate::kind::Kind;
+use crate::lexer::Token;
+
+/// Whether a token has a text that somebody wrote as part of a plan.
+pub(super) fn is_written(token: &Token<'_>) -> bool {
+    !token.kind.is_trivia() && !token.text.is_empty()
+}
+
+/// Whether a pattern may begin with a token.
+pub(super) fn begins(pattern: &str, token: &str) -> bool {
+    let is_name = || token.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+    let fits = |each: &str| each == token || matches!(each, "NAME" | "ENTRY") && is_name();
+    let is_optional = |part: &&str| part.split('|').any(str::is_empty);
+    let optional = pattern.split(' ').take_while(is_optional).count();
+    pattern.split(' ').take(optional + 1).any(|part| part.split('|').any(fits))
+}
+
+pub(super) struct Matcher<'l, 't> {
+    pub line: &'l [Token<'t>],
+    pub entries: &'l BTreeMap<&'t str, &'t str>,
+    pub captures: Vec<String>,
+    pub next: Option<usize>,
+    pub is_formula: bool,
+}
+
+impl Matcher<'_, '_> {
+    /// The token behind the pattern, if it is written from one token on.
+    pub fn matches(&mut self, pattern: &str, mut at: usize) -> Option<usize> {
+        let mut rest = pattern.trim_end();
+        while !rest.is_empty() {
+            let (part, behind) = rest.split_once(' ').unwrap_or((rest, ""));
+            if part != ";" && self.text(at) == ";" && !self.is_formula {
+                at += 1;
+                continue;
+            }
+            at = match part {
+                "^" => {
+                    self.next = Some(at);
+                    at
+                }
+                ".." => return self.anything(behind, at),
+                _ => self.part(part, at)?,
+            };
+            rest = behind;
+        }
+        Some(at)
+    }
+
+    /// Anything, as short as what is behind it in the pattern allows.
+    fn anything(&mut self, behind: &str, from: usize) -> Option<usize> {
+        if matches!(self.text(from), "->") {
+            return None;
+        }
+        if behind.is_empty() {
+            self.captures.push(self.between(from, self.line.len()));
+            return Some(self.line.len());
+        }
+        let known = self.captures.len();
+        let mut depth = 0_usize;
+        for at in from..=self.line.len() {
+            if depth == 0 {
+                self.captures.push(self.between(from, at));
+                if let Some(end) = self.matches(behind, at) {
+                    return Some(end);
+                }
+                self.captures.truncate(known);
+            }
+            match self.text(at) {
+                "(" | "[" | "{" => depth += 1,
+                ")" | "]" | "}" => depth = depth.checked_sub(1)?,
+                _ => {}
+            }
+        }
+        None
+    }
+
+    fn part(&mut self, part: &str, at: usize) -> Option<usize> {
+        let kind = self.line.get(at).map(|token| token.kind);
+        let text = self.text(at);
+        match part {
+            "NAME" if kind == Some(Kind::Name) => self.captures.push(text.to_owned()),
+            "NUM" if matches!(kind, Some(Kind::Int | Kind::Float)) => {
+                let unit = self.line.get(at + 1).is_some_and(|token| token.kind == Kind::Unit);
+                self.captures.push(self.between(at, at + 1 + usize::from(unit)));
+                return Some(at + 1 + usize::from(unit));
+            }
+            "ENTRY" if self.entries.contains_key(text) => self.captures.push(text.to_owned()),
+            "SAME" => return (self.captures.first()? == text).then_some(at + 1),
+            "NAME" | "NUM" | "ENTRY" => return None,
+            _ => {
+                let is_it = |each: &str| match each {
+                    "NAME" => kind == Some(Kind::Name),
+                    "PIPE" => text == "|",
+                    "POWER" => text == "^",
+                    _ => !each.is_empty() && each == text,
+                };
+                return match part.split('|').any(is_it) {
+                    true => Some(at + 1),
+                    false => part.split('|').any(str::is_empty).then_some(at),
+                };
+            }
+        }
+        Some(at + 1)
+    }
+
+    fn text(&self, at: usize) -> &str {
+        self.line.get(at).map_or("", |token| token.text)
+    }
+
+    fn between(&self, from: usize, to: usize) -> String {
+        between(self.line.get(from..to).unwrap_or_default())
+    }
+}
+
+/// The text of tokens, with a blank where there is something between them, and without a ';' at the end.
+pub(super) fn between(tokens: &[Token<'_>]) -> String {
+    let mut text = String::new();
+    let mut end = None;
+    for token in tokens {
+        if end.is_some_and(|end| end < token.start) {
+            text.push(' ');
+        }
+        text += token.text;
+        end = u32::try_from(token.text.len()).ok().map(|length| token.start + length);
+    }
+    text.trim_end_matches(';').trim().to_owned()
+}

@@ -1,0 +1,78 @@
+//! The plan text for a condition, a time or a name of another language.
+
+use crate::units::Unit;
+
+/// A time as it is written, or a bare number as so many of a unit: `1 s` for `1000` ms.
+pub(super) fn time(text: &str, unit: &str) -> String {
+    let Ok(number) = text.parse::<f64>() else { return text.to_owned() };
+    let ms = if unit == "s" { number * 1000.0 } else { number };
+    if ms >= 1000.0 && ms % 1000.0 == 0.0 {
+        format!("{} s", ms / 1000.0)
+    } else {
+        format!("{ms} ms")
+    }
+}
+
+/// The type of a number or a quantity.
+pub(super) fn type_of(text: &str) -> String {
+    match text.split_once(' ').and_then(|(_, unit)| Unit::parse(unit)) {
+        Some(unit) => unit.dimension.name().to_string(),
+        None if text.contains('.') => "float".to_owned(),
+        None => "int".to_owned(),
+    }
+}
+
+pub(super) fn with_first(name: Option<&String>, change: impl Fn(&str) -> String) -> String {
+    let name = name.map_or("", String::as_str);
+    name.split_at_checked(1).map_or_else(String::new, |(first, rest)| change(first) + rest)
+}
+
+/// The first of several conditions, without brackets around them.
+pub(super) fn first_of(condition: &str) -> &str {
+    let inner = condition.trim().trim_end_matches(':').trim();
+    let inner = inner.strip_prefix('(').and_then(|it| it.strip_suffix(')')).unwrap_or(inner);
+    let signs = ["&&", "&", "|", " and ", " or ", " xor "];
+    let end = signs.into_iter().filter_map(|sign| inner.find(sign)).min();
+    inner[..end.unwrap_or(inner.len())].trim()
+}
+
+/// Both sides of a comparison and its sign.
+pub(super) fn comparison(condition: &str) -> Option<(&str, &str, &str)> {
+    let signs = ["==", "!=", "<=", ">=", "<", ">", "=", " is "];
+    let first = first_of(condition);
+    let sign = signs.into_iter().find(|sign| first.contains(sign))?;
+    let (left, right) = first.split_once(sign)?;
+    Some((left.trim(), sign.trim(), right.trim()))
+}
+
+/// The computation that chooses by a condition: if it holds, an edge leads on to `then`.
+pub(super) fn choose(condition: &str, then: &str) -> String {
+    let whole = |(left, _, right): &(&str, _, &str)| !left.is_empty() && !right.is_empty();
+    let Some((left, sign, right)) = comparison(condition).filter(whole) else {
+        let value = first_of(condition).trim_start_matches('=');
+        let negated = value.strip_prefix("not ").or_else(|| value.strip_prefix('!'));
+        let (value, equals) = negated.map_or((value, true), |value| (value.trim(), false));
+        let value = if value.is_empty() { "n" } else { value };
+        return format!(
+            "computation choose: Is(value = {value}, equals = {equals}) {{ Yes -> {then}, No -> terminate }}"
+        );
+    };
+    let is_number = right.starts_with(|it: char| it.is_ascii_digit() || it == '-');
+    if matches!(sign, "==" | "!=" | "=" | "is") && !is_number {
+        let (yes, no) = if sign == "!=" { ("terminate", then) } else { (then, "terminate") };
+        return format!(
+            "computation choose: Is(value = {left}, equals = {right}) {{ Yes -> {yes}, No -> {no} }}"
+        );
+    }
+    let (holds, fails) = match sign {
+        "<" => ("Less", "Equal, Greater"),
+        "<=" => ("Less, Equal", "Greater"),
+        ">" => ("Greater", "Less, Equal"),
+        ">=" => ("Greater, Equal", "Less"),
+        "!=" => ("Less, Greater", "Equal"),
+        _ => ("Equal", "Less, Greater"),
+    };
+    format!(
+        "computation choose: Compare(left = {left}, right = {right}) {{ {holds} -> {then}, {fails} -> terminate }}"
+    )
+}
