@@ -5,8 +5,8 @@ use afp_syntax::source::Span;
 use gen_lsp_types as lsp;
 
 use crate::answer::{Answer, ok};
-use crate::convert::by_file;
 use crate::diagnostics;
+use crate::file_edits::by_file;
 use crate::server::Server;
 use crate::workspace::Analysis;
 

@@ -3,6 +3,8 @@
 //! A file may be one line, and wrong at every token; looking through the line each time would take as long as the line
 //! is for each of them.
 
+use std::collections::BTreeSet;
+
 use crate::kind::Kind;
 use crate::lexer::Token;
 

@@ -113,7 +113,7 @@ pub struct Rules(Vec<Rule>);
 impl Rules {
     pub fn new() -> Self {
         let pattern = |text: &str| Regex::new(&format!("(?i-u:{text})")).unwrap();
-        let rule = |(advice, triggers, right, wrong): &(_, _, &str, &[&str])| Rule {
+        let rule = |&(advice, triggers, right, wrong): &(_, _, &str, &[&str])| Rule {
             advice,
             triggers,
             right: (!right.is_empty()).then(|| pattern(right)),
