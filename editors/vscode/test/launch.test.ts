@@ -42,7 +42,7 @@ test("a lens names the plan", () => {
 
 test("what can be configured is what docs/debug.md says", () => {
   const page = readFileSync("../../docs/debug.md", "utf8");
-  const table = page.slice(page.indexOf("## What can be launched"), page.indexOf("## A run that is over"));
+  const table = page.slice(page.indexOf("## Launch arguments"), page.indexOf("## Debug a log"));
   const rows = table.split("\n").filter((line) => line.startsWith("| `"));
   const named = rows.flatMap((row) => [...row.split("|")[1]!.matchAll(/`(\w+)`/g)].map(([, name]) => name!));
   // The token is for clients that connect.

@@ -59,7 +59,7 @@ fn what_is_not_there_is_told_before_anything_is_built() {
         ("run plans/dance.afp --press nothing@1s", "no control 'nothing'"),
         ("run plans/dance.afp --press escpe@1s", "such as 'escape@1s'"),
         ("run plans/dance.afp --fail wheels.slip=2@1s", "'2' is no share from 0 to 1"),
-        ("run plans/dance.afp --fail nothing.lost@1s", "nothing called 'nothing' can fail"),
+        ("run plans/dance.afp --fail nothing.lost@1s", "unknown device 'nothing'"),
         ("run plans/dance.afp --set nothing=3", "the plan has no entry 'nothing'"),
         ("run plans/dance.afp --set robot.port=3", "add '--robot hardware'"),
         ("test nothing", "no scenario has 'nothing' in its name"),
