@@ -31,7 +31,7 @@ pub(super) fn with_first(name: Option<&String>, change: impl Fn(&str) -> String)
 pub(super) fn first_of(condition: &str) -> &str {
     let inner = condition.trim().trim_end_matches(':').trim();
     let inner = inner.strip_prefix('(').and_then(|it| it.strip_suffix(')')).unwrap_or(inner);
-    let signs = ["&&", "&", "|", " and ", " or ", " xor "];
+    let signs = ["&&", "&", "|", " and ", " or ", " xor ", "=>"];
     let end = signs.into_iter().filter_map(|sign| inner.find(sign)).min();
     inner[..end.unwrap_or(inner.len())].trim()
 }
