@@ -287,7 +287,7 @@ fn long_run() -> Result<(), Failure> {
 fn docs() -> Result<(), Failure> {
     let left_out = ["afp-py", "afp-py-wheel", "afp-wasm"];
     let mut doc = cargo();
-    doc.args(["doc", "--quiet", "--workspace", "--no-deps"]);
+    doc.args(["doc", "--quiet", "--workspace", "--no-deps", "--keep-going"]);
     doc.args(left_out.iter().flat_map(|name| ["--exclude", name]));
     run_command(doc.env("RUSTDOCFLAGS", "--deny warnings"))
 }

@@ -8,10 +8,10 @@ use afp_syntax::source::Sources;
 
 /// A formula of `plan` as text.
 ///
-/// With `sources` this is the text under [`Formula::span`], when it stands on one line and without
-/// comment. Otherwise the formula is printed: entries by name, quantities in a unit that suits
-/// their size (`30 cm`, not `0.3 m`), brackets only where they are needed, conversions left out,
-/// since the language has no words for them.
+/// With `sources` this is the text that was written, if it is on one line and has no comment.
+/// Otherwise the formula is printed: entries by name, quantities in a unit that suits their size
+/// (`30 cm`, not `0.3 m`), brackets only where they are needed. Conversions are left out, because
+/// the language has no words for them.
 pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String {
     let written = sources.map_or("", |sources| sources.text(formula.span)).trim();
     if written.is_empty() || written.contains("//") || written.contains('\n') {

@@ -8,7 +8,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Severity};
 use crate::source::Sources;
 
 impl Diagnostics {
-    /// The diagnostics, one JSON object on each line: the first [`MOST_WRITTEN`] errors and as many others. If more are
+    /// The diagnostics, one JSON object on each line: the first 1,000 errors and 1,000 others. If more are
     /// left, the last object has no code and no place, and its message counts them.
     pub fn json_lines(&self, sources: &Sources) -> String {
         let tables = Tables::new(sources);

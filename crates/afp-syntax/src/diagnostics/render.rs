@@ -7,8 +7,8 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Severity};
 use crate::source::{Sources, Span};
 
 impl Diagnostics {
-    /// The diagnostics as text, one blank line between them, with terminal colours when asked: the first [`MOST_SHOWN`]
-    /// errors, as many others, and how many are left.
+    /// The diagnostics as text, one blank line between them, with terminal colours when asked: the first 20 errors,
+    /// the first 20 others, and how many are left.
     pub fn render(&self, sources: &Sources, colour: bool) -> String {
         let tables = Tables::new(sources);
         let (shown, left) = self.first(MOST_SHOWN);
