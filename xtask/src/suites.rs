@@ -3,78 +3,82 @@
 use std::time::{Duration, Instant};
 
 use crate::install::Profile;
-use crate::shell::{Failure, cargo, run as run_command};
+use crate::needs::Need::{Chromium, Node, Python};
+use crate::needs::{self, Need};
+use crate::shell::{Failure, cargo, output, run as run_command};
 use crate::{
     arm, bench, dap, editors, engine, fuzz, gate, install, live, opencv, pi, python, scxml, studio,
     vacuum, wasm, wheels,
 };
 
-/// A suite by its name.
-type Suite = (&'static str, fn() -> Result<(), Failure>);
+/// A suite: its name, what it needs beside Rust, and how it is run.
+type Suite = (&'static str, &'static [Need], fn() -> Result<(), Failure>);
 
 /// What `cargo xtask test` runs.
 pub const TEST: &[Suite] = &[
-    ("workspace", workspace),
-    ("xtask", || run_command(cargo().args(["test", "--package", "xtask"]))),
-    ("python", python::run),
-    ("scxml", || scxml::run(50)),
-    ("dap", dap::run),
-    ("vscode", editors::extension),
-    ("studio", studio::test),
-    ("live", live::run),
+    ("workspace", &[], workspace),
+    ("xtask", &[], || run_command(cargo().args(["test", "--package", "xtask"]))),
+    ("python", &[Python], python::run),
+    ("scxml", &[Node], || scxml::run(50)),
+    ("dap", &[Node], dap::run),
+    ("vscode", &[Node], editors::extension),
+    ("studio", &[Node, Chromium], studio::test),
+    ("live", &[Node], live::run),
 ];
 
 /// What `cargo xtask gate` runs.
 pub const GATE: &[Suite] = &[
-    ("firmware", gate::run),
-    ("web", wasm::run),
-    ("install", || install::run(Profile::Debug)),
-    ("vacuum", vacuum::test),
-    ("python robot", python::robot),
-    ("pi", pi::short),
+    ("firmware", &[], gate::run),
+    ("web", &[], wasm::run),
+    ("install", &[], || install::run(Profile::Debug)),
+    ("vacuum", &[], vacuum::test),
+    ("python robot", &[Python], python::robot),
+    ("pi", &[], pi::short),
+    ("rust alone", &[], rust_alone),
 ];
 
 /// What `cargo xtask nightly` runs.
 pub const NIGHTLY: &[Suite] = &[
-    ("workspace", workspace),
-    ("random plans", random_plans),
-    ("random worlds", random_worlds),
-    ("single faults", single_faults),
-    ("every event", every_event),
-    ("mutants", || by_night("afp-test", "mutants")),
-    ("slips", slips),
-    ("messages", messages),
-    ("goals", goals),
-    ("maps", maps),
-    ("objects", objects),
-    ("arm", arm::run),
-    ("pi", pi::run),
-    ("engine", engine::run),
-    ("python", python::run),
-    ("python robot", python::robot),
-    ("python long", python::long),
-    ("wheels", || wheels::run(&[])),
-    ("scxml", || scxml::run(2000)),
-    ("dap", dap::run),
-    ("vscode", editors::extension),
-    ("tree-sitter", editors::grammar),
-    ("studio", studio::long),
-    ("live", live::run),
-    ("firmware", gate::run),
-    ("web", wasm::run),
-    ("install", || install::run(Profile::Release)),
-    ("vacuum", vacuum::all),
-    ("long run", long_run),
-    ("opencv", opencv::run),
-    ("fuzz", || fuzz::run(&[], FUZZED)),
-    ("benchmarks", || bench(&["--check".to_owned()])),
+    ("workspace", &[], workspace),
+    ("random plans", &[], random_plans),
+    ("random worlds", &[], random_worlds),
+    ("single faults", &[], single_faults),
+    ("every event", &[], every_event),
+    ("mutants", &[], || by_night("afp-test", "mutants")),
+    ("slips", &[], slips),
+    ("messages", &[], messages),
+    ("goals", &[], goals),
+    ("maps", &[], maps),
+    ("objects", &[], objects),
+    ("arm", &[], arm::run),
+    ("pi", &[], pi::run),
+    ("engine", &[], engine::run),
+    ("python", &[Python], python::run),
+    ("python robot", &[Python], python::robot),
+    ("python long", &[Python], python::long),
+    ("wheels", &[Python], || wheels::run(&[])),
+    ("scxml", &[Node], || scxml::run(2000)),
+    ("dap", &[Node], dap::run),
+    ("vscode", &[Node], editors::extension),
+    ("tree-sitter", &[], editors::grammar),
+    ("studio", &[Node, Chromium], studio::long),
+    ("live", &[Node], live::run),
+    ("firmware", &[], gate::run),
+    ("web", &[], wasm::run),
+    ("install", &[], || install::run(Profile::Release)),
+    ("vacuum", &[], vacuum::all),
+    ("rust alone", &[], rust_alone_whole),
+    ("long run", &[], long_run),
+    ("opencv", &[], opencv::run),
+    ("fuzz", &[], || fuzz::run(&[], FUZZED)),
+    ("benchmarks", &[], || bench(&["--check".to_owned()])),
 ];
 
 /// What `cargo xtask lint` runs.
 pub const LINT: &[Suite] = &[
-    ("format", || run_command(cargo().args(["fmt", "--all", "--check"]))),
-    ("clippy", clippy),
-    ("docs", docs),
+    ("format", &[], || run_command(cargo().args(["fmt", "--all", "--check"]))),
+    ("clippy", &[], clippy),
+    ("docs", &[], docs),
 ];
 
 /// Random plans that the nightly run compares, each compiled to Rust, in parts for which a machine has memory.
@@ -96,32 +100,63 @@ const STEPS: &str = "10000000";
 /// Seconds that the nightly run looks for texts that break each reader.
 const FUZZED: u32 = 600;
 
-/// Runs the suites of those names, all of them without a name, and says how it went.
+/// Runs the suites of those names and prints the account. Without a name all are run, but for those whose needs are not met.
+/// With `all`, or with `CI` set, a need that is not met is a failure.
 ///
 /// # Errors
 /// Unknown names, or the suites that failed.
-pub fn run(suites: &[Suite], names: &[String]) -> Result<(), Failure> {
+pub fn run(suites: &[Suite], names: &[String], all: bool) -> Result<(), Failure> {
     for name in names {
-        if !suites.iter().any(|(known, _)| known == name) {
-            let known: Vec<_> = suites.iter().map(|(known, _)| *known).collect();
+        if !suites.iter().any(|(known, ..)| known == name) {
+            let known: Vec<_> = suites.iter().map(|(known, ..)| *known).collect();
             return Err(format!("no suite '{name}'; there are: {}", known.join(", ")).into());
         }
     }
     let wanted = suites
         .iter()
-        .filter(|(name, _)| names.is_empty() || names.iter().any(|wanted| wanted == name));
-    let mut account = Vec::new();
-    for (name, suite) in wanted {
+        .filter(|(name, ..)| names.is_empty() || names.iter().any(|wanted| wanted == name));
+    let all = all || !names.is_empty() || std::env::var_os("CI").is_some();
+    let (mut account, mut left_out) = (Vec::new(), Vec::new());
+    for (name, needs, suite) in wanted {
+        let missing: Vec<_> = needs.iter().copied().filter(|need| !need.is_met()).collect();
+        if !missing.is_empty() && !all {
+            left_out.push((*name, missing));
+            continue;
+        }
         eprintln!("\n== {name}");
         let (start, cpu_before) = (Instant::now(), cpu_seconds());
-        let done = suite();
+        let done = if missing.is_empty() { suite() } else { Err(not_there(&missing)) };
         if let Err(Failure(why)) = &done {
             eprintln!("{why}");
         }
         let cpu = cpu_seconds().zip(cpu_before).map(|(after, before)| after - before);
         account.push(Account { name, took: start.elapsed(), cpu, passed: done.is_ok() });
     }
-    conclude(&account)
+    let done = conclude(&account);
+    print!("{}", said_of(&left_out));
+    done
+}
+
+/// What a suite that cannot be run says.
+fn not_there(missing: &[Need]) -> Failure {
+    let names: Vec<_> = missing.iter().map(|need| need.name()).collect();
+    let install = needs::install(missing);
+    Failure(format!("error: there is no {}\nhelp: run '{install}'", names.join(" and no ")))
+}
+
+/// The suites that were left out with what each needs, and the command that installs it; empty without any.
+fn said_of(left_out: &[(&str, Vec<Need>)]) -> String {
+    let mut all: Vec<Need> = Vec::new();
+    let mut lines = String::new();
+    for (name, missing) in left_out {
+        let names: Vec<_> = missing.iter().map(|need| need.name()).collect();
+        lines += &format!("{name:<14} left out: it needs {}\n", names.join(" and "));
+        all.extend(missing.iter().filter(|need| !all.contains(need)).copied().collect::<Vec<_>>());
+    }
+    if !all.is_empty() {
+        lines += &format!("to run them, too:\n    {}\n", needs::install(&all));
+    }
+    lines
 }
 
 /// How a suite went.
@@ -180,7 +215,7 @@ fn again(name: &str) -> String {
         }
         "messages" | "mutants" => format!("    cargo xtask nightly {name}"),
         "firmware" | "web" | "install" | "vacuum" => format!("    cargo xtask gate {name}"),
-        "python robot" => "    cargo xtask gate 'python robot'".to_owned(),
+        "python robot" | "rust alone" => format!("    cargo xtask gate '{name}'"),
         "single faults" => format!(
             "    AFP_ROOMS={FAULTY_ROOMS} cargo test --release -p afp-worlds --test single_faults"
         ),
@@ -209,7 +244,33 @@ fn workspace() -> Result<(), Failure> {
     let but = ["afp-bench", "afp-py", "afp-py-wheel", "afp-language-server", "afp-wasm", "xtask"]
         .map(|name| ["--exclude", name]);
     // Property tests search anew at each run by hand; here the same commit gives the same answer.
-    run_command(cargo().args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20"))
+    let mut tests = cargo();
+    tests.args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20");
+    // These tests need Rust alone, also on a machine that has more.
+    run_command(needs::hidden_from(&mut tests)?)
+}
+
+/// The README's first command, on a machine that has Rust and a C linker alone.
+fn rust_alone() -> Result<(), Failure> {
+    let mut first = cargo();
+    first.args(["run", "--package", "afpc", "--", "run", "plans/wall_following.afp"]);
+    run_command(needs::hidden_from(&mut first)?)
+}
+
+/// Both commands of the README there: the second one names the suites that it leaves out.
+fn rust_alone_whole() -> Result<(), Failure> {
+    rust_alone()?;
+    let mut second = cargo();
+    second.args(["xtask", "test"]).env_remove("CI");
+    let said = output(needs::hidden_from(&mut second)?)?;
+    println!("{said}");
+    let left_out = TEST.iter().filter(|(_, needs, _)| !needs.is_empty());
+    let named =
+        |name: &str| said.lines().any(|line| line.starts_with(name) && line.contains("left out"));
+    match left_out.map(|(name, ..)| *name).find(|name| !named(name)) {
+        None => Ok(()),
+        Some(name) => Err(format!("'{name}' was not left out").into()),
+    }
 }
 
 /// Every event at five points of each element's run, for every plan that is shipped.
@@ -306,8 +367,27 @@ mod tests {
 
     #[test]
     fn an_unknown_suite_is_named_with_those_that_exist() {
-        let Err(Failure(text)) = run(LINT, &["clipy".to_owned()]) else { panic!("it passed") };
+        let Err(Failure(text)) = run(LINT, &["clipy".to_owned()], false) else {
+            panic!("it passed")
+        };
         assert_eq!(text, "error: no suite 'clipy'; there are: format, clippy, docs");
+    }
+
+    #[test]
+    fn a_suite_that_is_left_out_is_named_with_what_it_needs() {
+        let text = said_of(&[("studio", vec![Node, Chromium]), ("dap", vec![Node])]);
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines[0], "studio         left out: it needs Node.js with npm and Chromium");
+        assert_eq!(lines[1], "dap            left out: it needs Node.js with npm");
+        assert_eq!(lines[2], "to run them, too:");
+        assert_eq!(lines[3], format!("    {}", needs::install(&[Node, Chromium])));
+        assert_eq!(said_of(&[]), "");
+    }
+
+    #[test]
+    fn a_program_that_is_missing_fails_what_asks_for_all() {
+        let Failure(text) = not_there(&[Python]);
+        assert!(text.starts_with("error: there is no Python 3 with venv\nhelp: run '"), "{text}");
     }
 
     #[test]
