@@ -64,6 +64,8 @@ pub(crate) struct Summary {
     pub fails: Option<Span>,
     /// Whether it consists of computations only, so that it never takes time.
     pub timeless: bool,
+    /// How many edges it takes in one step, if loops of computations decide that and it never takes time.
+    pub taken: i64,
     /// For each ending and `out` entry: a way to the ending on which nothing writes the entry.
     pub unset: [Vec<Option<String>>; 2],
 }
@@ -78,7 +80,7 @@ pub(crate) fn sum_up(model: &Model<'_>) -> Vec<Option<Summary>> {
     in_order(model, |view| {
         let (instant, timeless) = cycles::instant_endings(view);
         let (ends, fails) = (endless::endings(view), failing::edge(view));
-        Summary { ends, fails, instant, timeless, unset: Default::default() }
+        Summary { ends, fails, instant, timeless, taken: 0, unset: Default::default() }
     })
 }
 
@@ -106,8 +108,9 @@ fn check_plan(view: &View<'_>, diags: &mut Diagnostics) -> Summary {
     toggle::check(view, diags);
     let ends = endless::check(view, diags);
     let unset = assigned::check(view, diags);
-    cycles::check(view, diags);
+    let taken = cycles::check(view, diags);
     let fails = failing::check(view, diags);
     let (instant, timeless) = cycles::instant_endings(view);
-    Summary { ends, fails, instant, timeless, unset }
+    let taken = if timeless { taken } else { 0 };
+    Summary { ends, fails, instant, timeless, taken, unset }
 }

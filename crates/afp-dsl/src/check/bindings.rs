@@ -246,7 +246,7 @@ fn inputs(
         let formula = match formula {
             Some(formula) => formula.and_then(|typed| {
                 let (formula, value) = scope.finish(typed, Some(ty?), input.range, diags)?;
-                if let Some(error) = out_of_range(input, ty?, &formula, value) {
+                if let Some(error) = out_of_range(scope, input, ty?, &formula, value) {
                     diags.push(error);
                 }
                 Some(formula)
@@ -294,14 +294,27 @@ fn example(ty: Option<&Type>) -> String {
     }
 }
 
-/// A known value outside of its port's range.
+/// A value outside of its port's range that is known, or that results from the defaults of the plan's inputs.
 fn out_of_range(
+    scope: &Scope<'_>,
     input: &Input,
     ty: &Type,
     formula: &Formula,
     value: Option<Constant>,
 ) -> Option<Diagnostic> {
-    let message = |value: String| message!("'{}' is out of the range of '{}'", value, input.name);
-    let error = range::outside(&value?, input.range?, ty, formula.span, message)?;
-    Some(error.note(input.span, "the range is declared here"))
+    let (range, name) = (input.range?, &input.name);
+    let error = match &value {
+        Some(value) => range::outside(value, range, ty, formula.span, |value| {
+            message!("'{}' is out of the range of '{}'", value, name)
+        }),
+        None => {
+            range::outside(&scope.value_by_default(formula)?, range, ty, formula.span, |value| {
+                message!("by default '{}' is '{}', which is out of its range", name, value)
+            })
+        }
+    };
+    let error = error?.note(input.span, "the range is declared here");
+    let read = formula.entries().filter_map(|(id, _)| scope.entries.get(id.index()));
+    let defaults = read.filter(|entry| entry.kind == EntryKind::In);
+    Some(defaults.fold(error, |error, entry| error.note(entry.name.span, "this is its default")))
 }

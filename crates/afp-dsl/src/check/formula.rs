@@ -150,14 +150,24 @@ impl Scope<'_> {
         self.evaluate(formula).ok().flatten()
     }
 
+    /// The value of a checked formula if every input of the plan has its default.
+    pub fn value_by_default(&self, formula: &Formula) -> Option<Constant> {
+        let is_known = |kind| matches!(kind, EntryKind::Const | EntryKind::In);
+        constant::evaluate(formula, &|entry| self.entry_value(entry, is_known)).ok().flatten()
+    }
+
     fn evaluate(&self, formula: &Formula) -> Result<Option<Constant>, Error> {
         constant::evaluate(formula, &|entry| self.known(entry))
     }
 
     /// The value of an entry, if it is a constant.
     fn known(&self, entry: u16) -> Option<Constant> {
+        self.entry_value(entry, |kind| kind == EntryKind::Const)
+    }
+
+    fn entry_value(&self, entry: u16, is_known: impl Fn(EntryKind) -> bool) -> Option<Constant> {
         let entry = self.entries.get(usize::from(entry))?;
-        entry.value.clone().filter(|_| entry.kind == EntryKind::Const)
+        entry.value.clone().filter(|_| is_known(entry.kind))
     }
 
     /// The text at a place of this file.

@@ -31,20 +31,23 @@ const MAX_NAMES: usize = 8;
 const MAX_CONDITIONS: usize = 8;
 
 /// Reports each cycle once, at the edge that closes it.
-pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
+///
+/// Returns how many edges the plan takes from its start to an ending in one step, as far as its loops decide that.
+pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) -> i64 {
     let sure = Quick::of(view, |edge| is_sure(view, edge.cause));
     let constants = decided::for_ever(view);
     let mut loops = count::Loops::new(view, &constants);
     let mut reported = BTreeSet::new();
     for (members, inner) in sure.cycles() {
         match sure.has_exit(&members, |_| true) {
-            true => loops.check(&members, &inner, &sure.component, diags),
+            true => loops.add(&members, &inner, &sure.component),
             false => {
                 sure.report_endless(&inner, diags);
                 reported.extend(members);
             }
         }
     }
+    let taken = loops.check(&sure.component, diags);
     let lasting = Quick::of(view, |edge| {
         let cause = edge.cause;
         is_quick(view, edge)
@@ -72,6 +75,7 @@ pub(super) fn check(view: &View<'_>, diags: &mut Diagnostics) {
     for (_, inner) in chosen.cycles() {
         chosen.report_choices(&inner, diags);
     }
+    taken
 }
 
 /// Which endings can come within the step that starts the plan, and whether it never takes time.

@@ -1,6 +1,5 @@
 //! Loops of computations that count further than one step may go.
 
-use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use afp_types::MAX_TRANSITIONS_PER_STEP;
@@ -8,11 +7,12 @@ use afp_types::MAX_TRANSITIONS_PER_STEP;
 use super::counters;
 use super::decided::{self, Known};
 use super::ways::Ways;
-use crate::flow::view::{Counter, Edge, Node, View};
-use crate::graph::{Element, ElementId};
+use crate::flow::view::{Cause, Counter, Edge, Node, View};
+use crate::graph::{ElementId, SupervisorId, Target, chain, resuming};
 use crate::types::Constant;
 use afp_syntax::diagnostics::{Code, Diagnostic, Diagnostics, Message, Words, list};
 use afp_syntax::message;
+use afp_syntax::source::Span;
 
 /// Edges that may be taken in one step.
 const MOST: i64 = MAX_TRANSITIONS_PER_STEP as i64;
@@ -24,67 +24,145 @@ pub(super) struct Loops<'a, 'b> {
     constants: &'a Known,
     /// How many edges may still be followed, so that the effort grows with the plan alone.
     room: usize,
-    ways: OnceCell<Ways>,
+    found: Vec<Loop>,
+}
+
+/// A loop that a counter bounds.
+struct Loop {
+    id: ElementId,
+    counter: Counter,
+    component: u32,
+    /// Its nodes, each with the number of edges to the counter.
+    nodes: Vec<(Node, usize)>,
+    /// The number of its edges, if there is only one way round.
+    round: Option<usize>,
+    /// The counters within it.
+    others: Vec<ElementId>,
+    /// How many edges it takes; every number above the limit of a step counts as the limit.
+    taken: i64,
 }
 
 impl<'a, 'b> Loops<'a, 'b> {
-    /// Those of a plan in which these values never change.
+    /// No loops yet, of a plan in which these values never change.
     pub fn new(view: &'a View<'b>, constants: &'a Known) -> Self {
-        Loops { view, constants, room: 100 * MOST as usize, ways: OnceCell::new() }
+        Loops { view, constants, room: 100 * MOST as usize, found: Vec::new() }
     }
 
-    /// Warns of a cycle whose counters go round too often. `members` are its nodes, `inner` its edges, `component` numbers
-    /// the cycles.
-    pub fn check(
-        &mut self,
-        members: &[Node],
-        inner: &[&Edge],
-        component: &[u32],
-        diags: &mut Diagnostics,
-    ) {
+    /// Adds a cycle, if a counter bounds it and it is known how often it goes round. `members` are its nodes, `inner` its
+    /// edges, `component` numbers the cycles.
+    pub fn add(&mut self, members: &[Node], inner: &[&Edge], component: &[u32]) {
         let view = self.view;
         let bounding = view.counters().bounding(view, inner.iter().copied());
         let [(id, counter)] = bounding.as_slice() else { return };
-        let element = &view.plan.elements[id.index()];
-        let ways = self.ways.get_or_init(|| Ways::of(view, component));
-        let nodes = distances(members, inner, id.index());
-        // At least one leads out.
-        let others = ways.through(component[id.index()], nodes.into_iter()).clamp(1, MOST - 1);
-        let told = if inner.len() == members.len() {
-            let entered = counters::entered(view, *id, counter.entry);
-            simple(view, element, (counter, entered), inner.len(), others)
-        } else if self.spins(members, *id, others, &view.counters().on(inner.iter().copied())) {
-            let others = view.counters().on(inner.iter().copied()).into_iter();
-            let others = others.map(|(other, _)| other).filter(|other| other != id);
-            let all: Vec<_> = [*id].into_iter().chain(others).collect();
-            let names = all.iter().map(|id| view.plan.elements[id.index()].name.as_str());
-            let (names, go) = (list(names, "and"), if all.len() == 1 { "goes" } else { "go" });
-            let message = message!(
-                "{} {} round more often within one step than {} edges allow",
-                names,
-                Words(go),
-                MOST
-            );
-            Some((message, "count less far".into()))
-        } else {
-            None
+        let all = view.counters().on(inner.iter().copied());
+        let round = (inner.len() == members.len()).then_some(inner.len());
+        let taken = match round {
+            Some(edges) => {
+                let rounds = rounds(view, *id, counter);
+                Some(rounds.saturating_mul(i64::try_from(edges).unwrap_or(i64::MAX)))
+            }
+            None => self.followed(members, *id, &all),
         };
-        if let Some((message, better)) = told {
-            let span = element.inputs.get(1).map_or(element.span, |limit| limit.span);
-            let help = message!("{}, or put an actor such as 'Wait' into the loop", better);
-            diags.push(Diagnostic::new(Code::E0312, span, message).help(help));
+        let Some(taken) = taken else { return };
+        let others = all.into_iter().map(|(other, _)| other).filter(|other| other != id).collect();
+        let nodes = distances(members, inner, id.index());
+        let (id, counter, component) = (*id, *counter, component[id.index()]);
+        self.found.push(Loop { id, counter, component, nodes, round, others, taken });
+    }
+
+    /// Warns of loops that take more edges than a step allows, by themselves or behind others. Returns how many edges the
+    /// plan takes from its start to an ending; after a warning the limit, so that its users do not warn again.
+    pub fn check(&self, component: &[u32], diags: &mut Diagnostics) -> i64 {
+        let view = self.view;
+        let sub_plans = view.elements().filter_map(|(node, element)| {
+            let taken = view.summary(element).map_or(0, |inner| inner.taken);
+            (0 < taken && taken < MOST).then_some((node, element, taken))
+        });
+        let sub_plans: Vec<_> = sub_plans.collect();
+        if self.found.is_empty() && sub_plans.is_empty() {
+            return 0;
+        }
+        let loops = self.found.iter().map(|it| (it.component, it.taken));
+        let inner = sub_plans.iter().map(|(node, _, taken)| (component[*node], *taken));
+        // What takes too many is reported by itself.
+        let taken_in = loops.chain(inner).filter(|(_, taken)| *taken < MOST).collect();
+        let ways = Ways::of(view, component, &taken_in);
+        let mut is_reported = false;
+        for each in &self.found {
+            // At least one leads out.
+            let others = ways.through(each.component, each.nodes.iter().copied()).max(1);
+            if let Some((message, better)) = each.report(view, others) {
+                let element = &view.plan.elements[each.id.index()];
+                let span = element.inputs.get(1).map_or(element.span, |limit| limit.span);
+                diags.push(Diagnostic::new(Code::E0312, span, message).help(better));
+                is_reported = true;
+            }
+        }
+        for (node, element, taken) in sub_plans {
+            let others = ways.through(component[node], std::iter::once((node, 0)));
+            if taken.saturating_add(others) > MOST {
+                let message = message!(
+                    "'{}' takes {} edges within one step, which may take at most {}, and {} more lead to it and on from it",
+                    element.name,
+                    taken,
+                    MOST,
+                    others
+                );
+                let help = "count less far, or put an actor such as 'Wait' before it";
+                diags.push(Diagnostic::new(Code::E0312, element.span, message).help(help));
+            }
+        }
+        self.held(diags);
+        if is_reported { MOST } else { ways.to_end(view).clamp(0, MOST) }
+    }
+
+    /// Warns of events that resume behind such loops and may come in the same step.
+    fn held(&self, diags: &mut Diagnostics) {
+        let view = self.view;
+        let elements = &view.plan.elements;
+        let resuming = resuming(elements.iter().map(Some));
+        let taken = |edge: &Edge| {
+            let first = ElementId(u16::try_from(edge.to).ok()?);
+            let (run, _) = chain(elements, Target::Element(first));
+            let is_held = run.first().is_some_and(|id| resuming[id.index()]);
+            let loops = self.found.iter().filter(|it| is_held && run.contains(&it.id));
+            loops.map(|it| it.taken).filter(|taken| *taken < MOST).max()
+        };
+        let mut reported = BTreeSet::new();
+        for (node, _) in view.elements().filter(|(_, element)| element.takes_time()) {
+            let mut of_each: BTreeMap<SupervisorId, (i64, Span, String)> = BTreeMap::new();
+            for edge in view.from(node).iter().chain(view.of_globals(node)) {
+                let (Cause::Event(id, _) | Cause::On(_, id, _)) = edge.cause else { continue };
+                let Some(taken) = taken(edge) else { continue };
+                let own = of_each.entry(id).or_default();
+                if taken > own.0 {
+                    *own = (taken, view.span(edge.cause), view.label(edge.cause));
+                }
+            }
+            let all = of_each.values().map(|(taken, ..)| *taken).fold(0, i64::saturating_add);
+            let Some((_, span, _)) = of_each.values().max_by_key(|it| it.1) else { continue };
+            if all > MOST && of_each.len() > 1 && reported.insert(*span) {
+                let names = list(of_each.values().map(|(.., label)| label.as_str()), "and");
+                let message = message!(
+                    "{} may come in one step and take {} edges together, of {} at most",
+                    names,
+                    all,
+                    MOST
+                );
+                let error = Diagnostic::new(Code::E0312, *span, message);
+                diags.push(error.help("count less far in one of the loops"));
+            }
         }
     }
 
-    /// Whether a cycle with several ways round, followed from the counter that bounds it, takes more edges than a step may
-    /// with the `others` that lead to it and on from it, all that its computations decide being known.
-    fn spins(
+    /// How many edges a cycle with several ways round takes, followed from the counter that bounds it, all that its
+    /// computations decide being known.
+    fn followed(
         &mut self,
         members: &[Node],
         from: ElementId,
-        others: i64,
         all: &[(ElementId, Counter)],
-    ) -> bool {
+    ) -> Option<i64> {
         let mut known = self.constants.clone();
         let begins = all.iter().map(|(id, counter)| {
             let entered = counters::entered(self.view, *id, counter.entry);
@@ -93,18 +171,83 @@ impl<'a, 'b> Loops<'a, 'b> {
         known.extend(begins);
         let members: BTreeSet<Node> = members.iter().copied().collect();
         let mut node = from.index();
-        for _ in 0..=MOST - others {
-            let Some(room) = self.room.checked_sub(1) else { return false };
-            self.room = room;
-            let Some(edge) = decided::next(self.view, node, &known) else { return false };
+        for taken in 0..MOST {
+            self.room = self.room.checked_sub(1)?;
+            let edge = decided::next(self.view, node, &known)?;
             if !members.contains(&edge.to) {
-                return false;
+                return Some(taken);
             }
             decided::after(self.view, edge.cause, &mut known);
             node = edge.to;
         }
-        true
+        Some(MOST)
     }
+}
+
+impl Loop {
+    /// Returns message and help, if it and the `others`, which lead to it and on from it, are too many edges.
+    fn report(&self, view: &View<'_>, others: i64) -> Option<(Message, Message)> {
+        let room = (MOST - others).max(0);
+        if self.taken <= room {
+            return None;
+        }
+        let actor = "put an actor such as 'Wait' into the loop";
+        let Some(edges) = self.round else {
+            let all = std::iter::once(&self.id).chain(&self.others);
+            let names = all.map(|id| view.plan.elements[id.index()].name.as_str());
+            let names = list(names, "and");
+            let go = if self.others.is_empty() { "goes" } else { "go" };
+            let message = message!(
+                "{} {} round more often within one step than {} edges allow",
+                names,
+                Words(go),
+                MOST
+            );
+            return Some((message, message!("count less far, or {}", Words(actor))));
+        };
+        let message = self.goes_round(view, edges, others);
+        let most = room / i64::try_from(edges).unwrap_or(i64::MAX);
+        let better = match most {
+            0 => actor.into(),
+            most => {
+                message!("{}, or {}", better(view, (self.id, &self.counter), most), Words(actor))
+            }
+        };
+        Some((message, better))
+    }
+
+    /// How often it goes round with so many edges each time.
+    fn goes_round(&self, view: &View<'_>, edges: usize, others: i64) -> Message {
+        let name = &view.plan.elements[self.id.index()].name;
+        let rounds = rounds(view, self.id, &self.counter);
+        let each = if edges > 1 {
+            message!(" with {} edges each time", edges)
+        } else {
+            Message::default()
+        };
+        match self.taken >= MOST {
+            true => message!(
+                "'{}' goes round {} times{} within one step, which may take at most {} edges",
+                name,
+                rounds,
+                each,
+                MOST
+            ),
+            false => message!(
+                "'{}' goes round {} times{} within one step, which may take at most {} edges, and {} more lead to the loop and on from it",
+                name,
+                rounds,
+                each,
+                MOST,
+                others
+            ),
+        }
+    }
+}
+
+/// How often a counter goes round.
+fn rounds(view: &View<'_>, id: ElementId, counter: &Counter) -> i64 {
+    counter.limit.saturating_sub(counters::entered(view, id, counter.entry))
 }
 
 /// The nodes of a cycle, each with the number of edges to another one where there is only one way round.
@@ -121,44 +264,9 @@ fn distances(members: &[Node], inner: &[&Edge], to: Node) -> Vec<(Node, usize)> 
     nodes
 }
 
-/// What is told of a cycle of so many edges with one way round, if its counter, come to with that value, goes round too often
-/// beside the `others` that lead to it and on from it, and what is better.
-fn simple(
-    view: &View<'_>,
-    element: &Element,
-    (counter, entered): (&Counter, i64),
-    edges: usize,
-    others: i64,
-) -> Option<(Message, Message)> {
-    let length = i64::try_from(edges).unwrap_or(i64::MAX);
-    let rounds = counter.limit.saturating_sub(entered);
-    let taken = rounds.saturating_mul(length);
-    let name = &element.name;
-    let each =
-        if edges > 1 { message!(" with {} edges each time", edges) } else { Message::default() };
-    let message = || match taken >= MOST {
-        true => message!(
-            "'{}' goes round {} times{} within one step, which may take at most {} edges",
-            name,
-            rounds,
-            each,
-            MOST
-        ),
-        false => message!(
-            "'{}' goes round {} times{} within one step, which may take at most {} edges, and {} more lead to the loop and on from it",
-            name,
-            rounds,
-            each,
-            MOST,
-            others
-        ),
-    };
-    let is_long = taken > MOST - others;
-    is_long.then(|| (message(), better(view, (counter, entered), (MOST - others) / length)))
-}
-
 /// How a counter goes round so often at most.
-fn better(view: &View<'_>, (counter, entered): (&Counter, i64), rounds: i64) -> Message {
+fn better(view: &View<'_>, (id, counter): (ElementId, &Counter), rounds: i64) -> Message {
+    let entered = counters::entered(view, id, counter.entry);
     if entered < 0 && counter.limit <= rounds {
         let name = &view.plan.entries[counter.entry.index()].name;
         return message!("begin '{}' with {} or more", name, counter.limit - rounds);

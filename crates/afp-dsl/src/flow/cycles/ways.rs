@@ -1,7 +1,9 @@
 //! How many edges of a step lead to a loop of computations, and on from it.
 //!
-//! Followed are the edges of computations, which are taken in any case; of a loop on the way only that it is come to and
-//! left. So a step may take more, but not fewer on the longest way.
+//! The search follows the edges of computations, which are taken in any case. A loop before another loop counts with all edges
+//! that it takes, if that number is known. A loop after it counts with one edge in and one edge out: the sum is reported there.
+
+use std::collections::BTreeMap;
 
 use super::is_sure;
 use crate::flow::view::{Cause, Edge, Node, View};
@@ -16,9 +18,9 @@ pub(super) struct Ways {
 }
 
 impl Ways {
-    /// Those of a plan with these components of sure edges; a component's number is less than those of the components that
-    /// lead to it.
-    pub fn of(view: &View<'_>, component: &[u32]) -> Ways {
+    /// Those of a plan with these components of sure edges, each with the edges that it takes itself; a component's number is
+    /// less than those of the components that lead to it.
+    pub fn of(view: &View<'_>, component: &[u32], taken_in: &BTreeMap<u32, i64>) -> Ways {
         let count = component.iter().map(|number| *number as usize + 1).max().unwrap_or(0);
         let mut ways = Ways { to: vec![None; view.nodes()], on: vec![0; count] };
         let mut before_all = vec![0; count];
@@ -47,11 +49,18 @@ impl Ways {
             *known = on.max(*known);
         }
         for edge in sure.iter().rev() {
-            let to = 1 + before_all[of(edge.from)];
+            let inside = taken_in.get(&component[edge.from]).copied().unwrap_or(0);
+            let to = (1 + before_all[of(edge.from)]).saturating_add(inside);
             ways.to[edge.to] = ways.to[edge.to].max(Some(to));
             before_all[of(edge.to)] = before_all[of(edge.to)].max(to);
         }
         ways
+    }
+
+    /// How many edges at most lead from the start of a plan, or the edge before, to its endings.
+    pub fn to_end(&self, view: &View<'_>) -> i64 {
+        let ends = (0..3).filter_map(|ending| self.to[view.end(ending)]);
+        ends.max().unwrap_or(0) - self.to[view.start()].unwrap_or(0)
     }
 
     /// How many edges lead to a loop and on from it; with each of its nodes how many more lead from there to its counter.
