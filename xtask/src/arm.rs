@@ -10,7 +10,7 @@ use crate::shell::{Failure, cargo, run as run_command, target};
 /// No library, linker or emulator for the machine, or a trace that differs.
 pub fn run() -> Result<(), Failure> {
     PI.install()?;
-    // A folder of its own: whoever builds for this machine need not wait.
+    // A folder of its own, so that builds for this machine need not wait.
     let folder = target().join("arm");
     for profile in [&[][..], &["--release"]] {
         let mut test = cargo();

@@ -1,4 +1,4 @@
-//! What editors need: the extension for Visual Studio Code and the grammar for tree-sitter, tested and packed.
+//! Packages for editors: the extension for Visual Studio Code and the grammar for tree-sitter, tested and packed.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -22,11 +22,11 @@ const BEYOND_GRAMMAR: [&str; 4] = [
     "e0236_unknown_unit.afp",
 ];
 
-/// What a package of the grammar holds: the parser is made, so that editors need no tool to build it.
+/// The files in a package of the grammar. It has the generated parser, so that editors need no tool.
 const GRAMMAR: [&str; 6] =
     ["README.md", "grammar.js", "package.json", "tree-sitter.json", "queries", "src"];
 
-/// What editors ask the tree for.
+/// The queries of editors.
 const QUERIES: [&str; 3] = ["highlights", "folds", "locals"];
 
 /// The folder of the grammar, and that of the extension.

@@ -7,15 +7,15 @@ use crate::shell::{Failure, output, program, run};
 
 /// A machine whose programs QEMU runs.
 pub struct Emulated {
-    /// What `afpc build --target` calls it.
+    /// Its name for `afpc build --target`.
     pub name: &'static str,
-    /// What Rust calls it.
+    /// Its name in Rust.
     pub triple: &'static str,
-    /// What Debian calls it.
+    /// Its name in Debian.
     debian: &'static str,
-    /// What compiles C and links for it.
+    /// The program that compiles C and links for it.
     pub linker: &'static str,
-    /// What runs its programs.
+    /// The program that runs its programs.
     qemu: &'static str,
     /// Where Debian's packages put its libraries.
     libraries: &'static str,
@@ -51,7 +51,7 @@ impl Emulated {
         [self.qemu, "-L", self.libraries]
     }
 
-    /// The variable by which cargo is told something about the machine.
+    /// The variable that sets a key of the machine for cargo.
     pub fn variable(&self, what: &str) -> String {
         format!("CARGO_TARGET_{}_{what}", self.triple.to_uppercase().replace('-', "_"))
     }
@@ -71,7 +71,7 @@ impl Emulated {
         commands
     }
 
-    /// Installs what is missing, as root; everybody else is told what to install.
+    /// Installs what is missing, as root; for other users it names the packages.
     ///
     /// # Errors
     /// It cannot be installed.

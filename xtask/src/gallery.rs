@@ -26,7 +26,7 @@ struct Shown {
 /// Draws, runs and sweeps every plan of `plans/`, or those named, and writes their sections.
 ///
 /// # Errors
-/// Whatever does not work.
+/// A plan that cannot be drawn, run or swept, or a file that cannot be written.
 pub fn run(names: &[String]) -> Result<(), Failure> {
     run_command(cargo().args(["build", "--release", "--package", "afpc"]))?;
     fs::create_dir_all(root().join("docs").join(PICTURES))?;
@@ -57,7 +57,7 @@ fn plans() -> Result<Vec<Shown>, Failure> {
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let text = fs::read_to_string(&path)?;
-        // What drives until it is stopped is shown for a minute.
+        // A plan without an end is shown for a minute.
         let until = if name == "wall_following" { "60s" } else { "400s" };
         let sees = text.contains(": FindObject(");
         plans.push(Shown { help: help(&text), name, until, sees });
@@ -66,7 +66,7 @@ fn plans() -> Result<Vec<Shown>, Failure> {
     Ok(plans)
 }
 
-/// What the first plan of a file says of itself.
+/// The help text of a file's first plan.
 fn help(text: &str) -> String {
     let mut lines: Vec<&str> = Vec::new();
     for line in text.lines() {
@@ -149,7 +149,7 @@ fn endings(table: &Path) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// What is made on the way and not kept.
+/// Files that are made on the way and not kept.
 fn made(name: &str) -> PathBuf {
     target().join("xtask/gallery").join(name)
 }

@@ -24,7 +24,7 @@ pub fn run() -> Result<(), Failure> {
         build(&mut cargo(), &folder)
     } else {
         install_debian()?;
-        // Another compiler, another folder: or every switch would build everything anew.
+        // Another compiler has a folder of its own; otherwise every switch would rebuild everything.
         let folder = target().join("firmware-debian");
         let mut command = cargo();
         command

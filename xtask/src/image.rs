@@ -4,7 +4,7 @@ use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
 
 use crate::shell::Failure;
 
-/// What the gate wants to know of an image.
+/// The facts of an image that the gate checks.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Image {
     /// Every named symbol.
@@ -50,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_image_is_refused() {
+    fn bytes_that_are_no_image_are_refused() {
         assert!(read(b"plan").is_err());
     }
 }

@@ -1,4 +1,4 @@
-//! Installs `afpc` and uses it in an empty folder, as its users do.
+//! Installs `afpc` and uses it in an empty folder.
 
 use std::fs;
 use std::path::Path;
@@ -11,12 +11,12 @@ use crate::shell::{
 /// Enough time for the robot to bump and back up.
 const UNTIL: [&str; 2] = ["--until", "10s"];
 
-/// Whether what is installed, and what it builds, is optimised.
+/// Whether the installed program, and the programs that it builds, are optimised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
-    /// As users have it: takes minutes.
+    /// As for users; takes minutes.
     Release,
-    /// With what other suites have built already.
+    /// With the builds of other suites.
     Debug,
 }
 
@@ -31,10 +31,10 @@ impl Profile {
 }
 
 /// Installs the command line, runs and builds a copy of a plan far from the checkout, and compares
-/// what the program says with what the interpreter says, over twenty seeds.
+/// the program's output with that of the interpreter, over twenty seeds.
 ///
 /// # Errors
-/// Whatever does not work.
+/// A build or a run that fails, or a program that differs from the interpreter.
 pub fn run(profile: Profile) -> Result<(), Failure> {
     let home = target().join("xtask/install");
     let mut install = cargo();

@@ -1,4 +1,4 @@
-//! What a suite needs beside Rust and a C linker, and how it is installed.
+//! The programs that a suite needs beside Rust and a C linker, and the command that installs them.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -103,7 +103,7 @@ pub fn hidden_from(command: &mut Command) -> Result<&mut Command, Failure> {
     Ok(command.env("PATH", folder).env("CHROMIUM", ""))
 }
 
-/// As it is: another system has no links to make such a folder with.
+/// Changes nothing: another system has no links to make such a folder with.
 ///
 /// # Errors
 /// None.

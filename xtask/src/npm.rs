@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::shell::{Failure, program, root, run, target};
 
-/// What says which packages those are.
+/// The files that name those packages.
 const PROJECT: [&str; 3] = ["package.json", "package-lock.json", ".npmrc"];
 
 /// npm.
@@ -32,7 +32,7 @@ pub fn ci(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The folder of a project of `tests/`, installed once under target/, with its program as it is now.
+/// The folder of a project of `tests/`, installed once under target/, with the current version of its program.
 ///
 /// # Errors
 /// As [`ci`].

@@ -2,7 +2,7 @@
 
 use crate::shell::{Failure, cargo, output, program, run as run_command};
 
-/// What Debian and Ubuntu call OpenCV for programmers, and the compiler whose library reads its headers.
+/// OpenCV's development package in Debian and Ubuntu, and the compiler whose library reads its headers.
 const PACKAGES: [&str; 3] = ["libopencv-dev", "clang", "libclang-dev"];
 
 /// Builds the feature `opencv` and compares both ways with the true flow. Installs OpenCV where it is

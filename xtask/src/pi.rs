@@ -18,10 +18,10 @@ const VACUUM: Case = ("examples/vacuum", "plans/clean.afp", &["--until", "30s"])
 /// Seeds of each plan.
 const SEEDS: [&str; 3] = ["0", "1", "7"];
 
-/// With the tools that are there: the paper's plan for 64 bit, without long optimisation.
+/// With the installed tools: the paper's plan for 64 bit, without long optimisation.
 ///
 /// # Errors
-/// What it says differs.
+/// Its output differs.
 pub fn short() -> Result<(), Failure> {
     let missing = PI.missing();
     if !missing.is_empty() {
@@ -35,7 +35,7 @@ pub fn short() -> Result<(), Failure> {
 /// Both machines, also with a robot of a project, as users build them; installs what is missing.
 ///
 /// # Errors
-/// No toolchain or emulator, or what a program says differs.
+/// No toolchain or emulator, or a program whose output differs.
 pub fn run() -> Result<(), Failure> {
     prepare()?;
     for machine in [&PI, &PI32] {
@@ -51,7 +51,7 @@ fn prepare() -> Result<(), Failure> {
     run_command(cargo().args(["build", "--package", "afpc"]))
 }
 
-/// Builds a plan for a machine and compares what the program says with what the interpreter says here.
+/// Builds a plan for a machine and compares the program's output with that of the interpreter here.
 fn compare(machine: &Emulated, (folder, plan, until): Case, quick: bool) -> Result<(), Failure> {
     let (folder, afpc) = (root().join(folder), target().join("debug/afpc"));
     let here = |command: &Path| {

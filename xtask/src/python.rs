@@ -8,7 +8,7 @@ use crate::shell::{
     Failure, cargo, output, program, quickly_built, root, run as run_command, target,
 };
 
-/// What builds, tests and reads, as pip names it.
+/// The packages that build, test and read, as pip names them.
 const PACKAGES: [&str; 14] = [
     "gymnasium==1.4.0",
     "hypothesis==6.170.15",
@@ -26,10 +26,10 @@ const PACKAGES: [&str; 14] = [
     "typing-extensions>=4.13",
 ];
 
-/// What notebooks and clusters need beside.
+/// Further packages for notebooks and clusters.
 const LONG: [&str; 3] = ["ipykernel==7.4.0", "nbclient==0.11.0", "ray==2.60.0"];
 
-/// Seconds that the nightly run looks for what breaks the package.
+/// Seconds for which the nightly run stresses the package.
 const STRESSED: &str = "600";
 
 /// Random steps that the nightly run makes in rooms and with faults that are made up.
@@ -51,7 +51,7 @@ pub fn run() -> Result<(), Failure> {
     let tests = ["-m", "pytest", "--quiet", "-n", "auto", "--dist", "loadfile", "--durations=5"];
     let mut tests = at_package(&python, &tests);
     tests.args(["--doctest-modules", "--pyargs", "tests", "afp"]);
-    // What is built for a project is built where other slow tests build.
+    // Builds for a project go into the folder of the other slow tests.
     run_command(quickly_built(&mut tests).env("AFPC", afpc))?;
     run_command(&mut at_package(&python, &["-m", "mypy"]))?;
     run_command(&mut at_package(&python, &["-m", "mypy.stubtest", "afp._afp"]))?;
@@ -77,9 +77,9 @@ fn installed() -> Result<(PathBuf, PathBuf), Failure> {
     Ok((python, afpc))
 }
 
-/// What takes longer: the bars of the optimised package, the search for what breaks it, a million random steps in its
+/// The longer tests: the bars of the optimised package, the stress test, a million random steps in its
 /// environments, the notebooks, a sweep on a cluster, and a build from the source
-/// distribution alone.
+/// distribution only.
 ///
 /// # Errors
 /// A bar that is not kept, a notebook that does not run, a source distribution that lacks something.
@@ -103,7 +103,7 @@ pub fn long() -> Result<(), Failure> {
     let pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir"];
     let mut built = at_package(&python, &pip);
     built.arg(wheels("from-sdist")?).arg(only(&folder, "gz")?);
-    // What is missing is missing without optimisation, too.
+    // A missing file is also missing without optimisation.
     built.env("MATURIN_PEP517_ARGS", "--profile dev");
     run_command(built.env("CARGO_TARGET_DIR", target().join("xtask/sdist-target")))
 }
@@ -115,8 +115,8 @@ pub fn at_package(python: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// Makes the source distribution, as pip asks for it: asked directly, maturin looks for a crate in the package's folder first,
-/// and cargo says that there is none.
+/// Makes the source distribution, as pip asks for it: asked directly, maturin first looks for a crate in the package's folder,
+/// and cargo finds none.
 ///
 /// # Errors
 /// A file that it needs is not there.
@@ -136,12 +136,12 @@ fn install(python: &Path, profile: &str) -> Result<(), Failure> {
     run_command(program(python).args(pip).arg("--force-reinstall").arg(wheel))
 }
 
-/// An empty folder for what is built.
+/// An empty folder for wheels.
 fn wheels(name: &str) -> Result<PathBuf, Failure> {
     emptied(&target().join("xtask/wheels").join(name))
 }
 
-/// A folder, made anew.
+/// Empties a folder, or makes it.
 ///
 /// # Errors
 /// It cannot be removed or made.

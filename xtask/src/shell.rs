@@ -33,12 +33,12 @@ pub fn program(name: impl AsRef<OsStr>) -> Command {
     command
 }
 
-/// What a command builds goes where all slow tests build, without long optimisation.
+/// Makes a command build into the folder of all slow tests, without long optimisation.
 pub fn quickly_built(command: &mut Command) -> &mut Command {
     quickly(command).env("CARGO_TARGET_DIR", built_plans())
 }
 
-/// What a command builds, or what it runs builds, it builds without long optimisation.
+/// Makes a command, and the commands that it starts, build without long optimisation.
 pub fn quickly(command: &mut Command) -> &mut Command {
     command
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0")

@@ -38,8 +38,8 @@ pub fn test() -> Result<(), Failure> {
     tested(&[])
 }
 
-/// The same with many random gestures, with what people see compared and with a robot that a project brings; then the figures, and a run of an hour, of an
-/// optimised program with nothing beside it.
+/// The same with many random gestures, compared screenshots and a project's own robot; then the figures and a run of an
+/// hour of an optimised program, with nothing beside it.
 ///
 /// # Errors
 /// As [`test`](fn@test); a figure that is worse than its bar.

@@ -1,4 +1,4 @@
-//! What there is to run, one after the other, and the account of it at the end.
+//! The suites of each chore. They run one after the other; the account is printed at the end.
 
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,7 @@ use crate::{
 /// A suite: its name, what it needs beside Rust, and how it is run.
 type Suite = (&'static str, &'static [Need], fn() -> Result<(), Failure>);
 
-/// What `cargo xtask test` runs.
+/// The suites of `cargo xtask test`.
 pub const TEST: &[Suite] = &[
     ("workspace", &[], workspace),
     ("xtask", &[], || run_command(cargo().args(["test", "--package", "xtask"]))),
@@ -26,7 +26,7 @@ pub const TEST: &[Suite] = &[
     ("live", &[Node], live::run),
 ];
 
-/// What `cargo xtask gate` runs.
+/// The suites of `cargo xtask gate`.
 pub const GATE: &[Suite] = &[
     ("firmware", &[], gate::run),
     ("web", &[], wasm::run),
@@ -37,7 +37,7 @@ pub const GATE: &[Suite] = &[
     ("rust alone", &[], rust_alone),
 ];
 
-/// What `cargo xtask nightly` runs.
+/// The suites of `cargo xtask nightly`.
 pub const NIGHTLY: &[Suite] = &[
     ("workspace", &[], workspace),
     ("random plans", &[], random_plans),
@@ -74,7 +74,7 @@ pub const NIGHTLY: &[Suite] = &[
     ("benchmarks", &[], || bench(&["--check".to_owned()])),
 ];
 
-/// What `cargo xtask lint` runs.
+/// The suites of `cargo xtask lint`.
 pub const LINT: &[Suite] = &[
     ("format", &[], || run_command(cargo().args(["fmt", "--all", "--check"]))),
     ("clippy", &[], clippy),
@@ -100,7 +100,7 @@ const STEPS: &str = "10000000";
 /// Seconds that the nightly run looks for texts that break each reader.
 const FUZZED: u32 = 600;
 
-/// Runs the suites of those names and prints the account. Without a name all are run, but for those whose needs are not met.
+/// Runs the suites of those names and prints the account. Without a name it runs all suites whose needs are met.
 /// With `all`, or with `CI` set, a need that is not met is a failure.
 ///
 /// # Errors
@@ -137,14 +137,14 @@ pub fn run(suites: &[Suite], names: &[String], all: bool) -> Result<(), Failure>
     done
 }
 
-/// What a suite that cannot be run says.
+/// The failure of a suite that cannot run.
 fn not_there(missing: &[Need]) -> Failure {
     let names: Vec<_> = missing.iter().map(|need| need.name()).collect();
     let install = needs::install(missing);
     Failure(format!("error: there is no {}\nhelp: run '{install}'", names.join(" and no ")))
 }
 
-/// The suites that were left out with what each needs, and the command that installs it; empty without any.
+/// The suites that were left out, the needs of each, and the command that installs them; empty without any.
 fn said_of(left_out: &[(&str, Vec<Need>)]) -> String {
     let mut all: Vec<Need> = Vec::new();
     let mut lines = String::new();
@@ -243,14 +243,14 @@ fn workspace() -> Result<(), Failure> {
     // They have suites of their own.
     let but = ["afp-bench", "afp-py", "afp-py-wheel", "afp-language-server", "afp-wasm", "xtask"]
         .map(|name| ["--exclude", name]);
-    // Property tests search anew at each run by hand; here the same commit gives the same answer.
+    // By hand, property tests use other cases in each run; here the same commit gives the same answer.
     let mut tests = cargo();
     tests.args(all).args(but.as_flattened()).env("PROPTEST_RNG_SEED", "20");
-    // These tests need Rust alone, also on a machine that has more.
+    // These tests need only Rust, also on a machine that has more.
     run_command(needs::hidden_from(&mut tests)?)
 }
 
-/// The README's first command, on a machine that has Rust and a C linker alone.
+/// The README's first command, on a machine that has only Rust and a C linker.
 fn rust_alone() -> Result<(), Failure> {
     let mut first = cargo();
     first.args(["run", "--package", "afpc", "--", "run", "plans/wall_following.afp"]);
@@ -308,19 +308,19 @@ fn random_plans() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Plans in rooms made up, with faults at random; and the recorded traces, optimised.
+/// Plans in random rooms, with random faults; and the recorded traces, optimised.
 fn random_worlds() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--", "--nocapture"];
     run_command(cargo().args(test).env("AFP_WORLDS", RANDOM_WORLDS))
 }
 
-/// Every fault of every device, alone, in every shipped plan.
+/// Every single fault of every device, in every shipped plan.
 fn single_faults() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--test", "single_faults"];
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_ROOMS", FAULTY_ROOMS))
 }
 
-/// How often plans reach their goal in rooms made up.
+/// How often plans reach their goal in random rooms.
 fn goals() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-worlds", "--test", "goals"];
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_GOALS", GOALS))
@@ -332,7 +332,7 @@ fn maps() -> Result<(), Failure> {
     run_command(cargo().args(test).args(["--", "--nocapture"]))
 }
 
-/// Objects found in many views of rooms made up.
+/// Objects found in many views of random rooms.
 fn objects() -> Result<(), Failure> {
     let test = ["test", "--release", "--package", "afp-sim", "--test", "sim", "objects"];
     run_command(cargo().args(test).args(["--", "--nocapture"]).env("AFP_VIEWS", VIEWS))
@@ -344,7 +344,7 @@ fn long_run() -> Result<(), Failure> {
     run_command(cargo().args(test).env("AFP_STEPS", STEPS))
 }
 
-/// Links and tags of doc comments. What needs a Python or the web to be built is left out.
+/// Links and tags of doc comments. Crates that need Python or the web to build are left out.
 fn docs() -> Result<(), Failure> {
     let left_out = ["afp-py", "afp-py-wheel", "afp-wasm"];
     let mut doc = cargo();
@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn a_suite_that_is_left_out_is_named_with_what_it_needs() {
+    fn a_suite_that_is_left_out_is_named_with_its_needs() {
         let text = said_of(&[("studio", vec![Node, Chromium]), ("dap", vec![Node])]);
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(lines[0], "studio         left out: it needs Node.js with npm and Chromium");
@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn what_failed_is_named_with_the_command_that_runs_it_again() {
+    fn a_failed_suite_is_named_with_the_command_that_repeats_it() {
         let account = [("dap", false), ("python", true)].map(|(name, passed)| Account {
             name,
             took: Duration::ZERO,

@@ -8,6 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
+use crate::profiles;
 use crate::shell::{
     Failure, cargo, output, program, quickly_built, root, run as run_command, target,
 };
@@ -20,7 +21,7 @@ const RUN: [&str; 5] = ["run", "plans/clean.afp", "--json", "--until", "190s"];
 /// Runs the tests of the example's crate, the scenarios of its plan, and those of new projects.
 ///
 /// # Errors
-/// Whatever does not work.
+/// A build or a test that fails.
 pub fn test() -> Result<(), Failure> {
     run_command(cargo().args(["build", "--package", "afpc"]))?;
     for (name, option) in [("greeter", "--toolbox"), ("rover", "--robot")] {
@@ -30,21 +31,18 @@ pub fn test() -> Result<(), Failure> {
         }
         let mut new = program(target().join("debug/afpc"));
         run_command(new.args(["new", option]).arg(&folder))?;
-        let mut tests = cargo();
-        run_command(tests.arg("test").current_dir(folder).env("CARGO_TARGET_DIR", target()))?;
+        run_command(profiles::shared(cargo().current_dir(folder))?.arg("test"))?;
     }
     let folder = root().join(FOLDER);
     // The versions that the workspace is tested with.
     fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock"))?;
-    let mut tests = cargo();
-    tests.args(["test", "--workspace"]).current_dir(folder);
-    run_command(tests.env("CARGO_TARGET_DIR", target()))
+    run_command(profiles::shared(cargo().current_dir(folder))?.args(["test", "--workspace"]))
 }
 
 /// Runs every command of `afpc` on the robot, and the program that it builds: it says what the interpreter says.
 ///
 /// # Errors
-/// Whatever does not work.
+/// A build or a test that fails.
 pub fn all() -> Result<(), Failure> {
     test()?;
     let afpc = target().join("debug/afpc");
@@ -64,7 +62,7 @@ pub fn all() -> Result<(), Failure> {
 }
 
 /// Runs the plan on the robot itself, with a stand-in for its board: to the end of the time that it gets, and until a signal ends
-/// it, one that would put it to sleep, too. Each time the wheels have turned, and the board is told to stop.
+/// it, one that would put it to sleep, too. Each time the wheels have turned, and the board receives a stop.
 fn on_the_board(command: &mut Command) -> Result<(), Failure> {
     let mut firmware = cargo();
     firmware.args(["build", "--package", "vacuum-board", "--example", "firmware"]);
@@ -88,7 +86,7 @@ fn on_the_board(command: &mut Command) -> Result<(), Failure> {
         }
         let ended = run.wait()?.code();
         let mut told = String::new();
-        // It ends when it is told to stop.
+        // It ends when it receives a stop.
         board
             .stdout
             .take()

@@ -9,7 +9,7 @@ use crate::shell::{Failure, cargo, program, root, run as run_command, target};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 const PACKAGE: &str = "afp-wasm";
-/// What has standard input and output, for the language server.
+/// The target with standard input and output, for the language server.
 const WITH_INPUT: &str = "wasm32-wasip1";
 const LANGUAGE_SERVER: &str = "afp-language-server";
 /// The module imports nothing; a failed assertion is a trap.

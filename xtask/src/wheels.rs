@@ -1,4 +1,4 @@
-//! What is given away: a wheel for each machine, with the command line inside, and the source distribution.
+//! The published packages: a wheel for each machine, with the command line inside, and the source distribution.
 //!
 //! Zig links against the C library of Linux systems of 2014 and later, for this machine and for others. What was built
 //! is installed where there is neither Rust nor a checkout, and runs the same there, bit for bit.
@@ -12,7 +12,7 @@ use crate::python::{at_package, emptied, environment, only, sdist};
 use crate::shell::{Failure, cargo, output, program, root, run as run_command, target};
 use crate::studio;
 
-/// What builds and checks, as pip names it.
+/// The packages that build and check, as pip names them.
 const PACKAGES: [&str; 5] = [
     "auditwheel==6.8.2",
     "cargo-zigbuild==0.24.0",
@@ -21,7 +21,7 @@ const PACKAGES: [&str; 5] = [
     "ziglang==0.17.1",
 ];
 
-/// The version of the C library that is linked against, and what Python calls systems that have it.
+/// The version of the C library that is linked against, and Python's name of systems that have it.
 const GLIBC: &str = "2.17";
 const SYSTEMS: &str = "manylinux_2_17";
 
@@ -30,9 +30,9 @@ const PROFILE: &str = "wheel";
 
 /// A machine that gets a wheel.
 struct Machine {
-    /// What Python calls it.
+    /// Its name in Python.
     name: &'static str,
-    /// What Rust calls it.
+    /// Its name in Rust.
     triple: &'static str,
 }
 
@@ -97,7 +97,7 @@ impl Machine {
         Ok(wheel)
     }
 
-    /// Builds the command line, with everything that there is.
+    /// Builds the command line, with all features.
     fn command_line(&self, python: &Path) -> Result<PathBuf, Failure> {
         let zigbuild = python.with_file_name("cargo-zigbuild");
         let mut build = with_zig(program(zigbuild), python);
@@ -168,7 +168,7 @@ impl Place {
     }
 }
 
-/// A wheel with a program beside what it has; where Python keeps programs.
+/// Adds a program to a wheel, in the folder where Python keeps programs.
 fn with_program(python: &Path, wheel: &Path, afpc: &Path, to: &Path) -> Result<PathBuf, Failure> {
     let unpacked = emptied(&target().join("xtask/unpacked"))?;
     let unpack = ["-m", "wheel", "unpack", "--dest"];
