@@ -1,14 +1,15 @@
-//! Where the drawings of several plans stand in one picture: in rows, in the order in which the plans are met.
+//! Arranges the drawings of several plans in one picture: in rows, in the order of the plans.
 
 use super::polyline::Point;
 
-/// Width by height that a picture should have: that of a screen or a slide.
+/// The wanted width by height of a picture, for a screen or a slide.
 pub(super) const WANTED: f64 = 4.0 / 3.0;
 
 /// Distance between the drawings of two plans.
 const BETWEEN: f64 = 64.0;
 
-/// Of so many drawings all runs are tried as the widest row, of more only those from the first one on.
+/// Up to this number of drawings, each run of drawings is tried as the widest row. For more
+/// drawings, only the runs from the first drawing are tried.
 const FEW: usize = 24;
 
 /// Drawings in rows.
@@ -16,11 +17,11 @@ const FEW: usize = 24;
 pub(super) struct Arranged {
     /// The upper left corner of each drawing.
     pub(super) corners: Vec<Point>,
-    /// Width and height of all together.
+    /// Width and height of the whole.
     pub(super) size: Point,
 }
 
-/// Arranges drawings of these sizes so that the whole comes nearest to the wanted ratio.
+/// Arranges drawings of these sizes so that the whole is nearest to the wanted ratio.
 pub(super) fn arrange(sizes: &[Point]) -> Arranged {
     let row = |sizes: &[Point]| sizes.iter().map(|size| size.0 + BETWEEN).sum::<f64>() - BETWEEN;
     let least = sizes.iter().map(|size| size.0).fold(0.0, f64::max);
@@ -32,11 +33,11 @@ pub(super) fn arrange(sizes: &[Point]) -> Arranged {
     let all =
         widths.into_iter().filter(|width| *width >= least).map(|most| in_rows(sizes, most + 0.01));
     let far = |one: &Arranged| (one.ratio() / WANTED).ln().abs();
-    // Among equals the narrowest is the first.
+    // Among equal widths, the narrowest comes first.
     all.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default()
 }
 
-/// Drawings one after the other, in rows of at most such a width.
+/// Drawings in rows of at most this width.
 fn in_rows(sizes: &[Point], most: f64) -> Arranged {
     let mut all = Arranged::default();
     let (mut x, mut y) = (0.0, 0.0);
@@ -62,7 +63,7 @@ impl Arranged {
 mod tests {
     use super::{BETWEEN, Point, arrange};
 
-    /// The place of each drawing: its row and its place in that.
+    /// The place of each drawing: its row and its position in the row.
     fn places(sizes: &[Point]) -> Vec<(usize, usize)> {
         let mut places: Vec<(usize, usize)> = Vec::new();
         for (x, _) in arrange(sizes).corners {
@@ -77,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn the_whole_comes_near_the_ratio_of_a_screen() {
+    fn the_whole_is_near_the_ratio_of_a_screen() {
         let (tall, wide, small) = ((500.0, 1000.0), (1000.0, 300.0), (200.0, 150.0));
         assert_eq!(places(&[tall, tall]), [(0, 0), (0, 1)]);
         assert_eq!(places(&[wide, wide]), [(0, 0), (1, 0)]);
@@ -87,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn drawings_of_a_row_begin_at_one_height_and_keep_their_distance() {
+    fn drawings_of_a_row_have_the_same_top_and_keep_their_distance() {
         let found = arrange(&[(500.0, 900.0), (400.0, 1000.0)]);
         assert_eq!(found.corners, [(0.0, 0.0), (500.0 + BETWEEN, 0.0)]);
         assert_eq!(found.size, (900.0 + BETWEEN, 1000.0));

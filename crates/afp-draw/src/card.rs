@@ -1,10 +1,10 @@
-//! Cards: a box with everything attached to it, measured and drawn at the origin.
+//! Cards: a box with all its parts, measured and drawn at the origin.
 //!
-//! An element's card is its box with name, template and icon, the data on its left, its states as
-//! exits on its lower border, and its supervisors leaning on its right side with their events as
-//! exits. The start tag carries the global supervisors in the same way. Edges to `terminate`, `fail`
-//! and `ignore` end in tags of their own on the card, those to `resume` are hollow arrows back to it, so that only flow
-//! between elements is routed.
+//! An element's card is its box with name, template and icon. The data is on its left, its states
+//! are exits on its lower border, and its supervisors are on its right side with their events as
+//! exits. The start tag has the global supervisors in the same way. Edges to `terminate`, `fail`
+//! and `ignore` end in tags on the card, and edges to `resume` are hollow arrows back to it. Only
+//! flow between elements is routed.
 
 mod folded;
 mod parts;
@@ -23,23 +23,23 @@ use parts::{ROW, exit_below, exit_width, inflow, outflow, part, pill_width};
 
 pub(super) use start::start;
 
-/// A card, and where flow leaves and reaches it.
+/// A card, with the places where flow leaves and reaches it.
 pub(super) struct Card<'a> {
-    /// Under what it is placed.
+    /// The item that its position belongs to.
     pub(super) item: Item,
-    /// The box itself; its corner is what has a position.
+    /// The box itself; its position is that of its corner.
     pub(super) rect: Rect,
     pub(super) sketch: Sketch<'a>,
     pub(super) width: f64,
     pub(super) height: f64,
-    /// Where edges may arrive on the upper border.
+    /// The range on the upper border where edges may arrive.
     pub(super) entry: (f64, f64),
     pub(super) exits: Vec<Leaving>,
 }
 
 /// An exit that leads to an element.
 pub(super) struct Leaving {
-    /// The element, supervisor or plan that it belongs to, and which of its exits it is.
+    /// The element, supervisor or plan of the exit, and the exit itself.
     pub(super) item: Item,
     pub(super) part: Part,
     pub(super) severity: Option<Severity>,
@@ -48,7 +48,7 @@ pub(super) struct Leaving {
     pub(super) class: Class,
 }
 
-/// Sizes of texts in pixels.
+/// Font sizes in pixels.
 const NAME: f64 = 13.0;
 const TEMPLATE: f64 = 11.0;
 
@@ -61,8 +61,8 @@ const REACH: f64 = 24.0;
 /// Distance between neighbouring exits below a box.
 const EXIT_GAP: f64 = 10.0;
 
-/// The card of an element. `towards` says of its states on which side of the others they shall stand; without that they stand
-/// as the template declares them.
+/// The card of an element. `towards` gives for its states the side of their targets, which orders
+/// them; without it they have the template's order.
 pub(super) fn element<'a>(
     view: &View<'a>,
     element: &'a Component,
@@ -116,7 +116,8 @@ pub(super) fn element<'a>(
     card
 }
 
-/// What hangs on the right side of a box: its supervisors, or one tab for all of them where it is folded.
+/// The parts on the right side of a box: its supervisors, or one tab for all of them in a folded
+/// box.
 enum Hung<'a> {
     Rows(supervisors::Stack<'a>),
     Tab(folded::Tab<'a>),
@@ -134,7 +135,7 @@ impl<'a> Hung<'a> {
         }
     }
 
-    /// Height of a box that the first of it leans on as a whole; 0 where nothing does.
+    /// Minimum height of the box for its first part; 0 without parts.
     fn first(&self) -> f64 {
         match self {
             Hung::Rows(stack) => stack.first,
@@ -150,7 +151,7 @@ impl<'a> Hung<'a> {
     }
 }
 
-/// The order in which things stand: those that have a wish by that, in the places that they have together.
+/// The order of exits: those with a wish are sorted by it, in the places that they have together.
 fn from_left_to_right(wishes: &[Option<f64>]) -> Vec<usize> {
     let places: Vec<usize> = (0..wishes.len()).filter(|place| wishes[*place].is_some()).collect();
     let wish = |place: &usize| wishes[*place].unwrap_or_default();
@@ -177,7 +178,7 @@ impl Card<'_> {
     }
 }
 
-/// What the plan itself connects or should; defaults would only hide it.
+/// The inputs that the plan connects or should connect, without defaults.
 fn shown(inputs: Vec<Input>) -> Vec<Input> {
     inputs.into_iter().filter(|input| input.bound || input.missing).collect()
 }
@@ -197,7 +198,7 @@ fn look(view: &View, element: &Component) -> (Shape, Class) {
     (shape, Class { name, usage })
 }
 
-/// The name of an element's template; where use is shown, with how often it started.
+/// The name of an element's template; in a drawing by use, with its number of starts.
 fn template(view: &View, element: &Component) -> String {
     let name = view.template_name(element);
     match view.count(element) {

@@ -1,4 +1,4 @@
-//! A plan as GraphViz text, for those who lay out with tools of their own.
+//! A plan as GraphViz text, for external layout tools.
 
 use std::fmt::Write;
 
@@ -8,16 +8,16 @@ use super::view::{Exit, To, View, name, to};
 use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, ComponentKind, ExitKind, Outline};
 
-/// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed ones for
-/// events, named after what takes them. What resumes has a hollow arrow back to where it comes from. Ignored events are left
-/// out, and what leads nowhere.
+/// The plan in the DOT language: a cluster for each plan, solid edges for states, dashed edges for
+/// events, with their exits' names. A resuming exit has a hollow arrow back to its own element.
+/// Ignored events and unconnected exits are left out.
 pub fn dot(outline: &Outline, options: &Options) -> String {
     let views = View::all(outline, options);
     let title = views.first().map_or("", View::name);
     let mut text = format!("digraph {} {{\n", quoted(title));
     text += "  node [fontname=\"Helvetica\", shape=box, style=rounded];\n";
     text += "  edge [fontname=\"Helvetica\", fontsize=10];\n";
-    // Plans of other files may have the same name.
+    // Plans in other files may have the same name.
     let prefixes = free_names(views.iter().map(View::name));
     for (index, (view, prefix)) in views.iter().zip(prefixes).enumerate() {
         Cluster { view, prefix }.write(&mut text, index);
@@ -27,7 +27,7 @@ pub fn dot(outline: &Outline, options: &Options) -> String {
 
 struct Cluster<'a, 'v> {
     view: &'v View<'a>,
-    /// What the names of its nodes begin with.
+    /// The prefix of its nodes' names.
     prefix: String,
 }
 
@@ -119,7 +119,7 @@ impl<'a> Cluster<'a, '_> {
         format!("{}:{}", self.prefix, element.item.name())
     }
 
-    /// Tags get a name that no element can have.
+    /// The name of a target's node. Tags get names that no element can have.
     fn node_name(&self, to: To<'a>) -> String {
         match to {
             Some(Target::Element(Ok(id))) => {

@@ -1,4 +1,4 @@
-//! Formulas as text: as written where the source is at hand, else printed from the graph.
+//! Formulas as text: from the source if it is available, or else printed from the graph.
 
 use afp_dsl::graph::{Formula, Op, Operator, Part, Plan};
 use afp_dsl::toolbox::Constant;
@@ -8,10 +8,10 @@ use afp_syntax::source::Sources;
 
 /// A formula of `plan` as text.
 ///
-/// With `sources` this is the text that was written, if it is on one line and has no comment.
-/// Otherwise the formula is printed: entries by name, quantities in a unit that suits their size
-/// (`30 cm`, not `0.3 m`), brackets only where they are needed. Conversions are left out, because
-/// the language has no words for them.
+/// With `sources`, this is the source text if it is on one line and has no comment. Otherwise the
+/// formula is printed: entries by name, quantities in a readable unit (`30 cm`, not `0.3 m`), and
+/// only necessary parentheses. Conversions are left out, because the language has no syntax for
+/// them.
 pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String {
     let written = sources.map_or("", |sources| sources.text(formula.span)).trim();
     if written.is_empty() || written.contains("//") || written.contains('\n') {
@@ -21,7 +21,7 @@ pub fn text(formula: &Formula, plan: &Plan, sources: Option<&Sources>) -> String
     }
 }
 
-/// A value as text, in a unit that suits its size.
+/// A value as text, with a readable unit.
 pub fn constant(value: &Constant, ty: Option<&Type>) -> String {
     match (value, ty) {
         (Constant::Float(value), Some(Type::Quantity(dimension))) => quantity(*value, *dimension),
@@ -46,7 +46,7 @@ fn printed(formula: Part<'_>, plan: &Plan) -> String {
         (Op::Neg, &[inner]) => format!("-{}", operand(inner, plan, NEGATION)),
         (Op::Binary(operator), &[left, right]) => {
             let level = level(*operator);
-            // The right operand of an equal level needs brackets: `a - (b - c)`.
+            // The right operand of the same level needs parentheses: `a - (b - c)`.
             let (left, right) = (operand(left, plan, level), operand(right, plan, level + 1));
             format!("{left} {} {right}", operator.sign())
         }
@@ -63,7 +63,7 @@ fn printed(formula: Part<'_>, plan: &Plan) -> String {
     }
 }
 
-/// Binding strength of a sign, above `*` and `/`.
+/// Precedence of a sign, above `*` and `/`.
 const NEGATION: u8 = 3;
 
 fn operand(formula: Part<'_>, plan: &Plan, least: u8) -> String {

@@ -1,4 +1,4 @@
-//! The graph as JSON, for tools and for comparing plans.
+//! The graph as JSON, for tools and for comparisons of plans.
 
 use serde_json::{Map, Value, json};
 
@@ -9,17 +9,21 @@ use crate::layout_file::Position;
 use afp_dsl::outline::{Component, Outline, Part, Plan};
 use afp_syntax::item::Item;
 
-/// The plan as one indented JSON object, with where everything is drawn.
+/// The plan as one indented JSON object, with the places of all parts.
 ///
-/// Keys of a plan: `plan` (its name), `doc`, `forever` (where it says so), `first`, `global_supervisors`, `actors` (all elements as
-/// written), `entries`, `timing` and `edges`; of the main plan also `sub_plans`, an array of plans. An
-/// element has `name`, `kind`, `template`, `inputs` (the texts of the bound inputs in the order of
-/// the template's ports), `outputs` (entries, likewise), `states` (targets by state, `Error`
-/// included), `supervisors`, `position` (where it has been placed, in pixels), `rect` (where its box
-/// is drawn: left, top, width, height), and `ports` (texts by input port, entries by output port); what
-/// is empty is left out. Supervisors have `name`, `template`, `inputs`, `outputs`, `events`; their
-/// periods and deadlines stand in `timing`, in nanoseconds. An edge has `from` (the path of what it
-/// leaves), `exit`, `to` and the corners of its route, `points`.
+/// A plan has the keys `plan` (its name), `doc`, `forever` (if set), `first`, `global_supervisors`,
+/// `actors` (all elements in source order), `entries`, `timing` and `edges`. The main plan also has
+/// `sub_plans`, an array of plans.
+///
+/// An element has the keys `name`, `kind`, `template`, `inputs` (the texts of the bound inputs in
+/// the order of the template's ports), `outputs` (entries in the same order), `states` (targets by
+/// state, including `Error`), `supervisors`, `position` (its given place in pixels), `rect` (its
+/// box: left, top, width, height), and `ports` (texts by input port, entries by output port). Empty
+/// values are left out.
+///
+/// Supervisors have `name`, `template`, `inputs`, `outputs`, `events`; their periods and deadlines
+/// are in `timing`, in nanoseconds. An edge has `from` (the path of its start), `exit`, `to` and
+/// the corners of its route, `points`.
 pub fn json(outline: &Outline, options: &Options) -> String {
     let options = Options { data: true, sub_plans: true, ..*options };
     let drawn = Drawn::new(outline, &options, None);
@@ -99,12 +103,12 @@ fn rectangle(rect: Rect) -> [f64; 4] {
     [rect.x, rect.y, rect.width, rect.height].map(tenth)
 }
 
-/// Rounded to a tenth of a pixel.
+/// Rounds to a tenth of a pixel.
 fn tenth(value: f64) -> f64 {
     (value * 10.0).round() / 10.0 + 0.0
 }
 
-/// Adds what is not empty.
+/// Adds a value unless it is empty.
 fn put(object: &mut Map<String, Value>, key: &str, value: Value) {
     let empty = match &value {
         Value::Null => true,

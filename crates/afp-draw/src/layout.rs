@@ -1,13 +1,14 @@
-//! Where boxes go: a layered layout, around boxes that have places already.
+//! The places of boxes: a layered layout, around boxes with given places.
 //!
-//! The classic scheme of Sugiyama in stages, each in a file of its own: elements get layers
-//! ([`layers`]), edges get dummy nodes in every layer they pass ([`grid`]), which keep room free
-//! for them, each layer gets an order with few crossings ([`order`]), items get abscissas
-//! ([`place`]) and layers ordinates ([`rows`]). Edges leave boxes below (states) or on the right
-//! (events) and arrive from above; what leads back up climbs beside the boxes. The routes of edges
-//! are found by the [`router`](super::router), and where they find too little room, boxes give
-//! way. Everything is deterministic. Where some boxes stand already ([`placed`]), the others go
-//! around them.
+//! It follows Sugiyama's scheme in stages, one per file. Elements get layers ([`layers`]). Edges
+//! get dummy nodes in every layer that they pass ([`grid`]), which reserve space. Each layer gets
+//! an order with few crossings ([`order`]), items get abscissas ([`place`]) and layers get
+//! ordinates ([`rows`]).
+//!
+//! Edges leave boxes below (states) or on the right (events) and arrive from above; edges back up
+//! run beside the boxes. The [`router`](super::router) finds the routes of edges, and boxes give
+//! way if a route has too little space. The layout is deterministic. If some boxes have given
+//! places ([`placed`]), the others go around them.
 
 mod channel;
 mod fold;
@@ -25,37 +26,37 @@ use rows::Rows;
 use super::router::{self, Bounds, Connector, Heading, Point};
 use super::sketch::Rect;
 
-/// A box with everything attached to it; edges keep away from it.
+/// A box with all its parts; edges keep away from it.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// Width in pixels, without room for the ways of edges that leave on the right.
+    /// Width in pixels, without space for edges that leave on the right.
     pub(super) width: f64,
     /// Height in pixels.
     pub(super) height: f64,
-    /// Where edges may arrive on the upper border, from the left edge.
+    /// The range on the upper border where edges may arrive, from the left edge.
     pub(super) entry: (f64, f64),
-    /// The corner that has its position, from the upper left corner.
+    /// The corner of its position, from the upper left corner.
     pub(super) anchor: Point,
 }
 
 impl Node {
-    /// The corner nearest to one at which the position of the node is whole.
+    /// The nearest corner for which the node's position is whole.
     fn whole(&self, (x, y): Point) -> Point {
         let (dx, dy) = self.anchor;
         ((x + dx).round() - dx, (y + dy).round() - dy)
     }
 }
 
-/// An edge from a place on one box to the upper border of another (or of the same).
+/// An edge from a place on one box to the upper border of another box, or of the same box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Link {
-    /// Where it starts, an index into the nodes.
+    /// The start, an index into the nodes.
     pub(super) from: usize,
-    /// Where it leads.
+    /// The target.
     pub(super) to: usize,
     /// The place on `from`.
     pub(super) exit: Exit,
-    /// Edges of one kind may become one in front of their target.
+    /// Edges of one kind may merge before their target.
     pub(super) kind: &'static str,
 }
 
@@ -67,22 +68,22 @@ pub(super) enum Exit {
     Right(f64, f64),
 }
 
-/// The result: places in pixels. Where nothing has a place of its own, the uppermost box touches
-/// the upper and the leftmost one the left axis.
+/// The result: places in pixels. Without given places, the uppermost box touches the upper axis and
+/// the leftmost box touches the left axis.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LaidOut {
     /// The upper left corner of each node.
     pub(super) corners: Vec<Point>,
     /// The corners of each link's polyline, start and tip included.
     pub(super) routes: Vec<Vec<Point>>,
-    /// What everything takes.
+    /// The bounds of the whole.
     pub(super) bounds: Rect,
 }
 
-/// How often boxes give way to edges.
+/// The maximum number of times that boxes give way to edges.
 const ROUNDS: usize = 4;
 
-/// The nodes in layers, each where it is best from left to right.
+/// The nodes in layers, each at its best place from left to right.
 fn arranged(nodes: &[Node], links: &[Link]) -> Grid {
     let layers = layers::assign(nodes.len(), links);
     let mut grid = Grid::new(nodes, links, &layers);
@@ -91,7 +92,7 @@ fn arranged(nodes: &[Node], links: &[Link]) -> Grid {
     grid
 }
 
-/// The abscissa that each link goes towards from its node, where all places are left to the layout.
+/// The abscissa of each link's target direction in the fully automatic layout.
 pub(super) fn towards(nodes: &[Node], links: &[Link]) -> Vec<f64> {
     if links.is_empty() {
         return Vec::new();
@@ -102,7 +103,7 @@ pub(super) fn towards(nodes: &[Node], links: &[Link]) -> Vec<f64> {
     grid.chains.iter().map(first).collect()
 }
 
-/// Lays out the nodes; `links` out of a node count in their order, and node 0 comes first.
+/// Lays out the nodes. `links` of a node are in their order, and node 0 comes first.
 pub(super) fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
     if nodes.is_empty() {
         return LaidOut::default();
@@ -117,8 +118,8 @@ pub(super) fn layout(nodes: &[Node], links: &[Link]) -> LaidOut {
     unfolded(nodes, links, grid, rows)
 }
 
-/// The layers one below the other, with as much room as the edges need; where they do not get it, the best of what was tried:
-/// routes change when boxes give way, and may be worse then.
+/// Places the layers from top to bottom with enough space for the edges. If there is not enough,
+/// returns the best result: routes change when boxes give way, and may become worse.
 fn unfolded(nodes: &[Node], links: &[Link], mut grid: Grid, mut rows: Rows) -> LaidOut {
     let mut effort = 0;
     let mut best: Option<(f64, LaidOut)> = None;
@@ -127,7 +128,7 @@ fn unfolded(nodes: &[Node], links: &[Link], mut grid: Grid, mut rows: Rows) -> L
         let (boxes, connectors) = (bounds(nodes, &corners), connectors(nodes, links, &corners));
         let found = router::route(&boxes, &connectors, &[]);
         effort += found.effort;
-        // A box at which too many edges arrive cannot give way.
+        // A box with too many arriving edges cannot give way.
         let narrow = || found.crowded.iter().filter(|narrow| !narrow.arrives);
         let missing: f64 = narrow().map(|narrow| router::PITCH - narrow.distance).sum();
         for narrow in narrow() {
@@ -188,7 +189,7 @@ mod tests {
 
     use super::{Exit, Link, Node, layout};
 
-    /// The least time of two for boxes, each of the first ones with an edge to the next.
+    /// The shorter of two times for a layout with edges between the first boxes.
     fn chain(count: usize, edges: usize) -> Duration {
         let nodes =
             vec![
@@ -205,18 +206,19 @@ mod tests {
         (0..2).map(|_| run()).min().unwrap_or(Duration::ZERO)
     }
 
-    /// Each layer took as long as all items, and each line as all boxes.
+    /// Each layer once took as long as all items, and each line as long as all boxes.
     #[test]
-    fn many_layers_take_about_as_long_as_they_are_many() {
-        // 32 times as many took over 200 times as long. The machine may be busy while one of the two is drawn.
+    fn the_time_of_layers_is_linear() {
+        // 32 times as many layers once took over 200 times as long. The machine may be busy during
+        // one of the two layouts.
         let times = || (chain(150, 149), chain(4800, 4799));
         let mut tried = (0..4).map(|_| times());
         assert!(tried.any(|(short, long)| long < short * 110), "{:?}", times());
     }
 
-    /// Each of them was tried in each place, and all were packed anew each time.
+    /// Each box was once tried in each place, with a new packing each time.
     #[test]
-    fn boxes_without_edges_are_many_in_little_time() {
+    fn many_boxes_without_edges_take_little_time() {
         let times = || (chain(100, 2), chain(800, 2));
         let mut tried = (0..4).map(|_| times());
         assert!(tried.any(|(few, many)| many < few * 150), "{:?}", times());

@@ -1,10 +1,10 @@
 //! The side file with the positions of a drawing, `plan.afp.layout`.
 //!
-//! One line for each element, sorted, so that two people who move different elements do not get in
-//! each other's way: `Plan.element X Y`, the upper left corner in pixels of the
-//! drawing. Local supervisors and entries
-//! have positions too; `start`, `terminate` and `ignore` name the tags of a plan. Positions never
-//! change what a plan means, and a file with errors still gives all the others.
+//! It has one line for each element, sorted, so that two users who move different elements do not
+//! cause conflicts: `Plan.element X Y`, the upper left corner in pixels of the drawing. Local
+//! supervisors and entries have positions too; `start`, `terminate` and `ignore` name the tags of a
+//! plan. Positions never change the meaning of a plan, and an invalid line does not affect the
+//! others.
 
 mod read;
 
@@ -14,22 +14,22 @@ use std::fmt::{self, Write};
 use afp_dsl::outline::{Outline, Plan};
 use afp_syntax::item::Item;
 
-/// By what the tags of a plan go.
+/// The names of a plan's tags.
 const TAGS: [&str; 3] = ["start", "terminate", "ignore"];
 
-/// Where something is drawn.
+/// A position in a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
-    /// To the right.
+    /// Pixels to the right.
     pub x: i32,
-    /// Downwards.
+    /// Pixels downwards.
     pub y: i32,
 }
 
 /// The positions of a file's elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// Comments, and lines that place nothing, in their order.
+    /// Comments and invalid lines, in order.
     unknown: Vec<String>,
     placed: BTreeMap<Item, Placed>,
 }
@@ -37,20 +37,20 @@ pub struct Layout {
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Placed {
     position: Position,
-    /// What stands behind the position.
+    /// The text after the position.
     rest: String,
-    /// What further lines say of the item, without its path: people choose.
+    /// The contents of further lines for the item, without its path: the user decides.
     again: Vec<String>,
 }
 
-/// A line that cannot be used.
+/// An invalid line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LayoutError {
     /// The line, from 1.
     pub line: usize,
     /// The column, from 1, in characters.
     pub column: usize,
-    /// What is wrong there: lower case, no final period.
+    /// The message: lower case, no final period.
     pub message: String,
 }
 
@@ -65,21 +65,22 @@ impl std::error::Error for LayoutError {}
 impl Layout {
     /// Reads the text of a layout file.
     ///
-    /// Lines that do not begin with the path of an item and its position place nothing; unless they are comments, they
-    /// are errors, and so is a line that places an item a second time. All are kept for [`Layout::write`].
+    /// A valid line begins with the path of an item and its position. Other lines are errors unless
+    /// they are comments, and a second line for an item is an error, too. All lines are kept for
+    /// [`Layout::write`].
     pub fn read(text: &str) -> (Layout, Vec<LayoutError>) {
         read::read(text, None)
     }
 
-    /// The same for a file of an outline, by its number there. Where a line places nothing of that file is an error,
-    /// too; the position is kept.
+    /// Like [`Layout::read`], for a file of an outline, by its number. A line for an unknown item
+    /// of that file is an error, too; its position is kept.
     pub fn read_for(text: &str, outline: &Outline, file: u16) -> (Layout, Vec<LayoutError>) {
         let plans = outline.plans.iter().filter(|plan| plan.file() == file);
         let items = plans.flat_map(items_of).map(|item| (item.clone(), item.to_string()));
         read::read(text, Some(&items.collect()))
     }
 
-    /// The text of the file: first the lines that place nothing, then the positions sorted by path.
+    /// The text of the file: first the lines without positions, then the positions sorted by path.
     pub fn write(&self) -> String {
         let mut text = String::new();
         for line in &self.unknown {
@@ -99,7 +100,7 @@ impl Layout {
         text
     }
 
-    /// Where an item is drawn; `None` leaves it to the automatic layout.
+    /// The position of an item; `None` leaves it to the automatic layout.
     pub fn get(&self, item: &Item) -> Option<Position> {
         self.placed.get(item).map(|placed| placed.position)
     }
@@ -113,17 +114,17 @@ impl Layout {
         }
     }
 
-    /// Leaves an item to the automatic layout, and what belongs to it.
+    /// Removes the positions of an item and its parts.
     pub fn remove(&mut self, item: &Item) {
         self.placed.retain(|known, _| !known.lies_in(item));
     }
 
-    /// All items that have a position, in the order of their names.
+    /// All items with a position, in the order of their names.
     pub fn iter(&self) -> impl Iterator<Item = (&Item, Position)> {
         self.placed.iter().map(|(item, placed)| (item, placed.position))
     }
 
-    /// Gives an item, and what lies in it, another path. A position that was left there is none of theirs.
+    /// Moves an item and its parts to another path, and discards an old position of that path.
     pub fn relocate(&mut self, from: &Item, to: &Item) {
         let all = std::mem::take(&mut self.placed).into_iter();
         let (moved, stays): (Vec<_>, Vec<_>) = all.partition(|(item, _)| item.lies_in(from));
@@ -140,7 +141,7 @@ impl Placed {
     }
 }
 
-/// What can have a position in a plan.
+/// The items of a plan that can have a position.
 fn items_of(plan: &Plan) -> impl Iterator<Item = Item> {
     let tag = |name| Item::inner(plan.item.name(), name);
     let parts = plan.components().map(|component| &component.item);

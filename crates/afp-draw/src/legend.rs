@@ -1,14 +1,14 @@
-//! What the colours of a drawing by use mean.
+//! The legend of colours in a drawing by use.
 
 use super::metrics::width;
 use super::sketch::{Anchor, Label, Rect, Shape, Sketch};
 use super::usage::{Class, Use};
 
-/// Size of texts in pixels.
+/// Font size in pixels.
 const SIZE: f64 = 12.0;
 /// A sample box.
 const SAMPLE: (f64, f64) = (44.0, 20.0);
-/// Between a sample and its text, and between two of them.
+/// Distance between a sample and its text, and between two samples.
 const GAP: (f64, f64) = (8.0, 28.0);
 
 const LINES: [(Use, &str, &str); 3] = [

@@ -1,10 +1,10 @@
 //! Drawings of plans: the paper's notation as a [`Scene`] and as SVG, GraphViz text, JSON with
-//! places. Drawings read the outline, so that plans with errors are drawn too, with errors marked
-//! in their places.
+//! places. Drawings read the outline, so that plans with errors are drawn too, with the errors
+//! marked in their places.
 //!
-//! Two folders do other jobs and know nothing of drawings. [`layout_file`] reads and writes the file
-//! of positions. `scxml` writes the flow of action as State Chart XML; another engine runs a state
-//! chart, so it reads the graph.
+//! Two folders do other jobs and are independent of drawings. [`layout_file`] reads and writes the
+//! file of positions. `scxml` writes the flow of action as State Chart XML. Another engine runs a
+//! state chart, so this folder reads the graph.
 
 mod arrange;
 mod card;
@@ -48,43 +48,43 @@ pub use svg::paint::Symbol;
 pub use svg::{default_icon, picture, properties, sheet, svg};
 pub use usage::{Count, PlanUsage, Reaction, Usage};
 
-/// Finds the SVG text of an icon that a template of a toolbox names.
+/// Finds the SVG text of a template's icon in a toolbox.
 pub type Icons<'a> = &'a dyn Fn(&Toolbox, &str) -> Option<String>;
 
-/// What a drawing can use besides the outline. The default draws the main plan for light and dark
-/// pages, with its sub-plans after it.
+/// The options of a drawing. By default, the main plan is drawn for light and dark pages, with its
+/// sub-plans after it.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// The plan to be drawn; without one the main plan.
+    /// The plan to draw; the main plan if `None`.
     pub plan: Option<PlanId>,
-    /// Where icons come from; without one, and for icons that it does not know, each kind of
-    /// element has a simple picture of its own.
+    /// The source of icons. Without it, and for unknown icons, each kind of element has a simple
+    /// picture.
     pub icons: Option<Icons<'a>>,
     /// The colours of an SVG.
     pub theme: Theme,
-    /// Whether an SVG or a GraphViz text shows the bodies of sub-plans too.
+    /// Whether an SVG or a GraphViz text includes the bodies of sub-plans.
     pub sub_plans: bool,
-    /// Where elements have been placed, by the file of their plan ([`Span::file`]): an SVG keeps
-    /// those places and lays out the rest around them, JSON names them. May be shorter than the
-    /// list of files.
+    /// The positions of elements, by the file of their plan ([`Span::file`]). An SVG keeps them and
+    /// lays out the rest around them, and JSON includes them. May be shorter than the list of
+    /// files.
     ///
     /// [`Span::file`]: afp_syntax::source::Span::file
     pub positions: &'a [Layout],
-    /// Whether entries, formulas and what they are bound to are shown; JSON always has them.
+    /// Whether entries, formulas and their bindings are shown; JSON always has them.
     pub data: bool,
-    /// Whether warnings and notes are marked where they belong, too; errors always are.
+    /// Whether warnings and notes are marked; errors always are.
     pub warnings: bool,
-    /// Elements, or the start tag, that are drawn without what they read and write, and with one tab for all their
+    /// Elements, or the start tag, that are drawn without data, and with one tab for all their
     /// supervisors.
     pub folded: &'a [Item],
-    /// How often each part was used: an SVG then shows that by colours and numbers, with a legend.
+    /// The usage of each part: an SVG then shows it by colours and numbers, with a legend.
     pub usage: Option<&'a Usage>,
 }
 
 /// The colours of a drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {
-    /// Those of the reader's system.
+    /// The colours of the reader's system.
     #[default]
     Auto,
     /// Dark on light.

@@ -1,7 +1,7 @@
-//! How wide a text gets.
+//! The width of text.
 //!
-//! A drawing names the reader's own sans font, which is unknown here. The widths are those of the
-//! widest font in common use, so a text that fits here fits everywhere.
+//! A drawing uses the reader's sans-serif font, which is unknown here. The widths are those of the
+//! widest common font, so that a text fits with every font.
 
 /// Advance widths of the characters from space to tilde, in hundredths of the font size.
 const REGULAR: [u8; 95] = [
@@ -11,10 +11,10 @@ const REGULAR: [u8; 95] = [
     64, 64, 28, 28, 58, 28, 98, 64, 62, 64, 64, 42, 52, 40, 64, 60, 82, 60, 60, 53, 64, 34, 64, 84,
 ];
 
-/// Greatest ratio of a bold text's width to the plain one's, for names.
+/// Maximum ratio between a bold and a regular text's width, for names.
 const BOLD: f64 = 1.13;
 
-/// Longest text that is drawn in full, in characters; the rest stands in the tooltip.
+/// Maximum length of a text in full, in characters; the tooltip has the rest.
 const LONGEST: usize = 36;
 
 /// The width of a text in pixels at a font size in pixels.
@@ -24,7 +24,7 @@ pub(super) fn width(text: &str, size: f64, bold: bool) -> f64 {
     if bold { plain * BOLD } else { plain }
 }
 
-/// The text, cut with an ellipsis where it is too long to be drawn.
+/// The text, with an ellipsis if it is too long.
 pub(super) fn shorten(text: &str) -> String {
     if text.chars().count() <= LONGEST {
         return text.to_owned();
@@ -34,7 +34,7 @@ pub(super) fn shorten(text: &str) -> String {
 
 fn advance(character: char) -> u32 {
     let index = u32::from(character).checked_sub(32).and_then(|index| usize::try_from(index).ok());
-    // Texts in entries may hold any script; a full em covers ideographs too.
+    // Texts in entries may have any script; a full em covers ideographs too.
     u32::from(index.and_then(|index| REGULAR.get(index)).copied().unwrap_or(100))
 }
 

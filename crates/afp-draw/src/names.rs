@@ -1,8 +1,8 @@
-//! Names of plans, each for one of them.
+//! Unique names of plans.
 
 use std::collections::HashSet;
 
-/// The names as they are, with a number behind where one is there more than once, and which no other has: `P`, `P_3` for
+/// The names, made unique: a duplicate name gets a number that makes a new name: `P`, `P_3` for
 /// `P`, `P_2`, `P`.
 pub fn free_names<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<String> {
     let all: HashSet<&str> = names.clone().collect();
@@ -23,7 +23,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_makes_no_name_that_another_one_has() {
+    fn a_number_does_not_make_an_existing_name() {
         let names = ["P", "P", "P_2", "P", "Q"];
         assert_eq!(free_names(names.into_iter()), ["P", "P_3", "P_2", "P_4", "Q"]);
     }

@@ -1,20 +1,21 @@
-//! Right-angled polylines: how long, which way, and how far from their ends they are one with others.
+//! Right-angled polylines: length, direction, and the common part of two polylines before their
+//! end.
 
 /// A place in pixels, y downwards.
 pub type Point = (f64, f64);
 
-/// How far two points are apart along right-angled lines.
+/// The distance between two points along right-angled lines.
 pub(crate) fn distance(a: Point, b: Point) -> f64 {
     (a.0 - b.0).abs() + (a.1 - b.1).abs()
 }
 
-/// The unit vector along an upright or level line.
+/// The unit vector along a vertical or horizontal line.
 pub(crate) fn direction(from: Point, to: Point) -> Point {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     if dx.abs() > dy.abs() { (dx.signum(), 0.0) } else { (0.0, dy.signum()) }
 }
 
-/// A polyline without so much of its end.
+/// A polyline, shortened at its end.
 pub(crate) fn shortened(points: &[Point], mut length: f64) -> Vec<Point> {
     let mut points = points.to_vec();
     while let [.., before, end] = points[..] {
@@ -35,12 +36,12 @@ pub(crate) fn shortened(points: &[Point], mut length: f64) -> Vec<Point> {
 pub(crate) struct Common {
     pub(crate) first: usize,
     pub(crate) second: usize,
-    /// How long they are the same from there back.
+    /// The length of their common part before the end.
     pub(crate) length: f64,
 }
 
-/// Numbered polylines in an order in which each has as much in common with the one before it as with any earlier one: what
-/// each pair of neighbours has.
+/// Numbered polylines in an order in which each has as much in common with its predecessor as with
+/// any earlier one. Returns the common part of each pair of neighbours.
 pub(crate) fn common(polylines: Vec<(usize, &[Point])>) -> Vec<Common> {
     let mut sorted = polylines;
     let compare = |a: &Point, b: &Point| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
@@ -56,7 +57,7 @@ pub(crate) fn common(polylines: Vec<(usize, &[Point])>) -> Vec<Common> {
     sorted.windows(2).filter_map(pair).collect()
 }
 
-/// How long two polylines are the same from their ends back.
+/// The length of two polylines' common part before their ends.
 fn length_in_common(one: &[Point], two: &[Point]) -> f64 {
     let mut length = 0.0;
     for (own, other) in one.windows(2).rev().zip(two.windows(2).rev()) {
@@ -82,7 +83,7 @@ mod tests {
     const ELSEWHERE: [Point; 2] = [(90.0, 0.0), (90.0, 40.0)];
 
     #[test]
-    fn each_has_most_in_common_with_the_one_before_it() {
+    fn each_polyline_has_most_in_common_with_its_predecessor() {
         let all: [&[Point]; 4] = [&TRUNK, &ELSEWHERE, &FROM_BELOW, &FROM_LEFT];
         let found = common(all.into_iter().enumerate().collect());
         let pair = |first, second, length| Common { first, second, length };

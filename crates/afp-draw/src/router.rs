@@ -1,13 +1,14 @@
-//! Finds right-angled routes for edges between boxes that stand anywhere.
+//! Finds right-angled routes for edges between boxes at any places.
 //!
-//! Each edge takes the cheapest path over the lines that matter ([`lines`]): along the borders of
+//! Each edge takes the cheapest path over the relevant lines ([`lines`]): along the borders of
 //! boxes, straight out of exits and straight into targets. The search ([`search`]) counts length,
-//! bends, crossings and how full the gaps between boxes are ([`gaps`]). Edges that share a line are
-//! put in the order with the fewest crossings ([`sequence`]) and moved apart as far as the gap
-//! allows ([`spread`]); many of one kind to one box become one where they meet ([`bundle`]). Time
-//! and memory depend on how many boxes and edges there are, never on where they stand, and both have
-//! a bound: edges with too many lines are routed in parts, and what is left then asks nobody. Routes
-//! that are kept stay exactly as they are; others go around them.
+//! bends, crossings and how full the gaps between boxes are ([`gaps`]). Edges on a common line get
+//! the order with the fewest crossings ([`sequence`]) and are moved apart as far as the gap allows
+//! ([`spread`]). Many edges of one kind to one box merge where they meet ([`bundle`]).
+//!
+//! Time and memory depend on the numbers of boxes and edges, and not on their places. Both have a
+//! bound: edges with too many lines are routed in parts, and the rest gets plain routes without a
+//! search. Kept routes stay exactly the same, and others go around them.
 
 mod bundle;
 mod gaps;
@@ -29,16 +30,16 @@ pub(super) use bundle::bundles;
 use lay::Laid;
 use lines::Lines;
 
-/// Edges nearer to each other than this cannot be told apart.
+/// Edges within this distance look like one.
 const LEAST: f64 = 6.0;
 
-/// What routing may take before no edge is led elsewhere any more, in states of the search: about a second.
+/// The search effort after which no edge is moved any longer, in states: about a second.
 pub(super) const BUDGET: u64 = 20_000_000;
 
-/// What routing may take before no edge is searched any more: some seconds.
+/// The search effort after which edges get plain routes: some seconds.
 const MOST_EFFORT: u64 = 100_000_000;
 
-/// As many nodes are searched at once: with what a search notes of each, some 100 MB.
+/// The maximum number of nodes in one search, about 100 MB.
 const MOST_NODES: u32 = 1 << 20;
 
 /// A place in pixels, y downwards.
@@ -47,10 +48,10 @@ pub(super) type Point = (f64, f64);
 /// Distance between parallel edges.
 pub(super) const PITCH: f64 = 12.0;
 
-/// Least distance between an edge that passes and a box.
+/// Minimum distance between a passing edge and a box.
 pub(super) const CLEAR: f64 = 11.0;
 
-/// Room for the tip of an arrow above a box.
+/// Space for the tip of an arrow above a box.
 pub(super) const TIP: f64 = 24.0;
 
 /// A rectangle that edges keep away from.
@@ -69,31 +70,31 @@ pub(super) enum Heading {
     Right,
 }
 
-/// An edge to be routed: what is asked, of which [`Routes`] has the answer.
+/// An edge to route; its result is in [`Routes`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Connector {
-    /// The box that it leaves, by index.
+    /// The start box, by index.
     pub(super) from: usize,
-    /// The box that it leads to, by index.
+    /// The target box, by index.
     pub(super) to: usize,
     pub(super) start: Point,
     pub(super) heading: Heading,
-    /// Left and right end of where it may arrive.
+    /// The range where it may arrive.
     pub(super) arrival: (f64, f64),
     /// The ordinate of its tip.
     pub(super) tip: f64,
-    /// Edges of one kind may become one in front of their target.
+    /// Edges of one kind may merge before their target.
     pub(super) kind: &'static str,
 }
 
-/// What came out.
+/// The result.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Routes {
     /// The corners of each edge, start and tip included.
     pub(super) corners: Vec<Vec<Point>>,
-    /// Places where edges found less room than [`PITCH`] between them.
+    /// Places where the distance between edges is less than [`PITCH`].
     pub(super) crowded: Vec<Crowded>,
-    /// How many states the searches went on from, which is what most of the time goes into.
+    /// The number of expanded states, which dominates the time.
     pub(super) effort: u64,
 }
 
@@ -102,13 +103,13 @@ pub(super) struct Routes {
 pub(super) struct Crowded {
     pub(super) edge: usize,
     pub(super) axis: Axis,
-    /// Its abscissa if upright, else its ordinate.
+    /// Its abscissa if vertical, or else its ordinate.
     pub(super) at: f64,
-    /// From where to where it goes.
+    /// Its range along the axis.
     pub(super) span: (f64, f64),
-    /// How far its neighbours are away.
+    /// The distance to its neighbours.
     pub(super) distance: f64,
-    /// Whether it is where the edge arrives, so that the box is too narrow and not a gap.
+    /// Whether the edge arrives here, so that the box is too narrow and not a gap.
     pub(super) arrives: bool,
 }
 
@@ -120,7 +121,7 @@ pub(super) enum Axis {
 }
 
 impl Bounds {
-    /// What edges must not enter.
+    /// The area that edges must not enter.
     fn inflated(&self) -> Bounds {
         Bounds {
             left: self.left - CLEAR,
@@ -130,7 +131,7 @@ impl Bounds {
         }
     }
 
-    /// Both together.
+    /// The bounds of both.
     pub(super) fn with(self, other: Bounds) -> Bounds {
         Bounds {
             left: self.left.min(other.left),
@@ -140,17 +141,17 @@ impl Bounds {
         }
     }
 
-    /// From left to right.
+    /// The width.
     pub(super) fn width(&self) -> f64 {
         self.right - self.left
     }
 
-    /// From top to bottom.
+    /// The height.
     pub(super) fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
-    /// Larger by so much on each side.
+    /// The bounds, larger by this distance on each side.
     fn grown(&self, by: f64) -> Bounds {
         Bounds {
             left: self.left - by,
@@ -160,7 +161,7 @@ impl Bounds {
         }
     }
 
-    /// From where to where it reaches across lines of an axis, and along them.
+    /// The ranges across and along an axis.
     fn ranges(&self, axis: Axis) -> ((f64, f64), (f64, f64)) {
         let (level, upright) = ((self.left, self.right), (self.top, self.bottom));
         match axis {
@@ -171,12 +172,12 @@ impl Bounds {
 }
 
 impl Axis {
-    /// That of a straight part from one point to another.
+    /// The axis of a straight part between two points.
     fn of(a: Point, b: Point) -> Axis {
         if (a.0 - b.0).abs() < (a.1 - b.1).abs() { Axis::Upright } else { Axis::Level }
     }
 
-    /// Where a straight part of this axis is across, and from where to where it goes.
+    /// The coordinate of a straight part across this axis, and its range along it.
     fn part(self, a: Point, b: Point) -> (f64, (f64, f64)) {
         let (one, two) = (self.along(a), self.along(b));
         (self.across(a), (one.min(two), one.max(two)))
@@ -194,7 +195,7 @@ impl Axis {
 }
 
 impl Connector {
-    /// Where its search starts: just outside of its box.
+    /// The start of its search: directly outside of its box.
     fn escape(&self, boxes: &[Bounds]) -> Point {
         match self.heading {
             Heading::Down => (self.start.0, boxes[self.from].bottom),
@@ -202,13 +203,13 @@ impl Connector {
         }
     }
 
-    /// Where it arrives unless something else is better: above the middle of its range.
+    /// Its default arrival: above the middle of its range.
     fn gate(&self) -> Point {
         ((self.arrival.0 + self.arrival.1) / 2.0, self.tip - TIP)
     }
 }
 
-/// Routes all edges; where `kept` has corners for an edge, these stay.
+/// Routes all edges; the corners in `kept` stay.
 pub(super) fn route(
     boxes: &[Bounds],
     connectors: &[Connector],
@@ -217,7 +218,7 @@ pub(super) fn route(
     route_within(MOST_NODES, boxes, connectors, kept)
 }
 
-/// The same with so many nodes at once.
+/// Like [`route`], with this maximum number of nodes at once.
 fn route_within(
     most: u32,
     boxes: &[Bounds],
@@ -234,7 +235,7 @@ fn route_within(
     if order.is_empty() {
         return Routes { corners, ..Routes::default() };
     }
-    // Short edges first: long ones find their way around them.
+    // Short edges first: long edges go around them.
     let length = |edge: usize| distance(connectors[edge].start, connectors[edge].gate());
     order.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
     let mut routes = Routes { corners, ..Routes::default() };
@@ -254,7 +255,7 @@ fn route_within(
                 continue;
             }
         }
-        // Without lines each edge goes the way that asks nobody.
+        // Without lines, each edge gets a plain route.
         let lines = lines.unwrap_or_default();
         let mut laid = Laid::new(&boxes, connectors, &lines, trees, routes.corners);
         laid.lay_all(&part);
@@ -266,7 +267,7 @@ fn route_within(
     routes
 }
 
-/// Drops corners that lie on the straight line between their neighbours, and repeated ones.
+/// Drops corners on the straight line between their neighbours, and repeated corners.
 pub(super) fn without_straight_corners(points: Vec<Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::with_capacity(points.len());
     let near = |a: f64, b: f64| (a - b).abs() < 0.05;

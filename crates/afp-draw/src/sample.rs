@@ -12,13 +12,13 @@ pub(super) const WALL_FOLLOWING: &str = include_str!("../../../plans/wall_follow
 /// A plan with a sub-plan, a computation, `Error` and `DeadlineMissed` edges and an ignored event.
 pub(super) const EVERY_PART: &str = include_str!("../tests/draw/every_part.afp");
 
-/// Compiles a plan that has no errors.
+/// Compiles a plan without errors.
 pub(super) fn compiled(text: &str) -> Compiled {
     compiled_with(&Source::new("sample.afp", text), &[])
 }
 
-/// Compiles a plan that needs more toolboxes than the built-in ones; its name is a path, from which
-/// the files that it uses are found.
+/// Compiles a plan that needs more toolboxes than the built-in ones. Its name is a path for finding
+/// the used files.
 pub(super) fn compiled_with(source: &Source, toolbox_texts: &[String]) -> Compiled {
     let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     for text in toolbox_texts {
@@ -31,7 +31,7 @@ pub(super) fn compiled_with(source: &Source, toolbox_texts: &[String]) -> Compil
 }
 
 /// A plan of `count` elements of every kind, with entries, two global supervisors and two
-/// sub-plans, wired at random but the same each time; each element leads to the next one.
+/// sub-plans. The edges are random but reproducible; each element leads to the next one.
 pub(super) fn generated(count: u64, seed: u64) -> String {
     let mut state = seed;
     let mut next = |below: u64| {
@@ -40,7 +40,7 @@ pub(super) fn generated(count: u64, seed: u64) -> String {
     };
     let mut text = HEAD.to_owned();
     for index in 0..count {
-        // Mostly onwards, as plans are.
+        // Mostly forwards, like real plans.
         let mut any = || match next(10) {
             0 => "terminate".to_owned(),
             1 => format!("fail \"no {index}\""),
@@ -113,7 +113,7 @@ pub(super) fn is_toolbox(text: &str) -> bool {
     text.lines().any(|line| line.starts_with("toolbox "))
 }
 
-/// All `.afp` files below a folder, generated ones aside.
+/// All `.afp` files below a folder, except generated ones.
 pub(super) fn afp_files(folder: &str) -> Vec<std::path::PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![std::path::PathBuf::from(folder)];

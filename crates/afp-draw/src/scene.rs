@@ -1,9 +1,9 @@
 //! The scene: each part of a drawing with its identity, its place and a fragment of SVG.
 //!
-//! Pictures are put together from it, and editors take it piece by piece. Coordinates are those of
-//! the plan: a box that has a position stands exactly there. Where boxes stand depends on the plan
-//! and its positions alone ([`standing`]). The scene before saves work: fragments that are the same are not
-//! painted again, and a large plan keeps the routes of edges whose ends and surroundings are the same.
+//! Pictures consist of it, and editors use its pieces. Coordinates are those of the plan: a box
+//! with a position is exactly there. The places of boxes depend only on the plan and its positions
+//! ([`standing`]). The previous scene saves work: equal fragments are not painted again, and a
+//! large plan keeps the routes of edges whose ends and surroundings have not changed.
 
 mod lines;
 mod painted;
@@ -37,7 +37,7 @@ const MARGIN: f64 = 24.0;
 /// Distance between the drawings and the legend.
 const LEGEND: f64 = 32.0;
 
-/// The routes of more edges than this take too long to be found again at each change.
+/// The routes of more edges than this take too long to compute after each change.
 const FEW: usize = 40;
 
 /// A drawing of plans.
@@ -49,42 +49,42 @@ pub struct Scene {
     pub symbols: Vec<Symbol>,
     /// Width and height of the picture with all plans.
     pub size: Point,
-    /// What colours mean in a drawing by use, as a fragment.
+    /// The legend of a drawing by use, as a fragment.
     pub legend: Option<String>,
 }
 
-/// One plan of a drawing, in coordinates of its own.
+/// One plan of a drawing, in its own coordinates.
 #[derive(Clone, Debug)]
 pub struct PlanScene {
     pub plan: Item,
-    /// The file that it stands in.
+    /// The file of the plan.
     pub file: u16,
     pub name: String,
     pub doc: String,
-    /// Where its origin is in the picture with all plans.
+    /// The place of its origin in the picture with all plans.
     pub offset: Point,
-    /// What all of it takes.
+    /// The bounds of the plan.
     pub bounds: Rect,
-    /// The start tag, then the elements as written.
+    /// The start tag, then the elements in source order.
     pub elements: Vec<ElementScene>,
-    /// The edges that lead to elements; later ones lie above earlier ones.
+    /// The edges to elements; later edges are above earlier ones.
     pub edges: Vec<EdgeScene>,
 }
 
-/// A box with everything attached to it.
+/// A box with all its parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElementScene {
-    /// Under what it is placed: the element, or `start` of the plan.
+    /// The item of its position: the element, or `start` of the plan.
     pub item: Item,
-    /// The box itself; its corner is its position.
+    /// The box itself; its position is that of its corner.
     pub rect: Rect,
     /// The box with ports, exits and supervisors.
     pub outer: Rect,
-    /// What belongs to it and has an identity: itself, its supervisors, ports, exits, entries.
+    /// Its parts with an identity: itself, its supervisors, ports, exits, entries.
     pub pieces: Vec<PieceScene>,
     /// A group, moved to its place.
     pub svg: Arc<str>,
-    /// What the group was painted from.
+    /// The painted content of the group.
     content: Arc<Content>,
 }
 
@@ -94,38 +94,38 @@ pub struct PieceScene {
     pub item: Item,
     pub part: Part,
     pub rect: Rect,
-    /// The worst that is wrong with it, where it is marked.
+    /// The worst diagnostic of it, if it is marked.
     pub severity: Option<Severity>,
-    /// The tag of an exit that leads nowhere.
+    /// The tag of an unconnected exit.
     pub tag: Option<Rect>,
 }
 
 /// An edge from an exit to an element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgeScene {
-    /// The element, supervisor or plan that it leaves.
+    /// The element, supervisor or plan of its start.
     pub item: Item,
     /// Which of its exits.
     pub part: Part,
-    /// The element that it leads to.
+    /// The target element.
     pub to: Item,
-    /// What kind of exit it leaves: `start`, `state`, `error`, `event` or `missed`.
+    /// The kind of its exit: `start`, `state`, `error`, `event` or `missed`.
     pub kind: &'static str,
     /// The corners of its route, start and tip included.
     pub points: Vec<Point>,
-    /// The worst that is wrong with it, where it is marked.
+    /// The worst diagnostic of it, if it is marked.
     pub severity: Option<Severity>,
     /// A group with the line and its tip.
     pub svg: Arc<str>,
-    /// What that was painted from, besides the points.
+    /// The class that it was painted with.
     class: Class,
     joined: f64,
 }
 
 impl Scene {
-    /// The drawing of the main plan and, unless the options say otherwise, of the plans it uses.
+    /// The drawing of the main plan and, by default, of the plans that it uses.
     ///
-    /// The scene `before` a change saves work; no box is elsewhere because of it.
+    /// The scene `before` a change saves work and does not move boxes.
     pub fn new(outline: &Outline, options: &Options, before: Option<&Scene>) -> Scene {
         let drawn = Drawn::new(outline, options, before);
         let mut painter = Painter::new(options.icons);
@@ -140,8 +140,8 @@ impl Scene {
         Scene { plans, symbols: painter.symbols(), size: drawn.size, legend }
     }
 
-    /// The area that the boxes alone take, in pixels: known before anything is laid out, and less than that of the whole
-    /// picture. Nothing where positions let boxes stand on each other.
+    /// The area of only the boxes, in pixels: known before the layout, and less than the area of
+    /// the whole picture. `None` if positions let boxes overlap.
     pub fn least_area(outline: &Outline, options: &Options) -> f64 {
         if options.positions.iter().any(|layout| layout.iter().next().is_some()) {
             return 0.0;
@@ -169,7 +169,7 @@ pub(super) struct DrawnPlan<'a> {
     pub(super) view: View<'a>,
     pub(super) offset: Point,
     pub(super) bounds: Rect,
-    /// Each card with the place of its upper left corner.
+    /// Each card with its upper left corner.
     pub(super) cards: Vec<(Card<'a>, Point)>,
     pub(super) edges: Vec<DrawnEdge>,
 }
@@ -236,13 +236,13 @@ impl<'a> DrawnPlan<'a> {
         DrawnPlan { view, offset: (0.0, 0.0), bounds: placed.bounds, cards, edges }
     }
 
-    /// Where the box of an element is.
+    /// The box of an element.
     pub(super) fn rect(&self, item: &Item) -> Option<Rect> {
         let (card, at) = self.cards.iter().find(|(card, _)| card.item == *item)?;
         Some(card.rect.moved(*at))
     }
 
-    /// Everything at its place in the picture.
+    /// All parts at their places in the picture.
     #[cfg(test)]
     pub(super) fn sketch(self) -> Sketch<'a> {
         let mut all = Sketch::default();
@@ -276,8 +276,8 @@ impl<'a> DrawnPlan<'a> {
     }
 }
 
-/// The edges in the order in which they lie above one another: what was never used below, so that where an arrow that was
-/// used joins one that was not their tip is that of the first; on top what would look dashed otherwise.
+/// The edges in drawing order: unused edges are below. If a used arrow joins an unused one, their
+/// tip is then that of the used one. Edges that would look dashed are on top.
 fn from_below(edges: Vec<DrawnEdge>) -> Vec<DrawnEdge> {
     let dashes = lines::dashes(&edges);
     let mut edges: Vec<_> = dashes.into_iter().zip(edges).collect();
@@ -285,7 +285,7 @@ fn from_below(edges: Vec<DrawnEdge>) -> Vec<DrawnEdge> {
     edges.into_iter().map(|(_, edge)| edge).collect()
 }
 
-/// The cards of the start tag and the elements, with states by what they wish.
+/// The cards of the start tag and the elements, with their states ordered by wish.
 fn cards<'a>(view: &View<'a>, towards: &dyn Fn(&Item, &Part) -> Option<f64>) -> Vec<Card<'a>> {
     let card = |element: &'a Component| {
         let item = &element.item;
@@ -304,7 +304,7 @@ fn nodes(cards: &[Card]) -> Vec<Node> {
     cards.iter().map(node).collect()
 }
 
-/// What leads to elements, each with the card that it leaves.
+/// The exits to elements, each with its card.
 fn exits<'c>(cards: &'c [Card]) -> Vec<(usize, &'c Leaving)> {
     let of = |(from, card): (usize, &'c Card)| card.exits.iter().map(move |exit| (from, exit));
     cards.iter().enumerate().flat_map(of).collect()
@@ -321,7 +321,7 @@ fn links(exits: &[(usize, &Leaving)]) -> Vec<Link> {
     exits.iter().map(link).collect()
 }
 
-/// The routes that the edges of a large plan had.
+/// The previous routes of a large plan's edges.
 fn routes<'c>(
     exits: &[(usize, &'c Leaving)],
     before: Option<&'c PlanScene>,

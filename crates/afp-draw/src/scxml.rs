@@ -1,8 +1,8 @@
 //! The control flow as State Chart XML, for tools that simulate or check state charts.
 //!
-//! Elements become states, sub-plans states with their bodies inside, and the three ways in which
-//! a plan ends become final states. Nothing but the `In` predicate is asked for, so the null data
-//! model is enough: what a chart cannot hold is said at its head.
+//! Elements become states, sub-plans become states with their bodies inside, and the three endings
+//! of a plan become final states. Charts only use the `In` predicate, so the null data model is
+//! enough. The head of a chart lists the omitted parts.
 
 mod chart;
 mod names;
@@ -19,9 +19,9 @@ use view::View;
 /// States have dotted ids (`Plan.sub.element`), ends have `Plan-OK`, `Plan-Interrupted` and
 /// `Plan-Error`. Events are named `sub:element.State`, `sub:element-supervisor.Event` and, for
 /// global supervisors, `sub:supervisor.Event`; a fault's event is `Error`. The document's first
-/// comment says this too, and what is left out: the order in which supervisors are asked, periods,
-/// deadlines, values. With `data`, comments have the formulas: as written if the texts that the spans of the graph
-/// point into are given, else printed.
+/// comment explains this and lists the omitted parts: the order of supervisors, periods, deadlines,
+/// values. With `data`, comments have the formulas, from the sources if they are given, or else
+/// printed.
 pub fn scxml(graph: &Graph, sources: Option<&Sources>, data: bool) -> String {
     let view = View { graph, plan: graph.main(), sources, data };
     let scope = Scope::outermost(&view.plan.name);

@@ -1,6 +1,6 @@
-//! What a drawing consists of, before it becomes SVG: frames, labels, pictures and lines.
+//! The parts of a drawing before it becomes SVG: frames, labels, pictures and lines.
 //!
-//! Tests measure overlaps here, with the same numbers that are drawn.
+//! Tests measure overlaps here, with the same numbers as in the drawing.
 
 use super::metrics;
 use super::usage::Class;
@@ -16,13 +16,13 @@ pub struct Rect {
     pub x: f64,
     /// Upper border.
     pub y: f64,
-    /// From left to right.
+    /// The width.
     pub width: f64,
-    /// From top to bottom.
+    /// The height.
     pub height: f64,
 }
 
-/// Width of the signs at what is wrong.
+/// Width of the signs at diagnostics.
 const SIGN: f64 = 14.0;
 
 /// The outline of a frame.
@@ -48,7 +48,7 @@ pub(super) struct Frame {
     pub(super) title: String,
 }
 
-/// Where a label's place is.
+/// The anchor of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -77,11 +77,11 @@ pub(super) struct Picture<'a> {
     pub(super) class: Class,
     /// The icon of a toolbox.
     pub(super) icon: Option<(&'a Toolbox, &'a str)>,
-    /// What to draw where that icon is missing.
+    /// The picture for a missing icon.
     pub(super) fallback: Glyph,
 }
 
-/// The simple pictures that are always there.
+/// The simple pictures that are always available.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Glyph {
     Actor,
@@ -95,7 +95,7 @@ pub(super) enum Glyph {
 }
 
 impl Glyph {
-    /// That of what has no icon.
+    /// The picture for a kind without an icon.
     pub(super) fn of(kind: ComponentKind) -> Glyph {
         match kind {
             ComponentKind::Actor | ComponentKind::Reactions => Glyph::Actor,
@@ -106,14 +106,14 @@ impl Glyph {
     }
 }
 
-/// Something of a drawing that has an identity in the text.
+/// A part of a drawing with an identity in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     pub(super) item: Item,
     pub(super) part: Part,
     pub(super) rect: Rect,
     pub(super) severity: Option<Severity>,
-    /// The tag of an exit that leads nowhere.
+    /// The tag of an unconnected exit.
     pub(super) tag: Option<Rect>,
 }
 
@@ -123,18 +123,18 @@ pub(super) struct Arrow {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) class: Class,
     pub(super) tip: Tip,
-    /// The length at its end on which others run into it: they are not crossed there.
+    /// The length at its end that it shares with others: they are not crossed there.
     pub(super) joined: f64,
 }
 
-/// How an arrow is drawn.
+/// The style of an arrow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tip {
-    /// A thick one: flow of action.
+    /// A thick line: flow of action.
     Thick,
-    /// A thick one with an outlined tip: what is active goes on.
+    /// A thick line with an outlined tip: the active element continues.
     Hollow,
-    /// A thin one: flow of data.
+    /// A thin line: flow of data.
     Thin,
 }
 
@@ -154,7 +154,7 @@ impl Arrow {
     }
 }
 
-/// A drawing or a part of it.
+/// A drawing or a part of one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sketch<'a> {
     pub(super) frames: Vec<Frame>,
@@ -165,7 +165,7 @@ pub(super) struct Sketch<'a> {
 }
 
 impl Rect {
-    /// The same elsewhere.
+    /// The rectangle, moved.
     pub(super) fn moved(self, (dx, dy): (f64, f64)) -> Rect {
         Rect { x: self.x + dx, y: self.y + dy, ..self }
     }
@@ -180,7 +180,7 @@ impl Rect {
         self.y + self.height
     }
 
-    /// Whether another one does not reach out of it by half a pixel.
+    /// Whether another rectangle is inside of it, with a tolerance of half a pixel.
     pub(super) fn holds(&self, other: &Rect) -> bool {
         self.x - 0.5 < other.x
             && self.y - 0.5 < other.y
@@ -196,7 +196,7 @@ impl Label {
         Label { x, y, text, size, bold: false, anchor: Anchor::Start, class }
     }
 
-    /// The room it takes.
+    /// Its bounds.
     #[cfg(test)]
     pub(super) fn rect(&self) -> Rect {
         let width = metrics::width(&self.text, self.size, self.bold);
@@ -210,7 +210,7 @@ impl Label {
 }
 
 impl<'a> Sketch<'a> {
-    /// Adds a sign at a place where something is wrong.
+    /// Adds a sign for a diagnostic.
     pub(super) fn mark(&mut self, severity: Option<Severity>, (x, y): (f64, f64)) {
         let (fallback, class) = match severity {
             None => return,
@@ -254,19 +254,20 @@ impl<'a> Sketch<'a> {
         }));
     }
 
-    /// Adds something that has an identity, with a sign so far inside of its corner where something is wrong.
+    /// Adds a part with an identity, with a sign at this distance inside of its corner if it has a
+    /// diagnostic.
     pub(super) fn piece(&mut self, piece: Piece, inset: f64) {
         self.mark(piece.severity, (piece.rect.x + inset, piece.rect.y + inset));
         self.pieces.push(piece);
     }
 
-    /// Adds a frame without tooltip.
+    /// Adds a frame without a tooltip.
     pub(super) fn frame(&mut self, rect: Rect, shape: Shape, class: impl Into<Class>) {
         let class = class.into();
         self.frames.push(Frame { rect, shape, class, title: String::new() });
     }
 
-    /// Adds a frame that is as high as a line of text and the text in it.
+    /// Adds a frame of a text line's height with a text.
     pub(super) fn pill(&mut self, rect: Rect, class: impl Into<Class>, text: &str, size: f64) {
         let class = class.into();
         let title = if metrics::shorten(text) == text { String::new() } else { text.to_owned() };

@@ -1,7 +1,7 @@
 //! Plans as SVG in the paper's notation.
 //!
-//! Thick arrows are flow of action, thin ones flow of data. A picture is put together from the
-//! [`Scene`] and needs nothing from outside.
+//! Thick arrows are flow of action, thin arrows are flow of data. A picture consists of the parts
+//! of a [`Scene`] and loads nothing.
 
 mod icon;
 pub(super) mod paint;
@@ -15,9 +15,9 @@ use paint::{escaped, line, number};
 pub use icon::default_icon;
 pub use style::{properties, sheet};
 
-/// The main plan as an SVG picture, its sub-plans behind it unless the options say otherwise.
+/// The main plan as an SVG picture, with its sub-plans after it by default.
 ///
-/// Texts come from the plan and are escaped. The picture's size is in pixels and given by the
+/// Texts come from the plan and are escaped. The picture's size is in pixels and depends on the
 /// plan. The same outline and options give the same text.
 pub fn svg(outline: &Outline, options: &Options) -> String {
     picture(&Scene::new(outline, options, None), options.theme)
@@ -51,7 +51,7 @@ pub fn picture(scene: &Scene, theme: Theme) -> String {
     out + "</svg>\n"
 }
 
-/// Edges below boxes.
+/// Edges are below boxes.
 fn plan_group(out: &mut String, plan: &PlanScene) {
     let (x, y) = (number(plan.offset.0), number(plan.offset.1));
     let item = escaped(&plan.plan.to_string());

@@ -1,4 +1,4 @@
-//! Tests of whole drawings: nothing lies on top of anything else.
+//! Tests of whole drawings: parts do not overlap.
 
 use super::sample::{
     EVERY_PART, WALL_FOLLOWING, afp_files, compiled, compiled_with, generated, is_toolbox,
@@ -15,14 +15,15 @@ use afp_dsl::toolbox::Toolbox;
 use afp_syntax::item::Item;
 use afp_syntax::source::Source;
 
-/// Two lines nearer than this look like one.
+/// Lines within this distance look like one.
 const APART: f64 = 5.0;
 
-/// How far from its tip an edge may run on another one that leads to the same box.
+/// The maximum distance from its tip at which an edge may share a line with another edge to the
+/// same box.
 const NEAR_TIP: f64 = 120.0;
 
 #[test]
-fn nothing_overlaps_in_the_plans_that_are_shipped() {
+fn nothing_overlaps_in_the_shipped_plans() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let files =
         [format!("{root}/plans"), format!("{root}/examples")].map(|folder| afp_files(&folder));
@@ -50,7 +51,7 @@ fn nothing_overlaps_in_a_plan_of_sixty_elements() {
 }
 
 #[test]
-fn plans_are_as_wide_as_a_screen_even_where_edges_lead_anywhere() {
+fn plans_with_random_edges_are_as_wide_as_a_screen() {
     for (count, seed) in [(60, 1), (60, 2), (120, 3), (200, 4)] {
         let scene =
             Scene::new(&compiled(&generated(count, seed)).outline, &Options::default(), None);
@@ -83,7 +84,7 @@ fn check_all(compiled: &Compiled) {
 }
 
 #[test]
-fn what_has_been_placed_stays_and_the_rest_goes_around_it() {
+fn placed_elements_stay_and_the_rest_goes_around_them() {
     let plan = compiled(WALL_FOLLOWING);
     let from_collision_to_wall = |text: &str| {
         let (positions, errors) = Layout::read(text);
@@ -104,7 +105,7 @@ fn what_has_been_placed_stays_and_the_rest_goes_around_it() {
 }
 
 #[test]
-fn edges_find_their_ways_between_boxes_that_stand_anywhere() {
+fn edges_are_routed_between_boxes_at_any_places() {
     for seed in 1..=6_u64 {
         let (count, plan) = (7 + seed, compiled(&generated(7 + seed, seed)));
         let line = |index: u64| {
@@ -112,7 +113,7 @@ fn edges_find_their_ways_between_boxes_that_stand_anywhere() {
             let (column, row) = (place % 4, place / 4);
             format!("Generated.element{index} {} {}\n", column * 900, row * 500)
         };
-        // Every second seed leaves one element in three to the layout.
+        // In every second seed, one element in three has an automatic place.
         let kept = (0..count).filter(|index| seed % 2 == 0 || index % 3 != 0);
         let (positions, _) = Layout::read(&kept.map(line).collect::<String>());
         let positions = in_every_file(&plan, positions);
@@ -121,7 +122,7 @@ fn edges_find_their_ways_between_boxes_that_stand_anywhere() {
 }
 
 #[test]
-fn what_was_used_is_told_by_classes_and_numbers() {
+fn usage_is_shown_by_classes_and_numbers() {
     let compiled = compiled(EVERY_PART);
     let graph = compiled.graph.as_ref().unwrap();
     let count = |outcomes: usize, times: u64| Count {
@@ -154,7 +155,7 @@ fn what_was_used_is_told_by_classes_and_numbers() {
     assert!(!plain.contains("unused") && !plain.contains('×'), "a plain drawing counts nothing");
 }
 
-/// Everything that is drawn, and the size of the picture.
+/// All parts of the drawing, and the size of the picture.
 fn sketch<'a>(outline: &'a Outline, options: &'a Options<'a>) -> (Sketch<'a>, (f64, f64)) {
     let drawn = Drawn::new(outline, options, None);
     let mut all = Sketch::default();
@@ -187,7 +188,7 @@ fn overlap(a: &Rect, b: &Rect) -> bool {
         && b.y + 0.1 < a.bottom()
 }
 
-/// Exits stand on the borders of their boxes; everything else is on its own.
+/// Exits are on the borders of their boxes; all other parts are separate.
 fn boxes_are_apart(sketch: &Sketch, (width, height): (f64, f64)) {
     let is_exit = |class| ["state", "event", "error", "missed"].contains(&class);
     for (place, one) in sketch.frames.iter().enumerate() {
@@ -197,7 +198,7 @@ fn boxes_are_apart(sketch: &Sketch, (width, height): (f64, f64)) {
         for two in &sketch.frames[..place] {
             let nested = two.class.name == "configuration" && one.class.name == "entry";
             let attached = is_exit(one.class.name) != is_exit(two.class.name);
-            // What supervisors hang on goes into their element.
+            // The spine of supervisors is inside their element.
             let hangs = one.class.name == "spine" || two.class.name == "spine";
             let apart = nested || hangs || attached || !overlap(&one.rect, &two.rect);
             assert!(apart, "{one:?} lies on {two:?}");
@@ -210,7 +211,7 @@ fn labels_are_apart(sketch: &Sketch) {
         for two in &sketch.labels[..place] {
             assert!(!overlap(&one.rect(), &two.rect()), "{one:?} lies on {two:?}");
         }
-        // A label that touches a box lies in one as a whole.
+        // A label that touches a box is completely inside it.
         let rect = one.rect();
         let touching = sketch.frames.iter().filter(|frame| overlap(&frame.rect, &rect));
         let touching: Vec<_> = touching.collect();
@@ -234,7 +235,7 @@ fn parts(arrow: &Arrow) -> Vec<Rect> {
     arrow.points.windows(2).map(part).collect()
 }
 
-/// Thick arrows touch boxes with their ends only; horizontal starts lie under their exit.
+/// Thick arrows touch boxes only with their ends; horizontal starts are under their exit.
 fn arrows_keep_away_from_boxes(sketch: &Sketch) {
     for arrow in sketch.arrows.iter().filter(|arrow| arrow.is_flow()) {
         for part in parts(arrow) {
@@ -269,18 +270,18 @@ fn arrows_do_not_run_on_each_other(sketch: &Sketch) {
     }
 }
 
-/// Whether two edges lead to the same box, into which they may go together.
+/// Whether two edges lead to the same box, where they may merge.
 fn same_tip(one: &Arrow, two: &Arrow) -> bool {
     let (Some(a), Some(b)) = (one.points.last(), two.points.last()) else { return false };
     (a.1 - b.1).abs() < 0.5 && (a.0 - b.0).abs() < APART
 }
 
-/// Whether two edges of one kind have become one, which ends in one tip.
+/// Whether two edges of one kind have merged and end in one tip.
 fn are_one(one: &Arrow, two: &Arrow) -> bool {
     one.class.name == two.class.name && one.points.last() == two.points.last()
 }
 
-/// For how long two parallel lines are too near to each other.
+/// The length on which two parallel lines are too near to each other.
 fn run_on_each_other(a: &Rect, b: &Rect) -> f64 {
     let vertical = |part: &Rect| part.width < 0.5 && part.height >= 0.5;
     let horizontal = |part: &Rect| part.height < 0.5 && part.width >= 0.5;
@@ -327,9 +328,9 @@ fn every_kind_of_part_has_its_symbol() {
     }
 }
 
-/// It was a tag as that of `terminate`, which ends what goes on.
+/// It once had a tag like `terminate`.
 #[test]
-fn what_resumes_is_a_hollow_arrow_back_to_its_own_box() {
+fn a_resuming_event_is_a_hollow_arrow_back_to_its_own_box() {
     let compiled = compiled(RESUMING);
     check_all(&compiled);
     let options = Options::default();
@@ -369,7 +370,7 @@ const RESUMING: &str = "use std\nuse carbot\nplan P {\nvar n: int = 0\nin far: l
     computation again: Count(value = n, limit = 3, next => n) { Again -> resume Done -> terminate }\n}\n";
 
 #[test]
-fn a_folded_box_hides_its_details_and_leads_where_it_led() {
+fn a_folded_box_hides_its_details_and_keeps_its_targets() {
     for text in [EVERY_PART, WALL_FOLLOWING, RESUMING] {
         let compiled = compiled(text);
         let plan = compiled.outline.plan(compiled.outline.main.unwrap());
@@ -387,7 +388,7 @@ fn a_folded_box_hides_its_details_and_leads_where_it_led() {
             all
         };
         assert_eq!(edges(&open), edges(&shut));
-        // Each supervisor has the place of the tab that hides it, so that marks of a run find it.
+        // Each supervisor has the place of its tab, so that the marks of a run find it.
         let pieces = |scene: &Scene| -> Vec<_> {
             let pieces = scene.plans[0].elements.iter().flat_map(|each| each.pieces.clone());
             let mut all: Vec<_> =
@@ -407,7 +408,7 @@ fn a_folded_box_hides_its_details_and_leads_where_it_led() {
 }
 
 #[test]
-fn sub_plans_are_left_out_when_not_wanted() {
+fn sub_plans_are_optional() {
     let outline = compiled(EVERY_PART).outline;
     let with = svg(&outline, &Options::default());
     let without = svg(&outline, &Options { sub_plans: false, ..Options::default() });
@@ -415,7 +416,7 @@ fn sub_plans_are_left_out_when_not_wanted() {
 }
 
 #[test]
-fn a_picture_is_the_same_each_time_and_needs_nothing_from_outside() {
+fn a_picture_is_reproducible_and_loads_nothing() {
     let icons = |_: &Toolbox, name: &str| afp_toolboxes::icon(name).map(str::to_owned);
     let options = Options { icons: Some(&icons), ..Options::default() };
     let picture = |text| svg(&compiled(text).outline, &options);

@@ -1,75 +1,75 @@
-//! How often the parts of a plan were used: a drawing with it is coloured by use rather than by kind.
+//! The usage of a plan's parts, for drawings that are coloured by use.
 
 use afp_syntax::source::Span;
 
-/// How often the parts of plans were used.
+/// The usage of the parts of plans.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
     pub plans: Vec<PlanUsage>,
 }
 
-/// How often the parts of a plan were used, wherever it is a sub-plan.
+/// The usage of a plan's parts, over all its uses as a sub-plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanUsage {
     /// The plan: the place of its name in the text.
     pub plan: Span,
-    /// Its elements, by their place.
+    /// Its elements, by index.
     pub elements: Vec<Count>,
-    /// Its supervisors, by their place.
+    /// Its supervisors, by index.
     pub supervisors: Vec<Count>,
-    /// How often each entry was written.
+    /// The number of writes of each entry.
     pub entries: Vec<u64>,
 }
 
-/// How often a component was used.
+/// The usage of a component.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Count {
     pub starts: u64,
-    /// How often each state was reached or event taken, by position.
+    /// The number of times that each state was reached or event was taken, by position.
     pub outcomes: Vec<u64>,
-    /// How often its `Error` or `DeadlineMissed` was taken.
+    /// The number of times that its `Error` or `DeadlineMissed` was taken.
     pub special: u64,
-    /// How often an element's own edges for events of global supervisors were taken.
+    /// The number of times that an element's own edges for global supervisors' events were taken.
     pub reactions: Vec<Reaction>,
 }
 
 /// An edge of an element for an event of a global supervisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reaction {
-    /// The supervisor, by its place.
+    /// The supervisor, by index.
     pub supervisor: usize,
     /// The event, by position; `None` for `DeadlineMissed`.
     pub event: Option<u16>,
-    /// How often it was taken.
+    /// The number of times that it was taken.
     pub count: u64,
 }
 
 /// Whether a part was used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
-    /// It was, and so was everything that can come of it.
+    /// Used, and with all its outcomes.
     Whole,
-    /// It was, but something that can come of it never came.
+    /// Used, but without some of its outcomes.
     Partly,
     Never,
 }
 
-/// What a thing of a drawing is: it decides on colours and dashes.
+/// The class of a part: it determines colours and dashes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Class {
     /// The kind of thing.
     pub(super) name: &'static str,
-    /// Whether it was used, where that is shown.
+    /// Whether it was used, in a drawing by use.
     pub(super) usage: Option<Use>,
 }
 
 impl Use {
-    /// Of something that happened so often.
+    /// The use of a part with this count.
     pub(super) fn of(count: u64) -> Use {
         if count > 0 { Use::Whole } else { Use::Never }
     }
 
-    /// Of something that was used so often and whose exits were used so often.
+    /// The use of a part with this count and these counts of its exits.
     pub(super) fn with_exits(count: u64, mut exits: impl Iterator<Item = u64>) -> Use {
         match Use::of(count) {
             Use::Whole if exits.any(|exit| exit == 0) => Use::Partly,
@@ -87,7 +87,7 @@ impl Use {
     }
 }
 
-/// A count as a drawing says it.
+/// A count as text in a drawing.
 pub(super) fn times(count: u64) -> String {
     match count {
         0 => "never".to_owned(),

@@ -1,7 +1,7 @@
-//! The outline as a drawing sees it: ports with their texts, exits with their names.
+//! The outline for drawings: ports with their texts, exits with their names.
 //!
-//! The drawings agree on what an element shows, since all of them ask here. Whatever parses is
-//! there, in plans with errors too.
+//! All drawings use it, so that they agree on the contents of an element. It includes all parsed
+//! parts of plans with errors.
 
 use std::borrow::Cow;
 
@@ -27,17 +27,17 @@ pub(super) struct View<'a> {
     usage: Option<&'a PlanUsage>,
 }
 
-/// An input port and what feeds it.
+/// An input port and its source.
 pub(super) struct Input<'a> {
     pub(super) port: &'a str,
     pub(super) nth: u16,
-    /// What it is bound to; empty where it is not, or something is missing.
+    /// The text of its binding; empty if it is unbound or incomplete.
     pub(super) text: &'a str,
     /// Whether the plan binds it.
     pub(super) bound: bool,
-    /// Whether it is fed by an entry alone.
+    /// Whether its source is only an entry.
     pub(super) plain: bool,
-    /// Whether nothing feeds it, although something must.
+    /// Whether a required binding is missing.
     pub(super) missing: bool,
     pub(super) severity: Option<Severity>,
     declared: &'a outline::Input,
@@ -47,29 +47,29 @@ pub(super) struct Input<'a> {
 pub(super) struct Output<'a> {
     pub(super) port: &'a str,
     pub(super) nth: u16,
-    /// The entry that takes its value.
+    /// The entry for its value.
     pub(super) entry: &'a str,
     pub(super) severity: Option<Severity>,
 }
 
-/// A way out of an element or a supervisor.
+/// An exit of an element or a supervisor.
 #[derive(Clone, Copy)]
 pub(super) struct Exit<'a> {
     pub(super) name: &'a str,
     pub(super) nth: u16,
     pub(super) kind: ExitKind,
     pub(super) to: To<'a>,
-    /// How often it was taken, where that is shown.
+    /// How often it was taken, in a drawing by use.
     pub(super) count: Option<u64>,
     pub(super) severity: Option<Severity>,
 }
 
-/// Where an exit leads: to an element, to a name that the plan does not have, or elsewhere. `fail` has
-/// its reason, in quotes, if one is written. `None` is nowhere, although the exit must lead somewhere.
+/// The target of an exit: an element, an unknown name, or another target. `fail` has its reason, in
+/// quotes, if there is one. `None` is a missing target.
 pub(super) type To<'a> = Option<Target<Result<ElementId, &'a str>, &'a str>>;
 
 impl Input<'_> {
-    /// What it is bound to, else its default.
+    /// The text of its binding, or else its default.
     pub(super) fn value(&self) -> Cow<'_, str> {
         let default = self.declared.default.as_ref().filter(|_| !self.bound);
         match default {
@@ -80,7 +80,7 @@ impl Input<'_> {
 }
 
 impl Exit<'_> {
-    /// Its name, with how often it was taken.
+    /// Its name, in a drawing by use with its count.
     pub(super) fn text(&self) -> Cow<'_, str> {
         match self.count {
             None => self.name.into(),
@@ -89,7 +89,7 @@ impl Exit<'_> {
     }
 }
 
-/// Where a target leads.
+/// The end of a target.
 pub(super) fn to(target: Option<&outline::Target>) -> To<'_> {
     let target = target?;
     let (to, text) = (target.to, target.text.as_str());
@@ -99,8 +99,7 @@ pub(super) fn to(target: Option<&outline::Target>) -> To<'_> {
 }
 
 impl<'a> View<'a> {
-    /// The plans to be drawn: the main one first, the ones it uses after it where wanted, in the
-    /// order in which they are met.
+    /// The plans to draw: the main plan first, then the used plans if wanted, in the order of use.
     pub(super) fn all(outline: &'a Outline, options: &'a Options<'a>) -> Vec<View<'a>> {
         let Some(main) = options.plan.or(outline.main) else { return Vec::new() };
         let mut order = vec![main];
@@ -123,7 +122,7 @@ impl<'a> View<'a> {
         View { outline, plan, options, folded: options.folded, usage }
     }
 
-    /// The same with nothing folded.
+    /// The view with nothing folded.
     pub(super) fn unfolded(self) -> View<'a> {
         View { folded: &[], ..self }
     }
@@ -140,12 +139,12 @@ impl<'a> View<'a> {
         known.or(plan.map(|name| name.text.as_str())).or(written).unwrap_or("?")
     }
 
-    /// Where an element, or the start tag under the name `start`, has been placed.
+    /// The given position of an element, or of the start tag under the name `start`.
     pub(super) fn position(&self, item: &Item) -> Option<Position> {
         self.options.positions.get(usize::from(self.plan.span.file))?.get(item)
     }
 
-    /// The item under which the start tag is placed.
+    /// The item of the start tag's position.
     pub(super) fn start_item(&self) -> Item {
         Item::inner(self.plan.item.name(), "start")
     }
@@ -189,22 +188,22 @@ impl<'a> View<'a> {
         outputs.collect()
     }
 
-    /// All or nothing, as the options say.
+    /// The data, or nothing if the options leave it out.
     fn shown_of<'d, T>(&self, item: &Item, data: &'d [T]) -> &'d [T] {
         if self.options.data && !self.is_folded(item) { data } else { &[] }
     }
 
-    /// Whether an element, or the start tag, is drawn without its details.
+    /// Whether an element, or the start tag, is folded.
     pub(super) fn is_folded(&self, item: &Item) -> bool {
         self.folded.contains(item)
     }
 
-    /// What is marked: errors always, the rest where that is wanted.
+    /// The marked diagnostic: errors always, the rest on request.
     pub(super) fn severity(&self, worst: Option<Severity>) -> Option<Severity> {
         worst.filter(|severity| self.options.warnings || *severity == Severity::Error)
     }
 
-    /// The ways out that are connected or must be.
+    /// The exits that are connected or must be.
     pub(super) fn exits(&self, component: &'a Component) -> Vec<Exit<'a>> {
         let counts = self.count(component);
         let reactions = self.reactions(component);
@@ -218,7 +217,7 @@ impl<'a> View<'a> {
                 ExitKind::Error | ExitKind::Missed => Some(counts.special),
             });
             let count = count.or_else(|| self.reacted(reactions?, component, exit));
-            // What is ignored is never taken, so that counting it would say nothing.
+            // Ignored events are never taken, so a count would be useless.
             let count = count.filter(|_| to != Some(Target::Ignore));
             let severity = self.severity(exit.findings.worst());
             Some(Exit { name: &exit.name, nth: exit.nth, kind: exit.kind, to, count, severity })
@@ -226,7 +225,7 @@ impl<'a> View<'a> {
         exits.collect()
     }
 
-    /// The global supervisor that reactions are to; any other component itself.
+    /// The global supervisor of reactions; any other component itself.
     pub(super) fn watcher(&self, component: &'a Component) -> &'a Component {
         self.watcher_place(component).map_or(component, |index| &self.plan.supervisors[index])
     }
@@ -236,7 +235,7 @@ impl<'a> View<'a> {
         self.plan.supervisors.iter().position(|each| name(each) == to)
     }
 
-    /// How often the edges of the element were taken that reactions belong to, where that is shown.
+    /// How often the reactions' edges of the element were taken, in a drawing by use.
     fn reactions(&self, component: &Component) -> Option<&'a [Reaction]> {
         let usage = self.usage?;
         let is_it = |each: &Component| each.item == component.item;
@@ -262,7 +261,7 @@ impl<'a> View<'a> {
         edge.map(|edge| edge.count)
     }
 
-    /// How often an element or supervisor of the plan was used, where that is shown.
+    /// How often an element or supervisor of the plan was used, in a drawing by use.
     pub(super) fn count(&self, component: &Component) -> Option<&'a Count> {
         let usage = self.usage?;
         let is_it = |each: &Component| each.item == component.item;
@@ -273,12 +272,12 @@ impl<'a> View<'a> {
         usage.elements.get(self.plan.elements.iter().position(is_it)?)
     }
 
-    /// How often an entry of the plan was written.
+    /// The number of writes of an entry.
     pub(super) fn writes(&self, entry: usize) -> Option<u64> {
         self.usage?.entries.get(entry).copied()
     }
 
-    /// Where an exit leads, in the words of the language.
+    /// The target of an exit, in the language's words.
     pub(super) fn target_name(&self, to: To<'a>) -> &'a str {
         let Some(to) = to else { return "" };
         to.keyword().unwrap_or_else(|element| match element {
@@ -309,7 +308,7 @@ pub(super) fn entry_type(entry: &Entry) -> String {
     entry.ty.as_ref().map(ToString::to_string).or_else(written).unwrap_or_default()
 }
 
-/// When a supervisor is polled, for its tooltip.
+/// The polling of a supervisor, for its tooltip.
 pub(super) fn timing(component: &Component) -> String {
     component.times.map_or(String::new(), |times| {
         let times = [times.timing.period, times.timing.deadline];

@@ -1,6 +1,7 @@
-//! How calm the drawings of the shipped plans and of those of peers are: crossings, bends and sides, counted.
+//! A measure of how clear the drawings of shipped plans and of comparable plans are: crossings,
+//! bends and sides, counted.
 //!
-//! `AFP_BLESS=1` rewrites the table; look at the drawings that changed.
+//! `AFP_BLESS=1` rewrites the table; look at the changed drawings.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -15,10 +16,10 @@ use afp_syntax::source::Source;
 
 const TABLE: &str = "tests/draw/counted.txt";
 
-/// How far lines that lie side by side are apart.
+/// The distance between parallel lines.
 const APART: f64 = 12.0;
 
-/// Plans, with the toolboxes beside them.
+/// Plans, with their toolboxes in the same folder.
 const FOLDERS: [(&str, &str); 4] = [
     ("plans", ""),
     ("plans/parts", ""),
@@ -64,7 +65,7 @@ fn scenes() -> Vec<PlanScene> {
     found
 }
 
-/// What was counted in drawings.
+/// The counts of drawings.
 #[derive(Clone, Copy, Default)]
 struct Counted {
     edges: usize,
@@ -75,7 +76,7 @@ struct Counted {
 impl Counted {
     fn of(plan: &PlanScene) -> Counted {
         let ways: Vec<&[Point]> = plan.edges.iter().map(|edge| &edge.points[..]).collect();
-        // What edges have in common in front of their target is seen once.
+        // The common part of edges before their target counts once.
         let kinds = plan.edges.iter().map(|edge| edge.kind);
         let inner = |way: &[Point]| way.iter().skip(1).rev().skip(1).copied().collect::<Vec<_>>();
         let bends = ways.iter().zip(kinds).flat_map(|(way, kind)| {
@@ -104,7 +105,8 @@ fn crossings(one: &[Point], other: &[Point]) -> usize {
     pairs.filter(|(a, b)| cross(a, b) || cross(b, a)).count()
 }
 
-/// Where a line is shifted by less than lines are apart, and goes on as before: it looks like a mistake.
+/// The number of small shifts of a line that continues in the same direction: they look like
+/// errors.
 fn jogs(way: &[Point]) -> usize {
     let direction = |a: Point, b: Point| ((b.0 - a.0).signum(), (b.1 - a.1).signum());
     let inner = way.windows(4).filter(|corners| {
@@ -115,7 +117,7 @@ fn jogs(way: &[Point]) -> usize {
     inner.count()
 }
 
-/// Whether an upright line passes through a level one; what ends on it, joins it.
+/// Whether a vertical line crosses a horizontal line; a line that ends on it joins it.
 fn cross(upright: &[Point], level: &[Point]) -> bool {
     let between = |x: f64, a: f64, b: f64| a.min(b) + 0.5 < x && x < a.max(b) - 0.5;
     upright[0].0 == upright[1].0
@@ -132,14 +134,14 @@ fn line(name: &str, counted: Counted, sides: Option<(f64, f64)>) -> String {
 }
 
 #[test]
-fn drawings_stay_calm() {
+fn drawings_stay_clear() {
     let mut all = Counted::default();
     let mut table = "plan                 edges bends crossings  sides\n".to_owned();
     for plan in scenes() {
         let counted = Counted::of(&plan);
         all.add(counted);
         let ratio = plan.bounds.width / plan.bounds.height;
-        // Two elements with their supervisors have one shape alone. The first of them is the start.
+        // Two elements with their supervisors have only one shape. The first of them is the start.
         // A drawing that fits on a screen is not folded.
         let free = plan.elements.len() > 3 && plan.bounds.height > 760.0;
         assert!(!free || (0.5..=2.0).contains(&ratio), "'{}': {ratio:.2}", plan.name);

@@ -1,4 +1,4 @@
-//! Drawings as callers get them: JSON and GraphViz text of whole plans.
+//! The drawings' public interface: JSON and GraphViz text of whole plans.
 
 use afp_draw::{Options, dot, json, svg};
 use afp_dsl::Toolboxes;
@@ -25,7 +25,7 @@ fn json_of(text: &str) -> Value {
     serde_json::from_str(&json(&compiled.outline, &Options::default())).unwrap()
 }
 
-/// Takes the units from the inputs, so that `10000 cm` reads like the paper's `10000`.
+/// Removes the units from the inputs, so that `10000 cm` equals the paper's `10000`.
 fn without_units(value: &mut Value) {
     match value {
         Value::Object(object) => {
@@ -86,7 +86,7 @@ fn json_has_entries_timing_ports_and_sub_plans() {
 }
 
 #[test]
-fn dot_names_every_element_and_every_edge_but_ignored_ones() {
+fn dot_names_every_element_and_every_edge_except_ignored_events() {
     let text = dot(&compiled(EVERY_PART).outline, &Options::default());
     for expected in [
         "\"Square!start\" -> \"Square:drive\" [penwidth=2];",
@@ -106,7 +106,7 @@ fn dot_names_every_element_and_every_edge_but_ignored_ones() {
 }
 
 #[test]
-fn dot_leads_what_resumes_back() {
+fn dot_has_arrows_back_for_resuming_exits() {
     let plan = "use std plan P { start go var n: int = 0
         actor go: Wait(duration = 3 s) {
             supervise tick: Every(period = 1 s) { Due -> count }  Elapsed -> terminate
@@ -130,7 +130,7 @@ fn live_entries_and_ranges_are_shown() {
 }
 
 #[test]
-fn a_plan_that_runs_forever_says_so_in_every_drawing() {
+fn an_endless_plan_is_marked_in_every_drawing() {
     let plan = "use std plan Patrol forever { start go actor go: Wait { Elapsed -> go } }";
     assert_eq!(json_of(plan)["forever"], true);
     assert_eq!(json_of(EVERY_PART).get("forever"), None);

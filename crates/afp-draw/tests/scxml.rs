@@ -1,5 +1,4 @@
-//! State Chart XML as callers get it: what the W3C's recommendation asks of a document, and every
-//! edge of a plan.
+//! State Chart XML: the W3C's rules for a document, and every edge of a plan.
 
 use std::collections::BTreeSet;
 
@@ -65,7 +64,7 @@ fn is_nc_name(id: &str) -> bool {
         && id.chars().all(|each| each.is_ascii_alphanumeric() || "_-.".contains(each))
 }
 
-/// `event` holds descriptors; the null data model knows no condition but `In`.
+/// `event` has descriptors; the null data model has no condition except `In`.
 fn is_valid_transition(transition: &Node, known: &BTreeSet<&str>) {
     let events = transition.attribute("event").unwrap();
     let word = |word: &str| {
@@ -90,7 +89,7 @@ fn starts_inside(state: &Node) {
 const SCXML: &str = "http://www.w3.org/2005/07/scxml";
 
 #[test]
-fn charts_are_what_the_recommendation_asks_for() {
+fn charts_follow_the_recommendation() {
     for text in [WALL_FOLLOWING, EVERY_PART] {
         is_valid(&chart(text, true));
         is_valid(&chart(text, false));
@@ -116,7 +115,7 @@ fn every_edge_of_wall_following_is_a_transition() {
 }
 
 #[test]
-fn components_are_written_with_all_that_they_take() {
+fn components_are_written_with_their_inputs_and_outputs() {
     let text = "use std
         table stops(x: length, y: length) {
             (1 m, 2 m)
@@ -135,7 +134,7 @@ fn components_are_written_with_all_that_they_take() {
 }
 
 #[test]
-fn the_head_says_what_is_left_out() {
+fn the_head_lists_the_omitted_parts() {
     let text = chart(WALL_FOLLOWING, true);
     for words in
         ["order in which supervisors are asked", "periods, deadlines", "entries and values"]

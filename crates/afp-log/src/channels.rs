@@ -1,7 +1,7 @@
 //! The channels of a log: their topics and schemas, and the messages of the robot's channels.
 //!
-//! A new channel is a variant of [`Said`] here, a method of [`crate::Recorder`], its call in [`crate::SessionLog`], and an
-//! arm in `read.rs` if something reads it back.
+//! A new channel needs a variant of [`Said`], a method of [`crate::Recorder`], its call in
+//! [`crate::SessionLog`], and, if something reads it, an arm in `read.rs`.
 
 use afp_core::Instant;
 use afp_session::Datum;
@@ -15,7 +15,7 @@ use crate::{event, foxglove};
 /// Frames in one message of [`Recorder::transforms`](crate::Recorder::transforms).
 pub const FRAMES: usize = 4;
 
-/// A channel by the names of its device and its signal; by its topic if it belongs to no device.
+/// A channel by the names of its device and its signal; by its topic if it has no device.
 pub(crate) type Key = (&'static str, &'static str);
 
 /// A channel, its schema, and the descriptors that explain the schema.
@@ -39,24 +39,24 @@ pub(crate) fn topic(key: Key) -> String {
     match key {
         ("", topic) => topic.to_owned(),
         (device, "") => format!("/robot/{device}"),
-        // What is about the whole robot.
+        // Signals of the whole robot.
         ("robot", name) => format!("/robot/{name}"),
         (device, name) => format!("/robot/{device}/{name}"),
     }
 }
 
-/// A signal of a device that has a channel of its own.
+/// A device's signal with its own channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Signal {
     /// The device.
     pub device: &'static str,
     /// The signal.
     pub name: &'static str,
-    /// Its SI unit; empty for none.
+    /// Its SI unit; empty without a unit.
     pub unit: &'static str,
 }
 
-/// What a channel of the robot or of its world says.
+/// A message on a channel of the robot or its world.
 pub(crate) enum Said {
     Transforms([Option<Transform>; FRAMES]),
     Pose { frame: &'static str, pose: Pose2 },
@@ -68,7 +68,7 @@ pub(crate) enum Said {
 }
 
 impl Said {
-    /// The channel that says it.
+    /// The channel of the message.
     pub(crate) fn channel(&self) -> Channel {
         match *self {
             Said::Transforms(_) => TRANSFORMS,
@@ -81,7 +81,7 @@ impl Said {
         }
     }
 
-    /// Appends its message to a buffer.
+    /// Appends the message to a buffer.
     pub(crate) fn encode(self, at: Instant, buffer: &mut Vec<u8>) {
         let encoded = match self {
             Said::Transforms(transforms) => foxglove::transforms(at, &transforms).encode(buffer),

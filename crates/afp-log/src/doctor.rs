@@ -1,4 +1,4 @@
-//! Finds what is wrong with a log.
+//! Finds errors in a log.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -10,10 +10,10 @@ use crate::error::LogError;
 use crate::read::read_all;
 use crate::scan::{behind, leads_to_chunk, load, scan};
 
-/// Everything that is wrong with a log; empty for a sound one.
+/// All errors in a log.
 ///
 /// # Errors
-/// The file cannot be opened, or is no MCAP file from the first byte on.
+/// The file cannot be opened, or is not an MCAP file.
 pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
     let bytes = load(path)?;
     let mut doctor = Doctor::default();
@@ -21,8 +21,8 @@ pub fn doctor(path: &Path) -> Result<Vec<String>, LogError> {
         doctor.look(record);
         Ok(())
     });
-    // Reading decodes AFP's own messages and knows why a log was cut short. What was lost before it was recovered is nothing
-    // that is wrong with the file.
+    // Reading decodes AFP's own messages and finds why a log was cut short. Data that was lost
+    // before a recovery is not an error of the file.
     let (log, _) = read_all(path)?;
     let lost = log.lost();
     match (log.cut_short, scanned) {
@@ -60,7 +60,7 @@ struct Doctor {
     messages: u64,
     chunks: u64,
     statistics: Option<Statistics>,
-    /// The metadata record of the run was seen; it may say nothing.
+    /// Whether the run's metadata record was seen, even if empty.
     has_facts: bool,
 }
 
@@ -114,9 +114,9 @@ impl Doctor {
         channel.last = header.log_time;
     }
 
-    /// What readers that go by the index would not find.
+    /// Reports the data that indexed readers would miss.
     fn find_index(&mut self, bytes: &[u8]) {
-        // That there is no summary, or none that can be read, has been said.
+        // A missing or unreadable summary was already reported.
         let Ok(Some(summary)) = Summary::read(bytes) else { return };
         let indexes = summary.chunk_indexes.iter();
         let count = indexes.filter(|index| !leads_to_chunk(bytes, index)).count();
@@ -125,7 +125,7 @@ impl Doctor {
         }
     }
 
-    /// The summary against what the file holds.
+    /// Compares the summary with the file's contents.
     fn compare(&mut self) {
         let Some(statistics) = &self.statistics else {
             self.found.push("it has no statistics".to_owned());

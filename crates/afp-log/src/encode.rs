@@ -15,11 +15,11 @@ use crate::event;
 use crate::messages::Messages;
 use crate::proto::afp::{self, Configuration};
 
-/// What a recorder tells its writer.
+/// A message from the recorder to its writer.
 pub(crate) enum Item {
     Record(OwnedRecord),
     Started(Instant),
-    /// Items were dropped; what all entries hold stands beside, since commits may be among them.
+    /// Items were dropped. The values of all entries follow, because commits may be lost.
     Lost {
         at: Instant,
         count: u64,
@@ -49,17 +49,17 @@ impl Item {
     }
 }
 
-/// A channel that is open, and how many messages it has.
+/// An open channel with its number of messages.
 #[derive(Clone, Copy, Debug)]
 struct Open {
     id: u16,
     count: u32,
 }
 
-/// Makes messages of what happens in a run.
+/// Converts the events of a run to messages.
 pub(crate) struct Encoder {
     to: Box<dyn Messages>,
-    /// Those that every log has, and those of devices that have said something.
+    /// The standard channels, and those of devices with samples.
     channels: BTreeMap<Key, Open>,
     names: Box<dyn Names + Send>,
     entries: Vec<afp::Entry>,
@@ -69,7 +69,7 @@ pub(crate) struct Encoder {
 }
 
 impl Encoder {
-    /// Opens the channels that every log has, and says what the plan consists of.
+    /// Opens the standard channels and writes the plan's table.
     ///
     /// # Errors
     /// The disk is full or fails.
@@ -89,7 +89,7 @@ impl Encoder {
         Ok(log)
     }
 
-    /// A channel, opened if it is new.
+    /// Opens a channel if it is new.
     fn open(&mut self, (key, schema, set): Channel) -> Result<&mut Open, LogError> {
         Ok(match self.channels.entry(key) {
             Entry::Occupied(open) => open.into_mut(),
@@ -144,7 +144,8 @@ impl Encoder {
         }
     }
 
-    /// Takes over what all entries hold, and says so: commits are missing, perhaps parts of the open one.
+    /// Replaces the values of all entries and writes them: commits are missing, perhaps parts of
+    /// the open one.
     fn set_all(&mut self, at: Instant, values: &[Value]) -> Result<(), LogError> {
         self.commit = None;
         for (id, value) in (0..).zip(values) {
@@ -190,7 +191,7 @@ impl Encoder {
         self.to.flush()
     }
 
-    /// Tells of what got lost after what has been told, and ends.
+    /// Reports the last losses and ends.
     ///
     /// # Errors
     /// The disk is full or fails.
@@ -207,7 +208,7 @@ impl Encoder {
         self.to.finish(in_order)
     }
 
-    /// Ends without anything that stays.
+    /// Ends and discards the output.
     pub(crate) fn discard(self) {
         self.to.discard();
     }

@@ -1,11 +1,11 @@
-//! Why a log cannot be written or read.
+//! Errors in writing or reading a log.
 
 use std::borrow::Cow;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a log cannot be written or read.
+/// An error in writing or reading a log.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogError {
@@ -14,32 +14,32 @@ pub enum LogError {
     Create {
         /// The log's final name.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         #[source]
         error: io::Error,
     },
     /// The file cannot be read.
     #[error("cannot read the log '{}': {error}", .path.display())]
     Open {
-        /// Its name.
+        /// The path.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         #[source]
         error: io::Error,
     },
-    /// The file is no MCAP file.
+    /// The file is not an MCAP file.
     #[error("'{}' is not an MCAP log", .path.display())]
     NotALog {
-        /// Its name.
+        /// The path.
         path: PathBuf,
     },
     /// The file is an MCAP file, but not the log of a run.
     #[error("'{}' is not the log of a run of AFP", .path.display())]
     NoRun {
-        /// Its name.
+        /// The path.
         path: PathBuf,
     },
-    /// What the file holds is compressed in a way that cannot be read, by its name.
+    /// The name of the file's unsupported compression.
     #[error("the log is compressed with '{0}', which cannot be read")]
     Compressed(String),
     /// Writing failed, or the contents are damaged.
@@ -51,7 +51,7 @@ pub enum LogError {
 }
 
 impl LogError {
-    /// The same of a log that is being written: a failure of the disk names the file.
+    /// The error of a log during writing; a disk error gets the file's path.
     pub(crate) fn writing(self, path: &Path) -> LogError {
         match self {
             LogError::Mcap(mcap::McapError::Io(error)) => {
@@ -61,7 +61,7 @@ impl LogError {
         }
     }
 
-    /// What to do about it; empty where nothing in general helps.
+    /// The help; empty if no general advice exists.
     pub fn help(&self) -> Cow<'static, str> {
         let help = match self {
             LogError::Open { error, path } if error.kind() == io::ErrorKind::NotFound => {
@@ -95,7 +95,7 @@ impl LogError {
     }
 }
 
-/// Of a disk its own words.
+/// A disk error's own message.
 fn reason(error: &mcap::McapError) -> &dyn fmt::Display {
     match error {
         mcap::McapError::Io(error) => error,
@@ -103,7 +103,7 @@ fn reason(error: &mcap::McapError) -> &dyn fmt::Display {
     }
 }
 
-/// Whether nothing can be written to a place.
+/// Whether a file cannot be written.
 fn is_forbidden(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }

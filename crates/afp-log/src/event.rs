@@ -1,4 +1,5 @@
-//! What happened as messages of the file, and back: names beside ids, so that a reader needs no tables.
+//! Converts events to messages of the file and back. Messages have names in addition to ids, so
+//! that readers need no tables.
 
 use afp_core::trace::{
     self, Cause, ComponentId, ComponentName, EntryName, Names, Outcome, TraceEntryId, declared,
@@ -16,17 +17,17 @@ use crate::proto::afp::plan_table::{self, Component, Reaction};
 use crate::proto::afp::request::{self, Became, Output};
 use crate::proto::afp::{Entry, PlanEvent, PlanTable, Request, Value, value};
 
-/// What happened, as the bytes of a message: to be kept or sent without a log around it.
+/// An event as the bytes of a message, for use without a log.
 pub fn pack(event: &RunEvent) -> Vec<u8> {
     message(event.clone()).encode_to_vec()
 }
 
-/// What [`pack`] made bytes of; none for other bytes.
+/// The event in the bytes of [`pack`]; `None` for other bytes.
 pub fn unpack(bytes: &[u8]) -> Option<RunEvent> {
     PlanEvent::decode(bytes).ok().map(decode)
 }
 
-/// What happened, as a message: fields that its kind has not are empty.
+/// An event as a message; unused fields are empty.
 pub(crate) fn message(event: RunEvent) -> PlanEvent {
     let RunEvent { at, component, kind } = event;
     let mut to = PlanEvent {
@@ -140,7 +141,7 @@ fn component(path: String, id: u32) -> NamedComponent {
 fn kind(message: PlanEvent) -> EventKind {
     let (kind, cause, ending) = (message.kind(), message.cause(), message.ending());
     let fault = FaultText { code: message.fault, text: message.fault_text };
-    // Positions are below this; a damaged one is that of nothing.
+    // Positions are below this; a damaged position refers to nothing.
     let outcome = Outcome::from_number(u16::try_from(message.outcome_id).unwrap_or(u16::MAX));
     let outcome = NamedOutcome { name: message.outcome, outcome, target: message.target };
     let element = || component(message.element, message.element_id);
@@ -218,7 +219,7 @@ pub(crate) fn encode_value(datum: Datum) -> Value {
     }
 }
 
-/// What the message of a value says.
+/// The value in a message.
 pub(crate) fn decode_value(message: Value) -> Datum {
     match message.value {
         None => Datum::Unset,
@@ -278,7 +279,7 @@ fn encode_request(request: Requested) -> Request {
     Request { at_ns: at.as_nanos(), became: became.into(), why, ..message }
 }
 
-/// What the message of a request says; none for a kind that this release does not know.
+/// The request in a message; `None` for a kind from a later release.
 fn decode_request(message: Request) -> Option<Requested> {
     let done = match message.became() {
         Became::Done => Done::Done,
@@ -337,7 +338,7 @@ pub(crate) fn entry(names: &(impl Names + ?Sized), id: TraceEntryId, value: Valu
     }
 }
 
-/// What the plan consists of, as a message.
+/// The plan's components, as a message.
 pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     let outcomes = |id| {
         let named = |(outcome, name): (_, &str)| plan_table::Outcome {
@@ -380,14 +381,14 @@ pub(crate) fn table(names: &(impl Names + ?Sized)) -> PlanTable {
     }
 }
 
-/// An instant as protobuf writes it.
+/// An instant as a protobuf time stamp.
 pub(crate) fn timestamp(at: Instant) -> Timestamp {
     let nanos = at.as_nanos();
     // Both fit: a u64 holds 584 years of nanoseconds.
     Timestamp { seconds: (nanos / 1_000_000_000) as i64, nanos: (nanos % 1_000_000_000) as i32 }
 }
 
-/// The instant of a protobuf time stamp; one before zero counts as zero.
+/// The instant of a protobuf time stamp; times before zero become zero.
 pub(crate) fn instant(time: &Option<Timestamp>) -> Instant {
     let Some(Timestamp { seconds, nanos }) = *time else { return Instant::ZERO };
     let (seconds, nanos) = (u64::try_from(seconds), u64::try_from(nanos));

@@ -12,7 +12,7 @@ use crate::proto::foxglove::{
 };
 use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 
-/// Rays that stand for the cone of one ranging.
+/// The number of rays in the cone of a ranging.
 const RAYS: usize = 9;
 
 pub(crate) fn transforms(at: Instant, transforms: &[Option<Transform>]) -> FrameTransforms {
@@ -37,7 +37,8 @@ pub(crate) fn pose(at: Instant, frame: &str, at_pose: Pose2) -> PoseInFrame {
     }
 }
 
-/// What a range sensor says that stands so high, metres. Without an echo the scan has no ranges: infinity would read as free space.
+/// A range sensor's reading at this height, in metres. Without an echo the scan has no ranges:
+/// infinity would read as free space.
 pub(crate) fn ranging(ranging: &Ranging, height: f64) -> LaserScan {
     LaserScan {
         timestamp: Some(timestamp(ranging.time)),
@@ -53,7 +54,7 @@ pub(crate) fn ranging(ranging: &Ranging, height: f64) -> LaserScan {
     }
 }
 
-/// The picture as a PNG; empty when its size and its pixels do not fit.
+/// The picture as a PNG; empty if its size and its pixels do not agree.
 pub(crate) fn image(image: &Image) -> CompressedImage {
     CompressedImage {
         timestamp: Some(timestamp(image.time)),
@@ -111,7 +112,7 @@ fn entity(at: Timestamp, shape: &Shape) -> SceneEntity {
     }
 }
 
-/// The sides of a prism and, where its outline is convex, the top.
+/// The sides of a prism and, for a convex outline, the top.
 fn faces(shape: &Shape) -> Vec<Point3> {
     let (outline, top) = (&shape.outline, shape.height);
     let mut points = Vec::new();

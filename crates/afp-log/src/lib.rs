@@ -1,8 +1,8 @@
 //! MCAP logs of plans and robots.
 //!
-//! A [`Recorder`] takes trace records and robot data on the control path and writes them on a
-//! thread of its own; [`read`] reads a log back. The files are plain MCAP with the public Foxglove
-//! protobuf schemas and AFP's own (`proto/afp.proto`), readable without any code of ours.
+//! A [`Recorder`] takes trace records and robot data on the control path and writes them on its own
+//! thread; [`read`] reads a log back. The files are plain MCAP with the public Foxglove protobuf
+//! schemas and AFP's own (`proto/afp.proto`). Other tools can read them.
 #![warn(missing_docs)]
 
 mod channels;

@@ -1,15 +1,16 @@
-//! A run that others watch while it goes on: Foxglove's [WebSocket protocol].
+//! Live observation of a run through Foxglove's [WebSocket protocol].
 //!
-//! [`Live`] is a server for a few clients. They see the channels of a log, entries of the plan as parameters, buttons
-//! and faults of the robot as services. Whoever drives the run hands [`Live::messages`] to a log that is sent, and
-//! between two steps asks [`Live::is_asked`]; what clients want is then done by [`Live::serve`].
+//! [`Live`] is a server for a few clients. They see the channels of a log, entries of the plan as
+//! parameters, and buttons and faults of the robot as services. The driver of the run passes
+//! [`Live::messages`] to a log, and calls [`Live::is_asked`] between two steps. [`Live::serve`]
+//! handles the clients' requests.
 //!
-//! Nobody who watches costs the run time: messages go through a bounded queue for each client. One that reads too
-//! slowly loses the oldest ones and is told how many; one that does not read at all loses its connection.
+//! Clients cost the run no time: each client has a bounded queue. A slow client loses the oldest
+//! messages and gets their number. A client that does not read at all loses its connection.
 //!
-//! Whoever can reach the port, other users of the machine and pages in a browser among them, is admitted by a token
-//! alone, that of watching or that of steering; names of hosts and of pages are checked before. Whoever has none takes no
-//! place of a client, and is gone after a moment.
+//! Other users of the machine and pages in a browser can reach the port. A token admits a client,
+//! for watching or for steering; the names of host and page are checked first. A connection without
+//! a token takes no client's place and ends after a moment.
 //!
 //! [WebSocket protocol]: https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md
 

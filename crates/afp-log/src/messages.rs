@@ -1,4 +1,4 @@
-//! Where the messages of a run go: a file, clients that watch.
+//! Receivers of a run's messages: a file or live clients.
 
 use std::path::PathBuf;
 
@@ -6,16 +6,16 @@ use afp_core::Instant;
 
 use crate::error::LogError;
 
-/// Who takes the messages of a run: a file, clients that watch.
+/// A receiver of a run's messages: a file or live clients.
 pub trait Messages: Send {
-    /// Opens a channel of protobuf messages: its topic, the name of its schema, the descriptors that explain it (a
-    /// `FileDescriptorSet`). Gives its number.
+    /// Opens a channel of protobuf messages: its topic, the name of its schema, the schema's
+    /// descriptors (a `FileDescriptorSet`). Returns its number.
     ///
     /// # Errors
-    /// It cannot be opened.
+    /// The channel cannot be opened.
     fn open(&mut self, topic: &str, schema: &str, set: &[u8]) -> Result<u16, LogError>;
 
-    /// Takes a message; `sequence` counts those of its channel.
+    /// Takes a message; `sequence` counts the messages of its channel.
     ///
     /// # Errors
     /// The disk is full or fails.
@@ -27,28 +27,28 @@ pub trait Messages: Send {
         message: &[u8],
     ) -> Result<(), LogError>;
 
-    /// What the run came to, by name.
+    /// Takes the results of the run, by name.
     ///
     /// # Errors
     /// The disk is full or fails.
     fn came(&mut self, facts: Vec<(String, String)>) -> Result<(), LogError>;
 
-    /// What has been taken is to be seen by others.
+    /// Makes all messages visible to readers.
     ///
     /// # Errors
     /// The disk is full or fails.
     fn flush(&mut self) -> Result<(), LogError>;
 
-    /// Nothing comes any more; `in_order` where the run is over. Gives the file and its size in bytes, where there is
-    /// one.
+    /// Ends the messages; `in_order` if the run has ended. Returns the file and its size in bytes,
+    /// if there is a file.
     ///
     /// # Errors
     /// The disk is full or fails.
     fn finish(self: Box<Self>, in_order: bool) -> Result<(PathBuf, u64), LogError>;
 
-    /// Nothing comes any more, and nothing came of the run: of a file nothing stays.
+    /// Ends the messages of a run that never started; removes the file.
     fn discard(self: Box<Self>) {
-        // There is nobody to tell.
+        // There is no receiver for the error.
         let _ = self.finish(false);
     }
 }

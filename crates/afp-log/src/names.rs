@@ -1,4 +1,4 @@
-//! What a log says of its plan, as names.
+//! The names of a plan in its log.
 
 use afp_core::trace::{
     ComponentId, ComponentKind, ComponentName, EntryName, Names, Outcome, Reaction, TraceEntryId,
@@ -6,7 +6,7 @@ use afp_core::trace::{
 
 use crate::proto::afp::{PlanTable, plan_table};
 
-/// The names that a log keeps: those of components, not of entries.
+/// The names in a log: those of components, and not of entries.
 #[derive(Clone, Debug, Default)]
 pub struct LogNames(pub(crate) PlanTable);
 
@@ -55,7 +55,7 @@ impl Names for LogNames {
 
     fn reaction(&self, element: ComponentId, n: u16) -> Option<Reaction<'_>> {
         let row = self.get(element)?.reactions.get(usize::from(n))?;
-        // Positions are below this; a damaged one is that of nothing.
+        // Positions are below this; a damaged position refers to nothing.
         let outcome = Outcome::from_number(u16::try_from(row.outcome_id).unwrap_or(u16::MAX));
         Some(Reaction { supervisor: ComponentId(row.supervisor_id), outcome, target: &row.target })
     }

@@ -1,4 +1,4 @@
-//! Pictures of cameras: as PNG in logs, as pixels for who shows them.
+//! Camera pictures: as PNG in logs, as pixels for viewers.
 
 use std::io::Cursor;
 
@@ -7,7 +7,7 @@ use afp_core::Instant;
 use crate::LogData;
 use crate::robot::Image;
 
-/// The picture as a PNG; nothing when its size and its pixels do not fit.
+/// The picture as a PNG; `None` if its size and its pixels do not agree.
 pub(crate) fn png(image: &Image) -> Option<Vec<u8>> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, image.width, image.height);
@@ -19,13 +19,13 @@ pub(crate) fn png(image: &Image) -> Option<Vec<u8>> {
     Some(file)
 }
 
-/// Width, height, and a byte for each of red, green and blue of a PNG; nothing where the file is none that a log has, or
-/// larger than the picture of any camera: four thousand by five thousand pixels.
+/// Width, height, and the red, green and blue bytes of a PNG. `None` for a file that cannot come
+/// from a log, or is larger than any camera's picture: four thousand by five thousand pixels.
 pub fn pixels(file: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
     /// Bytes.
     const MOST: usize = 64 << 20;
     let mut reader = png::Decoder::new(Cursor::new(file)).read_info().ok()?;
-    // So much is said before any of it is there.
+    // The size is checked before any data is decoded.
     let size = reader.output_buffer_size().filter(|size| *size <= MOST)?;
     let mut pixels = vec![0; size];
     let info = reader.next_frame(&mut pixels).ok()?;
@@ -35,8 +35,8 @@ pub fn pixels(file: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
 }
 
 impl LogData {
-    /// What the camera saw last at a time: width, height, and a byte for each of red, green and blue. Nothing where the
-    /// log has no picture from before.
+    /// The camera's last picture at a time: width, height, and red, green and blue bytes. `None` if
+    /// the log has no earlier picture.
     pub fn picture(&self, at: Instant) -> Option<(u32, u32, Vec<u8>)> {
         let later = self.images.partition_point(|(taken, _)| *taken <= at);
         pixels(&self.images.get(later.checked_sub(1)?)?.1)
@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_picture_of_a_time_has_its_pixels() {
+    fn the_last_picture_before_a_time_has_its_pixels() {
         let mut log = LogData { images: vec![taken(1, 10), taken(2, 20)], ..LogData::default() };
         let red = |log: &LogData, tenths: u64| {
             let at = Instant::from_nanos(tenths * 100_000_000);
@@ -69,8 +69,8 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_larger_than_that_of_any_camera_is_none() {
-        // Kilobytes in a file.
+    fn a_picture_larger_than_any_cameras_is_none() {
+        // Only kilobytes in the file.
         let black = |height: u32| {
             let rgb = vec![0; 4000 * height as usize * 3].into();
             png(&Image { time: Instant::ZERO, frame: "camera", width: 4000, height, rgb }).unwrap()

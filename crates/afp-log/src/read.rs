@@ -1,4 +1,4 @@
-//! Reads a log back, whole or cut short.
+//! Reads a log, whole or cut short.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -21,32 +21,33 @@ use crate::recover::{Missing, RECOVERED, missing};
 use crate::robot::Pose2;
 use crate::scan::{load, scan};
 
-/// What a log holds, as far as AFP knows it.
+/// The contents of a log.
 #[derive(Clone, Debug, Default)]
 pub struct LogData {
     /// The metadata record `afp.run`.
     pub facts: BTreeMap<String, String>,
     /// The attachments that are text, by name.
     pub attachments: BTreeMap<String, String>,
-    /// What the run came to, once it was over: its metadata record `afp.end`.
+    /// The results of a finished run: its metadata record `afp.end`.
     pub end: BTreeMap<String, String>,
-    /// What the plan consists of; the names of its entries stand in what happened.
+    /// The plan's components; the names of its entries are in the events.
     pub names: LogNames,
-    /// What happened, in order.
+    /// The events, in order.
     pub events: Vec<RunEvent>,
     /// The configuration at the start, after each commit, and after a loss.
     pub configurations: Vec<Configured>,
-    /// What devices said, by `DEVICE/SIGNAL`, whenever they said something else; unset from when on they said nothing.
+    /// The samples of devices, by `DEVICE/SIGNAL`, at each change; unset when a device becomes
+    /// silent.
     pub samples: BTreeMap<String, Vec<(Instant, Datum)>>,
-    /// Where the robot was.
+    /// The robot's poses.
     pub poses: Vec<(Instant, Pose2)>,
-    /// Where what stands in the room was last.
+    /// The last positions of objects in the room.
     pub things: Outlines,
-    /// Where the odometry of the robot took it to be.
+    /// The estimates of the robot's odometry.
     pub believed: Vec<(Instant, Pose2)>,
-    /// What range sensors said.
+    /// The readings of range sensors.
     pub rangings: Vec<Heard>,
-    /// What cameras saw: when, and the picture as a PNG file.
+    /// The camera's pictures: time, and the picture as a PNG file.
     pub images: Vec<(Instant, Vec<u8>)>,
     /// The channels by topic.
     pub topics: BTreeMap<String, TopicInfo>,
@@ -54,18 +55,18 @@ pub struct LogData {
     pub bytes: u64,
     /// The first and the last message.
     pub span: Option<(Instant, Instant)>,
-    /// Why the log ends before its end, or what it misses, when it does.
+    /// The reason why the log ends early, or its missing part.
     pub cut_short: Option<String>,
-    /// The stretches of time of which messages are missing from a log that was recovered, in their order.
+    /// The periods with missing messages in a recovered log, in order.
     pub missing: Vec<Missing>,
 }
 
 /// All entries after a commit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configured {
-    /// When.
+    /// The time.
     pub at: Instant,
-    /// Who wrote, or `outside`; empty at the start and after a loss.
+    /// The author, or `outside`; empty at the start and after a loss.
     pub author: String,
     /// The paths of the entries and their values.
     pub entries: Vec<(String, Datum)>,
@@ -74,35 +75,35 @@ pub struct Configured {
 /// A reading of a range sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heard {
-    /// The sensor, by the name of its device.
+    /// The sensor's device name.
     pub device: Arc<str>,
-    /// When it was taken.
+    /// The time of the reading.
     pub at: Instant,
-    /// Where the sensor was and which way it looked, against the robot.
+    /// The sensor's pose relative to the robot.
     pub pose: Pose2,
     /// Half the opening of the cone, radians.
     pub half_angle: f64,
-    /// Metres; `None` when no echo came back.
+    /// The range in metres; `None` without an echo.
     pub range: Option<f64>,
 }
 
-/// What is known of a channel.
+/// The description of a channel.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TopicInfo {
     /// The name of its schema.
     pub schema: String,
-    /// How many messages it has.
+    /// The number of its messages.
     pub messages: u64,
 }
 
-/// Reads the log of a run, as far as it goes: one that was cut short yields what it holds.
+/// Reads the log of a run. A truncated log returns its intact part.
 ///
 /// # Errors
-/// The file cannot be opened, is no MCAP file from the first byte on, is not the log of a run, or is compressed in a way
-/// that cannot be read.
+/// The file cannot be opened, is not an MCAP file, is not the log of a run, or has an unsupported
+/// compression.
 pub fn read(path: &Path) -> Result<LogData, LogError> {
     let (mut log, says_run) = read_all(path)?;
-    // What says of which run a log is comes first.
+    // The description of the run comes first.
     let begun = log.cut_short.is_none() || !log.topics.is_empty();
     match says_run || !begun {
         true => {
@@ -113,17 +114,17 @@ pub fn read(path: &Path) -> Result<LogData, LogError> {
     }
 }
 
-/// As [`read`], of any MCAP file.
+/// Like [`read`], for any MCAP file.
 ///
 /// # Errors
-/// As [`read`], but for what the file is of.
+/// Those of [`read`], except that the file may have any contents.
 pub fn read_any(path: &Path) -> Result<LogData, LogError> {
     let (mut log, _) = read_all(path)?;
     log.note_missing();
     Ok(log)
 }
 
-/// What a file holds, cut short where it is itself, and whether it says of which run it is.
+/// The contents of a file up to its damage, and whether it describes its run.
 pub(crate) fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
     let bytes = load(path)?;
     let mut reader = Reader::default();
@@ -148,7 +149,7 @@ pub(crate) fn read_all(path: &Path) -> Result<(LogData, bool), LogError> {
 }
 
 impl LogData {
-    /// How many records could not be kept while it was written.
+    /// The number of records that were lost during writing.
     pub fn lost(&self) -> u64 {
         let lost = |event: &RunEvent| match event.kind {
             EventKind::Lost(count) => count,
@@ -157,7 +158,7 @@ impl LogData {
         self.events.iter().map(lost).sum()
     }
 
-    /// What was lost before the log was recovered is missing from it all the same.
+    /// Notes the messages that were lost before the recovery.
     fn note_missing(&mut self) {
         let stretches: Vec<_> = self.missing.iter().map(Missing::to_string).collect();
         if !stretches.is_empty() {
@@ -168,7 +169,7 @@ impl LogData {
     }
 }
 
-/// What all entries hold, as a message of `/plan/configuration` says; none for other bytes.
+/// The values of all entries in a message of `/plan/configuration`; `None` for other bytes.
 pub fn configuration(bytes: &[u8]) -> Option<Configured> {
     Configuration::decode(bytes).ok().map(configured)
 }
@@ -179,7 +180,7 @@ struct Reader {
     schemas: BTreeMap<u16, String>,
     /// Topic and schema.
     channels: BTreeMap<u16, (String, String)>,
-    /// It says of which run it is.
+    /// Whether it describes its run.
     says_run: bool,
     footer: bool,
 }
@@ -301,7 +302,7 @@ fn pose(pose: Option<&Pose>) -> Option<Pose2> {
     plane(pose.position.as_ref()?, pose.orientation.as_ref()?)
 }
 
-/// What an entity of the scene is called, and its outline.
+/// The name of an entity of the scene, and its outline.
 fn rim(entity: SceneEntity) -> Option<(String, Vec<[f64; 2]>)> {
     let rim = entity.lines.into_iter().next()?;
     Some((entity.id, rim.points.iter().map(|point| [point.x, point.y]).collect()))

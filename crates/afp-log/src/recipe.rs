@@ -1,4 +1,4 @@
-//! The recipe of a run in its log: facts, attachments and what came from outside.
+//! The recipe of a run in its log: facts, attachments and external inputs.
 
 use afp_core::Instant;
 use afp_session::{Build, Done, EventKind, Pose2, Recipe, TextFile};
@@ -6,19 +6,20 @@ use afp_session::{Build, Done, EventKind, Pose2, Recipe, TextFile};
 use crate::read::LogData;
 use crate::write::About;
 
-/// The attachment that holds the world, a text of whatever form the robot's worlds have.
+/// The attachment with the world, in the format of the robot's worlds.
 pub const WORLD: &str = "world";
-/// What the attachments of toolboxes begin with.
+/// The prefix of toolbox attachments.
 const TOOLBOX: &str = "toolbox/";
-/// What a text begins with whose file is called as another attachment: another spelling of the same path.
+/// The prefix for a source whose name equals that of another attachment: another spelling of the
+/// same path.
 const HERE: &str = "./";
 
-/// Whether an attachment is none of the plans' texts.
+/// Whether an attachment is not a source of the plans.
 fn is_taken(attachment: &str) -> bool {
     attachment == WORLD || attached_toolbox(attachment).is_some()
 }
 
-/// The name of the attachment that holds a text of the plans.
+/// The name of a source's attachment.
 fn text_attachment(file: &str) -> String {
     match is_taken(file) {
         true => format!("{HERE}{file}"),
@@ -26,28 +27,28 @@ fn text_attachment(file: &str) -> String {
     }
 }
 
-/// The file whose text an attachment holds.
+/// The file of an attached source.
 fn attached_text(attachment: &str) -> &str {
     attachment.strip_prefix(HERE).filter(|file| is_taken(file)).unwrap_or(attachment)
 }
 
-/// The name of the attachment that holds a toolbox.
+/// The name of a toolbox's attachment.
 pub fn toolbox_attachment(toolbox: &str) -> String {
     format!("{TOOLBOX}{toolbox}")
 }
 
-/// The name of the toolbox that an attachment holds; none of another attachment.
+/// The toolbox of an attachment; `None` for other attachments.
 pub fn attached_toolbox(attachment: &str) -> Option<&str> {
     attachment.strip_prefix(TOOLBOX).filter(|name| !name.contains(['.', '/']))
 }
 
-/// What the facts begin with that each hold a setting; a value may have line breaks.
+/// The prefix of facts with a setting; a value may have line breaks.
 const SETTING: &str = "set.";
 
 const TEXT: &str = "text/plain";
 
 impl About {
-    /// What a log says of a run before it begins: what came from outside stands among its events.
+    /// The description of a run before it begins. External inputs are in its events.
     pub fn new(recipe: &Recipe) -> About {
         let until = recipe.until.map_or_else(String::new, |until| until.as_nanos().to_string());
         let set = |(n, (name, value)): (usize, &(String, String))| {
@@ -87,7 +88,7 @@ impl About {
 }
 
 impl LogData {
-    /// All that it takes to repeat the run. What a log does not say is empty.
+    /// The recipe for repeating the run; missing parts are empty.
     pub fn recipe(&self) -> Recipe {
         let fact = |key: &str| self.facts.get(key).map_or("", String::as_str);
         let lines = |key: &str| fact(key).lines().map(str::to_owned).collect::<Vec<_>>();
@@ -114,7 +115,7 @@ impl LogData {
         }
     }
 
-    /// The plan's file, then those that it uses, in the order in which they are used where the log says it.
+    /// The plan's file, then the files that it uses, in the order of use if the log has it.
     fn texts(&self, plan: &str, order: &[String]) -> Vec<TextFile> {
         let texts = self.attachments.iter().filter(|(name, _)| !is_taken(name));
         let file = |(name, text): (&String, &String)| TextFile {
@@ -135,7 +136,7 @@ impl LogData {
         self.attachments.iter().filter_map(toolbox).collect()
     }
 
-    /// Those of an older log stand in one fact, a line each.
+    /// Older logs have all settings in one fact, one per line.
     fn settings(&self) -> Vec<(String, String)> {
         let older = self.facts.get("set").into_iter().flat_map(|all| all.lines());
         let each = (0..).map_while(|n| self.facts.get(&format!("{SETTING}{n}")));
@@ -143,18 +144,18 @@ impl LogData {
         pairs.map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
     }
 
-    /// What came from outside, in the order in which it was done.
+    /// The external inputs, in the order of their execution.
     fn requests(&self) -> Vec<(Instant, afp_session::Stimulus)> {
         let made = self.events.iter().filter_map(|event| event.facts().request);
         made.map(|request| (request.at, request.what.clone())).collect()
     }
 
-    /// Whether it says in which world the run was, which may have no text.
+    /// Whether it names the run's world, which may have no text.
     pub fn has_world(&self) -> bool {
         self.attachments.contains_key(WORLD)
     }
 
-    /// When somebody stopped the run, or when its log breaks off or begins to miss something.
+    /// The time of a stop, or of the log's first gap or its early end.
     fn stopped(&self) -> Option<Instant> {
         let stopped = self.events.iter().find(|event| event.kind == EventKind::StopRequested);
         let stopped = stopped.map(|event| event.at);
@@ -166,12 +167,12 @@ impl LogData {
         stopped.or(cut)
     }
 
-    /// The hash of the run's trace; none where its log breaks off or misses something.
+    /// The hash of the run's trace; `None` for an incomplete log.
     pub fn trace(&self) -> Option<&str> {
         self.end.get("trace").filter(|_| self.cut_short.is_none()).map(String::as_str)
     }
 
-    /// What was asked for and did not come before the end.
+    /// The inputs whose time came after the end of the run.
     pub fn not_reached(&self) -> impl Iterator<Item = &afp_session::Requested> {
         let requests = self.events.iter().filter_map(|event| event.facts().request);
         requests.filter(|request| request.done == Done::NotReached)

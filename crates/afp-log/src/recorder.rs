@@ -1,8 +1,7 @@
-//! The control side of a log: a trace sink and a handful of robot channels, all behind one
-//! bounded queue.
+//! The control side of a log: a trace sink and some robot channels with one bounded queue.
 //!
-//! Recording copies a few hundred bytes into the queue and returns. A thread of its own turns
-//! them into messages and writes them.
+//! Recording copies a few hundred bytes into the queue and returns. Another thread converts them to
+//! messages and writes them.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,61 +21,61 @@ use crate::robot::{Image, Level, Pose2, Ranging, Shape, Transform};
 use crate::write::{About, LogFile};
 use afp_session::{Datum, OwnedRecord, RunEvent};
 
-/// Items that the queue holds: a second of a busy plan.
+/// The capacity of the queue: a second of a busy plan.
 const CAPACITY: usize = 8192;
-/// So many must be free before a loss is told of: what is said again after it shall not be lost at once.
+/// The free items required before a loss is reported: the repeated state must not be lost again.
 const ROOM: usize = 256;
-/// How often the file is brought up to date, so that a crash loses little.
+/// The flush interval, so that a crash loses little.
 const FLUSH_EVERY: Span = Span::from_millis(250);
-/// How long the writer rests when there is nothing to do.
+/// The writer's pause if the queue is empty.
 const REST: Span = Span::from_micros(500);
 
-/// What to do when the writer cannot keep up.
+/// The action if the writer is too slow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhenFull {
     /// Drop the item and count it: control must not wait for a disk.
     Drop,
-    /// Wait for the writer: simulated time stands still meanwhile.
+    /// Wait for the writer: simulated time does not advance.
     Wait,
 }
 
-/// A log that was closed.
+/// A closed log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Where it is; empty where nothing was written to a file.
+    /// Its path; empty if no file was written.
     pub path: PathBuf,
     /// Its size.
     pub bytes: u64,
-    /// Items that were dropped because the writer could not keep up.
+    /// The number of items that were dropped because the writer was too slow.
     pub lost: u64,
 }
 
-/// Records a run into an MCAP file, or sends it to whoever watches.
+/// Records a run into an MCAP file, or sends it to live clients.
 ///
-/// The file is `NAME.part` until [`Recorder::finish`]; dropped without it, the file is closed in
-/// order but keeps that name, and goes where the plan has not started.
+/// The file is `NAME.part` until [`Recorder::finish`]. A recorder that is dropped without it closes
+/// the file and keeps that name; if the plan has not started, it removes the file.
 pub struct Recorder {
     queue: Producer<Item>,
     when_full: WhenFull,
     lost: u64,
-    /// Of those, the ones that the log does not mention yet.
+    /// The dropped items that the log does not mention yet.
     unreported: u64,
-    /// Whether a loss was told of since somebody asked.
+    /// Whether a loss was reported since the last query.
     reported: bool,
-    /// What all entries hold, by number; none where nothing is dropped.
+    /// The values of all entries, by number; empty if nothing is dropped.
     entries: Vec<Value>,
     end: Arc<End>,
     thread: Option<JoinHandle<Outcome>>,
     /// Whether the plan has started.
     started: bool,
     kept: Option<PathBuf>,
-    /// Whether it is sent to those who watch, not into a file.
+    /// Whether the messages go to live clients instead of a file.
     pub(crate) is_live: bool,
 }
 
 type Outcome = Result<(PathBuf, u64), LogError>;
 
-/// What the writer learns at the end.
+/// The writer's order at the end.
 #[derive(Default)]
 struct End {
     state: AtomicU8,
@@ -89,11 +88,11 @@ const ABANDON: u8 = 2;
 const DISCARD: u8 = 3;
 
 impl Recorder {
-    /// Creates the log and starts its writer. A session in virtual time waits where the disk is slow; a robot that is there
-    /// must not.
+    /// Creates the log and starts its writer. A session in virtual time waits for a slow disk; a
+    /// real robot does not.
     ///
     /// # Errors
-    /// [`LogError::Create`] when the file cannot be made.
+    /// [`LogError::Create`] if the file cannot be created.
     pub fn create(
         path: &Path,
         about: &About,
@@ -108,11 +107,11 @@ impl Recorder {
         Ok(recorder)
     }
 
-    /// Sends a run to whoever takes its messages, by a thread of its own; what it cannot keep up with is dropped, for a
-    /// session never waits.
+    /// Sends a run to a receiver of messages, on a separate thread. It drops items if the receiver
+    /// is too slow, because a session never waits.
     ///
     /// # Errors
-    /// The first messages are not taken, or there is no thread.
+    /// The receiver rejects the first messages, or no thread can be created.
     pub fn stream(to: Box<dyn Messages>, names: Box<dyn Names + Send>) -> Result<Self, LogError> {
         let mut recorder = Recorder::begin(to, names, WhenFull::Drop, Path::new("live"))?;
         recorder.is_live = true;
@@ -155,78 +154,78 @@ impl Recorder {
         })
     }
 
-    /// Writes the configuration that the plan starts with.
+    /// Writes the initial configuration.
     pub fn started(&mut self, at: Instant) {
         self.started = true;
         self.push(Item::Started(at), at);
     }
 
-    /// Where the robot's frames stand; of more than [`FRAMES`] the first ones.
+    /// Writes the robot's frames; only the first [`FRAMES`] of them.
     pub fn transforms(&mut self, at: Instant, transforms: &[Transform]) {
         let mut all = [None; FRAMES];
         all.iter_mut().zip(transforms).for_each(|(slot, transform)| *slot = Some(*transform));
         self.say(at, Said::Transforms(all));
     }
 
-    /// Where the robot is.
+    /// Writes the robot's pose.
     pub fn pose(&mut self, at: Instant, frame: &'static str, pose: Pose2) {
         self.say(at, Said::Pose { frame, pose });
     }
 
-    /// What a range sensor says that stands so high, metres.
+    /// Writes a range sensor's reading at this height, in metres.
     pub fn ranging(&mut self, at: Instant, device: &'static str, ranging: Ranging, height: f64) {
         self.say(at, Said::Ranging { device, ranging, height });
     }
 
-    /// What a camera saw; the writer makes a PNG of it.
+    /// Writes a camera's picture; the writer converts it to a PNG.
     pub fn image(&mut self, at: Instant, device: &'static str, image: Image) {
         self.say(at, Said::Image { device, image });
     }
 
-    /// What a device says now; allocates for texts.
+    /// Writes a device's sample; allocates for strings.
     pub fn sample(&mut self, at: Instant, signal: Signal, value: Datum) {
         self.say(at, Said::Sample { signal, value });
     }
 
-    /// Something that no record says: what came from outside; allocates.
+    /// Writes an event that is not a trace record: an external input; allocates.
     pub fn event(&mut self, event: RunEvent) {
         let at = event.at;
         self.push(Item::Event(Box::new(event)), at);
     }
 
-    /// What the run came to: the metadata record `afp.end`.
+    /// Writes the results of the run: the metadata record `afp.end`.
     pub fn end(&mut self, at: Instant, facts: Vec<(String, String)>) {
         self.push(Item::End { at, facts }, at);
     }
 
-    /// What stands in the room; allocates, so meant for the start.
+    /// Writes the objects in the room; allocates and is meant for the start.
     pub fn scene(&mut self, at: Instant, shapes: Vec<Shape>) {
         self.say(at, Said::Scene(shapes.into()));
     }
 
-    /// A line for people; allocates, so not for use within a step.
+    /// Writes a line for people; allocates and must not be used within a step.
     pub fn text(&mut self, at: Instant, level: Level, name: &'static str, text: &str) {
         self.say(at, Said::Text { level, name, text: text.into() });
     }
 
-    /// From now on nothing is dropped: the run is over, and nobody is kept waiting.
+    /// Stops dropping items after the end of the run.
     pub fn wait_when_full(&mut self) {
         self.when_full = WhenFull::Wait;
     }
 
-    /// Whether the log has been told of a loss since the last time, and so may lack what was said before: it is to be said
-    /// again. Tells it of one that it can be told of now.
+    /// Whether the log has reported a loss since the last call. The caller must then repeat its
+    /// state, which the log may lack. Reports a pending loss if there is room.
     pub fn has_told_of_loss(&mut self, at: Instant) -> bool {
         self.tell_of_loss(at);
         std::mem::take(&mut self.reported)
     }
 
-    /// Items dropped so far because the writer could not keep up.
+    /// The number of items that were dropped because the writer was too slow.
     pub fn lost(&self) -> u64 {
         self.lost
     }
 
-    /// Where that is now which a run that was killed left of the same log.
+    /// The new path of an earlier, killed run's unfinished log.
     pub fn kept(&self) -> Option<&Path> {
         self.kept.as_deref()
     }
@@ -234,7 +233,7 @@ impl Recorder {
     /// Waits for the writer and gives the log its name.
     ///
     /// # Errors
-    /// The first failure of the writer; what it wrote before stays in `NAME.part`.
+    /// The first failure of the writer; the data before it is in `NAME.part`.
     pub fn finish(mut self) -> Result<Written, LogError> {
         let (path, bytes) = self.close(CLOSE).unwrap_or(Err(LogError::Writer))?;
         Ok(Written { path, bytes, lost: self.lost })
@@ -249,7 +248,7 @@ impl Recorder {
         self.put(item);
     }
 
-    /// Tells the log of what got lost, as soon as there is room.
+    /// Reports a loss in the log when there is room.
     fn tell_of_loss(&mut self, at: Instant) {
         let has_room = self.when_full == WhenFull::Wait || self.queue.slots() > ROOM;
         if self.unreported > 0 && has_room {
@@ -272,14 +271,14 @@ impl Recorder {
         }
     }
 
-    /// An entry holds something else from now on.
+    /// Records the new value of an entry.
     fn set(&mut self, entry: TraceEntryId, value: ValueRef<'_>) {
         if let Some(kept) = self.entries.get_mut(entry.0 as usize) {
             *kept = value.to_value().unwrap_or_default();
         }
     }
 
-    /// `None` when there is no writer any more.
+    /// `None` if the writer has already ended.
     fn close(&mut self, how: u8) -> Option<Outcome> {
         let thread = self.thread.take()?;
         self.end.unreported.store(self.unreported, Ordering::Relaxed);
@@ -299,12 +298,12 @@ impl Sink for Recorder {
 
 impl Drop for Recorder {
     fn drop(&mut self) {
-        // Nobody is left to tell of a failure; whoever wants to know calls `finish`.
+        // A drop has no receiver for errors; use `finish` for them.
         let _ = self.close(if self.started { ABANDON } else { DISCARD });
     }
 }
 
-/// The writer: the queue into the file until the recorder says that it is over.
+/// The writer: moves the queue into the file until the recorder ends.
 fn write_all(mut file: Encoder, mut items: Consumer<Item>, end: &End) -> Outcome {
     let mut flushed = Wall::now();
     let mut last = Instant::ZERO;

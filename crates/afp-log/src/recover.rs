@@ -1,4 +1,4 @@
-//! Makes a whole log out of one that was cut short or is damaged.
+//! Makes a whole log from a truncated or damaged log.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -14,30 +14,29 @@ use crate::error::LogError;
 use crate::scan::{Damage, load, salvage, scan};
 use crate::write::{LogWriter, begin, end};
 
-/// What could be saved.
+/// The result of a recovery.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recovered {
     /// The new log.
     pub path: PathBuf,
     /// Messages in it.
     pub messages: u64,
-    /// What is wrong with the old one; `None` when nothing was.
+    /// The damage of the old log; `None` if it was intact.
     pub damage: Option<String>,
-    /// The stretches of time of which messages are lost.
+    /// The periods with lost messages.
     pub missing: Vec<Missing>,
 }
 
-/// A stretch of time of which messages are lost.
+/// A period with lost messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Missing {
-    /// The last message before it; none from the beginning on.
+    /// The last message before it; `None` at the beginning.
     pub after: Option<Instant>,
-    /// The first message behind it; none up to the end.
+    /// The first message after it; `None` at the end.
     pub before: Option<Instant>,
 }
 
-/// The name of the log that [`recover`] makes by default: `a.mcap.part` and `a.mcap` become
-/// `a.recovered.mcap`.
+/// The default name of a recovered log: `a.mcap.part` and `a.mcap` become `a.recovered.mcap`.
 pub fn recovered_name(path: &Path) -> PathBuf {
     let bare = if path.extension().is_some_and(|ext| ext == "part") {
         path.with_extension("")
@@ -47,31 +46,32 @@ pub fn recovered_name(path: &Path) -> PathBuf {
     bare.with_extension("recovered.mcap")
 }
 
-/// The metadata record that says what a log has lost before it was recovered.
+/// The metadata record with the losses before the recovery.
 pub(crate) const RECOVERED: &str = "afp.recovered";
-/// Its key that says what was wrong, and what the ones begin with of the stretches that are missing.
+/// Its key for the damage, and the prefix of the keys for the missing periods.
 const DAMAGE: &str = "damage";
 const MISSING: &str = "missing.";
-/// What stands there in place of a time where nothing is left before the stretch, or behind it.
+/// The words for a period without a start or an end.
 const START: &str = "start";
 const END: &str = "end";
 
-/// Copies everything that is intact in a log into a new, whole one, which says what is missing from it.
+/// Copies all intact data of a log into a new, whole log, which also describes the missing data.
 ///
 /// # Errors
-/// The old log cannot be opened or is compressed in a way that cannot be read, the new one cannot be written. There is no new one then.
+/// The old log cannot be opened or has an unsupported compression, or the new log cannot be
+/// written. Then there is no new log.
 pub fn recover(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     copy(from, to).map_err(|error| error.writing(to))
 }
 
 fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     let bytes = load(from)?;
-    // The old log may be the part of the new one. A lock keeps it from being written over; where
-    // there are no locks, the one who makes it is done with it.
+    // The old log may be the part file of the new one. A lock protects it from being overwritten;
+    // without locks, its writer has ended.
     let old = File::open(from).map_err(|error| LogError::Open { path: from.to_owned(), error })?;
     let _ = old.try_lock_shared();
     let failed = |error| LogError::Create { path: to.to_owned(), error };
-    // Where a summary is intact it knows what a damaged chunk has said of later ones.
+    // An intact summary has the channels and schemas of a damaged chunk.
     let summary = Summary::read(&bytes).ok().flatten();
     let output = Output::create_beside_part(to).map_err(failed)?;
     let mut copy = Copy::new(output, summary.as_ref())?;
@@ -80,7 +80,7 @@ fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
         Err(damage) => copy.pass(damage),
     })?;
     let Copy { mut writer, messages, missing, mut damage, .. } = copy;
-    // What is wrong outside of what was copied.
+    // Damage outside of the copied records.
     damage = damage.or_else(|| scan(&bytes, |_| Ok(())).err().map(|why| why.to_string()));
     if let Some(damage) = &damage {
         writer.write_metadata(&told(damage, &missing))?;
@@ -90,7 +90,7 @@ fn copy(from: &Path, to: &Path) -> Result<Recovered, LogError> {
     Ok(Recovered { path: to.to_owned(), messages, damage, missing })
 }
 
-/// What a recovered log says of what it has lost.
+/// The description of the losses in a recovered log.
 fn told(damage: &str, missing: &[Missing]) -> Metadata {
     let stretch = |(n, missing): (usize, &Missing)| (format!("{MISSING}{n}"), missing.written());
     let stretches = missing.iter().enumerate().map(stretch);
@@ -98,7 +98,7 @@ fn told(damage: &str, missing: &[Missing]) -> Metadata {
     Metadata { name: RECOVERED.to_owned(), metadata: stretches.chain([damage]).collect() }
 }
 
-/// The stretches of time that are missing, as the metadata record of a recovered log says.
+/// The missing periods in the metadata record of a recovered log.
 pub(crate) fn missing(told: &BTreeMap<String, String>) -> impl Iterator<Item = Missing> {
     let stretches = told.iter().filter(|(key, _)| key.starts_with(MISSING));
     stretches.filter_map(|(_, stretch)| Missing::read(stretch))
@@ -110,9 +110,9 @@ struct Copy<'a> {
     schemas: BTreeMap<u16, u16>,
     channels: BTreeMap<u16, u16>,
     messages: u64,
-    /// When the last message was.
+    /// The time of the last message.
     last: Option<Instant>,
-    /// The first thing that is wrong.
+    /// The first damage.
     damage: Option<String>,
     missing: Vec<Missing>,
 }
@@ -125,7 +125,7 @@ impl<'a> Copy<'a> {
         Ok(Copy { writer, summary, schemas, channels, messages, last, damage, missing })
     }
 
-    /// Passes over what is damaged.
+    /// Skips damaged data.
     fn pass(&mut self, Damage { why, messages }: Damage) -> Result<(), LogError> {
         if let LogError::Compressed(_) = why {
             return Err(why);
@@ -146,7 +146,7 @@ impl<'a> Copy<'a> {
             }
             Record::Channel(channel) => self.add_channel(&channel)?,
             Record::Message { mut header, data } => {
-                // A message without a channel cannot be read by anybody.
+                // A message without a channel is unreadable.
                 let Some(id) = self.channel(header.channel_id)? else { return Ok(()) };
                 header.channel_id = id;
                 self.messages += 1;
@@ -177,7 +177,7 @@ impl<'a> Copy<'a> {
         Ok(())
     }
 
-    /// The new number of a channel, which only the summary may know.
+    /// The new number of a channel, which may only be in the summary.
     fn channel(&mut self, id: u16) -> Result<Option<u16>, LogError> {
         let known = self.summary.and_then(|summary| summary.channels.get(&id));
         if let Some(channel) = known.filter(|_| !self.channels.contains_key(&id)) {
@@ -192,7 +192,7 @@ impl<'a> Copy<'a> {
         Ok(self.channels.get(&id).copied())
     }
 
-    /// The new number of a schema, which only the summary may know.
+    /// The new number of a schema, which may only be in the summary.
     fn schema(&mut self, id: u16) -> Result<u16, LogError> {
         let known = self.summary.and_then(|summary| summary.schemas.get(&id));
         if let Some(schema) = known.filter(|_| !self.schemas.contains_key(&id)) {
@@ -204,7 +204,7 @@ impl<'a> Copy<'a> {
 }
 
 impl Missing {
-    /// As a log has it: both ends in nanoseconds.
+    /// The form in a log: both ends in nanoseconds.
     fn written(self) -> String {
         let time = |at: Option<Instant>, none: &str| {
             at.map_or_else(|| none.to_owned(), |at| at.as_nanos().to_string())

@@ -1,4 +1,4 @@
-//! Robots and worlds in a log: plain shapes, no robot's own types.
+//! Robots and worlds in a log: plain shapes, independent of any robot's types.
 //!
 //! Frames follow the usual convention: x forward, y left, z up, angles counter-clockwise, metres
 //! and radians.
@@ -6,28 +6,28 @@
 use afp_core::Instant;
 pub use afp_session::{Pose2, Ranging, Shape, Transform};
 
-/// A picture of a camera.
+/// A camera's picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
-    /// When it was taken.
+    /// The time of the picture.
     pub time: Instant,
     /// The frame of the camera.
     pub frame: &'static str,
-    /// Pixels.
+    /// Its width in pixels.
     pub width: u32,
-    /// Pixels.
+    /// Its height in pixels.
     pub height: u32,
     /// Red, green and blue of each pixel, row by row.
     pub rgb: Box<[u8]>,
 }
 
-/// How serious a line of text is.
+/// The level of a line of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// For the record.
+    /// Information.
     Info,
-    /// Something is not as it should be.
+    /// A warning.
     Warning,
-    /// Something failed.
+    /// An error.
     Error,
 }

@@ -1,4 +1,4 @@
-//! Walks over the records of an MCAP file, chunks unpacked and all checksums verified.
+//! Reads the records of an MCAP file, unpacks chunks and verifies all checksums.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -11,18 +11,18 @@ use mcap::{McapError, Summary, parse_record};
 
 use crate::error::LogError;
 
-/// The longest record or chunk that a file may claim: a damaged length must not eat the memory.
+/// The maximum length of a record or chunk: a damaged length must not exhaust the memory.
 const LONGEST: usize = 256 * 1024 * 1024;
 
 /// The bytes of an MCAP file.
 ///
 /// # Errors
-/// It cannot be read, or does not begin like one.
+/// The file cannot be read, or does not begin like one.
 pub(crate) fn load(path: &Path) -> Result<Vec<u8>, LogError> {
     let failed = |error| LogError::Open { path: path.to_owned(), error };
     let mut file = File::open(path).map_err(failed)?;
     let mut bytes = Vec::new();
-    // A log may be long; what has no end does not begin like one.
+    // A log may be long, but an endless file is rejected by its first bytes.
     (&mut file).take(mcap::MAGIC.len() as u64).read_to_end(&mut bytes).map_err(failed)?;
     if bytes != mcap::MAGIC {
         return Err(LogError::NotALog { path: path.to_owned() });
@@ -31,10 +31,10 @@ pub(crate) fn load(path: &Path) -> Result<Vec<u8>, LogError> {
     Ok(bytes)
 }
 
-/// Hands every record to `take`, in order, until the file ends, is damaged, or `take` fails.
+/// Passes every record to `take`, in order, until the file ends, is damaged, or `take` fails.
 ///
 /// # Errors
-/// The damage, or what `take` says.
+/// The damage, or the error of `take`.
 pub(crate) fn scan(
     bytes: &[u8],
     take: impl FnMut(Record<'_>) -> Result<(), LogError>,
@@ -72,12 +72,12 @@ fn walk(
     Ok(())
 }
 
-/// Options for some records of a file.
+/// Options for a part of a file's records.
 fn of_part() -> LinearReaderOptions {
     LinearReaderOptions::default().with_skip_start_magic(true).with_skip_end_magic(true)
 }
 
-/// Whether an index leads to a chunk that can be read.
+/// Whether an index entry points to a readable chunk.
 pub(crate) fn leads_to_chunk(bytes: &[u8], index: &ChunkIndex) -> bool {
     let place = |at: u64| usize::try_from(at).ok();
     let end = index.chunk_start_offset.checked_add(index.chunk_length).and_then(place);
@@ -87,7 +87,7 @@ pub(crate) fn leads_to_chunk(bytes: &[u8], index: &ChunkIndex) -> bool {
     chunk.is_some_and(|chunk| walk(of_part(), chunk, |_| Ok(())).is_ok())
 }
 
-/// The bytes that follow the end of a log: none where it has no end.
+/// The bytes after the end of a log; empty if it has no end.
 pub(crate) fn behind(bytes: &[u8]) -> &[u8] {
     let mut at = mcap::MAGIC.len();
     while let Some((code, record)) = bytes.get(at..).and_then(record) {
@@ -99,8 +99,8 @@ pub(crate) fn behind(bytes: &[u8]) -> &[u8] {
     &[]
 }
 
-/// Whether the head of an attachment ends inside it: two times, two names, how long it is. What parses it takes that for
-/// granted.
+/// Whether the head of an attachment is complete: two times, two names, its length. The parser
+/// relies on it.
 fn has_head(attachment: &[u8]) -> bool {
     let name = |at: usize| {
         let (length, _) = attachment.get(at..)?.split_first_chunk()?;
@@ -111,18 +111,18 @@ fn has_head(attachment: &[u8]) -> bool {
     head.is_some_and(|head| head <= attachment.len())
 }
 
-/// Hands every record of the data section that is intact to `take`, in order, until it fails. Of what is not, `take` is
-/// told why and whether messages may be lost with it.
+/// Passes every intact record of the data section to `take`, in order, until it fails. For damaged
+/// data, `take` gets the reason and whether messages may be lost.
 ///
 /// # Errors
-/// What `take` says.
+/// The error of `take`.
 pub(crate) fn salvage(
     bytes: &[u8],
     summary: Option<&Summary>,
     mut take: impl FnMut(Result<Record<'_>, Damage>) -> Result<(), LogError>,
 ) -> Result<(), LogError> {
     let mut chunks = summary.map(chunks).unwrap_or_default();
-    // A summary may be of a file that was longer.
+    // A summary may belong to a longer file.
     chunks.retain(|begin, length| begin.saturating_add(*length) <= bytes.len());
     let mut at = mcap::MAGIC.len();
     loop {
@@ -131,7 +131,7 @@ pub(crate) fn salvage(
         else {
             let why = McapError::UnexpectedEof.into();
             take(Err(Damage { why, messages: chunks.contains_key(&at) || next.is_none() }))?;
-            // The summary knows where the next chunk begins; without it nothing does.
+            // Only the summary has the start of the next chunk.
             let Some(next) = next else { return Ok(()) };
             at = next;
             continue;
@@ -155,16 +155,16 @@ pub(crate) fn salvage(
     }
 }
 
-/// What is damaged in a log.
+/// Damage in a log.
 #[derive(Debug)]
 pub(crate) struct Damage {
-    /// How it shows.
+    /// The error.
     pub why: LogError,
-    /// Whether messages may be lost with it.
+    /// Whether messages may be lost.
     pub messages: bool,
 }
 
-/// Where chunks begin, and how long they are.
+/// The starts and lengths of chunks.
 fn chunks(summary: &Summary) -> BTreeMap<usize, usize> {
     let place = |chunk: &ChunkIndex| {
         let begin = usize::try_from(chunk.chunk_start_offset).ok()?;
@@ -173,8 +173,8 @@ fn chunks(summary: &Summary) -> BTreeMap<usize, usize> {
     summary.chunk_indexes.iter().filter_map(place).collect()
 }
 
-/// The first record of some bytes with its code, which is a chunk of that length where one is; none where its head is
-/// damaged or its end is missing.
+/// The first record of some bytes with its code, or a chunk of the given length. `None` if its head
+/// is damaged or its end is missing.
 fn framed<'a>(bytes: &'a [u8], chunk: Option<&usize>) -> Option<(u8, &'a [u8])> {
     let (code, whole) = record(bytes)?;
     let is_known = (op::HEADER..=op::DATA_END).contains(&code) || code >= 0x80;
@@ -182,7 +182,7 @@ fn framed<'a>(bytes: &'a [u8], chunk: Option<&usize>) -> Option<(u8, &'a [u8])> 
     (is_known && fits).then_some((code, whole))
 }
 
-/// The first record of some bytes with its code; none where its end is missing.
+/// The first record of some bytes with its code; `None` if its end is missing.
 fn record(bytes: &[u8]) -> Option<(u8, &[u8])> {
     let (head, _) = bytes.split_first_chunk::<9>()?;
     let (code, length) = (head[0], u64::from_le_bytes(head[1..].try_into().ok()?));

@@ -15,33 +15,33 @@ use crate::error::LogError;
 use crate::recorder::{Recorder, Written};
 use crate::robot::{Image, Level, Transform};
 
-/// How often a log gets what the camera sees.
+/// The interval of camera pictures in a log.
 const FILM: Duration = Duration::from_millis(500);
 
-/// How often those who watch get all of the scene.
+/// The interval in which live clients get the whole scene.
 const SCENES: Duration = Duration::from_secs(1);
 
-/// Records a session: its trace, and what its robot signals.
+/// Records a session: its trace, and the signals of its robot.
 pub struct SessionLog {
     recorder: Recorder,
     /// The signals of the robot.
     signals: Vec<Followed>,
-    /// The frame whose place has a channel of its own.
+    /// The frame with its own channel for the pose.
     body: Option<SignalId>,
     started: bool,
     frames: Vec<Transform>,
-    /// When the last echo of each range sensor was sent that the log has.
+    /// The time of each range sensor's last logged echo.
     echoes: BTreeMap<SignalId, Instant>,
-    /// How high the frame of a device stands, metres.
+    /// The height of each device's frame, in metres.
     heights: BTreeMap<&'static str, f64>,
-    /// When cameras are looked at next; never where they are not to be logged.
+    /// The next time for camera pictures; never if they are not logged.
     camera: Instant,
-    /// Whether one was looked at among these samples.
+    /// Whether these samples include a picture.
     has_picture: bool,
-    /// What moves, as it was last written.
+    /// The moving objects at their last written places.
     shapes: Vec<Shape>,
     moved: Vec<Shape>,
-    /// When all of the scene is sent anew; never into a file, which has its beginning.
+    /// The next time for the whole scene. In a file, the scene is only at the beginning.
     scene_again: Instant,
 }
 
@@ -49,16 +49,16 @@ pub struct SessionLog {
 struct Followed {
     signal: Signal,
     ty: SignalType,
-    /// What was last said of it.
+    /// The last written value.
     said: Option<Datum>,
-    /// Whether it said something among these samples.
+    /// Whether these samples include it.
     is_heard: bool,
 }
 
 impl SessionLog {
-    /// Begins to record a session about to start, of a robot with those devices in that scene. With `camera` the log gets
-    /// what the camera sees, twice a second. To those who watch what stands in the room is sent anew each second, for those
-    /// who come later.
+    /// Starts recording a session that is about to start, for a robot with these devices in this
+    /// scene. With `camera`, the log gets two pictures a second. Live clients get the scene again
+    /// each second, so that later clients have it, too.
     pub fn new(
         mut recorder: Recorder,
         devices: &'static [DeviceRow],
@@ -83,13 +83,13 @@ impl SessionLog {
         }
     }
 
-    /// Writes what the session came to, waits for the writer and gives the log its name.
+    /// Writes the session's results, waits for the writer and gives the log its name.
     ///
     /// # Errors
     /// The first failure of the writer.
     pub fn finish(mut self, session: &dyn AnySession) -> Result<Written, LogError> {
         let now = session.now();
-        // The robot stands: nobody is kept waiting.
+        // The robot has stopped, so waiting is harmless.
         self.recorder.wait_when_full();
         self.after_loss(now);
         for (at, _, what) in session.pending() {
@@ -100,7 +100,7 @@ impl SessionLog {
         self.recorder.finish()
     }
 
-    /// Notes what a device says, if it said something else before.
+    /// Writes a device's value if it has changed.
     fn signal(&mut self, at: Instant, id: SignalId, value: Datum) {
         let Some(followed) = self.signals.get_mut(usize::from(id.0)) else { return };
         followed.is_heard = true;
@@ -110,7 +110,7 @@ impl SessionLog {
         }
     }
 
-    /// Notes which devices say nothing any more.
+    /// Writes which devices have become silent.
     fn silence(&mut self, at: Instant) {
         for followed in &mut self.signals {
             let is_heard = std::mem::take(&mut followed.is_heard);
@@ -121,7 +121,7 @@ impl SessionLog {
         }
     }
 
-    /// Says everything again that the log may lack, where something of it got lost.
+    /// Writes the state again if a part of it may be lost.
     fn after_loss(&mut self, at: Instant) {
         if !self.recorder.has_told_of_loss(at) {
             return;
@@ -139,7 +139,7 @@ impl SessionLog {
         self.signals.get(usize::from(id.0)).map_or("", |it| it.signal.device)
     }
 
-    /// Notes where something is, if it has moved since.
+    /// Writes an object's place if it has moved.
     fn outline(&mut self, shape: &Shape) {
         let known = self.shapes.iter_mut().find(|known| known.id == shape.id);
         match known {
@@ -245,7 +245,7 @@ impl Followed {
     }
 }
 
-/// What people who read the log as text want to know, and how much it matters.
+/// The level of a record as text for people; `None` if it is not interesting.
 fn level(record: &Record<'_>) -> Option<Level> {
     match record {
         Record::Faulted { .. } | Record::Ended { ending: Ending::Error(_), .. } => {

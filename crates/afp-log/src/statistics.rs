@@ -1,26 +1,26 @@
-//! What a log says about deadlines, interruptions and coverage.
+//! The deadlines, interruptions and coverage in a log.
 
 use afp_core::trace::{ComponentId, ComponentKind, Names, Outcome};
 use afp_session::{Counts, Usage};
 
 use crate::read::LogData;
 
-/// What a log says about deadlines, interruptions and coverage.
+/// The deadlines, interruptions and coverage in a log.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
     /// The elements in the order of the plan, by their dotted paths.
     pub elements: Vec<(String, Usage)>,
     /// The supervisors in the order of the plan, by their dotted paths.
     pub supervisors: Vec<(String, Usage)>,
-    /// States and events, as `component.outcome`, that never came; elements that never ran.
+    /// States and events, as `component.outcome`, that never happened; elements that never ran.
     pub uncovered: Vec<String>,
-    /// States and events that did come.
+    /// The number of states and events that happened.
     pub covered: u64,
-    /// Records lost while the log was written.
+    /// The number of records lost during writing.
     pub lost: u64,
 }
 
-/// Counts what happened.
+/// Computes the statistics of a log.
 pub fn statistics(log: &LogData) -> Statistics {
     let names = &log.names;
     let mut counts = Counts::new(names);
@@ -51,7 +51,7 @@ pub fn statistics(log: &LogData) -> Statistics {
         for (count, target, edge) in own.chain(reactions) {
             match (count, target) {
                 (1.., _) => all.covered += 1,
-                // What leads nowhere cannot happen.
+                // An unconnected outcome cannot happen.
                 (0, "" | "ignore") => {}
                 (0, _) => all.uncovered.push(edge),
             }

@@ -1,4 +1,5 @@
-//! Pictures of runs as SVG: the path over the world, what the range sensor heard, what the camera saw.
+//! Pictures of runs as SVG: the path over the world, the echoes of the range sensor, the camera's
+//! pictures.
 
 mod canvas;
 mod film;
@@ -18,19 +19,19 @@ pub use film::draw_film;
 use legend::Legend;
 pub use sonar::draw_sonar;
 
-/// Points of the path closer together than this are one, metres.
+/// Nearer points of the path count as one, in metres.
 const NEAR: f64 = 0.004;
 
-/// An actor that moves less than this acts on the spot, metres.
+/// An actor that moves less than this acts on the spot, in metres.
 const SPOT: f64 = 0.05;
 
-/// Colours of actors, told apart also by those who see few colours.
+/// Colours of actors, suitable for colour-blind readers.
 const PALETTE: [&str; 8] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#6a3d9a", "#56b4e9", "#7f7f7f"];
 /// The path while no actor is active.
 const NOBODY: &str = "#9a9a9a";
 
-/// What a picture shows.
+/// The contents of a picture.
 #[derive(Debug)]
 pub struct Picture<'a> {
     /// The room.
@@ -39,44 +40,44 @@ pub struct Picture<'a> {
     pub title: String,
     /// The second line.
     pub subtitle: String,
-    /// Where the robot was.
+    /// The robot's path.
     pub path: &'a [Waypoint],
-    /// What happened on the way.
+    /// The events on the path.
     pub marks: &'a [Mark],
     /// Names and values below the legend.
     pub figures: Vec<(String, String)>,
 }
 
-/// A run as far as it has come.
+/// The present state of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct SoFar<'a> {
     /// The plan's name.
     pub plan: &'a str,
     /// The world.
     pub world: &'a dyn AnyWorld,
-    /// The seed, as it is shown.
+    /// The seed, as text.
     pub seed: &'a str,
-    /// How far it is.
+    /// The present time.
     pub time: Instant,
-    /// Where the robot was.
+    /// The robot's path.
     pub path: &'a [Waypoint],
-    /// What happened on the way.
+    /// The events on the path.
     pub marks: &'a [Mark],
-    /// Where what moves is.
+    /// The positions of moving objects.
     pub things: &'a Outlines,
 }
 
-/// Draws the path of a run over its world, as far as it has come.
+/// Draws the path of a run over its world, up to the present.
 pub fn draw_run(run: &SoFar<'_>, names: &dyn Names) -> String {
     let SoFar { plan, world, seed, time, path, marks, things } = *run;
     let way = path.windows(2).map(|pair| {
         let (from, to) = (pair[0].pose, pair[1].pose);
         libm::hypot(to.x - from.x, to.y - from.y)
     });
-    // A sum of nothing is a negative zero.
+    // An empty sum is a negative zero.
     let distance = way.fold(0.0, |all, piece| all + piece);
     let mut figures = vec![("time".to_owned(), format!("{:.1} s", time.as_secs_f64()))];
-    // Of a robot that says nothing of where it is, nobody knows the way.
+    // A robot without a pose signal has no path.
     if !path.is_empty() {
         figures.push(("distance".to_owned(), format!("{distance:.2} m")));
     }
@@ -125,7 +126,7 @@ pub fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     }
     let mut beside = 0;
     for (actor, points) in &stretches {
-        // Who acts on the spot leaves no line, but a dot beside the path, one after the other.
+        // An actor that acts on the spot has a dot next to the path, in a row with others.
         beside = if length(points) < SPOT { beside + 1 } else { 0 };
         if let (1.., Some(actor), Some(at)) = (beside, actor, points.last()) {
             canvas.dot(*at, beside, color(Some(*actor)));
@@ -143,7 +144,7 @@ pub fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     canvas.scale_bar();
     let mut legend = Legend::new(view);
     legend.head(&picture.title, &picture.subtitle);
-    // A world alone has none.
+    // A world without a run has no figures.
     if !picture.figures.is_empty() {
         legend.actors(actors.iter().map(|id| (names.component(*id).path, color(Some(*id)))));
         legend.events(marks::counted(marks, &kinds, names));
@@ -152,8 +153,8 @@ pub fn draw(picture: &Picture<'_>, names: &dyn Names) -> String {
     canvas.finish(legend.finish())
 }
 
-/// The path with the actor at each point, and the events on it, from what happened and where the robot was when, both in the
-/// order of time.
+/// The path with the actor at each point, and its events. `events` and `poses` are in the order of
+/// time.
 pub fn follow<'a>(
     events: impl IntoIterator<Item = &'a RunEvent>,
     poses: &[(Instant, Pose2)],
@@ -162,7 +163,7 @@ pub fn follow<'a>(
     let mut track = Track::new(&[]);
     let mut poses = poses.iter().copied().peekable();
     for event in events {
-        // At an instant the robot is looked at before the step.
+        // At an instant, the robot's pose comes before the step.
         while let Some((at, pose)) = poses.next_if(|(at, _)| *at <= event.at) {
             track.note_pose(at, pose);
         }
@@ -174,7 +175,7 @@ pub fn follow<'a>(
     (track.path, track.marks)
 }
 
-/// The floor with everything that stands on it, and where it began what stands elsewhere in the end.
+/// The floor with all objects, and the start of each object that has moved.
 fn room(world: &Drawing, view: View) -> Canvas {
     let mut canvas = Canvas::new(view);
     canvas.floor();
@@ -190,7 +191,7 @@ fn room(world: &Drawing, view: View) -> Canvas {
     canvas
 }
 
-/// The actors that ran, in the order in which they first did.
+/// The actors that ran, in the order of their first runs.
 fn actors(path: &[Waypoint]) -> Vec<ComponentId> {
     let mut actors = Vec::new();
     for actor in path.iter().filter_map(|step| step.actor) {
@@ -201,8 +202,8 @@ fn actors(path: &[Waypoint]) -> Vec<ComponentId> {
     actors
 }
 
-/// The actors that have colours, in the order of the plan: all of it, so that one has the same colour in every run; in a plan with
-/// more actors than colours those that ran.
+/// The actors with colours, in the order of the plan: all actors, so that each has the same colour
+/// in every run. In a plan with more actors than colours, only those that ran.
 fn known_actors(path: &[Waypoint], names: &dyn Names) -> Vec<ComponentId> {
     let is_actor = |id: &ComponentId| names.component(*id).kind == ComponentKind::Actor;
     let all: Vec<_> = (0..names.components()).map(ComponentId).filter(is_actor).collect();
@@ -214,7 +215,7 @@ fn known_actors(path: &[Waypoint], names: &dyn Names) -> Vec<ComponentId> {
     ran
 }
 
-/// The path cut where the actor changes; neighbours share a point.
+/// The path, cut at each change of the actor; neighbours share a point.
 fn stretches(path: &[Waypoint]) -> Vec<(Option<ComponentId>, Vec<[f64; 2]>)> {
     let mut stretches: Vec<(Option<ComponentId>, Vec<[f64; 2]>)> = Vec::new();
     for step in path {
@@ -235,7 +236,7 @@ fn stretches(path: &[Waypoint]) -> Vec<(Option<ComponentId>, Vec<[f64; 2]>)> {
     stretches
 }
 
-/// The way along some points, metres.
+/// The length of a path through some points, in metres.
 fn length(points: &[[f64; 2]]) -> f64 {
     points.windows(2).map(|pair| apart(pair[0], pair[1])).sum()
 }
@@ -258,9 +259,9 @@ fn bounds(world: &Drawing, path: &[Waypoint]) -> [[f64; 2]; 2] {
     [low, high]
 }
 
-/// The outline of a body that stands at a pose.
+/// The outline of a body at a pose.
 fn placed(body: &[[f64; 2]], pose: Pose2) -> impl Iterator<Item = [f64; 2]> {
-    // Of a robot whose body is not known, where it is.
+    // A robot without a known body is a point.
     let point = body.is_empty().then_some([pose.x, pose.y]);
     let corners = body.iter().map(move |[x, y]| {
         let corner = pose.beyond(Pose2 { x: *x, y: *y, heading: 0.0 });

@@ -1,4 +1,4 @@
-//! The file side of a log: what ran, from what text, and its messages in chunks.
+//! The file side of a log: the run, its sources, and its messages in chunks.
 
 use std::collections::BTreeMap;
 use std::io::{BufWriter, Seek};
@@ -13,10 +13,10 @@ use mcap::{Attachment, Compression, WriteOptions, Writer};
 use crate::error::LogError;
 use crate::messages::Messages;
 
-/// Uncompressed bytes after which a chunk is closed.
+/// The uncompressed size after which a chunk is closed.
 const CHUNK: u64 = 256 * 1024;
 
-/// What a log says of the run before its first message.
+/// The description of the run before its first message.
 #[derive(Clone, Debug, Default)]
 pub struct About {
     /// The metadata record `afp.run`: `plan`, `plan_hash`, `seed`, `world` and so on.
@@ -25,7 +25,7 @@ pub struct About {
     pub attachments: Vec<(String, &'static str, String)>,
 }
 
-/// A file of records. It need not be one that can go back: a pipe takes a log too.
+/// A file of records. It need not be seekable: a pipe takes a log, too.
 pub(crate) type LogWriter = Writer<NoSeek<BufWriter<Output>>>;
 
 /// Begins a file of records.
@@ -44,10 +44,7 @@ pub(crate) fn begin(output: Output, chunk: Option<u64>) -> Result<LogWriter, Log
     Ok(options.create(NoSeek::new(BufWriter::new(output)))?)
 }
 
-/// Writes the index and what is left in memory; gives the file and its size in bytes.
-///
-/// # Errors
-/// The disk is full or fails.
+/// Writes the index and the rest; returns the file and its size in bytes.
 pub(crate) fn end(mut writer: LogWriter) -> Result<(Output, u64), LogError> {
     writer.finish()?;
     let mut file = writer.into_inner();
@@ -56,15 +53,15 @@ pub(crate) fn end(mut writer: LogWriter) -> Result<(Output, u64), LogError> {
     Ok((output.map_err(|failed| mcap::McapError::from(failed.into_error()))?, bytes))
 }
 
-/// A log that is being written, under its name with `.part` appended.
+/// A log during writing, with `.part` after its name.
 pub(crate) struct LogFile {
     writer: LogWriter,
     path: PathBuf,
 }
 
 impl LogFile {
-    /// Begins the file with what ran and from what text, so that a log cut short still has it.
-    /// Gives beside it where that is now which a run that was killed left of the same log.
+    /// Starts the file with the run's description and sources, so that a truncated log has them.
+    /// Also returns the new path of an earlier, killed run's unfinished log.
     pub(crate) fn create(path: &Path, about: &About) -> Result<(Self, Option<PathBuf>), LogError> {
         let failed = |error| LogError::Create { path: path.to_owned(), error };
         let output = Output::create(path).map_err(failed)?;
@@ -114,7 +111,7 @@ impl Messages for LogFile {
         Ok(self.writer.flush()?)
     }
 
-    /// Writes the index and, when the run ended in order, gives the log its name.
+    /// Writes the index and, if the run ended in order, gives the log its name.
     fn finish(self: Box<Self>, in_order: bool) -> Result<(PathBuf, u64), LogError> {
         let (output, bytes) = end(self.writer)?;
         let part = output.path().to_owned();

@@ -1,7 +1,7 @@
-//! The Rust and the descriptors under `src/proto` are what the `.proto` files say.
+//! The Rust code and the descriptors under `src/proto` agree with the `.proto` files.
 //!
-//! `AFP_BLESS=1 cargo test -p afp-log --test generated` rewrites them; that builds the crate, so it
-//! comes before the first use of what a `.proto` file newly says.
+//! `AFP_BLESS=1 cargo test -p afp-log --test generated` rewrites them. This builds the crate, so
+//! run it before you use a new item of a `.proto` file.
 
 use std::fs;
 use std::path::{Path, PathBuf};

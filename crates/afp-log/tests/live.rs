@@ -1,4 +1,5 @@
-//! Clients over a socket: they see what the log holds, ask for things, and are dropped when they do not read.
+//! Clients over a socket: they see the log's contents, send requests, and lose the connection if
+//! they do not read.
 #![cfg(feature = "live")]
 
 #[path = "live/board.rs"]
@@ -65,7 +66,7 @@ fn live(session: &dyn AnySession) -> Live {
 #[derive(Debug)]
 struct Client {
     socket: WebSocket<MaybeTlsStream<TcpStream>>,
-    /// Messages of channels that came before something else that was waited for.
+    /// Messages of channels that came before an awaited message.
     kept: Vec<Message>,
 }
 
@@ -105,7 +106,7 @@ impl Client {
         self.socket.send(Message::binary(bytes)).expect("it can be said");
     }
 
-    /// The next message in JSON of that kind.
+    /// The next JSON message of that kind.
     fn hear(&mut self, op: &str) -> Value {
         loop {
             let message = self.socket.read().expect("an answer comes");
@@ -120,16 +121,16 @@ impl Client {
         }
     }
 
-    /// Reads to the end; whether the server has said goodbye.
+    /// Reads to the end; returns whether the server has closed properly.
     fn rest_to_close(&mut self) -> bool {
-        // What was read past the library leaves half a frame behind: bytes are what can be looked at.
+        // Reading past the library leaves half a frame, so only bytes can be checked.
         let mut rest = Vec::new();
         let MaybeTlsStream::Plain(stream) = self.socket.get_mut() else { return false };
         let _ = stream.read_to_end(&mut rest);
         rest.windows(2).rev().take(64).any(|bytes| bytes == [0x88, 0x00])
     }
 
-    /// All messages of channels until the server says goodbye, by the number of the subscription.
+    /// All messages of channels until the server closes, by the number of the subscription.
     fn rest(&mut self) -> (Channels, Vec<String>) {
         let (mut all, mut said) = (BTreeMap::<u32, Vec<_>>::new(), Vec::new());
         loop {
@@ -169,7 +170,7 @@ fn logged(path: &Path) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
 }
 
 #[test]
-fn clients_see_what_the_log_holds() {
+fn clients_see_the_contents_of_the_log() {
     let mut session = session();
     let live = live(&*session);
     let folder = tempfile::tempdir().expect("a folder");
@@ -279,7 +280,7 @@ fn entries_are_written_and_services_called_between_two_steps() {
 }
 
 #[test]
-fn nobody_presses_or_breaks_a_robot_that_is_there() {
+fn a_real_robot_has_no_buttons_and_faults() {
     let mut registry = Registry::new();
     afp_std::templates::register(&mut registry);
     let plan = LoadedPlan::new(&graph(), &registry).expect("it needs no devices");
@@ -293,7 +294,7 @@ fn nobody_presses_or_breaks_a_robot_that_is_there() {
 }
 
 #[test]
-fn strangers_are_not_let_in() {
+fn clients_without_a_token_are_rejected() {
     let session = session();
     let live = live(&*session);
     let [operator, _] = live.addresses();
@@ -318,7 +319,7 @@ fn strangers_are_not_let_in() {
 }
 
 #[test]
-fn strangers_take_no_place() {
+fn clients_without_a_token_take_no_place() {
     let session = session();
     let live = live(&*session);
     let [operator, watcher] = live.addresses();
@@ -328,7 +329,7 @@ fn strangers_take_no_place() {
         .and_then(|(port, _)| port.parse().ok())
         .expect("a port");
     let stranger = || TcpStream::connect(("127.0.0.1", port)).expect("the port is open");
-    // One that says something all the time, and never enough.
+    // A client that always sends data, and never enough.
     let mut slow = stranger();
     let begun = Wall::now();
     let gone = thread::spawn(move || {
@@ -357,12 +358,12 @@ fn strangers_take_no_place() {
 }
 
 #[test]
-fn clients_are_told_of_the_parameters_that_they_want() {
+fn clients_get_the_parameters_of_their_subscriptions() {
     let mut session = session();
     let live = live(&*session);
     let sent = Recorder::stream(live.messages(), session.owned_names()).expect("a stream");
     let mut sent = SessionLog::new(sent, session.devices(), Vec::new(), false);
-    // What is said one after the other, beginning with what is wanted, and what is told then.
+    // Requests in sequence, beginning with a subscription, and the resulting messages.
     let cases: [(&[&[&str]], &[&str]); 7] = [
         (&[&["left"], &["left"]], &[]),
         (&[&["left"], &["pause"]], &["left"]),
@@ -396,7 +397,7 @@ fn clients_are_told_of_the_parameters_that_they_want() {
 }
 
 #[test]
-fn who_does_not_read_loses_messages_then_the_connection_and_costs_nobody_time() {
+fn a_client_that_does_not_read_loses_messages_then_the_connection_and_costs_no_time() {
     let session = session();
     let live = live(&*session);
     let mut to = live.messages();

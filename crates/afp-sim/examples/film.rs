@@ -1,5 +1,5 @@
-//! Drives through a room that nobody drew and keeps what the camera saw as a film strip:
-//! `cargo run --package afp-sim --example film -- SEED FILE.png`.
+//! Drives through a random room and saves the camera's pictures as a film strip: `cargo run
+//! --package afp-sim --example film -- SEED FILE.png`.
 
 use afp_carbot::devices::{Camera, Navigator, Ultrasonic};
 use afp_core::Duration;

@@ -1,6 +1,7 @@
-//! Drives the manoeuvres of a file and prints where robot and box are every 20 ms, one JSON object a line:
-//! `cargo run --package afp-sim --example manoeuvres -- tests/python/manoeuvres.json`. Another engine
-//! drives the same ones, see `tests/python/compare_engine.py`.
+//! Drives the manoeuvres of a file and prints the positions of robot and box every 20 ms, one JSON
+//! object a line: `cargo run --package afp-sim --example manoeuvres --
+//! tests/python/manoeuvres.json`. `tests/python/compare_engine.py` drives the same manoeuvres with
+//! another engine.
 
 use afp_carbot::devices::Navigator;
 use afp_core::quantity::{AngularSpeed, Speed};
@@ -9,16 +10,16 @@ use afp_sim::{Fault, Simulation, World};
 use serde::Deserialize;
 use std::error::Error;
 
-/// Between two commands.
+/// The time between two commands.
 const TICK: Duration = Duration::from_millis(10);
 
-/// What the robot is told to do. The file also has how far apart both engines may be.
+/// The robot's commands. The file also has the tolerance between both engines.
 #[derive(Deserialize)]
 struct Manoeuvre {
     name: String,
-    /// For how long which speed and turn rate are commanded: seconds, metres and radians a second.
+    /// Commanded speed and turn rate, with their duration: seconds, metres and radians a second.
     drive: Vec<(f64, f64, f64)>,
-    /// From when on, in seconds, which share of the grip is left.
+    /// The remaining share of the grip, from a time in seconds.
     slip: Option<(f64, f64)>,
     #[serde(rename = "box")]
     thing: Option<Thing>,

@@ -1,4 +1,4 @@
-//! What a robot is to the engine and to its worlds: a shape with a mass.
+//! The robot's body in the engine and in worlds: a shape with a mass.
 
 use crate::truth::Pose;
 use rapier2d::parry::shape::SharedShape;
@@ -9,23 +9,23 @@ pub const HALF_LENGTH: f64 = 0.20;
 pub const HALF_WIDTH: f64 = 0.175;
 /// Its mass, kilograms.
 pub(crate) const MASS: f64 = 4.7;
-/// So many corners stand for a circle in pictures.
+/// The number of corners of a circle in pictures.
 const CORNERS: u32 = 32;
 
 /// A robot's body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chassis {
-    /// Seen from above.
+    /// The outline, seen from above.
     pub shape: Footprint,
     /// Kilograms, spread evenly.
     pub mass: f64,
-    /// How high it is, metres, for logs.
+    /// The height, in metres, for logs.
     pub height: f64,
-    /// The range sensor looks over what is lower than this, metres.
+    /// The range sensor does not detect obstacles lower than this, in metres.
     pub ranging_height: f64,
 }
 
-/// The shape of a body seen from above, around its turning centre.
+/// The shape of a body, seen from above, relative to its turning centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint {
     /// A rectangle: half its length and half its width, metres.
@@ -35,7 +35,7 @@ pub enum Footprint {
 }
 
 impl Chassis {
-    /// The Carbot's.
+    /// The Carbot's chassis.
     pub const CARBOT: Chassis = Chassis {
         shape: Footprint::Box([HALF_LENGTH, HALF_WIDTH]),
         mass: MASS,
@@ -43,7 +43,7 @@ impl Chassis {
         ranging_height: 0.15,
     };
 
-    /// Whether the range sensor hears what is so high, metres.
+    /// Whether the range sensor detects an obstacle of this height, in metres.
     pub fn hears(&self, height: f64) -> bool {
         height >= self.ranging_height
     }
@@ -56,7 +56,7 @@ impl Chassis {
         }
     }
 
-    /// Its outline at a pose, metres, counter-clockwise; of a circle as a polygon.
+    /// Its outline at a pose, in metres, counter-clockwise. A circle becomes a polygon.
     pub fn outline(&self, at: Pose) -> Vec<[f64; 2]> {
         let (sin, cos) = libm::sincos(at.heading);
         let placed = |[x, y]: [f64; 2]| [at.x + x * cos - y * sin, at.y + x * sin + y * cos];
@@ -71,7 +71,7 @@ impl Chassis {
         }
     }
 
-    /// As the engine has it.
+    /// The shape in the engine.
     pub(crate) fn shared(&self) -> SharedShape {
         match self.shape {
             Footprint::Box([x, y]) => SharedShape::cuboid(x as f32, y as f32),

@@ -1,7 +1,7 @@
-//! The robot's devices: what each measures, and how it errs.
+//! The robot's devices, their measurements and their errors.
 //!
-//! Each is stepped with the physics and knows nothing of rapier but what it needs. Between a
-//! sensor and the plan lies a [`afp_platform::Line`], which faults cut, delay or freeze.
+//! Each device is stepped with the physics and knows only the necessary parts of rapier. Between a
+//! sensor and the plan is a [`afp_platform::Line`], which faults cut, delay or freeze.
 
 pub(crate) mod battery;
 pub(crate) mod bumper;

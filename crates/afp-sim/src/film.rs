@@ -8,7 +8,7 @@ const GAP: usize = 4;
 /// Grey level between pictures.
 const GROUND: u8 = 32;
 
-/// Frames side by side, row by row.
+/// Frames in rows, from left to right.
 #[derive(Clone, Debug, Default)]
 pub struct Film {
     width: usize,
@@ -17,7 +17,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// Adds a frame; one of another size than the first is left out.
+    /// Adds a frame; ignores a frame whose size differs from the first frame's.
     pub fn add(&mut self, frame: &Frame<'_>) {
         if self.frames.is_empty() {
             (self.width, self.height) = (frame.width, frame.height);
@@ -28,12 +28,12 @@ impl Film {
         }
     }
 
-    /// How many frames there are.
+    /// The number of frames.
     pub fn frames(&self) -> usize {
         self.frames.len()
     }
 
-    /// The strip as a PNG file, so many frames a row.
+    /// The strip as a PNG file, with this number of frames a row.
     ///
     /// # Errors
     /// No frame, or more pixels than a PNG can have.

@@ -1,13 +1,13 @@
-//! The simulated Carbot: a planar world in virtual time; and its parts, for other robots.
+//! The simulated Carbot: a planar world in virtual time, and parts for other robots.
 //!
-//! A [`World`] is read from TOML; a [`Simulation`] puts the robot into it and implements the
-//! device traits of `afp-carbot`, so that templates cannot tell it from the real robot. What only
-//! a judge may know (true pose, contacts, distance to the wall) is behind
-//! [`Simulation::truth`], which no device trait reaches.
+//! A [`World`] is read from TOML. A [`Simulation`] puts the robot into it and implements the device
+//! traits of `afp-carbot`, so that templates cannot distinguish it from the real robot. The ground
+//! truth (pose, contacts, distance to the wall) is only available through [`Simulation::truth`],
+//! which no device trait exposes.
 //!
-//! The same world, seed, commands and instants give the same run, bit for bit, on every platform:
-//! physics steps on its own grid of [`STEP`], rapier runs with its cross-platform determinism,
-//! trigonometry goes through `libm`, and every noise has a stream of its own.
+//! The same world, seed, commands and instants give the same run, bit for bit, on every platform.
+//! Physics steps on a fixed grid of [`STEP`], rapier runs with its cross-platform determinism,
+//! trigonometry uses `libm`, and every noise has its own stream.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

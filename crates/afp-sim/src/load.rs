@@ -1,11 +1,12 @@
-//! The Carbot as a robot on which plans are loaded at run time.
+//! The Carbot as a robot for plans that are loaded at run time.
 
 use afp::load::{Library, Registry, Templates};
 use afp_session::{Loader, simulated};
 
 use crate::simulation::Simulation;
 
-/// The simulated Carbot with the templates of `std` and `carbot`; `more` registers those of other toolboxes.
+/// The simulated Carbot with the templates of `std` and `carbot`; `more` registers the templates of
+/// other toolboxes.
 pub fn carbot(more: impl Fn(&mut Registry<Simulation>) + Sync) -> impl Loader {
     simulated::<Simulation, _>(move |registry| {
         afp_std::templates::register(registry);

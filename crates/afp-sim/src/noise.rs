@@ -1,11 +1,11 @@
-//! The streams of noise of the Carbot.
+//! The Carbot's noise streams.
 
 pub(crate) use afp_platform::Noise;
 
-/// What a stream is for; the number is part of every recorded run and never changes.
+/// The purpose of a stream. The number is part of every recorded run and never changes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Source {
-    /// What differs from robot to robot: calibration.
+    /// The robot's calibration.
     Build = 1,
     /// The wheels' counters.
     Odometry = 2,
@@ -17,11 +17,11 @@ pub(crate) enum Source {
     Infrared = 5,
     /// The colour sensor.
     Color = 6,
-    /// Rooms made up.
+    /// Random rooms.
     Rooms = 8,
     /// The grain of pictures.
     Camera = 7,
-    /// Places made up.
+    /// Random places.
     Places = 9,
 }
 

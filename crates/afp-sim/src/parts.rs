@@ -1,17 +1,17 @@
-//! Parts of which a robot that is no Carbot is simulated, in the same worlds and by the same engine.
+//! Parts for simulations of other robots, in the same worlds and engine.
 //!
-//! | part | what it is |
+//! | part | meaning |
 //! |---|---|
-//! | [`Stage`] | a world and the robot's body in the engine: it is pushed, stepped every [`STEP`], and says what rays meet and what is touched |
+//! | [`Stage`] | a world and the robot's body in the engine: pushes, steps every [`STEP`], rays and contacts |
 //! | [`Chassis`] | the body: a rectangle or a circle with a mass |
-//! | [`TwoWheels`] | two driven wheels on one axis: limited motors, slip, what counters see |
-//! | [`Footing`] | whatever else touches the floor: friction of all contacts together |
-//! | [`RangeSensor`] | a range sensor with a cone of sound, noise, and echoes that are lost |
-//! | [`Switch`] | a contact that bounces, for a bumper |
-//! | [`WorldOf`] | world files for a robot with such a body, and with tables of its own ([`OwnTables`]) |
+//! | [`TwoWheels`] | two driven wheels on one axis: limited motors, slip, counters |
+//! | [`Footing`] | other contacts with the floor: friction of all contacts together |
+//! | [`RangeSensor`] | a range sensor with a cone of sound, noise, and lost echoes |
+//! | [`Switch`] | a bouncing contact, for a bumper |
+//! | [`WorldOf`] | world files for a robot with such a body and its own tables ([`OwnTables`]) |
 //!
-//! The line from a sensor to the plan with its faults, seeded noise and the clock of virtual time are in
-//! [`afp_platform`]. What is computed here is the same on every machine.
+//! The line from a sensor to the plan with its faults, seeded noise and the clock of virtual time
+//! are in [`afp_platform`]. All results are the same on every machine.
 
 pub use crate::chassis::{Chassis, Footprint};
 pub use crate::devices::bumper::Switch;

@@ -1,9 +1,9 @@
-//! The world as cameras and light sensors see it: upright solids on a painted floor.
+//! The world of cameras and light sensors: upright solids on a painted floor.
 
 use crate::world::{Look, Mobility, Obstacle, Patch, Rgb, World};
 use std::sync::Arc;
 
-/// The solids and the floor. A copy shares everything that stands still.
+/// The solids and the floor. Copies share all fixed solids.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     fixed: Arc<[Solid]>,
@@ -14,9 +14,9 @@ pub(crate) struct Scene {
 /// A convex solid with upright sides.
 #[derive(Clone, Debug)]
 pub(crate) struct Solid {
-    /// Corners in its own frame, counter-clockwise, metres.
+    /// Corners in the solid's frame, counter-clockwise, in metres.
     local: Arc<[[f64; 2]]>,
-    /// In the world's.
+    /// Corners in the world's frame.
     corners: Vec<[f64; 2]>,
     centre: [f64; 2],
     radius: f64,
@@ -24,13 +24,13 @@ pub(crate) struct Solid {
     pub(crate) look: Look,
 }
 
-/// What a ray does with a solid; distances in lengths of its direction.
+/// The crossing of a ray and a solid; distances in lengths of the ray's direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
-    /// Where it enters and leaves; the first is negative when it begins inside.
+    /// Where the ray enters and leaves; the first distance is negative if the ray begins inside.
     pub(crate) enter: f64,
     pub(crate) leave: f64,
-    /// How far along the side it enters, metres.
+    /// The distance along the side to the entry, in metres.
     pub(crate) along: f64,
     /// The side's normal, of length 1.
     pub(crate) normal: [f64; 2],
@@ -54,20 +54,20 @@ impl Scene {
         }
     }
 
-    /// Moves the `n`-th solid that can move: its place and its direction as cosine and sine,
-    /// against its place in the world's file.
+    /// Moves the `n`-th movable solid: its place and its direction as cosine and sine, relative to
+    /// its place in the world's file.
     pub(crate) fn place(&mut self, n: usize, at: [f64; 2], direction: [f64; 2]) {
         if let Some(solid) = self.moving.get_mut(n) {
             solid.place(at, direction);
         }
     }
 
-    /// Adds a solid that can move, behind all others.
+    /// Adds a movable solid after all others.
     pub(crate) fn add(&mut self, obstacle: &Obstacle) {
         self.moving.push(Solid::new(obstacle));
     }
 
-    /// Every solid that a ray meets, with where; those that stand still first.
+    /// Every solid that a ray meets, with the crossing; fixed solids first.
     pub(crate) fn cross(
         &self,
         origin: [f64; 2],
@@ -76,12 +76,12 @@ impl Scene {
         self.solids().filter_map(move |solid| Some((solid, solid.cross(origin, direction)?)))
     }
 
-    /// Every solid, those that stand still first.
+    /// Every solid; fixed solids first.
     pub(crate) fn solids(&self) -> impl Iterator<Item = &Solid> {
         self.fixed.iter().chain(&self.moving)
     }
 
-    /// Where a place fixed to the `n`-th solid is in the same scene at another time.
+    /// A place on the `n`-th solid, in the same scene at another time.
     pub(crate) fn carried(&self, later: &Scene, n: usize, at: [f64; 2]) -> Option<[f64; 2]> {
         let ([from, along], [to, along_to]) = (self.solid(n)?.frame(), later.solid(n)?.frame());
         let off = [at[0] - from[0], at[1] - from[1]];
@@ -93,7 +93,7 @@ impl Scene {
         self.solids().nth(n)
     }
 
-    /// Whether something stands between two places, each with a height.
+    /// Whether a solid is between two places, each with a height.
     pub(crate) fn between(&self, (a, low): ([f64; 2], f64), (b, high): ([f64; 2], f64)) -> bool {
         let direction = [b[0] - a[0], b[1] - a[1]];
         self.cross(a, direction).any(|(solid, crossing)| {
@@ -144,7 +144,7 @@ impl Solid {
         [from, side.map(|part| part / length)]
     }
 
-    /// Where a ray enters and leaves; none if it passes by or the solid lies behind.
+    /// The entry and exit of a ray; `None` if it misses the solid or the solid is behind its start.
     pub(crate) fn cross(&self, origin: [f64; 2], direction: [f64; 2]) -> Option<Crossing> {
         let to = [self.centre[0] - origin[0], self.centre[1] - origin[1]];
         let aside = direction[0] * to[1] - direction[1] * to[0];
@@ -184,7 +184,7 @@ impl Solid {
     }
 }
 
-/// Whether a convex polygon with corners counter-clockwise contains a place.
+/// Whether a convex polygon with corners in counter-clockwise order contains a place.
 fn contains(corners: &[[f64; 2]], at: [f64; 2]) -> bool {
     corners.iter().enumerate().all(|(i, a)| {
         let b = corners[(i + 1) % corners.len()];
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn one_sees_over_what_is_low() {
+    fn a_ray_passes_over_low_solids() {
         let scene = scene(BOX);
         let eye = ([0.0, 0.0], 0.2);
         assert!(scene.between(eye, ([4.0, 0.0], 0.2)));
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_patch_lies_on_top() {
+    fn the_last_patch_is_on_top() {
         let patch = |color: &str, size: f64| {
             format!(
                 "[[patch]]\npoints_m = [[0, 0], [{size}, 0], [0, {size}]]\ncolor = \"{color}\"\n"

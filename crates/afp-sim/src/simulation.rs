@@ -37,62 +37,62 @@ use rapier2d::math::Pose as Isometry;
 use sensors::Sensors;
 use std::sync::Arc;
 
-/// Physics steps between two pings.
+/// The number of physics steps between two pings.
 const PING_STEPS: u64 = sonar::PERIOD.as_nanos() / STEP.as_nanos();
 
-/// How the flow of the pictures is computed.
+/// The optical flow sensor in virtual time.
 type SimulatedFlow = FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>>;
 
 /// A robot in a world. It implements every device trait of the Carbot.
 ///
-/// A clone has the same clock; a keyframe has its own.
+/// A clone shares the clock; a keyframe has its own clock.
 #[derive(Clone)]
 pub struct Simulation {
     stage: Stage,
-    /// Where the robot started.
+    /// The robot's start.
     start: Pose,
     now: Instant,
     steps: u64,
     drive: Drive,
     sensors: Sensors,
-    /// Where the bumper was pressed last.
+    /// The place of the bumper's last press.
     bump: Option<Bump>,
-    /// The way by which the robot came.
+    /// The robot's recent path.
     trail: Trail,
     scene: Scene,
     lights: Vec<Light>,
-    /// Made for whoever asks for the flow first.
+    /// Created on first use.
     flow: Option<Box<SimulatedFlow>>,
-    /// What the range sensor should hear; all simulations of a world share it.
+    /// The expected readings of the range sensor, shared by all simulations of a world.
     audible: Audible,
-    /// Made for whoever asks first where the robot is.
+    /// Created on first use.
     locator: Option<Box<SimulatedLocator>>,
-    /// How far off it was.
+    /// The errors of the localisation.
     located: Located,
-    /// Made for whoever asks first for a way.
+    /// Created on first use.
     planner: Option<Box<SimulatedPlanner>>,
-    /// Whether the lamp is on, and what sounds.
+    /// The lamp and the tone.
     shown: (bool, Option<Frequency>),
     seed: u64,
     /// After an emergency stop.
     stopped: bool,
-    /// What was injected, for those who drive it by hand.
+    /// The injected faults, for manual driving.
     faults: Faults<Fault>,
     clock: VirtualClock,
     /// The edge of the map, see [`World::map`].
     map: Vec<[f64; 2]>,
-    /// When the robot first was beyond it.
+    /// The time when the robot first left the map.
     left_map: Option<Instant>,
-    /// How many things somebody has dropped.
+    /// The number of dropped objects.
     dropped: usize,
 }
 
 impl Simulation {
-    /// The robot at its start, at time zero. `seed` decides on every noise and on how this robot
-    /// differs from its twins.
+    /// The robot at its start, at time zero. `seed` determines every noise and the robot's
+    /// calibration.
     ///
     /// # Errors
-    /// An obstacle without an area; [`World::parse`] lets none through.
+    /// An obstacle without an area; [`World::parse`] rejects it.
     pub fn new(world: &World, seed: u64) -> Result<Self, WorldError> {
         let stage = Stage::new(world, Chassis::CARBOT)?;
         Ok(Simulation {
@@ -122,7 +122,7 @@ impl Simulation {
         })
     }
 
-    /// Lets time pass: every physics step up to and including `to`. Time never goes back.
+    /// Runs every physics step up to and including `to`. Time never goes back.
     pub fn advance_to(&mut self, to: Instant) {
         while self.faults.next_change() <= to {
             self.pass(self.faults.next_change());
@@ -131,7 +131,7 @@ impl Simulation {
         self.pass(to);
     }
 
-    /// Lets time pass in which no fault begins or ends.
+    /// Runs steps in which no fault begins or ends.
     fn pass(&mut self, to: Instant) {
         while self.grid(self.steps + 1) <= to {
             self.steps += 1;
@@ -142,24 +142,24 @@ impl Simulation {
         self.note();
     }
 
-    /// The clock that times polls: it stands still within a step but for what slow devices cost.
-    /// A driver that knows slow devices makes no step before [`VirtualClock::free`].
+    /// The clock for timed polls. Within a step it only advances by the cost of slow devices. A
+    /// driver with slow devices makes no step before [`VirtualClock::free`].
     pub fn clock(&self) -> VirtualClock {
         self.clock.clone()
     }
 
-    /// The instant up to which time has passed.
+    /// The current instant.
     pub fn now(&self) -> Instant {
         self.now
     }
 
-    /// How many physics steps have been made.
+    /// The number of physics steps so far.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Whether the engine has taken no body out for being nowhere: where a pose or a velocity is not
-    /// finite, it lets the body take no more part.
+    /// Whether all bodies are still in the engine: it disables a body whose pose or velocity is not
+    /// finite.
     pub fn all_bodies_enabled(&self) -> bool {
         self.stage.all_enabled()
     }
@@ -169,22 +169,22 @@ impl Simulation {
         self.sensors.escape = true;
     }
 
-    /// Lets the escape button go.
+    /// Releases the escape button.
     pub fn release_escape(&mut self) {
         self.sensors.escape = false;
     }
 
-    /// Holds the bumper in, as if something stood there.
+    /// Holds the bumper pressed, as if it touched an obstacle.
     pub fn press_bumper(&mut self) {
         self.sensors.held = true;
     }
 
-    /// Lets the bumper go.
+    /// Releases the bumper.
     pub fn release_bumper(&mut self) {
         self.sensors.held = false;
     }
 
-    /// What only a judge may know.
+    /// The ground truth, for judges.
     pub fn truth(&self) -> Truth<'_> {
         let body = &self.stage.physics.bodies[self.stage.body];
         Truth {
@@ -209,7 +209,7 @@ impl Simulation {
         self.stage.position()
     }
 
-    /// One physics step and everything that goes on its grid.
+    /// Makes one physics step, and everything on its grid.
     fn step(&mut self) {
         let now = self.grid(self.steps);
         self.push(now);
@@ -229,7 +229,7 @@ impl Simulation {
         self.note();
     }
 
-    /// Lets the wheels push the body.
+    /// Applies the wheels' push to the body.
     fn push(&mut self, now: Instant) {
         let push = self.drive.step(self.stage.twist(), now, self.sensors.battery.speed(), DT);
         self.stage.push(push);

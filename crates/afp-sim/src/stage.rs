@@ -1,6 +1,7 @@
-//! A world and the body of one robot in the engine: what pushes what, what rays meet, what is touched.
+//! A world and the body of one robot in the engine: pushes, rays and contacts.
 //!
-//! It knows neither wheels nor sensors. Whoever simulates a robot pushes its body, lets a step pass, and looks.
+//! It knows neither wheels nor sensors. The simulation of a robot pushes the body, makes a step,
+//! and reads the results.
 
 mod alone;
 mod build;
@@ -29,10 +30,10 @@ pub(crate) use build::{Built, HIGH, ROBOT, build, collider};
 pub(crate) use movers::Mover;
 pub(crate) use ray::Rays;
 
-/// The physics' own grid.
+/// The fixed step of the physics.
 pub const STEP: Duration = Duration::from_millis(5);
 
-/// A step in seconds.
+/// The step in seconds.
 pub(crate) const DT: f64 = STEP.as_nanos() as f64 / 1e9;
 
 /// A world and the body of one robot, stepped every [`STEP`].
@@ -53,7 +54,7 @@ impl Stage {
     /// A world with a robot's body at its start.
     ///
     /// # Errors
-    /// An obstacle without an area; [`World::parse`] lets none through.
+    /// An obstacle without an area; [`World::parse`] rejects it.
     pub fn new(world: &World, chassis: Chassis) -> Result<Stage, WorldError> {
         let Built { physics, body, collider, shapes, movers } = build(world, &chassis)?;
         Ok(Stage {
@@ -70,7 +71,7 @@ impl Stage {
         })
     }
 
-    /// Where the middle of the robot's body is.
+    /// The pose of the body's middle.
     pub fn pose(&self) -> Pose {
         let at = self.position();
         let heading = libm::atan2(f64::from(at.rotation.im), f64::from(at.rotation.re));
@@ -78,7 +79,7 @@ impl Stage {
         Pose { x, y, heading }
     }
 
-    /// How the robot's body moves, in its own frame.
+    /// The body's motion, in its own frame.
     pub fn twist(&self) -> Twist {
         let body = &self.physics.bodies[self.body];
         let velocity = body.rotation().inverse_transform_vector(body.linvel());
@@ -86,7 +87,7 @@ impl Stage {
         Twist { x, y, turn: f64::from(body.angvel()) }
     }
 
-    /// Says what pushes the robot's body in the next step, in its own frame, in place of what did before.
+    /// Sets the push on the body for the next step, in its own frame.
     pub fn push(&mut self, push: Push) {
         let body = &mut self.physics.bodies[self.body];
         let force = body.rotation().transform_vector(Vector::new(push.x as f32, push.y as f32));
@@ -96,13 +97,13 @@ impl Stage {
         body.add_torque(push.turn as f32, false);
     }
 
-    /// Lets the step pass that ends at `now`.
+    /// Makes the step that ends at `now`.
     pub fn step(&mut self, now: Instant) {
         self.step_noting(now, |_, _, _| {});
     }
 
-    /// The same; `moved` is told of each obstacle that is elsewhere than before: its place among those that can move, where
-    /// it is against its start, and its direction as cosine and sine.
+    /// Like [`Stage::step`]. Calls `moved` for each obstacle that has moved: its index among the
+    /// movable obstacles, its place relative to its start, and its direction as cosine and sine.
     pub(crate) fn step_noting(
         &mut self,
         now: Instant,
@@ -117,23 +118,23 @@ impl Stage {
         self.look_around();
     }
 
-    /// Everything that stands in the world, in the order of its file, then what was dropped.
+    /// All obstacles: those of the world file in its order, then the dropped ones.
     pub fn obstacles(&self) -> &[Obstacle] {
         &self.obstacles
     }
 
-    /// Every collision so far, in the order of their beginnings.
+    /// All collisions so far, in the order of their beginnings.
     pub fn collisions(&self) -> &[Collision] {
         self.collisions.all()
     }
 
-    /// The collisions that last at an instant, in the order of their beginnings.
+    /// The current collisions at an instant, in the order of their beginnings.
     pub fn touching(&self, now: Instant) -> impl DoubleEndedIterator<Item = &Collision> {
         self.collisions.lasting(now)
     }
 
-    /// Whether the engine has taken no body out for being nowhere: where a pose or a velocity is not
-    /// finite, it lets the body take no more part.
+    /// Whether all bodies are still in the engine: it disables a body whose pose or velocity is not
+    /// finite.
     pub fn all_enabled(&self) -> bool {
         let mut bodies = self.physics.bodies.iter();
         let mut colliders = self.physics.colliders.iter();

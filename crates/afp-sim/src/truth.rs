@@ -1,6 +1,6 @@
-//! The true state of the simulation, for measures and logs alone: no template can read it.
+//! The true state of the simulation, only for measures and logs.
 //!
-//! Nothing here is reachable through a device trait, so no template can use it.
+//! No device trait exposes it, so templates cannot read it.
 
 use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
 use crate::devices::camera::{self, Exposure};
@@ -20,71 +20,74 @@ pub struct Truth<'a> {
     pub(crate) left_map: Option<Instant>,
     /// Metres and radians a second.
     pub(crate) motion: (f64, f64),
-    /// What the drive was told last, metres and radians a second.
+    /// The last command to the drive, in metres and radians a second.
     pub(crate) asked: (f64, f64),
-    /// The last but one and the last picture of the camera.
+    /// The two latest pictures of the camera.
     pub(crate) pictures: [Option<&'a Exposure>; 2],
 }
 
-/// A robot slower than this stands, metres and radians a second: castors creep as they come to rest.
+/// A slower robot counts as stationary, in metres and radians a second: castors creep while they
+/// come to rest.
 const STANDING: (f64, f64) = (0.005, 0.02);
 
-/// A motion that goes into something no faster slides along it, metres a second.
+/// A slower motion into an obstacle counts as sliding along it, in metres a second.
 const INTO: f64 = 0.01;
 
-/// Who has a wall beside them has something square from their side no farther away than so many times the nearest.
+/// A wall is beside the robot if the distance square from its side is at most this multiple of the
+/// nearest distance.
 const BESIDE: f64 = 1.5;
 
 impl<'a> Truth<'a> {
-    /// Where the robot's centre is.
+    /// The pose of the robot's centre.
     pub fn pose(&self) -> Pose {
         self.stage.pose()
     }
 
-    /// Whether the robot does not move: less than 5 mm/s and 0.02 rad/s.
+    /// Whether the robot is stationary: below 5 mm/s and 0.02 rad/s.
     pub fn is_standing(&self) -> bool {
         let (speed, turn) = self.motion;
         speed < STANDING.0 && turn.abs() < STANDING.1
     }
 
-    /// Whether the last command to the drive was to stand still, or there was none.
+    /// Whether the last command to the drive was a stop, or there was no command.
     pub fn is_halted(&self) -> bool {
         self.asked == (0.0, 0.0)
     }
 
-    /// How far what the camera showed at a place of its last but one picture, by column and row, has moved
-    /// in its last one: to the right and down, pixels. None for the sky, for what is hidden or out of the
-    /// picture by then, and before there are two pictures.
+    /// The true motion of an object between the two latest pictures, from its column and row in the
+    /// first one: to the right and down, in pixels. `None` for the sky, for an object that is
+    /// hidden or outside of the second picture, and before there are two pictures.
     pub fn flow(&self, x: f64, y: f64) -> Option<[f64; 2]> {
         let [Some(before), Some(after)] = self.pictures else { return None };
         let [column, row] = camera::track(before, after, x, y)?;
         Some([column - x, row - y])
     }
 
-    /// Every collision so far, in the order of their beginnings.
+    /// All collisions so far, in the order of their beginnings.
     pub fn collisions(&self) -> &'a [Collision] {
         self.stage.collisions()
     }
 
-    /// When the robot's centre first was beyond the edge of the map.
+    /// The time when the robot's centre first left the map.
     pub fn left_map(&self) -> Option<Instant> {
         self.left_map
     }
 
-    /// The collisions that last now, in the order of their beginnings.
+    /// The current collisions, in the order of their beginnings.
     pub fn touching(&self) -> impl DoubleEndedIterator<Item = &'a Collision> {
         self.stage.touching(self.now)
     }
 
-    /// The obstacles that the robot pushes against now, by their places in [`crate::World::obstacles`]: it touches them, and the
-    /// last command to its drive was a motion into them, of a centimetre a second at least where they touch.
+    /// The obstacles that the robot pushes against now, by their indices in
+    /// [`crate::World::obstacles`]. It touches them, and the last command to its drive was a motion
+    /// into them of at least a centimetre a second at the contact.
     pub fn pushing(&self) -> impl Iterator<Item = usize> + use<'a> {
         let (asked, touches) = (self.asked, self.stage.touches().iter());
         touches.filter(move |touch| touch.speed_into(asked) >= INTO).map(|touch| touch.obstacle)
     }
 
     /// Distance from the body's right side to the nearest obstacle that is high enough for the
-    /// range sensor, metres; none in an empty world.
+    /// range sensor, in metres; `None` in an empty world.
     pub fn right_side_gap(&self) -> Option<f64> {
         let y = -HALF_WIDTH as f32;
         let side =
@@ -99,8 +102,9 @@ impl<'a> Truth<'a> {
         gaps.map(|gap| f64::from(gap.distance)).reduce(f64::min)
     }
 
-    /// The same distance where a wall is beside the robot: square from its side, at either end or the middle, something is not
-    /// much farther away. None at the end of a wall, of which the nearest place is the corner that is left behind.
+    /// The same distance if a wall is beside the robot. A wall is beside it if the distance square
+    /// from its side, at either end or the middle, is not much larger. `None` at the end of a wall,
+    /// where the nearest place is the corner behind the robot.
     pub fn right_side_wall(&self) -> Option<f64> {
         let gap = self.right_side_gap()?;
         let most = HALF_WIDTH + BESIDE * gap;

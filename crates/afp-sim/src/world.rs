@@ -1,7 +1,7 @@
-//! Worlds: where the robot starts and what stands, lies, shines and moves around it.
+//! Worlds: the robot's start, obstacles, patches, lights and moving objects.
 //!
-//! Written in TOML with the units in the keys; a key that does not exist is an error that names it
-//! and its line, so a misspelt one cannot be overlooked.
+//! Worlds are TOML files with the units in the keys. An unknown key is an error with its name and
+//! line, so that misspelled keys are found.
 
 mod audible;
 mod error;
@@ -37,62 +37,62 @@ use rapier2d::parry::query;
 pub struct World {
     /// What it is called.
     pub name: String,
-    /// Where the robot starts.
+    /// The robot's start.
     pub start: Pose,
-    /// The share of its charge that the battery has at the start, above 0 up to 1.
+    /// The battery's charge at the start, above 0 up to 1.
     pub charge: f64,
-    /// What the floor looks like where no patch lies.
+    /// The appearance of the floor outside of patches.
     pub floor: Look,
-    /// Everything that stands in it, in the order of the file: walls, boxes, polygons.
+    /// All obstacles, in the order of the file: walls, boxes, polygons.
     pub obstacles: Vec<Obstacle>,
-    /// Coloured patches on the floor; the last one lies on top.
+    /// Coloured patches on the floor; the last one is on top.
     pub patches: Vec<Patch>,
     /// Sources of infrared light.
     pub lights: Vec<Light>,
-    /// The corners of what its map shows, a convex polygon, metres, counter-clockwise; nothing is known beyond it. Empty
-    /// where the world is no map.
+    /// The corners of the map's area, a convex polygon, in metres, counter-clockwise. Empty if the
+    /// world is not a map.
     pub map: Vec<[f64; 2]>,
-    /// What the range sensor should hear among the obstacles, kept for all simulations.
+    /// The expected readings of the range sensor among the obstacles, shared by all simulations.
     pub(crate) audible: Audible,
 }
 
-/// Something that stands or moves on the floor.
+/// A fixed or moving obstacle on the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
-    /// Its name, or `wall 3` and the like where the file gives none.
+    /// Its name, or a generated name such as `wall 3`.
     pub name: String,
     /// Its outline at the start.
     pub outline: Outline,
-    /// How high it is, metres. The range sensor looks over what is lower than 15 cm.
+    /// Its height, in metres. The range sensor does not detect obstacles below 15 cm.
     pub height: f64,
     /// Whether it moves.
     pub mobility: Mobility,
-    /// What it looks like.
+    /// Its appearance.
     pub look: Look,
-    /// How much of the sound that hits it is sent back, above 0 up to 1.
+    /// The share of the sound that it returns, above 0 up to 1.
     pub echo: f64,
-    /// Whether the robot's map shows it; never so for what moves.
+    /// Whether the robot's map shows it; always false for moving obstacles.
     pub mapped: bool,
 }
 
 /// Whether and how an obstacle moves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mobility {
-    /// It stands still for good.
+    /// It never moves.
     Fixed,
     /// It can be pushed.
     Movable {
         /// Kilograms.
         mass: f64,
     },
-    /// It goes its way whatever is in it.
+    /// It follows its path and pushes obstacles away.
     Scripted(Path),
 }
 
 /// A patch of colour on the floor: a convex polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    /// Its name, or `patch 1` and the like.
+    /// Its name, or a generated name such as `patch 1`.
     pub name: String,
     /// Its corners, metres, counter-clockwise.
     pub corners: Vec<[f64; 2]>,
@@ -103,13 +103,13 @@ pub struct Patch {
 /// A source of infrared light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// Its name, or `infrared 1` and the like.
+    /// Its name, or a generated name such as `infrared 1`.
     pub name: String,
     /// Where it is, metres.
     pub position: [f64; 2],
-    /// How high above the floor, metres.
+    /// Its height above the floor, in metres.
     pub height: f64,
-    /// How bright it is; 1 gives a reading of 1 at one metre.
+    /// Its strength; 1 gives a reading of 1 at one metre.
     pub strength: f64,
 }
 
@@ -120,21 +120,21 @@ impl World {
     /// Reads a world from the text of its file.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its place: not TOML, an unknown or a missing key, a
-    /// value that makes no sense, a robot that starts inside of something or beyond the map.
+    /// The first error and its place: invalid TOML, an unknown or missing key, an invalid value, a
+    /// robot that starts inside an obstacle or beyond the map.
     pub fn parse(text: &str) -> Result<World, WorldError> {
         World::parse_for(&Chassis::CARBOT, text)
     }
 
-    /// The same for a robot with another body.
+    /// Like [`World::parse`], for a robot with another body.
     ///
     /// # Errors
-    /// As [`World::parse`].
+    /// Those of [`World::parse`].
     pub fn parse_for(robot: &Chassis, text: &str) -> Result<World, WorldError> {
         World::parse_with::<NoTables>(robot, text).map(|(world, _)| world)
     }
 
-    /// The same where files have tables for that robot alone.
+    /// Like [`World::parse_for`], for files with tables of only that robot.
     fn parse_with<O: OwnTables>(robot: &Chassis, text: &str) -> Result<(World, O), WorldError> {
         let (world, own) = file::read(text)?;
         match world.no_start(robot, world.start) {
@@ -145,7 +145,7 @@ impl World {
         }
     }
 
-    /// Why a robot cannot start somewhere; nothing where it can.
+    /// The reason why a robot cannot start at a pose, if there is one.
     fn no_start(&self, robot: &Chassis, start: Pose) -> Option<String> {
         match self.obstacle_in_way_of(robot, start) {
             Some(obstacle) => Some(format!("the robot starts inside of '{}'", obstacle.name)),
@@ -156,18 +156,17 @@ impl World {
         }
     }
 
-    /// Whether a place is beyond what the map shows; never in a world that is no map.
+    /// Whether a place is beyond the map; always false if the world is not a map.
     pub fn is_beyond(&self, place: [f64; 2]) -> bool {
         is_beyond(&self.map, place)
     }
 
-    /// The first obstacle that a robot at this pose would be inside of, as things stand at the
-    /// start.
+    /// The first obstacle that overlaps a robot at this pose, at the start.
     pub fn obstacle_at(&self, pose: Pose) -> Option<&Obstacle> {
         self.obstacle_in_way_of(&Chassis::CARBOT, pose)
     }
 
-    /// The same for a robot with another body.
+    /// Like [`World::obstacle_at`], for a robot with another body.
     pub fn obstacle_in_way_of(&self, robot: &Chassis, pose: Pose) -> Option<&Obstacle> {
         let robot = robot.shared();
         let start = isometry(pose);
@@ -179,7 +178,8 @@ impl World {
     }
 }
 
-/// Whether a place is outside of a convex polygon whose corners go counter-clockwise; never outside of none.
+/// Whether a place is outside of a convex polygon with corners in counter-clockwise order; always
+/// false for an empty polygon.
 pub(crate) fn is_beyond(corners: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).any(|([x0, y0], [x1, y1])| (x1 - x0) * (y - y0) < (y1 - y0) * (x - x0))

@@ -1,4 +1,4 @@
-//! The plan of the paper drives the robot through its room: room, robot and tuning suit the plan.
+//! The plan of the paper drives the robot through its room: room, robot and tuning fit the plan.
 
 use afp::load::{LoadedPlan, Registry};
 use afp_core::rt::NamedPlan;
@@ -13,7 +13,7 @@ use afp_syntax::source::Source;
 const ROOM: &str = include_str!("../../../worlds/wall_following.toml");
 const PLAN: &str = include_str!("../../../plans/wall_following.afp");
 
-/// Notes which actor was started when.
+/// Records the start of each actor.
 struct Actors<N> {
     names: N,
     started: Vec<(Instant, String)>,
@@ -30,7 +30,7 @@ impl<N: Names> Sink for Actors<N> {
     }
 }
 
-/// What a run came to.
+/// The result of a run.
 #[derive(Debug, Default)]
 struct Outcome {
     /// The actors in the order of their activations.
@@ -38,8 +38,9 @@ struct Outcome {
     /// Bumps into the low step, and other collisions.
     bumps: usize,
     others: usize,
-    /// Mean and greatest absolute wall error, metres, and how many seconds count: those of `followWall` with a wall beside it
-    /// but for the first two of each activation.
+    /// Mean and maximum absolute wall error, in metres, and the number of counted seconds. The
+    /// seconds of `followWall` with a wall beside it count, except for the first two of each
+    /// activation.
     error: f64,
     worst: f64,
     counted: f64,
@@ -56,7 +57,7 @@ fn load() -> LoadedPlan<Simulation> {
     LoadedPlan::new(&graph, &registry).expect("every template has its component")
 }
 
-/// Runs a minute.
+/// Runs for a minute.
 fn run(seed: u64) -> Outcome {
     let world = World::parse(ROOM).expect("the room is well-formed");
     let mut sim = Simulation::new(&world, seed).expect("the room can be built");

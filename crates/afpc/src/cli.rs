@@ -1,4 +1,4 @@
-//! The command line: its grammar, and the command that it names.
+//! The grammar of the command line and the dispatch to the commands.
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -30,7 +30,7 @@ struct Cli {
     command: Command,
 }
 
-/// What to do.
+/// The commands.
 #[derive(Subcommand, Debug)]
 enum Command {
     /// Makes a project that works at once: a plan, a toolbox or a robot
@@ -92,7 +92,7 @@ Examples:
 
 Exit codes: 0 done, 1 a plan is wrong or a file cannot be read or written, 2 wrong usage, 3 the plan ended in Error";
 
-/// Runs the command of the command line.
+/// Runs the selected command.
 pub fn run(linked: &Linked<'_>) -> ExitCode {
     let result = match &parse(linked) {
         Command::Check(arguments) => check::run(arguments),
@@ -121,8 +121,10 @@ pub fn run(linked: &Linked<'_>) -> ExitCode {
     }
 }
 
-/// Reads the command line; does not come back when it asks for help or makes no sense. The help of `run` has
-/// the words of the robot: that of the project, whose program need not be there for it.
+/// Parses the command line; exits after `--help` or an invalid command line.
+///
+/// The help of `run` lists the words of the project's robot. The robot's program is not built for
+/// this.
 fn parse(linked: &Linked<'_>) -> Command {
     let arguments: Vec<_> = std::env::args_os().skip(1).collect();
     let asks = |word: &str| arguments.iter().any(|argument| argument == word);
@@ -155,7 +157,7 @@ fn parse(linked: &Linked<'_>) -> Command {
     }
 }
 
-/// The command with what a plan takes in the help of `--set`.
+/// The command with the plan's inputs in the help of `--set`.
 fn taking(run: clap::Command, inputs: &str) -> clap::Command {
     run.mut_arg("set", |argument| {
         let known = argument.get_long_help().or(argument.get_help());
@@ -164,7 +166,7 @@ fn taking(run: clap::Command, inputs: &str) -> clap::Command {
     })
 }
 
-/// Prints help where results go, and ends.
+/// Prints a help text to standard output and exits.
 fn tell(help: &clap::Error) -> ! {
     match print(&help.render().ansi().to_string()) {
         Err(NoPlan::File(error)) => refuse(&error),
@@ -172,19 +174,19 @@ fn tell(help: &clap::Error) -> ! {
     }
 }
 
-/// Ends with the exit code of wrong usage, in the words of every other error.
+/// Prints an error and exits with the exit code for wrong usage.
 fn refuse(error: &RunError) -> ! {
     say(error.styled());
     std::process::exit(error.code().into());
 }
 
-/// What is said in place of an error that does not say enough.
+/// A better message for an error of clap, if there is one.
 fn better(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
     let words: Vec<_> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
     without_command(error).or_else(|| swapped(error, &words)).or_else(|| no_utf8(error, arguments))
 }
 
-/// What to say of the name of a file that is no text.
+/// The message for a file name that is not UTF-8.
 fn no_utf8(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
     if error.kind() != ErrorKind::InvalidUtf8 {
         return None;
@@ -197,7 +199,7 @@ fn no_utf8(error: &clap::Error, arguments: &[OsString]) -> Option<RunError> {
     Some(RunError::usage(format!("{names} {verb} not in UTF-8"), help))
 }
 
-/// What to say to somebody who names a plan and no command.
+/// The message for a plan without a command.
 fn without_command(error: &clap::Error) -> Option<RunError> {
     if error.kind() != ErrorKind::InvalidSubcommand {
         return None;
@@ -214,7 +216,7 @@ fn without_command(error: &clap::Error) -> Option<RunError> {
     })
 }
 
-/// What to say to somebody who puts the words of `afpc log` into another order.
+/// The message for the arguments of `afpc log` in the wrong order.
 fn swapped(error: &clap::Error, words: &[&str]) -> Option<RunError> {
     match words {
         ["log", first, second, ..] if error.kind() == ErrorKind::InvalidValue => {
@@ -224,8 +226,8 @@ fn swapped(error: &clap::Error, words: &[&str]) -> Option<RunError> {
     }
 }
 
-/// The grammar, with the commands that later releases or other builds bring: hidden, but told apart from typing
-/// errors.
+/// The grammar, with hidden commands of later releases and other builds. They get their own error
+/// messages.
 fn command() -> clap::Command {
     let later = later::names().map(|name| {
         let rest = clap::Arg::new("rest").num_args(0..).allow_hyphen_values(true);

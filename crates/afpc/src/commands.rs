@@ -36,7 +36,7 @@ const GOOD: Style = AnsiColor::Green.on_default().bold();
 const BAD: Style = AnsiColor::BrightRed.on_default().bold();
 const QUIET: Style = Style::new().dimmed();
 
-/// The exit code of what does many runs and was stopped before all of them were done.
+/// The exit code of a stopped command that does many runs.
 const EXIT_STOPPED: u8 = 130;
 
 /// The name of a value on the command line.
@@ -44,12 +44,12 @@ fn name_of(value: &impl ValueEnum) -> String {
     value.to_possible_value().map(|it| it.get_name().to_owned()).unwrap_or_default()
 }
 
-/// Prints a result on standard output; a reader that has seen enough is no error.
+/// Prints a result on standard output; a closed pipe is not an error.
 pub(crate) fn print(text: &str) -> Result<u8, NoPlan> {
     print_to(anstream::stdout().lock(), text.as_bytes())
 }
 
-/// Prints bytes that are no text on standard output, as [`print`] does.
+/// Prints binary data on standard output, with the same rules as [`print`].
 fn print_bytes(bytes: &[u8]) -> Result<u8, NoPlan> {
     print_to(std::io::stdout().lock(), bytes)
 }

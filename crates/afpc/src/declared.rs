@@ -1,5 +1,5 @@
-//! What a command line is about: the robot of a project as its toolbox file declares it, so that nothing need be built to
-//! show its words or to refuse others, and what a plan takes.
+//! The declarations that a command line needs: the devices of the project's robot, from its toolbox
+//! file, and the plan's inputs. Help and errors use them without a build.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -13,11 +13,11 @@ use afp_toolboxes::project::OwnToolboxes;
 
 use crate::plan_file::PlanFile;
 
-/// The devices of the robot of the project that a command line is about, if that has one.
+/// The devices of the project's robot, if the project has a robot.
 ///
-/// The project is that of the first plan among the arguments, else that of the current folder.
+/// The project is that of the first plan among the arguments, or else of the current folder.
 pub fn devices(arguments: &[OsString]) -> Option<&'static [DeviceRow]> {
-    // A project that is wrong is no reason to show no help.
+    // Help is shown even if the project is invalid.
     read(plan(arguments).unwrap_or(Path::new("plan.afp"))).ok().flatten()
 }
 
@@ -29,11 +29,10 @@ fn plan(arguments: &[OsString]) -> Option<&Path> {
     })
 }
 
-/// The inputs of the plan that a command line is about, a line each as they are declared; `None` where there is no plan
-/// or nothing that it takes.
+/// The inputs of the command line's plan, one line each; `None` without a plan or inputs.
 pub fn inputs(arguments: &[OsString]) -> Option<String> {
     let argument = plan(arguments)?.to_str()?;
-    // A plan that cannot be read is no reason to show no help.
+    // Help is shown even if the plan is unreadable.
     let Compiled { outline, sources, .. } = PlanFile::read(argument).ok()?.compiled;
     let plan = outline.plan(outline.main?);
     let inputs = plan.entries.iter().filter(|entry| entry.kind == EntryKind::In);
@@ -51,7 +50,7 @@ pub fn inputs(arguments: &[OsString]) -> Option<String> {
     Some(format!("{name} takes:\n{}", lines.collect::<Vec<_>>().join("\n")))
 }
 
-/// A text on one line, single blanks only.
+/// A text on one line, with single spaces.
 pub(crate) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -60,10 +59,10 @@ fn read(plan: &Path) -> Result<Option<&'static [DeviceRow]>, ProjectError> {
     of_project(&OwnToolboxes::of_plan(plan)?)
 }
 
-/// The devices of the robot of a project, if it has one of its own.
+/// The devices of the robot of a project, if the project has a robot.
 ///
 /// # Errors
-/// The project file or a toolbox of it is wrong.
+/// The project file or a toolbox is invalid.
 pub fn of_project(own: &OwnToolboxes) -> Result<Option<&'static [DeviceRow]>, ProjectError> {
     if own.project.project.robot.is_none() {
         return Ok(None);
@@ -102,7 +101,7 @@ fn fault(fault: &Fault) -> FaultRow {
     }
 }
 
-/// Rows live as long as the program does, which reads them once.
+/// Leaks the rows: they are read once and live as long as the program.
 fn list<T>(rows: Vec<T>) -> &'static [T] {
     Box::leak(rows.into_boxed_slice())
 }

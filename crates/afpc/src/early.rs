@@ -1,6 +1,7 @@
-//! Options that name what is not there, found before a robot or a toolbox of the project is built: that takes minutes.
+//! Finds unknown names in options before a robot or toolbox is built, because a build takes
+//! minutes.
 //!
-//! The run itself looks once more, with values and amounts.
+//! The run itself checks again, including values and amounts.
 
 use afp_dsl::graph::{EntryKind, Graph};
 use afp_run::options::{OF_ROBOT, RunOptions};
@@ -12,14 +13,14 @@ use crate::no_plan::NoPlan;
 use crate::plan_file::PlanFile;
 use crate::{Linked, declared, runner};
 
-/// Looks whether the entries, controls, faults and the world that the options of a run name are there.
+/// Checks that the entries, controls, faults and the world in the options of a run exist.
 ///
 /// # Errors
-/// One is not, or the project is wrong.
+/// A name is unknown, or the project is invalid.
 pub fn check(file: &PlanFile, options: &RunOptions, linked: &Linked<'_>) -> Result<(), NoPlan> {
-    // What is wrong with a plan is told first.
+    // Errors in the plan are reported first.
     let Some(graph) = &file.compiled.graph else { return Ok(()) };
-    // The run says it at once, and more of it.
+    // The run itself reports it immediately, and in more detail.
     if runner::is_linked(&file.own, graph, linked)? {
         return Ok(());
     }
@@ -34,7 +35,7 @@ pub fn check(file: &PlanFile, options: &RunOptions, linked: &Linked<'_>) -> Resu
 }
 
 fn check_entry(graph: &Graph, name: &str) -> Result<(), RunError> {
-    // Those of the world and of the robot itself, and entries of plans inside, which are not set from outside.
+    // Values of the world and the robot, and entries of sub-plans, which have their own rules.
     let is_else = change::key(name).is_some() || name.starts_with(OF_ROBOT) || name.contains('.');
     let entries = &graph.main().entries;
     if is_else || entries.iter().any(|entry| entry.name == name) {

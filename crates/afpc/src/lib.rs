@@ -1,7 +1,7 @@
 //! The command line of Action Flow Plans: arguments, files, exit codes.
 //!
-//! It is a library so that a *runner* can be made: the same program with a robot and toolboxes of one's own linked
-//! in, which `afpc` builds, keeps and becomes when a plan needs them.
+//! It is a library for *runners*: the same program linked with a project's robot and toolboxes.
+//! `afpc` builds a runner when a plan needs it, caches it, and becomes it.
 
 mod cli;
 mod commands;
@@ -24,20 +24,20 @@ use afp_session::{Loader, Opener};
 pub use afp_session::{hardware, simulated};
 pub use afp_sim::carbot;
 
-/// What runners name of the crates below.
+/// The names that runners use of the lower crates.
 #[doc(hidden)]
 pub mod __private {
     pub use afp_session::__private::afp_core;
     pub use afp_sim::Simulation;
 }
 
-/// Trees are many small pieces; checking a large plan takes a third less time than with the
-/// allocator of the system.
+/// Trees consist of many small pieces: a check of a large plan takes a third less time than with
+/// the system's allocator.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// What this program was built with, of what can be left out: the runners that it builds have the same, but for the studio,
-/// which asks them over the debug adapter's protocol.
+/// The enabled optional features. Runners get the same features except the studio, which talks to
+/// them over the debug adapter's protocol.
 const FEATURES: &[&str] = &[
     #[cfg(feature = "dap")]
     "dap",
@@ -51,16 +51,16 @@ const FEATURES: &[&str] = &[
     "png",
 ];
 
-/// What is linked into the program.
+/// The parts that are linked into the program.
 #[derive(Clone, Copy)]
 pub struct Linked<'a> {
-    /// The robot that plans run on, with the templates that they may use.
+    /// The robot for plans, with its templates.
     pub robot: &'a dyn Loader,
-    /// The path of the robot's type, where it is one of a project; none for the Carbot.
+    /// The path of the robot's type if a project defines it; `None` for the Carbot.
     pub own_robot: Option<&'a str>,
-    /// The robot itself, by the path of its type, where it is linked in.
+    /// The hardware robot and the path of its type, if it is linked in.
     pub hardware: Option<(&'a str, &'a dyn Opener)>,
-    /// The toolboxes beside the built-in ones, by the names behind `use`.
+    /// The toolboxes in addition to the built-in ones, by their names in `use`.
     pub toolboxes: &'a [&'a str],
 }
 
@@ -71,13 +71,13 @@ impl Linked<'_> {
         parts.are_in(self.own_robot, hardware, self.toolboxes)
     }
 
-    /// Whether anything of a project is linked in.
+    /// Whether a part of a project is linked in.
     fn is_runner(&self) -> bool {
         self.own_robot.is_some() || !self.toolboxes.is_empty()
     }
 }
 
-/// The whole program.
+/// Runs the program.
 pub fn main(linked: &Linked<'_>) -> ExitCode {
     cli::run(linked)
 }

@@ -1,4 +1,4 @@
-//! The command line of Action Flow Plans, with the Carbot and the built-in toolboxes alone.
+//! The command line of Action Flow Plans, with only the Carbot and the built-in toolboxes.
 
 use std::process::ExitCode;
 

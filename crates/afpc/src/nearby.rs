@@ -1,4 +1,4 @@
-//! Which plans there are where somebody names one that is not there.
+//! Suggestions for a missing plan file.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use afp_run::RunError;
 /// The folder in which projects keep their plans.
 const PLANS: &str = "plans";
 
-/// At most so many plans are named.
+/// The maximum number of suggested plans.
 const MOST: usize = 3;
 
-/// Why a plan cannot be read; where there is no such file, with what may have been meant.
+/// The error for an unreadable plan; for a missing file, with suggestions.
 pub fn unreadable(path: &Path) -> impl FnOnce(io::Error) -> RunError {
     let path = path.to_owned();
     move |error| {
@@ -27,7 +27,7 @@ pub fn unreadable(path: &Path) -> impl FnOnce(io::Error) -> RunError {
     }
 }
 
-/// The plan of that name where plans usually are, or else the plans there.
+/// The plan of that name in the usual folders, or else the plans in them.
 fn help(path: &Path) -> Option<String> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = PathBuf::from(path.file_name()?).with_extension("afp");
@@ -45,7 +45,7 @@ fn help(path: &Path) -> Option<String> {
     }
 }
 
-/// The plan files of a folder, by name; toolboxes look like them and are among them.
+/// The plan files of a folder, by name. Toolbox files have the same extension and are included.
 fn plans(folder: &Path) -> Vec<PathBuf> {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = here.read_dir().into_iter().flatten().flatten();
@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_may_have_been_meant_is_named() {
+    fn plans_with_similar_names_are_suggested() {
         let place = tempfile::tempdir().unwrap();
         let (root, plans) = (place.path(), place.path().join("plans"));
         let said = |name: &str| {

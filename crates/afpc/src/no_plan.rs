@@ -1,4 +1,4 @@
-//! Why a command has no plan to work on.
+//! The reasons why a command has no plan.
 
 use std::fmt;
 
@@ -6,13 +6,13 @@ use afp_build::NotBuilt;
 use afp_project::ProjectError;
 use afp_run::RunError;
 
-/// Why there is no graph.
+/// The reason for a missing graph.
 pub enum NoPlan {
     /// A file cannot be read.
     File(RunError),
-    /// The plan is wrong; it has been said.
+    /// The plan is invalid; the errors were printed.
     Wrong,
-    /// The Rust that belongs to it does not compile; it has been said, beginning with this line.
+    /// The plan's Rust code does not compile. The errors were printed; this is their first line.
     NotBuilt(Option<String>),
 }
 

@@ -1,4 +1,4 @@
-//! Pictures as files: SVG, or pixels where the name ends in `.png`.
+//! Pictures as files: SVG, or pixels if the file's extension is `.png`.
 
 #[cfg(feature = "png")]
 mod png;
@@ -8,10 +8,10 @@ use std::path::Path;
 use afp_draw::Theme;
 use afp_run::{PictureFormat, RunError, write_whole};
 
-/// Pixels of a PNG for each one of the SVG, where nothing is said: sharp on today's screens.
+/// The default number of PNG pixels per SVG pixel: sharp on current screens.
 pub const DEFAULT_SCALE: f32 = 2.0;
 
-/// The colours of a picture, where nothing is said: a PNG cannot ask the system of its reader.
+/// The default colours of a picture: a PNG cannot adapt to the reader's system.
 pub fn theme(format: PictureFormat) -> Theme {
     match format {
         PictureFormat::Svg => Theme::Auto,
@@ -19,10 +19,10 @@ pub fn theme(format: PictureFormat) -> Theme {
     }
 }
 
-/// Writes a picture as its name asks for.
+/// Writes a picture in the format of its file extension.
 ///
 /// # Errors
-/// The name's ending, pixels that cannot be made, a file that cannot be written.
+/// The extension is unknown, the pixels cannot be rendered, the file cannot be written.
 pub fn write(path: &Path, svg: &str) -> Result<(), RunError> {
     let what = "cannot write the picture";
     match PictureFormat::of(path)? {
@@ -31,10 +31,10 @@ pub fn write(path: &Path, svg: &str) -> Result<(), RunError> {
     }
 }
 
-/// Refuses a drawing of which is known, before anything is laid out, that it takes too many pixels; `area` in its own.
+/// Rejects a drawing with too many pixels before its layout; `area` is in SVG pixels.
 ///
 /// # Errors
-/// It is too large.
+/// The drawing is too large.
 #[cfg(feature = "png")]
 pub fn check_area(area: f64, scale: f32) -> Result<(), RunError> {
     let pixels = area * f64::from(scale).powi(2);
@@ -51,7 +51,7 @@ pub fn check_area(area: f64, scale: f32) -> Result<(), RunError> {
     ))
 }
 
-/// There are no pixels in this program, so none are too many.
+/// This program cannot render pixels, so there is no limit.
 ///
 /// # Errors
 /// None.
@@ -60,10 +60,10 @@ pub fn check_area(_: f64, _: f32) -> Result<(), RunError> {
     Ok(())
 }
 
-/// A drawing as a PNG file, `scale` pixels for each of its own.
+/// A drawing as a PNG file, with `scale` pixels per SVG pixel.
 ///
 /// # Errors
-/// It is too large, or this program was built without pixels.
+/// The drawing is too large, or this program cannot render pixels.
 #[cfg(feature = "png")]
 pub fn pixels(svg: &str, scale: f32) -> Result<Vec<u8>, RunError> {
     png::png(svg, scale).map_err(|why| match why {
@@ -78,7 +78,7 @@ pub fn pixels(svg: &str, scale: f32) -> Result<Vec<u8>, RunError> {
     })
 }
 
-/// There are no pixels in this program.
+/// This program cannot render pixels.
 ///
 /// # Errors
 /// Always.

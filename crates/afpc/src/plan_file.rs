@@ -24,25 +24,25 @@ pub struct PlanArgument {
     pub plan: String,
 }
 
-/// A plan that was read and compiled.
+/// A compiled plan.
 pub struct PlanFile {
-    /// The file as it was named.
+    /// The file name from the command line.
     pub path: PathBuf,
-    /// What became of it.
+    /// The compiler's result.
     pub compiled: Compiled,
-    /// The project that it belongs to, and its toolboxes.
+    /// The project of the file, and its toolboxes.
     pub own: OwnToolboxes,
-    /// The toolboxes that it uses whose texts are of a log alone: of Python, or of another project.
+    /// The used toolboxes whose sources are only in a log: from Python or from another project.
     pub foreign: Vec<String>,
 }
 
-/// The text of a file, read once: it may be a pipe.
+/// The text of a file, read once because the file may be a pipe.
 pub struct PlanText<'a> {
-    /// The file as it was named.
+    /// The file name from the command line.
     pub path: PathBuf,
-    /// What it says.
+    /// The contents.
     pub text: String,
-    /// The plan that is meant; else its first.
+    /// The selected plan; the first plan if `None`.
     pub plan: Option<&'a str>,
 }
 
@@ -56,19 +56,19 @@ impl PlanText<'_> {
         PlanText::read_at(path, plan)
     }
 
-    /// Reads a file, of which a plan is meant.
+    /// Reads a file and selects one of its plans.
     ///
     /// # Errors
-    /// It cannot be read.
+    /// The file cannot be read.
     pub fn read_at(path: PathBuf, plan: Option<&str>) -> Result<PlanText<'_>, RunError> {
         let text = read_text(&path).map_err(unreadable(&path))?;
         Ok(PlanText { path, text, plan })
     }
 
-    /// Compiles it.
+    /// Compiles the plan.
     ///
     /// # Errors
-    /// The project file or a toolbox of it cannot be read, or is wrong.
+    /// The project file or a toolbox cannot be read, or is invalid.
     pub fn compile(self) -> Result<PlanFile, RunError> {
         let source = Source::new(self.path.display().to_string(), self.text);
         PlanFile::compile_with((self.path, &source), &Disk::default(), self.plan, &[])
@@ -84,7 +84,7 @@ impl PlanFile {
         PlanText::read(argument)?.compile()
     }
 
-    /// The plan of a log in a file, from the texts that the log holds, or else from the plan's file.
+    /// The plan of a log, from the sources in the log, or else from the plan's file.
     ///
     /// # Errors
     /// The log names no plan, or its file cannot be read.
@@ -105,7 +105,7 @@ impl PlanFile {
         PlanFile::compile_with((path, &source), &read, Some(&plan), &toolboxes)
     }
 
-    /// Compiles a plan with toolboxes that its project may not have, for their declarations.
+    /// Compiles a plan with toolbox declarations that its project may lack.
     fn compile_with(
         (path, source): (PathBuf, &Source),
         files: &dyn Files,
@@ -130,15 +130,15 @@ impl PlanFile {
         Ok(PlanFile { path, compiled, own, foreign })
     }
 
-    /// Tells what is wrong.
+    /// Reports the diagnostics.
     ///
     /// # Errors
-    /// What tools read cannot be written.
+    /// The output for tools cannot be written.
     pub fn report(&self, reader: Reader) -> Result<(), NoPlan> {
         reader.tell(&self.compiled.diags, &self.compiled.sources)
     }
 
-    /// Tells people what is wrong, and gives the graph.
+    /// Reports the diagnostics to people, and returns the graph.
     ///
     /// # Errors
     /// The plan has errors.
@@ -146,10 +146,10 @@ impl PlanFile {
         self.checked_for(Reader::People)
     }
 
-    /// Tells what is wrong, and gives the graph.
+    /// Reports the diagnostics, and returns the graph.
     ///
     /// # Errors
-    /// The plan has errors, what tools read cannot be written.
+    /// The plan has errors, the output for tools cannot be written.
     pub fn checked_for(mut self, reader: Reader) -> Result<(PlanFile, Graph), NoPlan> {
         self.report(reader)?;
         let graph = self.compiled.graph.take().ok_or(NoPlan::Wrong)?;
@@ -157,8 +157,8 @@ impl PlanFile {
     }
 }
 
-/// The file of the plan that a log is of. It may have been named as seen from another folder than that of this command:
-/// then it is looked for from the folders around the log, too, first with the text that ran.
+/// The plan file of a log. Its recorded path can be relative to another folder. The search includes
+/// the folders around the log, and prefers a file with the recorded text.
 pub fn path_of_log(log: &LogData, at: &Path) -> PathBuf {
     let Recipe { file, texts, .. } = log.recipe();
     let log = std::path::absolute(at).unwrap_or_else(|_| at.to_owned());
@@ -170,7 +170,7 @@ pub fn path_of_log(log: &LogData, at: &Path) -> PathBuf {
     found.iter().find(ran).or(found.first()).cloned().unwrap_or_else(|| file.into())
 }
 
-/// `FILE:Plan` taken apart; a file whose own name holds the colon wins.
+/// Splits `FILE:Plan`; a file with the colon in its own name wins.
 pub fn split(argument: &str) -> (PathBuf, Option<&str>) {
     match argument.rsplit_once(':') {
         Some((path, plan)) if !Path::new(argument).exists() && !plan.contains(['/', '\\']) => {
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_log_says_which_of_its_toolboxes_are_not_here() {
+    fn missing_toolboxes_of_a_log_are_found() {
         let plan = "use std\nuse mine\nplan P {\n    start a\n    actor a: Beep { Done -> terminate }\n}\n";
         let mine = "toolbox mine\nactor Beep { state Done }\n";
         let texts = [("p.afp", plan), ("toolbox/mine", mine), ("toolbox/other", "toolbox other\n")];

@@ -1,4 +1,5 @@
-//! Who reads what is wrong: people, on standard error, or tools, which get objects on standard output.
+//! The readers of diagnostics: people, on standard error, or tools, with JSON objects on standard
+//! output.
 
 use afp_run::{EXIT_FAILED, RunError, say};
 use afp_syntax::diagnostics::Diagnostics;
@@ -7,22 +8,22 @@ use afp_syntax::source::Sources;
 use crate::commands::print;
 use crate::no_plan::NoPlan;
 
-/// Who reads what is wrong.
+/// The reader of diagnostics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reader {
     /// Excerpts on standard error.
     People,
-    /// An object on a line of standard output each.
+    /// One object per line on standard output.
     Tools,
 }
 
 impl Reader {
-    /// The one that `--json` asks for.
+    /// The reader that `--json` selects.
     pub fn of(json: bool) -> Reader {
         if json { Reader::Tools } else { Reader::People }
     }
 
-    /// Tells what is wrong with plans and toolboxes.
+    /// Reports the diagnostics of plans and toolboxes.
     ///
     /// # Errors
     /// Standard output cannot be written.
@@ -37,7 +38,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Tells why something cannot be done and gives the exit code that says so.
+    /// Reports an error and returns its exit code.
     ///
     /// # Errors
     /// Standard output cannot be written.
@@ -51,10 +52,10 @@ impl Reader {
         Ok(error.code())
     }
 
-    /// The exit code of a command that could not do its work, and tools are told why; people are by whoever called it.
+    /// The exit code of a failed command. Tools get the error here; people get it from the caller.
     ///
     /// # Errors
-    /// Standard output cannot be written, or people are to be told.
+    /// Standard output cannot be written, or the error is for people.
     pub fn end(self, why: NoPlan) -> Result<u8, NoPlan> {
         match (self, why) {
             (Reader::Tools, NoPlan::File(error)) => self.error(&error),

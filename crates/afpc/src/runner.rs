@@ -1,8 +1,8 @@
-//! Runners: this program with a robot and toolboxes of one's own linked in.
+//! Runners: this program linked with the robot and toolboxes of a project.
 //!
-//! The first command that runs a plan of a project with a robot or toolboxes of its own builds such a program, keeps
-//! it, and becomes it; later ones become it at once, until something that it was built from changes. Arguments, exit
-//! code, terminal and signals are those of the one process.
+//! The first command that runs a plan of such a project builds the runner, caches it, and becomes
+//! it. Later commands become it immediately until a source changes. Arguments, exit code, terminal
+//! and signals are those of one process.
 
 use std::env;
 use std::ffi::OsString;
@@ -18,12 +18,12 @@ use afp_toolboxes::project::OwnToolboxes;
 use crate::no_plan::NoPlan;
 use crate::{FEATURES, Linked};
 
-/// Comes back when this program has the robot and the toolboxes of all of these plans; otherwise builds, if need be,
-/// the one runner that has them, and goes on as that, with the arguments of this process.
+/// Returns if this program has the robot and the toolboxes of all these plans. Otherwise builds the
+/// runner if needed, and replaces this process with the same arguments.
 ///
 /// # Errors
-/// A robot or a toolbox without a crate, two robots, two toolboxes of one name, no cargo, a crate that does not
-/// build, a file that cannot be written.
+/// A robot or a toolbox without a crate, two robots, two toolboxes of one name, no cargo, a crate
+/// that does not build, a file that cannot be written.
 pub fn become_one_for<'a>(
     plans: impl IntoIterator<Item = (&'a OwnToolboxes, &'a Graph)>,
     linked: &Linked<'_>,
@@ -31,10 +31,10 @@ pub fn become_one_for<'a>(
     Parts::of_plans(plans)?.map_or(Ok(()), |parts| become_one(parts, linked))
 }
 
-/// As [`become_one_for`] for one plan, with the robot itself.
+/// Like [`become_one_for`] for one plan, with the hardware robot.
 ///
 /// # Errors
-/// As there, and a project without one.
+/// Those of [`become_one_for`], and a project without a hardware robot.
 pub fn become_one_with_hardware(
     (own, graph): (&OwnToolboxes, &Graph),
     linked: &Linked<'_>,
@@ -54,15 +54,15 @@ pub fn is_linked(own: &OwnToolboxes, graph: &Graph, linked: &Linked<'_>) -> Resu
     Ok(parts.is_none_or(|parts| linked.has(&parts)))
 }
 
-/// Comes back when this program has the robot of a project; otherwise goes on as one that has.
+/// Returns if this program has the robot of a project; otherwise becomes a runner with it.
 ///
 /// # Errors
-/// As [`become_one_for`].
+/// Those of [`become_one_for`].
 pub fn become_one_of(project: &ProjectFile, linked: &Linked<'_>) -> Result<(), NoPlan> {
     become_one(Parts::of_robot(project)?, linked)
 }
 
-/// Comes back when this program has all parts; otherwise goes on as one that has.
+/// Returns if this program has all parts; otherwise becomes a runner with them.
 fn become_one(parts: Parts<'_>, linked: &Linked<'_>) -> Result<(), NoPlan> {
     match linked.has(&parts) {
         true => Ok(()),
@@ -70,10 +70,10 @@ fn become_one(parts: Parts<'_>, linked: &Linked<'_>) -> Result<(), NoPlan> {
     }
 }
 
-/// The runner with these parts, built if need be.
+/// The runner with these parts, built if needed.
 ///
 /// # Errors
-/// As [`become_one_for`]; this program is a runner itself.
+/// Those of [`become_one_for`]; this program is a runner itself.
 pub fn built(parts: Parts<'_>, linked: &Linked<'_>) -> Result<PathBuf, NoPlan> {
     if linked.is_runner() {
         let message = format!("this runner was built for other parts than {}", parts.names());
@@ -82,7 +82,7 @@ pub fn built(parts: Parts<'_>, linked: &Linked<'_>) -> Result<PathBuf, NoPlan> {
     Ok(parts.product(Product::Runner(FEATURES))?)
 }
 
-/// Goes on as another program with the same arguments; comes back only when that fails.
+/// Replaces this process with another program and the same arguments; returns only on failure.
 #[cfg(unix)]
 fn turn_into(program: &Path) -> RunError {
     use std::os::unix::process::CommandExt;
@@ -90,7 +90,7 @@ fn turn_into(program: &Path) -> RunError {
     RunError::file("cannot start", program)(error)
 }
 
-/// Runs another program with the same arguments to its end, and ends as it ends.
+/// Runs another program with the same arguments and exits with its exit code.
 #[cfg(not(unix))]
 fn turn_into(program: &Path) -> RunError {
     match Command::new(program).args(arguments()).status() {

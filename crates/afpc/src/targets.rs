@@ -1,4 +1,4 @@
-//! The targets that a plan is checked against: those of `afp.toml`, or the one that was named.
+//! The targets of a plan's check: the targets of `afp.toml`, or the named target.
 
 use afp_dsl::graph::Graph;
 use afp_dsl::timing::{BUILT_IN, Target, check_target};
@@ -7,10 +7,10 @@ use afp_run::RunError;
 use afp_syntax::diagnostics::{Diagnostics, words};
 use afp_toolboxes::project::OwnToolboxes;
 
-/// The target of that name, from `afp.toml` or built in; without a name all that `afp.toml` has.
+/// The target of that name, from `afp.toml` or built in. Without a name, all targets of `afp.toml`.
 ///
 /// # Errors
-/// There is no such target.
+/// The target does not exist.
 pub fn choose(project: &Project, name: Option<&str>) -> Result<Vec<Target>, RunError> {
     let own: Vec<_> = project.targets.iter().map(completed).collect();
     let Some(name) = name else { return Ok(own) };
@@ -29,7 +29,7 @@ pub fn choose(project: &Project, name: Option<&str>) -> Result<Vec<Target>, RunE
     }
 }
 
-/// What a project says of a target; the rest as in the built-in one of its name.
+/// A project's target, completed from the built-in target of the same name.
 fn completed(own: &afp_project::Target) -> Target {
     let usual = Target::named(&own.name);
     Target {
@@ -41,10 +41,10 @@ fn completed(own: &afp_project::Target) -> Target {
     }
 }
 
-/// What is wrong with a plan on targets.
+/// The diagnostics of a plan on targets.
 ///
 /// # Errors
-/// A target has a budget for a toolbox that there is not, or for a template that its toolbox does not have.
+/// A target has a budget for an unknown toolbox or template.
 pub fn check(
     graph: &Graph,
     own: &OwnToolboxes,
@@ -58,7 +58,8 @@ pub fn check(
     Ok(diags)
 }
 
-/// A slip in a name would leave the budget that is declared. Toolboxes that the plan does not use are another plan's.
+/// Checks the template names: with a misspelled name, the declared budget would still apply.
+/// Toolboxes that the plan does not use may belong to another plan.
 fn know_templates(graph: &Graph, own: &OwnToolboxes, target: &Target) -> Result<(), RunError> {
     for (toolbox, name) in target.budgeted() {
         let Some(known) = graph.toolboxes.iter().find(|known| known.name == toolbox) else {
@@ -80,7 +81,7 @@ fn know_templates(graph: &Graph, own: &OwnToolboxes, target: &Target) -> Result<
     Ok(())
 }
 
-/// Refuses a budget for a toolbox that is neither built in nor one of the project.
+/// Rejects a budget for a toolbox that is neither built in nor in the project.
 fn know_toolbox(
     own: &OwnToolboxes,
     target: &Target,

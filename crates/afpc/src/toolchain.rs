@@ -1,5 +1,5 @@
-//! What builds for another machine: Rust's standard library for it, and a compiler of C that links. Found, or one message
-//! that says how to get all that is missing.
+//! Tools for cross-compiling: Rust's standard library for the machine, and a C compiler as the
+//! linker. If tools are missing, one message names the commands that install them.
 
 mod machine;
 
@@ -15,23 +15,23 @@ use afp_run::{RunError, write_whole};
 use machine::Linux;
 pub use machine::Machine;
 
-/// What compiles C and links.
+/// The C compiler and linker.
 enum Linker {
-    /// The one that cargo takes anyway: ours is such a machine, or the environment names one.
+    /// Cargo's default: this machine is of that kind, or the environment names a linker.
     Known,
     /// A cross compiler of the system.
     Gcc(String),
-    /// A compiler for every machine.
+    /// Zig, a compiler for every machine.
     Zig(&'static [&'static str]),
 }
 
-/// Ways to call zig: installed by itself, or by pip.
+/// The ways to call zig: installed directly, or by pip.
 const ZIGS: [&[&str]; 2] = [&["zig"], &["python3", "-m", "ziglang"]];
 
-/// Looks for what builds for a machine; `folder` is where scripts may go.
+/// Finds the tools for a machine; `folder` is for wrapper scripts.
 ///
 /// # Errors
-/// Something is missing, or the folder cannot be written.
+/// A tool is missing, or the folder cannot be written.
 pub fn find(machine: &'static Linux, folder: &Path) -> Result<Toolchain, RunError> {
     let (library, linker) = (has_library(machine), find_linker(machine));
     let (true, Some(linker)) = (library, &linker) else {
@@ -45,7 +45,8 @@ pub fn find(machine: &'static Linux, folder: &Path) -> Result<Toolchain, RunErro
     Ok(Toolchain { triple: machine.triple, environment })
 }
 
-/// Whether the compiler that cargo calls has the standard library for a machine. Without any compiler cargo will say so.
+/// Whether cargo's compiler has the standard library for a machine. If there is no compiler, cargo
+/// reports it.
 fn has_library(machine: &Linux) -> bool {
     let folder = answer(&rustc(), &["--print", "target-libdir", "--target", machine.triple]);
     folder.is_none_or(|folder| Path::new(&folder).is_dir())
@@ -58,12 +59,12 @@ fn find_linker(machine: &Linux) -> Option<Linker> {
         return Some(Linker::Known);
     }
     let gcc = format!("{}-gcc", machine.gnu);
-    // The name alone means that there is no C library beside the compiler.
+    // If the output is only the name, the compiler has no C library.
     let start = answer(gcc.as_ref(), &["-print-file-name=crt1.o"]);
     if start.is_some_and(|path| Path::new(&path).is_absolute()) {
         return Some(Linker::Gcc(gcc));
     }
-    // What calls it is a script of the shell.
+    // A shell script calls zig.
     let zig = ZIGS.into_iter().filter(|_| cfg!(unix)).find(|zig| {
         let arguments: Vec<_> = zig[1..].iter().copied().chain(["version"]).collect();
         answer(zig[0].as_ref(), &arguments).is_some()
@@ -71,7 +72,7 @@ fn find_linker(machine: &Linux) -> Option<Linker> {
     zig.map(Linker::Zig)
 }
 
-/// The variable by which cargo is told of a linker.
+/// The variable that names cargo's linker.
 fn linker_variable(machine: &Linux) -> String {
     format!("CARGO_TARGET_{}_LINKER", machine.triple.to_uppercase().replace('-', "_"))
 }
@@ -85,7 +86,7 @@ fn zig_environment(
     let folder = folder.join(machine.triple);
     fs::create_dir_all(&folder).map_err(RunError::file("cannot make the folder", &folder))?;
     let zig = zig.join(" ");
-    // Names of machines as others write them are not understood.
+    // Zig does not understand Rust's target names.
     let compile = format!(
         "for word do\n    shift\n    case $word in\n    --target=*) ;;\n    *) set -- \"$@\" \"$word\" ;;\n    \
          esac\ndone\nexec {zig} cc -target {} \"$@\"\n",
@@ -101,11 +102,11 @@ fn zig_environment(
     ])
 }
 
-/// Writes a script of the shell and gives its absolute path.
+/// Writes a shell script and returns its absolute path.
 fn script(folder: &Path, name: &str, text: &str) -> Result<PathBuf, RunError> {
     let path = folder.join(name);
     let text = format!("#!/bin/sh\n{text}");
-    // The same again would have everything linked anew.
+    // A new modification time would relink everything.
     if fs::read_to_string(&path).is_ok_and(|old| old == text) {
         return absolute(&path);
     }
@@ -123,7 +124,7 @@ fn absolute(path: &Path) -> Result<PathBuf, RunError> {
     std::path::absolute(path).map_err(RunError::file("cannot find", path))
 }
 
-/// Says what is missing and the command that gets it.
+/// Lists the missing tools and the command that installs them.
 fn missing(machine: &Linux, library: bool, linker: bool) -> RunError {
     let Linux { name, triple, packages: [compiler, c_library], .. } = machine;
     let (mut things, mut commands) = (Vec::new(), Vec::new());
@@ -159,7 +160,7 @@ fn rustc() -> OsString {
     env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
 }
 
-/// What a program prints; nothing if there is no such program or it fails.
+/// The output of a program; empty if the program is missing or fails.
 fn answer(program: &OsStr, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new(program);
     let output = command.args(arguments).stdin(Stdio::null()).stderr(Stdio::null()).output();
@@ -167,7 +168,7 @@ fn answer(program: &OsStr, arguments: &[&str]) -> Option<String> {
     Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Whether a program of that name can be called.
+/// Whether a program of that name exists.
 fn is_there(name: &str) -> bool {
     let paths = env::var_os("PATH").unwrap_or_default();
     env::split_paths(&paths).any(|folder| folder.join(name).is_file())

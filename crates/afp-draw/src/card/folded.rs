@@ -1,5 +1,5 @@
-//! What hangs on a folded box: one tab in place of its supervisors. Their edges to elements stay, for a drawing without
-//! them would tell of another plan; what else there is of them stands in the tab's tooltip.
+//! The tab of a folded box, instead of its supervisors. Their edges to elements stay, because a
+//! drawing without them would show a different plan. The tab's tooltip has the rest.
 
 use super::super::layout;
 use super::super::metrics::width;
@@ -10,14 +10,14 @@ use super::parts::leave;
 use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, Part};
 
-/// Size of the tab's text in pixels, and the room on both sides of it.
+/// Font size of the tab in pixels, and the space on both sides of the text.
 const SIZE: f64 = 11.0;
 const INSET: f64 = 8.0;
 
 /// Distance of the tab from the top of its box.
 const GAP: f64 = 7.0;
 
-/// Height with one edge; each further one takes so much more.
+/// Height with one edge, and the height of each further edge.
 const LEAST: f64 = 24.0;
 const EDGE: f64 = 10.0;
 
@@ -35,7 +35,7 @@ impl<'a> Tab<'a> {
         Tab { supervisors: supervisors.map(with_exits).collect() }
     }
 
-    /// Height of a box that it leans on; 0 without supervisors.
+    /// Minimum height of its box; 0 without supervisors.
     pub(super) fn first(&self) -> f64 {
         if self.supervisors.is_empty() { 0.0 } else { self.height() + 2.0 * GAP }
     }
@@ -58,7 +58,7 @@ impl<'a> Tab<'a> {
         }
     }
 
-    /// What each of them is, and where its events lead.
+    /// The description of each supervisor and the targets of its events.
     fn title(&self, view: &View<'a>) -> String {
         let mut lines = Vec::new();
         for (each, exits) in &self.supervisors {
@@ -70,7 +70,7 @@ impl<'a> Tab<'a> {
         lines.join("\n")
     }
 
-    /// Draws it on the right side of `rect` and widens the card accordingly.
+    /// Draws the tab on the right side of `rect` and widens the card.
     pub(super) fn attach(self, view: &View<'a>, card: &mut Card<'a>, rect: Rect) {
         if self.supervisors.is_empty() {
             return;
@@ -83,13 +83,13 @@ impl<'a> Tab<'a> {
         let (class, title) = ("supervisor".into(), self.title(view));
         card.sketch.frames.push(Frame { rect: tab, shape, class, title });
         let place = (tab.x + INSET, tab.y + tab.height / 2.0 + 0.36 * SIZE);
-        // No icon is before it, into whose place it could grow.
+        // There is no icon before the text.
         card.sketch.labels.push(Label::new(place, &text, SIZE, "name bare"));
-        // What is hidden is marked at the tab that hides it.
+        // The tab carries the marks of the hidden supervisors.
         let mut worst = None;
         for (each, exits) in &self.supervisors {
             let found = exits.iter().filter_map(|exit| exit.severity);
-            // The worst one comes first.
+            // The worst mark comes first.
             let severity = found.chain(view.severity(each.findings.worst())).min();
             worst = worst.into_iter().chain(severity).min();
             let (item, part) = (each.item.clone(), Part::Whole);

@@ -12,31 +12,31 @@ use afp_dsl::outline::{Component, ExitKind, Part};
 /// Height of a row with a port or an exit.
 pub(super) const ROW: f64 = 22.0;
 
-/// Sizes of texts in pixels.
+/// Font sizes in pixels.
 pub(super) const PORT_SIZE: f64 = 11.0;
 const CHIP_SIZE: f64 = 11.0;
 
-/// Stands where something is missing.
+/// The text in the place of a missing part.
 const HOLE: &str = "?";
 
 /// Height of data and of exits.
 const PILL: f64 = 18.0;
 
-/// How far exits stand out of their box.
+/// The distance of exits from their box.
 pub(super) const STAND_OUT: f64 = 9.0;
 
 /// Length of the arrow from an exit to its tag.
 const STUB: f64 = 20.0;
 
-/// How far the arrow back of an exit that resumes goes out, and how far beside the exit it comes back.
+/// The length of an exit's arrow back, and its distance from the exit on the way back.
 const OUT: f64 = 13.0;
 const BESIDE: f64 = 17.0;
 
-/// What stands beside it, and how far away.
+/// The text next to it, and its distance.
 const RESUME: &str = "Resume";
 const APART: f64 = 6.0;
 
-/// The ends of flow that are no elements.
+/// The ends of flow that are not elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Tag<'a> {
     text: &'a str,
@@ -70,7 +70,7 @@ pub(super) fn pill_width(text: &str) -> f64 {
     width(&shorten(text), PORT_SIZE, false) + 16.0
 }
 
-/// The room that an exit needs below a box: its own, that of the tag it leads to, or that of the arrow back.
+/// The width of an exit below a box: its own, or that of its tag or arrow back.
 pub(super) fn exit_width(exit: &Exit) -> f64 {
     let own = chip_width(&exit.text());
     match exit.to {
@@ -79,12 +79,12 @@ pub(super) fn exit_width(exit: &Exit) -> f64 {
     }
 }
 
-/// The room that an exit needs on the right of a box.
+/// The height of an exit on the right of a box.
 pub(super) fn exit_height(exit: &Exit) -> f64 {
     if exit.to == Some(Target::Resume) { ROW + BESIDE - 5.0 } else { ROW }
 }
 
-/// How far to the right of its box an exit with its tag or arrow back reaches.
+/// The reach of an exit with its tag or arrow back, to the right of its box.
 pub(super) fn reach_right(exit: &Exit) -> f64 {
     let beyond = match exit.to {
         Some(Target::Resume) => OUT + APART + width(RESUME, CHIP_SIZE, false),
@@ -93,7 +93,7 @@ pub(super) fn reach_right(exit: &Exit) -> f64 {
     STAND_OUT + beyond
 }
 
-/// Data that flows into a port at `at`; on the side named by `side`.
+/// Data that flows into a port at `at`, on the side `side`.
 pub(super) fn inflow(
     sketch: &mut Sketch,
     of: &Component,
@@ -146,30 +146,30 @@ pub(super) fn outflow(
 }
 
 impl Output<'_> {
-    /// What its datum says.
+    /// The text of its datum.
     pub(super) fn text(&self) -> &str {
         if self.entry.is_empty() { HOLE } else { self.entry }
     }
 }
 
 impl Input<'_> {
-    /// What its datum says.
+    /// The shortened text of its datum.
     pub(super) fn shown(&self) -> &str {
         if self.missing { HOLE } else { self.text }
     }
 }
 
-/// The end of a datum that is next to its port.
+/// The end of a datum next to its port.
 fn attached(rect: Rect, (x, y): (f64, f64)) -> (f64, f64) {
     (if rect.x < x { rect.right() } else { rect.x }, y)
 }
 
-/// Where the sign of a datum stands: at its end away from the port.
+/// The place of a datum's sign: at its end away from the port.
 fn signed(rect: Rect, (x, _): (f64, f64)) -> (f64, f64) {
     (if rect.x < x { rect.x } else { rect.right() }, rect.y)
 }
 
-/// Draws the datum beside the port.
+/// Draws the datum next to the port.
 fn data(
     sketch: &mut Sketch,
     (x, y): (f64, f64),
@@ -190,11 +190,11 @@ fn port(sketch: &mut Sketch, (x, y): (f64, f64), name: &str, side: Anchor) {
     sketch.labels.push(Label { anchor: side, ..label });
 }
 
-/// A state on the lower border of a box, in the middle of its room at `at`, with its tag or its arrow back.
+/// Draws a state on the lower border of a box, centred at `at`, with its tag or its arrow back.
 pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), exit: &Exit) {
     let text = exit.text();
     let width = chip_width(&text);
-    // The arrow back comes up beside the exit.
+    // The arrow back comes up next to the exit.
     let x = if exit.to == Some(Target::Resume) { x - (exit_width(exit) - width) / 2.0 } else { x };
     let rect = Rect { x: x - width / 2.0, y: y - PILL + STAND_OUT, width, height: PILL };
     chip(card, of, rect, exit, &text);
@@ -220,7 +220,7 @@ pub(super) fn exit_below(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
     card.height = card.height.max(rect.bottom());
 }
 
-/// Draws the tag that an exit leads to. One that leads nowhere can be pressed for its exit.
+/// Draws the tag of an exit. A tag of an unconnected exit can be clicked for its exit.
 fn end(card: &mut Card, exit: &Exit, tag: Tag, rect: Rect) {
     card.sketch.pill(rect, tag.class, tag.text, CHIP_SIZE);
     if exit.to.is_none()
@@ -230,7 +230,7 @@ fn end(card: &mut Card, exit: &Exit, tag: Tag, rect: Rect) {
     }
 }
 
-/// An event on the right border of a box at `at`, with its tag or its arrow back.
+/// Draws an event on the right border of a box at `at`, with its tag or its arrow back.
 pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), exit: &Exit) {
     let text = exit.text();
     let width = chip_width(&text);
@@ -254,12 +254,12 @@ pub(super) fn exit_right(card: &mut Card, of: &Component, (x, y): (f64, f64), ex
     end(card, exit, tag, rect);
 }
 
-/// The arrow back of an exit that resumes.
+/// Draws the arrow back of a resuming exit.
 fn back(card: &mut Card, exit: &Exit, points: Vec<(f64, f64)>) {
     card.sketch.arrows.push(Arrow { tip: Tip::Hollow, ..Arrow::flow(points, exit_class(exit)) });
 }
 
-/// The exit itself: hollow when it leads nowhere.
+/// Draws the exit itself; it is hollow if it is unconnected.
 fn chip(card: &mut Card, of: &Component, rect: Rect, exit: &Exit, text: &str) {
     let class = if exit.to.is_none() { "open".into() } else { exit_class(exit) };
     card.sketch.pill(rect, class, text, CHIP_SIZE);
@@ -271,7 +271,7 @@ pub(super) fn part(exit: &Exit) -> Part {
     Part::Exit { name: exit.name.to_owned(), nth: exit.nth }
 }
 
-/// Leads flow from an exit to its element; nothing where it leads to none.
+/// Starts the flow from an exit to its element, if it has one.
 pub(super) fn leave(card: &mut Card, of: &Component, at: layout::Exit, exit: &Exit) {
     if let Some(Target::Element(Ok(id))) = exit.to {
         let (item, part, severity) = (of.item.clone(), part(exit), exit.severity);

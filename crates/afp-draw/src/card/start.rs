@@ -11,16 +11,16 @@ use afp_dsl::graph::EntryKind;
 use afp_dsl::graph::Target;
 use afp_dsl::outline::{Entry, Part};
 
-/// Size of the plan's name in pixels.
+/// Font size of the plan's name in pixels.
 const NAME: f64 = 15.0;
 
-/// Length of the arrow from the tag to nothing.
+/// Length of the arrow from the tag without a target.
 const STUB: f64 = 20.0;
 
 /// Distance between the configuration and the tag.
 const GAP: f64 = 28.0;
 
-/// What stands below the name of a plan that is meant to run on.
+/// The text below the name of an endless plan.
 const FOREVER: &str = "forever";
 
 /// Width of the words `in live`, `out`, `var`, `const` with the space after them.
@@ -69,7 +69,7 @@ pub(in super::super) fn start<'a>(view: &View<'a>) -> Card<'a> {
     card
 }
 
-/// Leads flow from the tag to the first element, or to a tag with what is wrong there.
+/// Starts the flow from the tag to the first element, or to a tag with the error.
 fn leave(view: &View, card: &mut Card, rect: Rect) {
     let count = view.plan.starts.len() as f64;
     for (number, start) in (1_u16..).zip(&view.plan.starts) {
@@ -101,7 +101,7 @@ fn leave(view: &View, card: &mut Card, rect: Rect) {
     }
 }
 
-/// Draws the entries of the plan at the origin; an empty rectangle when there are none.
+/// Draws the entries of the plan at the origin; returns an empty rectangle without entries.
 fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
     let entries = view.entries();
     if entries.is_empty() {
@@ -132,7 +132,7 @@ fn configuration<'a>(view: &View<'a>, sketch: &mut Sketch<'a>) -> Rect {
     rect
 }
 
-/// The name of an entry; where use is shown and the plan can write it, with how often it did.
+/// The name of an entry. In a drawing by use, a writable entry has its number of writes.
 fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
     match view.writes(id).filter(|_| matches!(entry.kind, EntryKind::Var | EntryKind::Out)) {
         None => (entry_name(entry).to_owned(), "entry".into()),
@@ -143,7 +143,7 @@ fn pill(view: &View, id: usize, entry: &Entry) -> (String, Class) {
     }
 }
 
-/// How its declaration begins.
+/// The start of its declaration.
 fn keyword(entry: &Entry) -> &'static str {
     if entry.live { "in live" } else { entry.kind.word() }
 }

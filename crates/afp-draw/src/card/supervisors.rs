@@ -1,4 +1,4 @@
-//! Supervisors, which are drawn at the right side of a box.
+//! Supervisors, on the right side of a box.
 
 use super::super::metrics::width;
 use super::super::sketch::{Anchor, Frame, Glyph, Label, Picture, Piece, Rect, Shape, Sketch};
@@ -13,14 +13,14 @@ use afp_dsl::graph::Target;
 use afp_dsl::outline::{Component, ComponentKind, Part};
 use afp_dsl::types::text::duration;
 
-/// Sizes of texts in pixels.
+/// Font sizes in pixels.
 const NAME: f64 = 12.0;
 const TEMPLATE: f64 = 10.5;
 
 /// Distance above, between and below supervisors.
 const GAP: f64 = 7.0;
 
-/// Least height: icon, name and template.
+/// Minimum height: icon, name and template.
 const LEAST: f64 = 44.0;
 
 /// The supervisors of one box, measured.
@@ -30,9 +30,9 @@ pub(super) struct Stack<'a> {
     head: f64,
     /// Width of the part with events and ports.
     ports: f64,
-    /// Height of all together; 0 without supervisors.
+    /// Height of the whole; 0 without supervisors.
     pub(super) height: f64,
-    /// Height of a box that the first one leans on as a whole.
+    /// Minimum height of the box for the first supervisor.
     pub(super) first: f64,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Stack<'a> {
         Stack { rows, head, ports, height, first }
     }
 
-    /// Draws the supervisors on the right side of `rect` and widens the card accordingly.
+    /// Draws the supervisors on the right side of `rect` and widens the card.
     pub(super) fn attach(self, view: &View<'a>, card: &mut Card<'a>, rect: Rect) {
         let mut y = rect.y + GAP;
         let width = self.head + self.ports;
@@ -73,7 +73,7 @@ impl<'a> Stack<'a> {
         }
         card.height = card.height.max(rect.y + self.height);
         if let Some(beyond) = Some(y - GAP - rect.bottom()).filter(|beyond| *beyond > 0.0) {
-            // They hang on the box where they reach below it.
+            // The spine connects supervisors below the box's lower end.
             let spine = Rect {
                 x: rect.right() - 1.0,
                 y: rect.bottom() - 9.0,
@@ -81,7 +81,7 @@ impl<'a> Stack<'a> {
                 height: beyond + 9.0,
             };
             card.sketch.frame(spine, Shape::Round(1.0), "spine");
-            // Everything else is drawn over it.
+            // All other parts are drawn over it.
             card.sketch.frames.rotate_right(1);
         }
     }
@@ -137,7 +137,7 @@ impl<'a> Row<'a> {
         LEAST.max(events + data as f64 * ROW + 8.0)
     }
 
-    /// How far it reaches to the right of its box.
+    /// Its reach to the right of its box.
     fn reach(&self) -> f64 {
         let texts = self.inputs.iter().map(Input::shown);
         let data = texts.chain(self.outputs.iter().map(Output::text));
@@ -172,7 +172,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Reactions are a tab that only tells where events of the plan's supervisor lead.
+    /// Reactions are a tab with only the targets of the plan supervisor's events.
     fn class(&self) -> &'static str {
         match self.supervisor.kind {
             ComponentKind::Reactions => "reactions",

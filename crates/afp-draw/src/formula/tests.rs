@@ -4,7 +4,7 @@ use super::text;
 use crate::sample::compiled;
 use afp_dsl::graph::Formula;
 
-/// The text of a formula as printed from the graph, then with the sources at hand.
+/// The text of a formula, printed from the graph and then from the sources.
 fn shown(written: &str) -> (String, String) {
     let plan = format!(
         "use std\nplan Shown {{\nin dist: length = 30 cm\nin count: int = 1\nstart log\n\
@@ -17,7 +17,7 @@ fn shown(written: &str) -> (String, String) {
 }
 
 #[test]
-fn brackets_stand_where_they_are_needed() {
+fn necessary_parentheses_are_printed() {
     for written in [
         "dist + 5 cm",
         "2 * (dist + 5 cm)",
@@ -34,13 +34,13 @@ fn brackets_stand_where_they_are_needed() {
 }
 
 #[test]
-fn needless_brackets_and_conversions_are_not_printed() {
+fn unnecessary_parentheses_and_conversions_are_not_printed() {
     assert_eq!(shown("((dist) * (count))").0, "dist * count");
     assert_eq!(shown("(dist - 1 m) - 1 m").0, "dist - 1 m - 1 m");
 }
 
 #[test]
-fn what_was_written_is_kept() {
+fn source_text_is_kept() {
     let (printed, kept) = shown("10000 cm");
     assert_eq!((printed.as_str(), kept.as_str()), ("100 m", "10000 cm"));
     let (_, broken) = shown("dist + // more\n 2 cm");

@@ -1,16 +1,16 @@
-//! The space between two layers: how many crossings the edges in it make.
+//! The space between two layers, and the crossings of its edges.
 
-/// A net with its ends at known places.
+/// A net with known places of its ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Segment {
-    /// Abscissa of each end, and whether it lies above the channel.
+    /// Abscissa of each end, and whether it is above the channel.
     pub(super) ends: [(f64, bool); 2],
 }
 
-/// Two vertical lines nearer than this look like one.
+/// Vertical lines within this distance look like one line.
 pub(super) const TOUCHING: f64 = 5.0;
 
-/// What two vertical lines on top of each other cost, in crossings.
+/// The cost of two vertical lines on top of each other, in crossings.
 const OVERLAP: f64 = 50.0;
 
 impl Segment {
@@ -20,7 +20,7 @@ impl Segment {
         if a < b { (a, b) } else { (b, a) }
     }
 
-    /// What it costs when the horizontal part of `self` lies above that of `below`.
+    /// The cost if the horizontal part of `self` is above that of `below`.
     fn cost_above(&self, below: &Segment) -> f64 {
         let mut cost = 0.0;
         let downward = self.ends.iter().filter(|(_, above)| !above);
@@ -39,7 +39,7 @@ fn crossing(x: f64, (left, right): (f64, f64)) -> f64 {
     if left < x && x < right { 1.0 } else { 0.0 }
 }
 
-/// The fewest crossings of all pairs, each pair arranged at its best.
+/// The minimum number of crossings of all pairs, each pair in its best arrangement.
 pub(super) fn crossings(segments: &[Segment], work: &mut u64) -> f64 {
     let mut sum = 0.0;
     for (place, segment) in segments.iter().enumerate() {

@@ -1,38 +1,38 @@
-//! Folds what is much higher than wide: its layers stand in columns side by side.
+//! Folds a layout that is much higher than wide: its layers become columns side by side.
 //!
-//! Chains wrap like lines of a text. A cut goes between two layers, where few edges pass: those run in the gap between the
-//! columns then.
+//! Chains wrap like lines of a text. A cut is between two layers with few edges; these edges run in
+//! the gap between the columns.
 
 use super::super::arrange::WANTED;
 use super::super::router::{Bounds, PITCH, Point};
 use super::Node;
 use super::grid::Grid;
 
-/// Height by width from which on layers are folded.
+/// Layouts with at least this height by width are folded.
 const TALL: f64 = 2.0;
 
-/// A drawing of this height fits on a screen without folding.
+/// Drawings up to this height fit on a screen without folding.
 const SCREEN: f64 = 760.0;
 
-/// What an edge that passes a cut is worth: so much of a column's height the cut may lie elsewhere.
+/// The cost of an edge across a cut, as a share of a column's height.
 const EDGE: f64 = 0.05;
 
-/// Distance between two columns, without room for the edges that pass the cut.
+/// Distance between two columns, without space for the edges across the cut.
 const APART: f64 = 48.0;
 
-/// As many columns are tried.
+/// The maximum number of columns.
 const MOST_COLUMNS: usize = 200;
 
-/// Where columns can begin.
+/// A possible start of a column.
 #[derive(Clone, Copy, Debug)]
 struct Cut {
     /// The first layer of a column.
     layer: usize,
-    /// How many edges pass from above it into it or past it.
+    /// The number of edges from above it into it or past it.
     passing: usize,
 }
 
-/// The corners of the nodes with the layers in columns; nothing where one column is best.
+/// The corners of the nodes with the layers in columns; `None` if one column is best.
 pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec<Point>> {
     let layers = extents(grid, nodes, corners);
     let whole = layers.iter().copied().reduce(Bounds::with)?;
@@ -64,7 +64,7 @@ pub(super) fn fold(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Option<Vec
     Some(corners.iter().enumerate().map(moved).collect())
 }
 
-/// Where each layer reaches, with the dummy nodes that pass it.
+/// The extent of each layer, including its dummy nodes.
 fn extents(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Vec<Bounds> {
     let of = |item: &usize| {
         let item = &grid.items[*item];
@@ -80,13 +80,13 @@ fn extents(grid: &Grid, nodes: &[Node], corners: &[Point]) -> Vec<Bounds> {
     grid.layers.iter().filter_map(|layer| layer.iter().map(of).reduce(Bounds::with)).collect()
 }
 
-/// How many edges pass from above a layer into it or past it.
+/// The number of edges from above a layer into it or past it.
 fn passing(grid: &Grid, layer: usize) -> usize {
     let ends = grid.channels[layer].iter().map(|net| grid.nets[*net].ends);
     ends.filter(|[start, end]| start.above != end.above).count()
 }
 
-/// Where so many columns or fewer begin behind the first one, about equally high.
+/// The starts of at most this number of columns after the first, with about equal heights.
 fn chosen(layers: &[Bounds], cuts: &[Cut], count: usize) -> Vec<Cut> {
     let (top, bottom) = (layers[0].top, layers[layers.len() - 1].bottom);
     let height = (bottom - top) / count as f64;
@@ -106,13 +106,13 @@ fn chosen(layers: &[Bounds], cuts: &[Cut], count: usize) -> Vec<Cut> {
     chosen
 }
 
-/// Layers in a column of their own.
+/// The layers of a column.
 #[derive(Clone, Copy, Debug)]
 struct Column {
     /// The first of its layers.
     first: usize,
     extent: Bounds,
-    /// How much room is left before it.
+    /// The space before it.
     gap: f64,
 }
 

@@ -1,8 +1,8 @@
-//! The layers with everything that takes room in them: nodes, and the dummy nodes of edges that pass by.
+//! The layers with all items: nodes, and the dummy nodes of passing edges.
 //!
-//! Channel `c` lies above layer `c`; the last one lies below all layers. An edge is a chain of
-//! *nets*, each crossing one channel, joined by *dummy nodes*, each crossing one layer. Edges of a
-//! bundle share their dummy nodes: the chain of each ends at the first one that is there.
+//! Channel `c` is above layer `c`; the last channel is below all layers. An edge is a chain of
+//! *nets*, each across one channel, joined by *dummy nodes*, each across one layer. Edges of a
+//! bundle share their dummy nodes: each chain ends at the first existing one.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use super::{Exit, Link, Node};
 /// Distance between parallel lines in pixels.
 pub(super) const LINE: f64 = 12.0;
 
-/// Something in a layer.
+/// An item of a layer.
 #[derive(Clone, Debug)]
 pub(super) struct Item {
     pub(super) layer: usize,
@@ -27,11 +27,11 @@ pub(super) struct Item {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Terminal {
     pub(super) item: usize,
-    /// From the item's left border; of an arrival the middle of the place for arrivals.
+    /// The offset from the item's left border; for an arrival, the middle of its range.
     pub(super) offset: f64,
-    /// Whether the item lies above the channel.
+    /// Whether the item is above the channel.
     pub(super) above: bool,
-    /// Where edges may arrive, from the left border, when this is an arrival.
+    /// For an arrival, the range where edges may arrive, from the left border.
     pub(super) arrival: Option<(f64, f64)>,
 }
 
@@ -52,15 +52,15 @@ pub(super) struct Grid {
     pub(super) channels: Vec<Vec<usize>>,
     /// The nets of each link from start to tip.
     pub(super) chains: Vec<Vec<usize>>,
-    /// For each link that leaves to the right, where it turns, from the node's left border.
+    /// For each link that leaves to the right, the place of its turn, from the node's left border.
     pub(super) turns: Vec<Option<f64>>,
 }
 
-/// The dummy nodes that edges share, by bundle, whether they lead down, and layer.
+/// The shared dummy nodes of edges, by bundle, direction and layer.
 type Shared = BTreeMap<(usize, bool, usize), usize>;
 
 impl Grid {
-    /// Items in the order of the nodes, every dummy node beside the node it starts from.
+    /// Creates the items in the order of the nodes, every dummy node next to its start node.
     pub(super) fn new(nodes: &[Node], links: &[Link], layer_of: &[usize]) -> Grid {
         let layers = layer_of.iter().max().map_or(0, |last| last + 1);
         let (turns, widths) = turns(nodes, links, layer_of);
@@ -95,12 +95,12 @@ impl Grid {
         grid
     }
 
-    /// Where a terminal is, before arrivals are spread.
+    /// The place of a terminal, before arrivals are spread.
     pub(super) fn x(&self, terminal: &Terminal) -> f64 {
         self.items[terminal.item].x + terminal.offset
     }
 
-    /// The dummy nodes of an edge from start to tip, given its nets.
+    /// The dummy nodes of an edge from start to tip, from its nets.
     pub(super) fn dummies(&self, chain: &[usize]) -> Vec<usize> {
         chain.iter().skip(1).map(|net| self.nets[*net].ends[0].item).collect()
     }
@@ -163,7 +163,7 @@ impl Grid {
         self.nets.len() - 1
     }
 
-    /// The least distance between the borders of neighbours.
+    /// The minimum distance between the borders of neighbours.
     pub(super) fn gap(&self, left: usize, right: usize) -> f64 {
         match (self.items[left].node, self.items[right].node) {
             (Some(_), Some(_)) => 4.0 * LINE,
@@ -173,9 +173,10 @@ impl Grid {
     }
 }
 
-/// Where edges that leave to the right turn up or down, and the nodes' widths with these turns.
+/// The turns of edges that leave to the right, and the nodes' widths with these turns.
 ///
-/// Edges down: the highest turns last; edges up: the lowest turns last, so that none crosses.
+/// Of the edges down, the highest turns last; of the edges up, the lowest turns last. Therefore
+/// none of them cross.
 fn turns(nodes: &[Node], links: &[Link], layer_of: &[usize]) -> (Vec<Option<f64>>, Vec<f64>) {
     let mut turns = vec![None; links.len()];
     let mut widths: Vec<_> = nodes.iter().map(|node| node.width).collect();

@@ -1,14 +1,14 @@
-//! Gives each node a layer, so that most edges lead down.
+//! Assigns each node to a layer, so that most edges lead down.
 
 use super::Link;
 
-/// Larger plans are improved in one round only.
+/// Larger plans are only improved in one round.
 const MOST_IMPROVED: usize = 60;
 
-/// The layer of each node, counted from 0 at the top; node 0 is alone there.
+/// The layer of each node, from 0 at the top; node 0 is alone in it.
 ///
-/// The nodes get an order in which few edges lead back; edges that follow the order lead down, and
-/// the longest path decides. A node that no edge reaches stands just above its successors.
+/// The nodes get an order with few edges back. Edges along the order lead down, and the longest
+/// path determines the layer. A node without arriving edges is directly above its successors.
 pub(super) fn assign(count: usize, links: &[Link]) -> Vec<usize> {
     let edges: Vec<_> =
         links.iter().map(|link| (link.from, link.to)).filter(|(from, to)| from != to).collect();
@@ -19,7 +19,7 @@ pub(super) fn assign(count: usize, links: &[Link]) -> Vec<usize> {
     if let Some(first) = layers.first_mut() {
         *first = 0;
     }
-    // In this order every edge that leads down comes after all edges into its start.
+    // In this order, an edge down comes after all edges into its start.
     let around = Around::new(count, &edges);
     for from in &order {
         for to in around.out_of[*from].iter().filter(|to| down(*from, **to)) {
@@ -37,8 +37,8 @@ pub(super) fn assign(count: usize, links: &[Link]) -> Vec<usize> {
     layers
 }
 
-/// An order of the nodes, 0 first, that few edges lead back in: that of a depth-first walk or that
-/// of the nodes themselves, improved by moving single nodes.
+/// An order of the nodes, 0 first, with few edges back: the order of a depth-first search or of the
+/// nodes themselves, improved by moving single nodes.
 fn with_fewest_back_edges(count: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     let mut successors = vec![Vec::new(); count];
     for (from, to) in edges {
@@ -51,8 +51,8 @@ fn with_fewest_back_edges(count: usize, edges: &[(usize, usize)]) -> Vec<usize> 
     if quality(&written, edges).0 == 0 && other < back { written } else { walked }
 }
 
-/// Moves single nodes, never the first, as long as that turns edges round and leaves every node
-/// with an edge from above; also returns how many edges lead back in the end.
+/// Moves single nodes, never the first, as long as this reverses edges and every node keeps an edge
+/// from above. Also returns the number of edges back at the end.
 fn improved(mut order: Vec<usize>, edges: &[(usize, usize)]) -> (Vec<usize>, usize) {
     let around = Around::new(order.len(), edges);
     let mut rank = ranks(&order);
@@ -78,7 +78,7 @@ fn improved(mut order: Vec<usize>, edges: &[(usize, usize)]) -> (Vec<usize>, usi
 struct Around {
     into: Vec<Vec<usize>>,
     out_of: Vec<Vec<usize>>,
-    /// The nodes that edges out of each node lead to, each once.
+    /// The targets of each node's edges, without duplicates.
     targets: Vec<Vec<usize>>,
 }
 
@@ -97,10 +97,10 @@ impl Around {
         Around { into, out_of, targets }
     }
 
-    /// The first rank at which a node makes the order best, if that is better than where it is.
+    /// The first rank at which a node improves the order most, if there is one.
     ///
-    /// Only edges of the node itself change their direction, so it is enough to walk past its
-    /// neighbours, one rank after the other.
+    /// Only the node's own edges change their direction, so it is enough to pass its neighbours,
+    /// one rank after the other.
     fn better_rank(&self, node: usize, order: &[usize], rank: &[usize]) -> Option<usize> {
         let own = rank[node];
         let mut best: (i64, i64, Option<usize>) = (0, 0, None);
@@ -109,7 +109,7 @@ impl Around {
             self.into[node].iter().chain(&self.out_of[node]).map(|other| rank[*other]).collect();
         neighbours.sort_unstable();
         neighbours.dedup();
-        // Ranks count without the node; between two neighbours all of them are alike.
+        // Ranks do not count the node; all ranks between two neighbours are equal.
         let before = |other: usize| if other < own { other } else { other - 1 };
         let candidates = neighbours.into_iter().map(|other| before(other) + 1);
         for to in std::iter::once(1).chain(candidates).filter(|to| (1..order.len()).contains(to)) {
@@ -126,8 +126,8 @@ impl Around {
         self.cost_at(node, own, own, rank)
     }
 
-    /// What the edges of a node cost when it is moved from rank `own` to rank `to`: which of it and
-    /// the nodes that it leads to no edge reaches from above, and how many of them lead back.
+    /// The cost of a node's edges after a move from rank `own` to rank `to`: the number of
+    /// unreached nodes among it and its targets, and the number of edges back.
     fn cost_at(&self, node: usize, to: usize, own: usize, rank: &[usize]) -> (i64, i64) {
         let without = |other: usize| rank[other] - usize::from(rank[other] > own);
         let is_before = |other: usize| without(other) < to;
@@ -152,7 +152,7 @@ fn ranks(order: &[usize]) -> Vec<usize> {
     rank
 }
 
-/// How many nodes no edge reaches from above, and how many edges lead back.
+/// The number of nodes without an edge from above, and the number of edges back.
 fn quality(order: &[usize], edges: &[(usize, usize)]) -> (usize, usize) {
     let rank = ranks(order);
     let mut reached = vec![false; order.len()];
@@ -167,7 +167,7 @@ fn quality(order: &[usize], edges: &[(usize, usize)]) -> (usize, usize) {
     (reached.iter().filter(|reached| !**reached).count(), back)
 }
 
-/// The nodes by the reverse of the order in which a depth-first walk leaves them.
+/// The nodes in the reverse order in which a depth-first search leaves them.
 fn finished_last_first(successors: &[Vec<usize>]) -> Vec<usize> {
     let mut seen = vec![false; successors.len()];
     let mut done = Vec::new();
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_longest_path_decides() {
+    fn the_longest_path_determines_the_layer() {
         assert_eq!(layers(4, &[(0, 1), (1, 2), (0, 2), (2, 3)]), [0, 1, 2, 3]);
     }
 
@@ -217,14 +217,14 @@ mod tests {
     }
 
     #[test]
-    fn unreached_nodes_stand_above_their_successors() {
+    fn unreached_nodes_are_above_their_successors() {
         assert_eq!(layers(5, &[(0, 1), (1, 2), (2, 3), (4, 3)]), [0, 1, 2, 3, 2]);
         assert_eq!(layers(2, &[]), [0, 1]);
     }
 
     #[test]
     fn few_edges_lead_up() {
-        // A walk that takes 0 1 3 2 first would turn three edges round.
+        // A search that takes 0 1 3 2 first would reverse three edges.
         let edges = [(0, 1), (1, 3), (3, 2), (1, 2), (2, 3), (2, 4), (2, 3), (4, 3)];
         assert_eq!(layers(5, &edges), [0, 1, 2, 4, 3]);
     }

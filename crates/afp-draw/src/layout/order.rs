@@ -1,21 +1,21 @@
 //! Orders the items of each layer so that few edges cross.
 //!
-//! A few sweeps by mean position give a start; then single items move for as long as that helps.
-//! Crossings are counted where they will be seen: in the channels, each pair of edges at its best.
+//! A few sweeps by mean position give a start; then single items move as long as that helps.
+//! Crossings are counted in the channels, each pair of edges in its best arrangement.
 
 use super::channel::{Segment, crossings};
 use super::grid::Grid;
 
-/// What improving may take, in pairs of edges that are compared and items that are packed; large plans stop here.
+/// The limit of improvements, in compared pairs of edges and packed items; large plans stop here.
 const BUDGET: u64 = 2_500_000;
 
-/// Crossings that one pixel of horizontal way is worth.
+/// The cost of one pixel of horizontal distance, in crossings.
 const LENGTH: f64 = 0.0005;
 
 /// Sweeps by mean position.
 const SWEEPS: usize = 8;
 
-/// Reorders the items of each layer and leaves them packed side by side.
+/// Reorders the items of each layer and packs them side by side.
 pub(super) fn improve(grid: &mut Grid) {
     let mut work = 0;
     for layer in 0..grid.layers.len() {
@@ -42,7 +42,7 @@ pub(super) fn improve(grid: &mut Grid) {
     while (0..grid.layers.len()).any(|layer| move_items(grid, layer, &connected, &mut work)) {}
 }
 
-/// Whether each item has an edge: where one without stands costs nothing.
+/// Whether each item has an edge: the place of an unconnected item costs nothing.
 fn connected(grid: &Grid) -> Vec<bool> {
     let mut connected = vec![false; grid.items.len()];
     for end in grid.nets.iter().flat_map(|net| net.ends) {
@@ -51,7 +51,7 @@ fn connected(grid: &Grid) -> Vec<bool> {
     connected
 }
 
-/// Puts the items of a layer side by side, centred.
+/// Packs the items of a layer side by side, centred.
 fn pack(grid: &mut Grid, layer: usize) {
     let items = grid.layers[layer].clone();
     let mut x = 0.0;
@@ -67,7 +67,8 @@ fn pack(grid: &mut Grid, layer: usize) {
     }
 }
 
-/// Sorts the items of a layer. The means are room to count in, for all items: there may be as many layers.
+/// Sorts the items of a layer. `means` is a buffer for all items, because there may be as many
+/// layers.
 fn sort_by_means(grid: &mut Grid, layer: usize, means: &mut [(f64, u32)]) {
     for item in &grid.layers[layer] {
         means[*item] = (0.0, 0);
@@ -103,7 +104,8 @@ fn cost(grid: &Grid, channel: usize, work: &mut u64) -> f64 {
     crossings(&segments, work) + LENGTH * lengths.sum::<f64>()
 }
 
-/// Moves each connected item of a layer to its best place while that may take more; says whether anything improved.
+/// Moves each connected item of a layer to its best place within the budget; returns whether the
+/// order improved.
 fn move_items(grid: &mut Grid, layer: usize, connected: &[bool], work: &mut u64) -> bool {
     let mut improved = false;
     for item in grid.layers[layer].clone().into_iter().filter(|item| connected[*item]) {
@@ -112,7 +114,7 @@ fn move_items(grid: &mut Grid, layer: usize, connected: &[bool], work: &mut u64)
     improved
 }
 
-/// Moves an item to the best place of its layer; says whether that is another one.
+/// Moves an item to the best place in its layer; returns whether it moved.
 fn move_item(grid: &mut Grid, layer: usize, item: usize, work: &mut u64) -> bool {
     if *work >= BUDGET {
         return false;

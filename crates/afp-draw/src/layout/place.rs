@@ -1,26 +1,26 @@
-//! Gives the items of each layer their abscissas.
+//! Assigns abscissas to the items of each layer.
 //!
-//! Every net pulls its two ends together. Layer after layer, the places that minimise the squared
-//! pull under the given order and gaps are found exactly (pooling adjacent violators), a number of
-//! times over. In later rounds the dummy nodes of one edge want to be on one line, and in the end they are
-//! put there where neighbours leave room.
+//! Every net pulls its two ends together. For each layer, the places with the minimum squared pull
+//! under the given order and gaps are computed exactly (pooling adjacent violators), in several
+//! rounds. In later rounds the dummy nodes of one edge are pulled to one line, and at the end they
+//! are put on it if neighbours leave space.
 
 use super::grid::{Grid, LINE, Terminal};
 
-/// How often all layers are placed anew, first freely, then with the dummy nodes of an edge on a line.
+/// The number of rounds: first free, then with the dummy nodes of an edge on a line.
 const ROUNDS: usize = 30;
 const ROUNDS_IN_LINE: usize = 30;
 
-/// How strongly a dummy node is drawn to the line of its edge.
+/// How strongly a dummy node is pulled to the line of its edge.
 const IN_LINE: f64 = 12.0;
 
-/// A bend of fewer pixels looks like a mistake.
+/// A bend of fewer pixels looks like an error.
 const JOG: f64 = 2.0 * LINE;
 
-/// How much weaker an arrival is drawn to the middle of its box than to a place on it.
+/// The relative weight of an arrival's pull to the middle of its box.
 const TO_MIDDLE: f64 = 0.08;
 
-/// Finds the abscissas; the leftmost item ends at 0.
+/// Computes the abscissas; the leftmost item ends at 0.
 pub(super) fn place(grid: &mut Grid) {
     let count = grid.layers.len();
     let mut wishes = vec![(0.0, 0.0); grid.items.len()];
@@ -45,7 +45,7 @@ pub(super) fn place(grid: &mut Grid) {
     }
 }
 
-/// The mean of the dummy nodes of its edge, for each of them.
+/// For each dummy node, the mean of its edge's dummy nodes.
 fn lines(grid: &Grid) -> Vec<Option<f64>> {
     let mut lines = vec![None; grid.items.len()];
     for chain in &grid.chains {
@@ -58,14 +58,14 @@ fn lines(grid: &Grid) -> Vec<Option<f64>> {
     lines
 }
 
-/// A net as one of its ends feels it.
+/// A net's pull on one of its ends.
 struct Pull {
     own: Terminal,
     other: Terminal,
     weight: f64,
 }
 
-/// What pulls at the items of a layer.
+/// The pulls on the items of a layer.
 fn pulls(grid: &Grid, layer: usize) -> Vec<Pull> {
     let mut pulls = Vec::new();
     for (channel, above) in [(layer, false), (layer + 1, true)] {
@@ -80,7 +80,8 @@ fn pulls(grid: &Grid, layer: usize) -> Vec<Pull> {
     pulls
 }
 
-/// Places the items of a layer. The wishes are room to count in, for all items: there may be as many layers.
+/// Places the items of a layer. `wishes` is a buffer for all items, because there may be as many
+/// layers.
 fn place_layer(
     grid: &mut Grid,
     layer: usize,
@@ -121,7 +122,7 @@ fn place_layer(
     }
 }
 
-/// How strongly a net pulls.
+/// The strength of a net's pull.
 fn weight(grid: &Grid, start: &Terminal, end: &Terminal) -> f64 {
     if start.above == end.above {
         return 0.2;
@@ -133,7 +134,7 @@ fn weight(grid: &Grid, start: &Terminal, end: &Terminal) -> f64 {
     }
 }
 
-/// The offset of a terminal; of an arrival the one that makes the edge straightest.
+/// The offset of a terminal; for an arrival, the offset with the straightest edge.
 fn offset(grid: &Grid, terminal: &Terminal, other: &Terminal) -> f64 {
     match terminal.arrival {
         None => terminal.offset,
@@ -146,7 +147,7 @@ fn offset(grid: &Grid, terminal: &Terminal, other: &Terminal) -> f64 {
 
 /// The non-decreasing sequence nearest to the wanted values by weighted squares.
 fn non_decreasing(wanted: &[(f64, f64)]) -> Vec<f64> {
-    // Each block holds its mean, its weight and its length.
+    // Each block has its mean, its weight and its length.
     let mut blocks: Vec<(f64, f64, usize)> = Vec::new();
     for (value, weight) in wanted {
         let mut block = (*value, *weight, 1);
@@ -159,7 +160,7 @@ fn non_decreasing(wanted: &[(f64, f64)]) -> Vec<f64> {
     blocks.into_iter().flat_map(|(mean, _, length)| std::iter::repeat_n(mean, length)).collect()
 }
 
-/// Gives the dummy nodes of each edge one abscissa, as far as neighbours leave room for that.
+/// Gives the dummy nodes of each edge one abscissa if neighbours leave space.
 fn straighten(grid: &mut Grid) {
     for chain in grid.chains.clone() {
         let ends = |net: &usize| grid.nets[*net].ends;
@@ -171,13 +172,14 @@ fn straighten(grid: &mut Grid) {
     }
 }
 
-/// Where a dummy node would have to be for the net to the end of the edge to be straight.
+/// The place of a dummy node with a straight net to the end of the edge.
 fn straight_end(grid: &Grid, end: Terminal, dummy: Terminal) -> Option<f64> {
     let there = grid.items[end.item].x + offset(grid, &end, &dummy);
     (end.above != dummy.above && (there - grid.x(&dummy)).abs() < 8.0 * LINE).then_some(there)
 }
 
-/// Puts a row of dummy nodes on one line, near `wish`, else near their mean; breaks it where it must.
+/// Puts a row of dummy nodes on one line, near `wish`, or else near their mean; breaks it if
+/// necessary.
 fn align(grid: &mut Grid, dummies: &[usize], wish: Option<f64>) {
     let mut rest = dummies;
     while !rest.is_empty() {
@@ -193,7 +195,7 @@ fn align(grid: &mut Grid, dummies: &[usize], wish: Option<f64>) {
             length += 1;
         }
         if length == 0 {
-            // Neighbours wedge it in, if only by rounding: it stays where it is.
+            // Its neighbours leave no space, if only by rounding: it stays.
             rest = &rest[1..];
             continue;
         }
@@ -207,7 +209,7 @@ fn align(grid: &mut Grid, dummies: &[usize], wish: Option<f64>) {
     }
 }
 
-/// Moves a node a little when that makes more of its edges straight.
+/// Moves a node a little if this makes more of its edges straight.
 fn nudge(grid: &mut Grid, item: usize) {
     if grid.items[item].node.is_none() {
         return;
@@ -225,7 +227,7 @@ fn nudge(grid: &mut Grid, item: usize) {
     grid.items[item].x += best.unwrap_or(0.0);
 }
 
-/// How far a node would have to move for each of its edges to be straight.
+/// The distances of a node to the places where each of its edges is straight.
 fn bends(grid: &Grid, item: usize) -> Vec<f64> {
     let layer = grid.items[item].layer;
     let nets = grid.channels[layer].iter().chain(&grid.channels[layer + 1]);
@@ -239,7 +241,7 @@ fn bends(grid: &Grid, item: usize) -> Vec<f64> {
     own.map(bend).collect()
 }
 
-/// How far an item can move between its neighbours.
+/// The free space of an item between its neighbours.
 fn room(grid: &Grid, item: usize) -> (f64, f64) {
     let order = &grid.layers[grid.items[item].layer];
     let Some(index) = order.iter().position(|each| *each == item) else {

@@ -1,24 +1,25 @@
-//! A layout in which some nodes have places of their own: those stay, the others go around them.
+//! A layout in which some nodes have given places: they stay, and the others go around them.
 //!
 //! The others keep the places of the automatic layout relative to placed neighbours, or take the
-//! nearest ones that are free. Edges then find their ways through the gaps that are left.
+//! nearest free places. Edges are then routed through the remaining gaps.
 
 use super::super::router::{self, Bounds, Connector, Point};
 use super::{LaidOut, Link, Node, Rows, arranged, bounds, connectors};
 
-/// Distance between two boxes, unless the automatic layout puts them nearer to each other.
+/// Distance between two boxes, unless the automatic layout has a shorter one.
 const GAP: f64 = 48.0;
 
-/// Least distance of a route that is kept from a box: less than the router keeps.
+/// Minimum distance of a kept route from a box: less than the router's distance.
 const NEAR: f64 = 6.0;
 
-/// Least distance between two boxes one below the other: there is room for an edge and for the tip of an arrow.
+/// Minimum vertical distance between two boxes: space for an edge and for the tip of an arrow.
 pub(in super::super) const ABOVE: f64 = 36.0;
 
-/// Least distance between two boxes beside one another: there is room for an edge.
+/// Minimum horizontal distance between two boxes: space for an edge.
 const BESIDE: f64 = 24.0;
 
-/// The edges of nodes that have their places. Routes stay whose ends do and that no box has come near.
+/// Routes the edges of placed nodes. A route stays if its ends have not moved and no box is too
+/// near.
 pub(in super::super) fn routed(
     nodes: &[Node],
     links: &[Link],
@@ -36,7 +37,7 @@ pub(in super::super) fn routed(
     LaidOut::new(nodes, corners, found.corners)
 }
 
-/// Whether a route has the ends of its edge and passes no box too closely.
+/// Whether a route has the ends of its edge and keeps its distance from boxes.
 fn is_still_good(route: &[Point], connector: &Connector, boxes: &NearBoxes<'_>) -> bool {
     let (Some(start), Some(tip)) = (route.first(), route.last()) else { return false };
     let (left, right) = connector.arrival;
@@ -47,20 +48,20 @@ fn is_still_good(route: &[Point], connector: &Connector, boxes: &NearBoxes<'_>) 
     let last = route.len().saturating_sub(2);
     let free = |(at, pair): (usize, &[Point])| {
         boxes.passed(pair[0], pair[1]).all(|index| {
-            // It touches its own boxes with its ends.
+            // Its ends touch its own boxes.
             index == connector.from && at <= 1 || index == connector.to && at == last
         })
     };
     ends && route.windows(2).enumerate().all(free)
 }
 
-/// Boxes, found by where they are.
+/// Boxes, indexed by position.
 struct NearBoxes<'b> {
     boxes: &'b [Bounds],
-    /// Each from left to right, and from top to bottom.
+    /// Indices from left to right, and from top to bottom.
     by_left: Vec<usize>,
     by_top: Vec<usize>,
-    /// Width and height of the greatest ones.
+    /// Maximum width and height.
     greatest: Point,
 }
 
@@ -98,8 +99,8 @@ impl<'b> NearBoxes<'b> {
     }
 }
 
-/// The corner of each node: those that are `fixed` stay, the others take the nearest free places to where they are `wished`,
-/// or to where the automatic layout puts them beside the fixed ones.
+/// The corner of each node. `fixed` nodes stay. The others take the nearest free places to their
+/// `wished` place, or to their place in the automatic layout relative to the fixed nodes.
 pub(in super::super) fn places(
     nodes: &[Node],
     links: &[Link],
@@ -114,7 +115,7 @@ pub(in super::super) fn places(
     if corners.iter().all(Option::is_some) {
         return corners.into_iter().flatten().collect();
     }
-    // Not folded: what is new shall stand beside what it belongs to.
+    // Not folded: a new node should be next to its neighbours.
     let grid = arranged(nodes, links);
     let automatic = Rows::new(&grid, nodes).corners(&grid, nodes);
     let fixed = corners.clone();
@@ -123,14 +124,15 @@ pub(in super::super) fn places(
     for node in free {
         let (dx, dy) = shift(node, links, &fixed, &automatic);
         let wish = (automatic[node].0 + dx, automatic[node].1 + dy);
-        // Two boxes may stand as near to each other as the automatic layout puts them.
+        // Two boxes may have the distance of the automatic layout.
         let gap = |other: usize| apart(nodes, &automatic, node, other).clamp(BESIDE, GAP);
         corners[node] = Some(nodes[node].whole(nearest(nodes, &corners, node, wish, gap)));
     }
     corners.into_iter().zip(automatic).map(|(corner, other)| corner.unwrap_or(other)).collect()
 }
 
-/// How far the placed neighbours of a node, else all placed nodes, are from where they would be.
+/// The offset between the placed neighbours of a node, or else all placed nodes, and their
+/// automatic places.
 fn shift(
     node: usize,
     links: &[Link],
@@ -150,8 +152,8 @@ fn shift(
     (sum.0 / count, sum.1 / count)
 }
 
-/// The free place nearest to where a node would go: straight down from there, or beside it; of the node that comes first
-/// straight up.
+/// The free place nearest to a node's wish: straight down from it, or beside it; for the first
+/// node, straight up.
 fn nearest(
     nodes: &[Node],
     corners: &[Option<Point>],
@@ -180,7 +182,7 @@ fn nearest(
     slid.into_iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(wish)
 }
 
-/// How far two boxes are apart, across or down, whichever is more.
+/// The distance of two boxes, horizontally or vertically, the larger one.
 fn apart(nodes: &[Node], corners: &[Point], one: usize, other: usize) -> f64 {
     let ((x, y), (to_x, to_y)) = (corners[one], corners[other]);
     let across = (to_x - x - nodes[one].width).max(x - to_x - nodes[other].width);
@@ -188,7 +190,7 @@ fn apart(nodes: &[Node], corners: &[Point], one: usize, other: usize) -> f64 {
     across.max(down)
 }
 
-/// What lies nearer than `gap` to where a node would go, all of it together.
+/// The combined bounds of all nodes nearer than `gap` to a node's place.
 fn obstacle(
     nodes: &[Node],
     corners: &[Option<Point>],
@@ -200,7 +202,7 @@ fn obstacle(
     let meets = |other: usize| {
         let (left, top) = corners[other]?;
         let (right, bottom) = (left + nodes[other].width, top + nodes[other].height);
-        // What was added up twice differs in the last digits.
+        // Sums in a different order differ in the last digits.
         let gap = gap(other) - 0.01;
         let above = gap.max(ABOVE);
         let apart = x + own.width + gap <= left

@@ -1,25 +1,25 @@
-//! The ordinates of layers: between two of them is room for the level parts of edges.
+//! The ordinates of layers, with space between two layers for the horizontal parts of edges.
 
 use super::super::router::{Axis, Crowded, Point};
 use super::Node;
 use super::grid::{Grid, LINE, Net, Terminal};
 
-/// Room above the first and below the last level line of a channel; arrow tips need more.
+/// Space above the first and below the last horizontal line of a channel; arrow tips need more.
 const ABOVE: f64 = 14.0;
 const BELOW: f64 = 26.0;
 
 /// The heights of layers and of the channels between them.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
-    /// One more than there are layers.
+    /// One more than the number of layers.
     channels: Vec<f64>,
     layers: Vec<f64>,
 }
 
 impl Rows {
-    /// Rows with as much room as the nets need that go side by side.
+    /// Rows with enough space for parallel nets.
     pub(super) fn new(grid: &Grid, nodes: &[Node]) -> Rows {
-        // Boxes one below the other are apart, whether or not an edge leads from one to the other.
+        // Boxes in neighbouring layers have a distance, with or without an edge between them.
         let last = grid.channels.len().saturating_sub(1);
         let height = |(at, nets): (usize, &Vec<usize>)| match nets.is_empty() {
             true if at == 0 || at == last => 0.0,
@@ -42,7 +42,7 @@ impl Rows {
         nodes.iter().enumerate().map(|(item, node)| node.whole(corner(item))).collect()
     }
 
-    /// Makes room where edges found too little: between two layers, or in a layer to the right.
+    /// Adds space for edges that found too little: between two layers, or in a layer to the right.
     pub(super) fn give_way(&mut self, grid: &mut Grid, narrow: &Crowded) {
         let tops = self.tops();
         match narrow.axis {
@@ -73,7 +73,7 @@ impl Rows {
     }
 }
 
-/// Moves the nodes of a layer that begin to the right of a place, and what lies between them.
+/// Moves the nodes of a layer that begin to the right of a place, and the items between them.
 fn push_from(grid: &mut Grid, layer: usize, x: f64) {
     for item in grid.layers[layer].clone() {
         let item = &mut grid.items[item];
@@ -83,7 +83,7 @@ fn push_from(grid: &mut Grid, layer: usize, x: f64) {
     }
 }
 
-/// How many level lines the nets of a channel need: as many as lie side by side somewhere.
+/// The number of horizontal lines that the nets of a channel need: the maximum number side by side.
 fn tracks(grid: &Grid, nets: &[usize]) -> usize {
     let mut ends = Vec::with_capacity(2 * nets.len());
     for net in nets {
@@ -102,7 +102,7 @@ fn tracks(grid: &Grid, nets: &[usize]) -> usize {
     most
 }
 
-/// From where to where a net is level; an arrival is where the net is straightest.
+/// The horizontal range of a net; an arrival is at the place with the straightest net.
 fn range(grid: &Grid, net: &Net) -> (f64, f64) {
     let [start, end] = net.ends;
     let at = |terminal: &Terminal, other: &Terminal| match terminal.arrival {

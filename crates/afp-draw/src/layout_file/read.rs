@@ -1,4 +1,4 @@
-//! Reading a layout file, line by line.
+//! Reads a layout file, line by line.
 
 use std::collections::BTreeMap;
 
@@ -6,11 +6,11 @@ use super::{Layout, LayoutError, Placed, Position};
 use afp_syntax::diagnostics::words::nearest;
 use afp_syntax::item::Item;
 
-/// What a comment begins with.
+/// The start of a comment.
 const COMMENT: char = '#';
 
-/// Reads all lines; those with errors are kept as they are. `known` are the items that can have positions; all can where
-/// it is none.
+/// Reads all lines and keeps invalid lines unchanged. `known` are the items that can have
+/// positions; all can if it is `None`.
 pub(super) fn read(
     text: &str,
     known: Option<&BTreeMap<Item, String>>,
@@ -35,10 +35,10 @@ pub(super) fn read(
     (layout, errors)
 }
 
-/// What is wrong with a line, behind its column.
+/// The column and the message of an error in a line.
 type Wrong = (usize, String);
 
-/// Reads a line, and gives what it places and where.
+/// Reads a line and returns its item and position.
 fn line(line: &str) -> Result<Option<(Item, Placed)>, Wrong> {
     let mut words = Words { line, at: 0 };
     let column = words.column();
@@ -57,7 +57,7 @@ fn line(line: &str) -> Result<Option<(Item, Placed)>, Wrong> {
 }
 
 impl Layout {
-    /// Adds what a line says; the first line of an item places it.
+    /// Adds the position of a line; the first line of an item counts.
     fn add(&mut self, item: &Item, placed: Placed) -> Result<(), Wrong> {
         let Some(first) = self.placed.get_mut(item) else {
             self.placed.insert(item.clone(), placed);
@@ -69,7 +69,7 @@ impl Layout {
     }
 }
 
-/// Whether what a line places is there; one that is left from another name is kept all the same.
+/// Whether the item of a line exists; a line with an old name is kept all the same.
 fn is_known(line: &str, item: &Item, known: Option<&BTreeMap<Item, String>>) -> Result<(), Wrong> {
     let Some(known) = known.filter(|known| !known.contains_key(item)) else { return Ok(()) };
     let path = item.to_string();
@@ -119,7 +119,7 @@ impl<'t> Words<'t> {
         word
     }
 
-    /// What is left, without blanks before it.
+    /// The rest of the line, without leading spaces.
     fn rest(&self) -> &'t str {
         self.line[self.at..].trim_start()
     }

@@ -1,4 +1,4 @@
-//! Layout files: read, written, and carried along with changes.
+//! Layout files: read, written, and updated after changes.
 
 use proptest::prelude::*;
 
@@ -21,7 +21,7 @@ fn read(text: &str) -> Layout {
 }
 
 #[test]
-fn what_is_read_is_written() {
+fn a_file_is_written_as_read() {
     let layout = read(FILE);
     assert_eq!(layout.write(), FILE);
     assert_eq!(layout.get(&Item::inner("P", "back")), Some(Position { x: 300, y: -40 }));
@@ -31,7 +31,7 @@ fn what_is_read_is_written() {
 }
 
 #[test]
-fn lines_are_sorted_as_texts_are() {
+fn lines_are_sorted_like_strings() {
     let mut layout = Layout::default();
     for name in ["b", "a_b", "aB", "a"] {
         layout.set(Item::inner("P", name), Position { x: 1, y: 2 });
@@ -40,11 +40,11 @@ fn lines_are_sorted_as_texts_are() {
     assert_eq!(layout.write(), "P.a 1 2\nP.a.z 1 2\nP.aB 1 2\nP.a_b 1 2\nP.b 1 2\n");
 }
 
-/// What is kept without being understood is told.
+/// Unknown lines are kept and reported.
 const OTHER_FORM: &str = "expected a line such as 'Plan.element 300 120'";
 
 #[test]
-fn lines_of_another_form_are_told_and_kept() {
+fn invalid_lines_are_reported_and_kept() {
     for line in [
         "nonsense",
         "go 300 300",
@@ -66,7 +66,7 @@ fn lines_of_another_form_are_told_and_kept() {
 }
 
 #[test]
-fn lines_that_name_nothing_of_the_file_are_told_what_is_near_and_kept() {
+fn lines_with_unknown_names_get_a_suggestion_and_are_kept() {
     let plan = "use carbot
         plan Square { in side: length = 1 m start drive
             supervise esc: CheckEscapeButton { EscapeButtonPressed -> terminate }
@@ -97,7 +97,7 @@ fn lines_that_name_nothing_of_the_file_are_told_what_is_near_and_kept() {
 }
 
 #[test]
-fn errors_have_a_place_and_spoil_nothing_else() {
+fn errors_have_a_place_and_do_not_affect_other_lines() {
     let (_, errors) =
         Layout::read("P.a 1\nP.b 1 2\nP.b 3 4\n  P.ä 1 2\nP.c 1.5 2\n  P.d 1 99999999999\n");
     let error = |line, column, message: &str| LayoutError { line, column, message: message.into() };
@@ -113,7 +113,7 @@ fn errors_have_a_place_and_spoil_nothing_else() {
 }
 
 #[test]
-fn no_line_is_lost_when_something_is_placed() {
+fn no_line_is_lost_when_an_item_moves() {
     let text =
         "P.c 1.5 2\nP.b 1 2 wide\nP.a 1\nP.b 3 4\nP.b 5 6 far\n  P.d 1 99999999999\n<<<<<<<\n";
     let mut layout = Layout::read(text).0;
@@ -130,7 +130,7 @@ fn no_line_is_lost_when_something_is_placed() {
 }
 
 #[test]
-fn what_gets_a_name_that_was_left_stands_where_it_stood() {
+fn a_reused_name_gets_the_position_of_the_renamed_item() {
     for left in ["a", "c"] {
         let mut layout = read(&format!("P.b 1 2\nP.b.t 3 4\nP.{left} 5 6\nP.{left}.u 7 8\n"));
         layout.relocate(&Item::inner("P", "b"), &Item::inner("P", left));
@@ -140,7 +140,7 @@ fn what_gets_a_name_that_was_left_stands_where_it_stood() {
 
 proptest! {
     #[test]
-    fn any_text_is_read_and_what_is_written_is_read_again(text in "([A-C]\\.[a-c](\\.[a-c])? -?[0-9]{1,3} -?[0-9]{1,12}( \\PC{0,5})?\n|\\PC{0,9}\n){0,20}") {
+    fn any_text_is_read_and_a_written_text_is_read_again(text in "([A-C]\\.[a-c](\\.[a-c])? -?[0-9]{1,3} -?[0-9]{1,12}( \\PC{0,5})?\n|\\PC{0,9}\n){0,20}") {
         let (layout, errors) = Layout::read(&text);
         let written = layout.write();
         let (again, still) = Layout::read(&written);

@@ -1,7 +1,7 @@
-//! Edges of one kind to one target that become one as soon as they meet.
+//! Edges of one kind to one target that merge where they meet.
 //!
-//! Where many lead to one box, as all errors to who handles them, each goes only as far as to the next one of them: they are a
-//! tree with one tip, in which nobody has to tell one line from another.
+//! If many edges lead to one box, such as all errors to their handler, each goes only to the next
+//! edge. They form a tree with one tip, so that readers need not distinguish parallel lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,10 +9,10 @@ use super::lines::{Lines, axis_of, side_of};
 use super::{Axis, Connector, PITCH, Point, TIP};
 use crate::polyline::{self, distance};
 
-/// From so many edges on they are bundled.
+/// The minimum number of edges in a bundle.
 const MANY: usize = 5;
 
-/// For each edge, given as where it comes from, where it leads and its kind: the bundle that it belongs to.
+/// For each edge, given by its start, its target and its kind: its bundle.
 pub(in super::super) fn bundles<'a>(
     edges: impl Iterator<Item = (usize, usize, &'a str)> + Clone,
 ) -> Vec<Option<usize>> {
@@ -29,27 +29,29 @@ pub(in super::super) fn bundles<'a>(
     edges.map(bundle).collect()
 }
 
-/// Where an edge ends on another one of its bundle, which leads on.
+/// The end of an edge on another edge of its bundle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Junction {
-    /// The edge that it joins.
+    /// The joined edge.
     pub(super) edge: usize,
     /// The part of that edge, by its first corner.
     pub(super) part: usize,
-    /// The direction in which that part leads on.
+    /// The direction in which that part continues.
     pub(super) side: usize,
-    /// Whether the last part of who ends here lies on that line, too, and does not come from beside it.
+    /// Whether the last part of the joining edge is on that line, too, and does not arrive from its
+    /// side.
     pub(super) along: bool,
 }
 
 impl Junction {
-    /// The direction of the line that is joined.
+    /// The axis of the joined line.
     pub(super) fn axis(&self) -> Axis {
         axis_of(self.side)
     }
 
-    /// The junction with no bend too many: who comes from nearly the line of the joined edge takes that line, in front of it or
-    /// behind its next corner. Lines so near to each other could not be kept apart.
+    /// The junction without an unnecessary bend. An edge from nearly the line of the joined edge
+    /// takes that line, before it or after its next corner. Such near lines could not be kept
+    /// apart.
     pub(super) fn aligned(self, points: &mut Vec<Point>, joined: &[Point]) -> Junction {
         let [.., before, end] = points[..] else { return self };
         let side = side_of(before, end);
@@ -68,8 +70,8 @@ impl Junction {
         ahead.map_or(self, |corner| corner.junction)
     }
 
-    /// The corner of the joined edge near which an edge ends that comes from beside it: the one in front, if the line goes on
-    /// there as the edge does, or the one behind.
+    /// The corner of the joined edge near the end of an edge from its side: the earlier corner if
+    /// the line continues there in the edge's direction, or else the later one.
     pub(super) fn corner(self, points: &[Point], joined: &[Point]) -> Option<Corner> {
         let [_, .., before, end] = points[..] else { return None };
         let side = side_of(before, end);
@@ -90,14 +92,14 @@ impl Junction {
     }
 }
 
-/// Where an edge shall end instead: nearly there is a corner of the joined edge.
+/// A better end of an edge: a near corner of the joined edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Corner {
     pub(super) at: Point,
     pub(super) junction: Junction,
 }
 
-/// What is there of a bundle: who lies at the nodes of the search.
+/// The edges of a bundle, by the nodes of the search.
 pub(super) type Tree = BTreeMap<u32, Junction>;
 
 /// The trees of all bundles.
@@ -114,7 +116,8 @@ impl Trees {
         Trees { bundle_of: bundles(ends), trees: BTreeMap::new() }
     }
 
-    /// How much of the end of each edge another one of its bundle has already; edges without corners are not there.
+    /// The length that each edge shares with another edge of its bundle; edges without corners are
+    /// left out.
     pub(super) fn shared(&self, corners: &[Vec<Point>]) -> Vec<f64> {
         let mut groups: BTreeMap<usize, Vec<(usize, &[Point])>> = BTreeMap::new();
         for (edge, points) in corners.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
@@ -133,12 +136,12 @@ impl Trees {
         self.bundle_of[edge].is_some()
     }
 
-    /// What an edge can join.
+    /// The tree that an edge can join.
     pub(super) fn of(&self, edge: usize) -> Option<&Tree> {
         self.trees.get(&self.bundle_of[edge]?).filter(|tree| !tree.is_empty())
     }
 
-    /// Takes edges out of the trees of their bundles.
+    /// Removes edges from the trees of their bundles.
     pub(super) fn remove(&mut self, edges: &BTreeSet<usize>) {
         let bundles: BTreeSet<_> = edges.iter().filter_map(|edge| self.bundle_of[*edge]).collect();
         for bundle in bundles {
@@ -148,8 +151,8 @@ impl Trees {
         }
     }
 
-    /// Adds the corners of an edge to the tree of its bundle: not its first bit, where another one would seem to come from its
-    /// exit.
+    /// Adds the corners of an edge to the tree of its bundle, without its start: another edge there
+    /// would seem to come from its exit.
     pub(super) fn add(&mut self, edge: usize, corners: &[Point], lines: &Lines) {
         let Some(bundle) = self.bundle_of[edge] else { return };
         let tree = self.trees.entry(bundle).or_default();
@@ -159,7 +162,7 @@ impl Trees {
             for node in lines.along(pair[0], pair[1]) {
                 let (x, y) = lines.positions[node as usize];
                 let leaves = part == 0 && distance((x, y), *start) < TIP;
-                // At a corner the part that leads on is the one to join.
+                // At a corner, the part after it is joined.
                 let turns = part + 2 < corners.len() && distance((x, y), pair[1]) < 0.05;
                 if !leaves && !turns {
                     tree.entry(node).or_insert(Junction { edge, part, side, along: false });

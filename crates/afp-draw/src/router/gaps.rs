@@ -1,20 +1,20 @@
-//! The gaps between boxes, and how many edges fit into each.
+//! The gaps between boxes, and the number of edges that fit into each.
 
 use std::ops::RangeInclusive;
 
 use super::{Axis, Bounds, PITCH, Point};
 
-/// All gaps that lines of one axis go through: the plane in bands between the borders of boxes,
-/// each band in the intervals that are free.
+/// All gaps for lines of one axis: the plane in bands between the borders of boxes, each band in
+/// its free intervals.
 #[derive(Debug)]
 pub(super) struct Gaps {
     axis: Axis,
     /// The borders between bands.
     borders: Vec<f64>,
-    /// The first gap of each band; one more at the end.
+    /// The first gap of each band, and one more at the end.
     starts: Vec<usize>,
     gaps: Vec<Gap>,
-    /// The parts of edges that were there at first, by where they are.
+    /// The parts of kept edges, by position.
     kept: Vec<Kept>,
 }
 
@@ -22,16 +22,16 @@ pub(super) struct Gaps {
 #[derive(Clone, Copy, Debug)]
 struct Gap {
     band: usize,
-    /// Where it ends across.
+    /// Its end across.
     right: f64,
-    /// How many edges take it, and how many fit into it.
+    /// The number of edges in it, and the number that fits.
     taken: u32,
     fits: u32,
-    /// Whether those that were there at first are among them: where most edges are kept, few gaps are ever asked for.
+    /// Whether kept edges are counted. If most edges are kept, few gaps are needed.
     counted: bool,
 }
 
-/// A part of an edge that goes through a gap in each of some bands.
+/// A part of an edge that passes a gap in each of some bands.
 #[derive(Clone, Debug)]
 struct Kept {
     at: f64,
@@ -39,7 +39,7 @@ struct Kept {
 }
 
 impl Gaps {
-    /// The gaps between boxes that so far the parts of this axis take of `kept`.
+    /// The gaps between boxes, with the parts of this axis in `kept`.
     pub(super) fn new(boxes: &[Bounds], axis: Axis, kept: &[Vec<Point>]) -> Gaps {
         let mut ranges: Vec<_> = boxes.iter().map(|each| each.ranges(axis)).collect();
         ranges.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
@@ -76,12 +76,12 @@ impl Gaps {
         Gaps { axis, borders, starts, gaps, kept }
     }
 
-    /// The gap around a place, given along and across the axis.
+    /// The gap around a place, along and across the axis.
     pub(super) fn at(&self, along: f64, across: f64) -> usize {
         self.within(self.borders.partition_point(|border| *border <= along), across)
     }
 
-    /// The gap of a band around a place across.
+    /// The gap of a band around a coordinate across.
     fn within(&self, band: usize, across: f64) -> usize {
         let (first, end) = (self.starts[band], self.starts[band + 1]);
         let gaps = &self.gaps[first..end];
@@ -89,7 +89,7 @@ impl Gaps {
         first + index.min(gaps.len() - 1)
     }
 
-    /// How many more edges a gap has than fit into it, if it gets another one.
+    /// The excess of edges in a gap with one more edge.
     pub(super) fn excess(&mut self, gap: usize) -> u32 {
         if !self.gaps[gap].counted {
             self.gaps[gap].taken += self.kept_in(gap);
@@ -99,7 +99,8 @@ impl Gaps {
         (taken + 1).saturating_sub(fits)
     }
 
-    /// How many of the edges that were there at first take a gap: those up to its right border that take none before it.
+    /// The number of kept edges in a gap: those up to its right border that are not in an earlier
+    /// gap.
     fn kept_in(&self, gap: usize) -> u32 {
         let Gap { band, right, .. } = self.gaps[gap];
         let is_first = gap == self.starts[band];
@@ -113,7 +114,7 @@ impl Gaps {
         u32::try_from(count).unwrap_or(u32::MAX)
     }
 
-    /// Takes the gaps from one end of a line to the other for so many edges.
+    /// Adds this number of edges to the gaps along a line.
     pub(super) fn take(&mut self, at: f64, span: (f64, f64), edges: u32) {
         for band in bands(&self.borders, span) {
             let gap = self.within(band, at);
@@ -137,14 +138,14 @@ impl Gap {
     }
 }
 
-/// The bands that a line goes through.
+/// The bands along a line.
 fn bands(borders: &[f64], (from, to): (f64, f64)) -> RangeInclusive<usize> {
     let first = borders.partition_point(|border| *border <= from);
     let last = borders.partition_point(|border| *border < to);
     first..=last.max(first)
 }
 
-/// How many edges fit side by side into so much room.
+/// The number of parallel edges that fit into this space.
 fn fits(room: f64) -> u32 {
     let room = (room / PITCH).floor();
     if room < f64::from(u32::MAX) { room as u32 + 1 } else { u32::MAX }

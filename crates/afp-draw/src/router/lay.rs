@@ -1,4 +1,4 @@
-//! Routes as they are laid, one edge after the other, and led elsewhere where they come too near to one another.
+//! Lays routes, one edge after the other, and moves edges that are too near to each other.
 
 use std::collections::BTreeSet;
 
@@ -10,30 +10,30 @@ use super::spread::Spread;
 use super::{BUDGET, Bounds, Connector, Crowded, LEAST, PITCH, Point, Routes};
 use crate::polyline::shortened;
 
-/// How often edges are led elsewhere because they are too near to others.
+/// The number of times that near edges are moved.
 const DETOURS: usize = 5;
 
-/// As many edges are laid anew at once.
+/// The maximum number of edges that move at once.
 const MOST_MOVED: usize = 32;
 
-/// Edges on their lines, before those that share one are moved apart.
+/// Edges on their lines, before those on a common line are moved apart.
 pub(super) struct Laid<'a> {
     boxes: &'a [Bounds],
     connectors: &'a [Connector],
     lines: &'a Lines,
     search: Search<'a>,
     trees: Trees,
-    /// The corners of each edge up to its tip, or to the edge that it joins.
+    /// The corners of each edge up to its tip, or to the joined edge.
     corners: Vec<Vec<Point>>,
     joins: Vec<Join>,
-    /// Which edges stay as they were.
+    /// Which edges are fixed.
     fixed: Vec<bool>,
-    /// The others, each behind the one that it joins.
+    /// The other edges, each after its joined edge.
     order: Vec<usize>,
 }
 
 impl<'a> Laid<'a> {
-    /// The edges that have corners already, and no others.
+    /// Starts with only the edges that already have corners.
     pub(super) fn new(
         boxes: &'a [Bounds],
         connectors: &'a [Connector],
@@ -41,7 +41,7 @@ impl<'a> Laid<'a> {
         mut trees: Trees,
         corners: Vec<Vec<Point>>,
     ) -> Laid<'a> {
-        // What is one line counts once.
+        // A shared line counts once.
         let shared = trees.shared(&corners);
         let own = corners.iter().zip(shared).map(|(points, shared)| shortened(points, shared));
         let search = Search::new(lines, boxes, &own.collect::<Vec<_>>());
@@ -53,7 +53,7 @@ impl<'a> Laid<'a> {
         Laid { boxes, connectors, lines, search, trees, corners, joins, fixed, order: Vec::new() }
     }
 
-    /// Lays an edge on the cheapest path; with `full` it comes to its target from the side.
+    /// Lays an edge on the cheapest path; with `full` it arrives from the side.
     fn lay(&mut self, connector: usize, full: bool) {
         let tree = self.trees.of(connector);
         let (mut points, junction) =
@@ -66,7 +66,7 @@ impl<'a> Laid<'a> {
         self.order.push(connector);
     }
 
-    /// Lays edges, each so that it can join those before it.
+    /// Lays edges, each so that it can join earlier ones.
     pub(super) fn lay_all(&mut self, order: &[usize]) {
         for connector in order {
             let full = self.search.is_full(&self.connectors[*connector]);
@@ -74,7 +74,7 @@ impl<'a> Laid<'a> {
         }
     }
 
-    /// All edges apart from each other; where that cannot be, some are led elsewhere for as long as it helps.
+    /// Moves all edges apart; if that is impossible, reroutes some as long as it helps.
     pub(super) fn routes(mut self) -> Routes {
         let mut best = self.merged();
         let mut tried = vec![false; self.connectors.len()];
@@ -94,7 +94,7 @@ impl<'a> Laid<'a> {
         Routes { effort: self.search.effort(), ..best }
     }
 
-    /// The edges apart, and those that arrive side by side as one.
+    /// Moves the edges apart and merges edges that arrive side by side.
     fn merged(&mut self) -> Routes {
         let apart = self.apart();
         let changed = merged(self.connectors, &apart.corners, &self.fixed, &mut self.joins);
@@ -108,7 +108,8 @@ impl<'a> Laid<'a> {
         Routes { corners, crowded, effort: 0 }
     }
 
-    /// Lays an edge anew, away from where it is too near to others, and whoever has joined it; not where those are many.
+    /// Lays an edge again, away from a narrow place, with all edges that have joined it; not if
+    /// these are many.
     fn lead_elsewhere(&mut self, narrow: &Crowded) {
         let mut moved = BTreeSet::from([narrow.edge]);
         let mut again = vec![narrow.edge];
@@ -131,13 +132,13 @@ impl<'a> Laid<'a> {
     }
 }
 
-/// How many parts are too near to others to be told apart.
+/// The number of parts that are too near to each other.
 fn squeezed(routes: &Routes) -> usize {
     routes.crowded.iter().filter(|part| part.distance < LEAST).count()
 }
 
-/// Of each group of edges that run too near to each other one that shall go elsewhere: first those
-/// that can join another one at their target, no edge twice.
+/// From each group of edges that are too near, one edge to reroute: first those that can join
+/// another edge at their target, and no edge twice.
 fn detours(crowded: &[Crowded], tried: &mut [bool]) -> Vec<Crowded> {
     let mut chosen: Vec<Crowded> = Vec::new();
     for arrives in [true, false] {

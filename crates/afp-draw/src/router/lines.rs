@@ -1,8 +1,8 @@
-//! The lines that edges may take, and where these cross.
+//! The lines for edges, and their crossings.
 //!
-//! Through each corner of a box, each exit and each arrival goes one upright and one level line, as
-//! far as no box is in the way. Between two crossings of lines there is nothing to decide, so the
-//! crossings are the nodes of the search.
+//! Each corner of a box, each exit and each arrival has a vertical and a horizontal line, up to the
+//! next boxes. Between two crossings of lines there is no choice, so the crossings are the nodes of
+//! the search.
 
 use super::{Axis, Bounds, Connector, Point};
 
@@ -15,7 +15,7 @@ pub(super) const DOWN: usize = 1;
 pub(super) const LEFT: usize = 2;
 pub(super) const RIGHT: usize = 3;
 
-/// The side of one point on which another one is, above, below or beside it.
+/// The side of one point with another point above, below or beside it.
 pub(super) fn side_of(from: Point, to: Point) -> usize {
     match Axis::of(from, to) {
         Axis::Upright if to.1 < from.1 => UP,
@@ -25,7 +25,7 @@ pub(super) fn side_of(from: Point, to: Point) -> usize {
     }
 }
 
-/// The direction of lines that lead to a side.
+/// The axis of lines to a side.
 pub(super) fn axis_of(side: usize) -> Axis {
     if side <= DOWN { Axis::Upright } else { Axis::Level }
 }
@@ -39,18 +39,18 @@ struct Line {
     to: f64,
 }
 
-/// The graph that is searched.
+/// The search graph.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
-    /// Where the nodes are, those of one upright line after another, each from top to bottom.
+    /// The positions of the nodes: one vertical line after another, each from top to bottom.
     pub(super) positions: Vec<Point>,
     /// The nodes next to each node, by side.
     pub(super) next: Vec<[u32; 4]>,
 }
 
 impl Lines {
-    /// The lines between boxes for some of the edges, which may join others along the corners of those; none where they
-    /// cross more than `most` times.
+    /// The lines between boxes for some edges, which may join others along their corners; `None` if
+    /// there are more than `most` crossings.
     pub(super) fn new(
         boxes: &[Bounds],
         connectors: &[Connector],
@@ -74,7 +74,7 @@ impl Lines {
         crossings(&reach(Axis::Upright), &reach(Axis::Level), most)
     }
 
-    /// The nodes from one place to another one above, below or beside it, in the order of their positions.
+    /// The nodes between two places on one line, in the order of their positions.
     pub(super) fn along(&self, a: Point, b: Point) -> impl Iterator<Item = u32> {
         let (start, end) = if (a.0, a.1) < (b.0, b.1) { (a, b) } else { (b, a) };
         let side = side_of(start, end);
@@ -86,9 +86,9 @@ impl Lines {
         std::iter::successors(self.node(start).filter(holds), next)
     }
 
-    /// The node nearest to a place on its upright line.
+    /// The node nearest to a place on its vertical line.
     pub(super) fn node(&self, (x, y): Point) -> Option<u32> {
-        // Nodes go from left to right, those at one abscissa from top to bottom.
+        // Nodes are sorted from left to right, then from top to bottom.
         let mut first = self.positions.partition_point(|at| at.0 < x - 0.01);
         loop {
             let rest = self.positions.get(first..)?;
@@ -106,13 +106,13 @@ impl Lines {
     }
 }
 
-/// A little more than all boxes take, so that edges can go around them.
+/// A little more than the bounds of all boxes, so that edges can go around them.
 fn extent(boxes: &[Bounds]) -> Bounds {
     let none = Bounds { left: 0.0, top: 0.0, right: 0.0, bottom: 0.0 };
     boxes.iter().copied().reduce(Bounds::with).unwrap_or(none)
 }
 
-/// The line of an axis through each anchor that lies in no box.
+/// The line of an axis through each anchor outside of boxes.
 fn free_lines(boxes: &[Bounds], anchors: &[Point], ends: Bounds, axis: Axis) -> Vec<Line> {
     let mut anchors = anchors.to_vec();
     anchors.sort_by(|a, b| axis.across(*a).total_cmp(&axis.across(*b)));
@@ -125,7 +125,7 @@ fn free_lines(boxes: &[Bounds], anchors: &[Point], ends: Bounds, axis: Axis) -> 
     for anchor in anchors {
         let (at, along) = (axis.across(anchor), axis.along(anchor));
         let known = |line: &Line| line.at == at && line.from <= along && along <= line.to;
-        // Each level line is looked for anew: where boxes touch, two of them may share a place.
+        // Each horizontal line is computed again: two lines at touching boxes may share a place.
         if axis == Axis::Upright && lines.iter().rev().take_while(|line| line.at == at).any(known) {
             continue;
         }
@@ -144,7 +144,8 @@ fn free_lines(boxes: &[Bounds], anchors: &[Point], ends: Bounds, axis: Axis) -> 
 
 type Range = (f64, f64);
 
-/// The boxes that a whole line meets: where each begins, in that order, and where the last one of it and of those before ends.
+/// The boxes on a whole line: the start of each, in order, and the last end of it and its
+/// predecessors.
 #[derive(Default)]
 struct Met {
     at: Option<f64>,
@@ -152,7 +153,7 @@ struct Met {
 }
 
 impl Met {
-    /// Of boxes in the order in which they begin across, none of them wider than `widest`.
+    /// From boxes sorted by their start across, none wider than `widest`.
     fn new(ranges: &[(Range, Range)], widest: f64, at: f64) -> Met {
         let first = ranges.partition_point(|(across, _)| across.0 < at - widest);
         let end = ranges.partition_point(|(across, _)| across.0 < at);
@@ -168,7 +169,7 @@ impl Met {
         Met { at: Some(at), boxes }
     }
 
-    /// From where to where the line is free around a place; `None` inside of a box.
+    /// The free range of the line around a place; `None` inside of a box.
     fn free(&self, along: f64) -> Option<(f64, f64)> {
         let behind = self.boxes.partition_point(|(start, _)| *start < along);
         let before = behind.checked_sub(1).map_or(f64::NEG_INFINITY, |last| self.boxes[last].1);
@@ -192,7 +193,7 @@ fn crossings(upright: &[Line], level: &[Line], most: u32) -> Option<Lines> {
             }
             let node = u32::try_from(lines.positions.len()).ok().filter(|node| *node < most)?;
             let left = std::mem::replace(&mut last_on[index], node);
-            // Two lines at one height that touch have one node each; the second one is not needed.
+            // Two touching lines at one height have one node each; the second one is not needed.
             lines.positions.push((line.at, other.at));
             lines.next.push([above, NONE, left, NONE]);
             link(&mut lines.next, above, DOWN, node);

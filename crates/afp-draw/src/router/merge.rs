@@ -1,26 +1,27 @@
-//! Edges that become one in front of their target.
+//! Edges that merge before their target.
 //!
-//! Who comes from the side takes the way of the next edge of its kind for the last bit, so that several edges to one box end in
-//! one tip. Nothing of another kind lies between them, so that none is crossed for that.
+//! An edge from the side takes the path of the next edge of its kind for its last part, so that
+//! several edges to one box end in one tip. No other kind is between them, so this adds no
+//! crossings.
 
 use super::bundle::Junction;
 use super::{Connector, PITCH, Point, TIP};
 
-/// What an edge does in front of its target.
+/// An edge's behaviour before its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Join {
-    /// It has a tip of its own.
+    /// It has its own tip.
     None,
-    /// It joins the nearest one there: the box is too narrow for more.
+    /// It joins the nearest edge there: the box is too narrow for more.
     Nearest,
-    /// It joins this one.
+    /// It joins this edge.
     Edge(usize),
-    /// It ends on one of its bundle, before that comes to the target.
+    /// It ends on an edge of its bundle, before the target.
     At(Junction),
 }
 
 impl Join {
-    /// Where it ends on one of its bundle.
+    /// Its end on an edge of its bundle.
     pub(super) fn junction(&self) -> Option<Junction> {
         match self {
             Join::At(junction) => Some(*junction),
@@ -29,8 +30,8 @@ impl Join {
     }
 }
 
-/// Lets the edges of one kind that arrive side by side from the side join one of them: one that comes from above where there is
-/// one. Says whether an edge does so that did not before.
+/// Merges edges of one kind that arrive side by side from the side with one of them, from above if
+/// possible. Returns whether an edge joins that did not before.
 pub(super) fn merged(
     connectors: &[Connector],
     corners: &[Vec<Point>],
@@ -61,7 +62,7 @@ pub(super) fn merged(
     changed
 }
 
-/// Whether an edge turns down only where there must be room for its tip.
+/// Whether an edge only turns down at the end, in the space for its tip.
 fn comes_from_the_side(points: &[Point]) -> bool {
     let [.., before, turn, tip] = points else { return false };
     (before.1 - turn.1).abs() < 0.5 && tip.1 - turn.1 <= TIP + PITCH

@@ -1,42 +1,43 @@
-//! The queue of the search: states by what their path costs at least.
+//! The queue of the search: states by the lower bound of their path's cost.
 //!
-//! Most of what a search finds is never looked at again, so it is not worth sorting: states wait in
-//! buckets of nearly the same cost, and only the bucket at hand is sorted. What still comes into it is
-//! a heap. What comes out is in the order of a single heap.
+//! Most states of a search are never expanded, so it is not worth sorting them. States wait in
+//! buckets of similar cost, and only the current bucket is sorted. A heap holds later additions to
+//! it. States come out in the order of a single heap.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// How many buckets there are, and the bits of a cost that are alike within one.
+/// The number of buckets, and the bits of a cost that are equal in one.
 const BUCKETS: u64 = 1024;
 const ALIKE: u32 = 8;
 
-/// Buckets that have held more entries give their memory back: each search fills others.
+/// Buckets with more entries free their memory: each search fills other buckets.
 const MOST_KEPT: usize = 1024;
 
-/// What a cost takes in an entry; the costs of paths over positions of 32 bits are far below.
+/// The bits of a cost in an entry; the costs of paths over 32-bit positions are far below the
+/// limit.
 const COST_BITS: u32 = 48;
 const MOST: u64 = (1 << COST_BITS) - 1;
 
-/// A state that waits, as one number to be compared: the least cost of a path through it, the rest
-/// of that from here on (among equals the one that has come farthest), the state.
+/// A waiting state as one number for comparisons: the lower bound of a path's cost, the remaining
+/// part of it (among equals, the farthest comes first), the state.
 type Entry = Reverse<u128>;
 
-/// States to go on from, the cheapest first.
+/// The states to expand, the cheapest first.
 #[derive(Debug)]
 pub(super) struct Queue {
-    /// What was in the bucket at hand when its turn came, the last ones first.
+    /// The contents of the current bucket at its turn, the last first.
     now: Vec<Entry>,
-    /// What has come since and belongs into it, or before it.
+    /// Later additions to the current bucket or before it.
     late: BinaryHeap<Entry>,
-    /// The number of the bucket at hand; bucket `n` is `n % BUCKETS` of `later`.
+    /// The number of the current bucket; bucket `n` is `n % BUCKETS` of `later`.
     at: u64,
-    /// The first bucket for which `later` has no room.
+    /// The first bucket without space in `later`.
     end: u64,
     later: Vec<Vec<Entry>>,
-    /// How many states wait in `later`.
+    /// The number of states in `later`.
     waiting: usize,
-    /// What belongs into buckets from `end` on.
+    /// Entries for buckets from `end` on.
     beyond: Vec<Entry>,
 }
 
@@ -65,14 +66,14 @@ impl Queue {
         self.move_to(0);
     }
 
-    /// Adds a state with the cost up to it and at least the cost from there on.
+    /// Adds a state with its cost and the lower bound of the remaining cost.
     pub(super) fn push(&mut self, cost: u64, rest: u64, state: u32) {
         let (least, rest) = (cost.saturating_add(rest).min(MOST), rest.min(MOST));
         let costs = u128::from(least) << COST_BITS | u128::from(rest);
         self.put(Reverse(costs << u32::BITS | u128::from(state)));
     }
 
-    /// Takes out the cheapest state, with the cost up to it.
+    /// Removes the cheapest state and returns it with its cost.
     pub(super) fn pop(&mut self) -> Option<(u64, u32)> {
         loop {
             if let Some(Reverse(entry)) = self.next() {
@@ -97,7 +98,7 @@ impl Queue {
         }
     }
 
-    /// The first entry of the bucket at hand.
+    /// The first entry of the current bucket.
     fn next(&mut self) -> Option<Entry> {
         // The greatest entry is the first one.
         match (self.now.last(), self.late.peek()) {
@@ -144,9 +145,9 @@ fn bucket(entry: u128) -> u64 {
 mod tests {
     use super::{ALIKE, BUCKETS, Queue};
 
-    /// A large drawing took hundreds of megabytes for what had once waited in each bucket.
+    /// A large drawing once took hundreds of megabytes for the old contents of each bucket.
     #[test]
-    fn what_has_waited_takes_no_memory_afterwards() {
+    fn old_entries_take_no_memory() {
         let mut queue = Queue::new();
         for bucket in 0..20_u64 {
             for state in 0..5_000 {
@@ -159,9 +160,9 @@ mod tests {
         }
     }
 
-    /// Costs near each other, far from each other, and below what has come out already.
+    /// Costs near each other, far from each other, and below the last one.
     #[test]
-    fn states_come_out_as_of_a_heap() {
+    fn states_come_out_in_the_order_of_a_heap() {
         let mut seed = 7_u64;
         let mut next = |below: u64| {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);

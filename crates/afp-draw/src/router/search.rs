@@ -9,59 +9,59 @@ use super::{
     without_straight_corners,
 };
 
-/// Costs in tenths of a pixel: a bend, a crossing, each edge too many in a gap.
+/// Costs in tenths of a pixel: a bend, a crossing, each excess edge in a gap.
 const BEND: u64 = 600;
 const CROSSING: u64 = 250;
 const TOO_MANY: u64 = 2500;
 
-/// As how many edges a gap counts that has turned out to be too narrow.
+/// The number of edges that a gap counts after it was too narrow.
 const MANY: u32 = 20;
 
-/// A gap that was not looked for yet.
+/// A gap that was not yet looked up.
 const UNKNOWN: u32 = NONE - 1;
 
-/// What is known about going on from a node in a direction.
+/// The state of a search at a node and a direction.
 #[derive(Clone, Copy, Debug)]
 struct Visit {
-    /// The search that it belongs to.
+    /// The number of its search.
     stamp: u32,
     cost: u64,
-    /// The state before.
+    /// The previous state.
     from: u32,
 }
 
-/// All paths found so far, and room to search for another one.
+/// All paths so far, and buffers for the next search.
 pub(super) struct Search<'a> {
     lines: &'a Lines,
     upright: Gaps,
     level: Gaps,
-    /// The gap below and the gap to the right of each node, [`UNKNOWN`] until it is asked for: where
-    /// most routes are kept, few nodes ever are.
+    /// The gap below and the gap to the right of each node, or [`UNKNOWN`] before its first use. If
+    /// most routes are kept, few nodes are used.
     gap_of: Vec<[u32; 2]>,
-    /// How many edges pass each node upright and level.
+    /// The number of vertical and horizontal edges through each node.
     passing: Vec<[u16; 2]>,
-    /// How many edges arrive at each box.
+    /// The number of edges that arrive at each box.
     arrived: Vec<u32>,
     visits: Vec<Visit>,
     stamp: u32,
     queue: Queue,
-    /// How many states all searches have gone on from.
+    /// The number of expanded states of all searches.
     effort: u64,
 }
 
-/// Where a path may end.
+/// The possible ends of a path.
 struct Goal<'t> {
     left: f64,
     right: f64,
     y: f64,
-    /// Whether as many edges arrive there as fit: another one comes from the side and joins them.
+    /// Whether the box is full: a further edge arrives from the side and joins the others.
     full: bool,
-    /// What it may end on instead.
+    /// The tree that it may join instead.
     tree: Option<&'t Tree>,
 }
 
 impl<'a> Search<'a> {
-    /// With edges that are there already.
+    /// Starts with the kept edges.
     pub(super) fn new(lines: &'a Lines, boxes: &[Bounds], kept: &[Vec<Point>]) -> Search<'a> {
         let nodes = lines.positions.len();
         let mut search = Search {
@@ -82,8 +82,9 @@ impl<'a> Search<'a> {
         search
     }
 
-    /// The corners of the best path, which is then taken; a plain one where boxes leave no gap. With
-    /// `joins` it comes from the side, next to edges that arrive from above. It ends where it meets the tree of its bundle.
+    /// The corners of the best path, which is then taken; a plain path if boxes leave no gap. With
+    /// `joins`, it arrives from the side, next to edges from above. It ends at the tree of its
+    /// bundle.
     pub(super) fn route(
         &mut self,
         connector: &Connector,
@@ -95,7 +96,7 @@ impl<'a> Search<'a> {
         let (left, right) = connector.arrival;
         let goal = Goal { left, right, y: connector.tip - TIP, full: joins, tree };
         let side = if connector.heading == Heading::Down { DOWN } else { RIGHT };
-        // Where another box stands on where it arrives, all else would be searched in vain.
+        // If another box covers the arrival, a search would be in vain.
         let searched = self.effort <= MOST_EFFORT;
         let start = self.lines.node(escape).filter(|_| searched && self.is_free(&goal));
         let end = start.and_then(|node| self.find(node, side, &goal));
@@ -115,7 +116,7 @@ impl<'a> Search<'a> {
         (points, junction)
     }
 
-    /// Whether there is a place at which a path may end.
+    /// Whether a path has a possible end.
     fn is_free(&self, goal: &Goal) -> bool {
         let positions = &self.lines.positions;
         let first = positions.partition_point(|(x, _)| *x < goal.left);
@@ -123,17 +124,17 @@ impl<'a> Search<'a> {
         goal.tree.is_some() || near.into_iter().any(|at| goal.holds(*at))
     }
 
-    /// How many states all searches so far have gone on from.
+    /// The number of expanded states so far.
     pub(super) fn effort(&self) -> u64 {
         self.effort
     }
 
-    /// Whether as many edges arrive at the target of an edge as there is room for.
+    /// Whether the target of an edge is full.
     pub(super) fn is_full(&self, connector: &Connector) -> bool {
         f64::from(self.arrived[connector.to]) > (connector.arrival.1 - connector.arrival.0) / PITCH
     }
 
-    /// Notes that an edge goes along these corners.
+    /// Records an edge along these corners.
     fn occupy(&mut self, points: &[Point]) {
         for pair in points.windows(2) {
             let [a, b] = pair else { continue };
@@ -145,7 +146,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Makes the gaps around a part dearer for edges to come.
+    /// Raises the cost of the gaps around a part for later edges.
     pub(super) fn avoid(&mut self, part: &Crowded) {
         let gaps = if part.axis == Axis::Upright { &mut self.upright } else { &mut self.level };
         gaps.take(part.at, part.span, MANY);
@@ -160,7 +161,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The state at which the cheapest path ends.
+    /// The final state of the cheapest path.
     fn find(&mut self, start: u32, side: usize, goal: &Goal) -> Option<u32> {
         self.stamp += 1;
         self.queue.clear();
@@ -189,7 +190,7 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// Notes a way to a state if it is the best one so far.
+    /// Records a path to a state if it is the best one so far.
     fn reach(&mut self, at: u32, cost: u64, from: u32, goal: &Goal) {
         let stamp = self.stamp;
         let Some(visit) = self.visits.get_mut(at as usize) else { return };
@@ -219,7 +220,7 @@ impl<'a> Search<'a> {
         gap
     }
 
-    /// The cost of going on to the next node.
+    /// The cost of the step to the next node.
     fn step(&mut self, node: usize, next: usize, side: usize) -> u64 {
         let (from, to) = (self.lines.positions[node], self.lines.positions[next]);
         let upright = axis_of(side) == Axis::Upright;
@@ -233,8 +234,8 @@ impl<'a> Search<'a> {
             + TOO_MANY * u64::from(excess)
     }
 
-    /// Where a path that ends in a state has come to its tree: from the side, or in the same direction if it has not come
-    /// straight from its exit, which stays where it is.
+    /// The place where a path has met its tree: from the side, or in the same direction if it does
+    /// not come straight from its fixed exit.
     fn junction(&self, end: u32, goal: &Goal) -> Option<Junction> {
         let junction = goal.tree?.get(&(end / 4)).copied()?;
         let side = (end % 4) as usize;
@@ -246,7 +247,7 @@ impl<'a> Search<'a> {
         (joins && !turned_here).then_some(junction)
     }
 
-    /// The states of the path that ends in one, from there on back.
+    /// The states of a path, from its end back.
     fn states(&self, end: u32) -> impl Iterator<Item = u32> {
         let before = |at: &u32| Some(self.visits[*at as usize].from).filter(|from| *from != NONE);
         std::iter::successors(Some(end), before)
@@ -265,7 +266,7 @@ impl Goal<'_> {
         (y - self.y).abs() < 0.01 && self.left <= x && x <= self.right
     }
 
-    /// At least what is left to pay from a place in a direction.
+    /// The lower bound of the remaining cost from a place in a direction.
     fn rest(&self, (x, y): Point, side: usize) -> u64 {
         if self.tree.is_some() {
             // The tree may be anywhere.
@@ -298,12 +299,12 @@ fn turns(side: usize) -> [usize; 2] {
     if side <= DOWN { [LEFT, RIGHT] } else { [UP, DOWN] }
 }
 
-/// Positions fit into 32 bits, so no sum of lengths comes near the limit.
+/// Positions fit into 32 bits, so that no sum of lengths overflows.
 fn tenths(length: f64) -> u64 {
     (length * 10.0) as u64
 }
 
-/// A way that asks nobody, for edges of boxes that stand on each other.
+/// A plain path without a search, for overlapping boxes.
 fn plain(escape: Point, connector: &Connector) -> Vec<Point> {
     let gate = connector.gate();
     match connector.heading {

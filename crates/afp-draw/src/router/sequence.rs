@@ -1,22 +1,21 @@
-//! The order of parallel edges: which one runs left of or above which.
+//! The order of parallel edges.
 //!
-//! Two parts that go side by side for a while diverge at both ends of what they share. An end says
-//! who must be on which side so that they do not cross there; if the ends disagree, one crossing is
-//! left wherever they are put. Starting from where the search has put them, parts change places
-//! with their neighbours for as long as that saves crossings.
+//! Two parallel parts diverge at both ends of their common range. Each end determines an order
+//! without a crossing there. If the ends disagree, one crossing remains in any order. Starting from
+//! the order of the search, parts swap with their neighbours as long as this saves crossings.
 
 use super::{Axis, PITCH, Point};
 
-/// Parts farther from each other than this keep their order.
+/// Parts farther apart keep their order.
 pub(super) const REACH: f64 = 160.0;
 
-/// What it costs, in crossings, to swap two parts that are a pixel away from each other.
+/// The cost, in crossings, of swapping two parts at a distance of one pixel.
 const SWAP: f64 = 0.004;
 
-/// More of what decides an order when the two ends disagree.
+/// The extra weight for one end if the two ends disagree.
 const AHEAD: f64 = 1.01;
 
-/// How often all parts are tried.
+/// The number of rounds over all parts.
 const ROUNDS: usize = 8;
 
 /// A straight part of an edge.
@@ -29,24 +28,24 @@ pub(super) struct Part {
     pub(super) at: f64,
     /// Its range along.
     pub(super) span: (f64, f64),
-    /// Where it may be moved across; a single place for what is fixed.
+    /// Its free range across; a single place if it is fixed.
     pub(super) room: (f64, f64),
 }
 
 impl Part {
-    /// Whether it stays where it is.
+    /// Whether it is fixed.
     pub(super) fn is_fixed(&self) -> bool {
         self.room.0 >= self.room.1
     }
 
-    /// Whether it runs beside another one, or nearly.
+    /// Whether it is beside another part, or nearly.
     pub(super) fn is_beside(&self, other: &Part) -> bool {
         let margin = PITCH;
         self.span.0 - margin < other.span.1 && other.span.0 - margin < self.span.1
     }
 }
 
-/// The parts in an order in which few edges cross.
+/// The parts in an order with few crossings.
 pub(super) fn sequence(axis: Axis, parts: &[Part], corners: &[Vec<Point>]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..parts.len()).collect();
     let by_place = |a: &usize, b: &usize| {
@@ -73,7 +72,7 @@ pub(super) fn sequence(axis: Axis, parts: &[Part], corners: &[Vec<Point>]) -> Ve
     order
 }
 
-/// For each part those that run beside it within reach.
+/// For each part, the parts beside it within reach.
 fn neighbours(parts: &[Part], order: &[usize]) -> Vec<Vec<usize>> {
     let mut near = vec![Vec::new(); parts.len()];
     for (index, one) in order.iter().enumerate() {
@@ -90,7 +89,7 @@ fn neighbours(parts: &[Part], order: &[usize]) -> Vec<Vec<usize>> {
     near
 }
 
-/// For each part and each of its neighbours: what it costs more to stand after than before it.
+/// For each part and each neighbour: the additional cost of the order after it.
 fn costs(axis: Axis, parts: &[Part], corners: &[Vec<Point>], near: &[Vec<usize>]) -> Vec<Vec<f64>> {
     let cost = |one: usize, two: &usize| {
         let (a, b) = (&parts[one], &parts[*two]);
@@ -103,13 +102,13 @@ fn costs(axis: Axis, parts: &[Part], corners: &[Vec<Point>], near: &[Vec<usize>]
         let (first, second) = if a.edge <= b.edge { (a, b) } else { (b, a) };
         let votes = votes(axis, first, second, corners);
         let votes = if a.edge <= b.edge { votes } else { -votes };
-        // A positive vote wants `a` after `b`.
+        // A positive vote puts `a` after `b`.
         SWAP * (b.at - a.at) - votes
     };
     (0..parts.len()).map(|one| near[one].iter().map(|two| cost(one, two)).collect()).collect()
 }
 
-/// How much speaks for `a` after `b`.
+/// The votes for `a` after `b`.
 fn votes(axis: Axis, a: &Part, b: &Part, corners: &[Vec<Point>]) -> f64 {
     let points = &corners[a.edge];
     let onwards = axis.along(points[a.first]) < axis.along(points[a.first + 1]);
@@ -122,15 +121,16 @@ fn votes(axis: Axis, a: &Part, b: &Part, corners: &[Vec<Point>]) -> f64 {
         .sum()
 }
 
-/// Who must be after whom where the parts end: 1 for `a`, -1 for `b`, 0 when it does not matter.
+/// The required order at an end of the parts: 1 for `a` after `b`, -1 for `b` after `a`, 0 for no
+/// preference.
 fn vote(axis: Axis, a: &Part, b: &Part, corners: &[Vec<Point>], up: bool) -> i8 {
     let right = divergence(Walk::new(axis, a, corners, up), Walk::new(axis, b, corners, up));
-    // On the right is after when going up on the screen or to the right.
+    // For an upward or rightward direction, the right side is after.
     let after = matches!((axis, up), (Axis::Upright, false) | (Axis::Level, true));
     if after { right } else { -right }
 }
 
-/// 1 when the first one turns away to the right of the other one, -1 when to the left.
+/// 1 if the first walk turns away to the right of the other, -1 if to the left.
 fn divergence(mut one: Walk, mut two: Walk) -> i8 {
     loop {
         let ahead = one.ahead_of(&two);
@@ -153,9 +153,9 @@ fn divergence(mut one: Walk, mut two: Walk) -> i8 {
 /// A walk along the corners of an edge.
 struct Walk<'a> {
     points: &'a [Point],
-    /// The corner that it goes to.
+    /// The next corner.
     to: usize,
-    /// Towards later corners.
+    /// Whether it goes towards later corners.
     onwards: bool,
     /// The direction, one of the four.
     direction: (f64, f64),
@@ -173,7 +173,7 @@ impl<'a> Walk<'a> {
         Walk { points, to, onwards, direction }
     }
 
-    /// How much farther its next corner is than that of the other walk, in its direction.
+    /// The additional distance of its next corner compared to the other walk, in its direction.
     fn ahead_of(&self, other: &Walk) -> f64 {
         let (own, its) = (self.points[self.to], other.points[other.to]);
         (own.0 - its.0) * self.direction.0 + (own.1 - its.1) * self.direction.1
@@ -204,7 +204,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Gives a part its best place among its neighbours; says whether that is another one than before.
+/// Moves a part to its best place among its neighbours; returns whether it moved.
 fn place_anew(part: usize, near: &[usize], costs: &[f64], keys: &mut [f64]) -> bool {
     if near.is_empty() {
         return false;
@@ -212,7 +212,7 @@ fn place_anew(part: usize, near: &[usize], costs: &[f64], keys: &mut [f64]) -> b
     let mut sorted: Vec<(f64, f64)> =
         near.iter().zip(costs).map(|(other, cost)| (keys[*other], *cost)).collect();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Before all of them is free; behind each one costs what that one says.
+    // The place before all of them is free; each place after one has that one's cost.
     let (mut cost, mut best, mut now) = (0.0, (0.0, 0), (0.0, 0));
     for (index, (key, more)) in sorted.iter().enumerate() {
         cost += more;

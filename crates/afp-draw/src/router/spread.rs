@@ -1,9 +1,9 @@
-//! Moves edges that share a line apart.
+//! Moves edges on a common line apart.
 //!
-//! First the upright parts of all edges get their abscissas, then the level ones their ordinates,
-//! twice over, since what happens across changes how far parts go along. Each part stays between
-//! the boxes beside it, in its place of the [`sequence`](super::sequence), [`PITCH`] away from its
-//! neighbours or, where a gap is too narrow for that, as far as it can be.
+//! First the vertical parts of all edges get their abscissas, then the horizontal parts their
+//! ordinates. This happens twice, because moves across change the ranges along. Each part stays
+//! between its neighbouring boxes, in its place of the [`sequence`](super::sequence), [`PITCH`]
+//! away from its neighbours or, in a narrow gap, as far as possible.
 
 use std::collections::BTreeMap;
 
@@ -13,33 +13,33 @@ use super::sequence::{Part, REACH, sequence};
 use super::tree::Maxima;
 use super::{Axis, Bounds, Connector, Crowded, PITCH, Point, TIP, without_straight_corners};
 
-/// How often a too narrow gap is tried with less distance, and how much less each time.
+/// The number of attempts in a narrow gap, and the factor of the distance for each.
 const ATTEMPTS: usize = 14;
 const TIGHTER: f64 = 0.8;
 
-/// How often the parts of both axes are moved.
+/// The number of rounds over both axes.
 const ROUNDS: usize = 2;
 
-/// How much nearer to a box than usual edges may be pushed by others.
+/// The distance by which other edges may push an edge nearer to a box.
 const NEARER: f64 = 4.0;
 
-/// How far past its ends a part keeps others away.
+/// The distance beyond its ends at which a part keeps others away.
 const MARGIN: f64 = 4.0;
 
-/// Edges whose parts are to be moved.
+/// Edges with parts to move.
 pub(super) struct Spread<'a> {
     pub(super) boxes: &'a [Bounds],
     pub(super) connectors: &'a [Connector],
-    /// Which edges stay as they are.
+    /// Which edges are fixed.
     pub(super) fixed: &'a [bool],
-    /// What edges do in front of their target.
+    /// The behaviour of edges before their target.
     pub(super) joins: &'a [Join],
-    /// Those that do not stay, each behind those of its bundle that it ends on.
+    /// The edges that are not fixed, each after the edges that it ends on.
     pub(super) order: &'a [usize],
 }
 
 impl Spread<'_> {
-    /// Moves the parts; says where there was too little room.
+    /// Moves the parts; returns the places with too little space.
     pub(super) fn apply(&self, corners: &mut [Vec<Point>]) -> Vec<Crowded> {
         let mut crowded = Vec::new();
         for _ in 0..ROUNDS {
@@ -70,7 +70,7 @@ impl Spread<'_> {
         crowded
     }
 
-    /// Puts a part of an edge, given by its first corner, at a coordinate across.
+    /// Moves a part of an edge, given by its first corner, to a coordinate across.
     fn put(&self, axis: Axis, corners: &mut [Vec<Point>], (edge, first): (usize, usize), at: f64) {
         if self.fixed[edge] {
             return;
@@ -83,7 +83,7 @@ impl Spread<'_> {
         }
     }
 
-    /// Leads edges into those that they join, or into the nearest one that arrives at their target from above.
+    /// Leads edges into those that they join, or into the nearest edge from above at their target.
     fn join(&self, corners: &mut [Vec<Point>]) {
         let arrives_at = |points: &[Point]| points.last().map(|tip| tip.0);
         let ends = |edge: usize| self.joins[edge] == Join::None;
@@ -107,15 +107,15 @@ impl Spread<'_> {
         }
     }
 
-    /// Lets what ends on another edge end where that is now.
+    /// Moves the ends of joining edges to the new places of the joined edges.
     fn attach(&self, corners: &mut [Vec<Point>]) {
         for (edge, on) in self.junctions() {
             attach(corners, edge, on);
         }
     }
 
-    /// Lets what ends nearly at a corner of another edge end there, where the boxes leave room for it: a line that is shifted by
-    /// less than lines are apart would look like a mistake. Gives where the edges end then.
+    /// Moves an end near a corner of the joined edge to that corner if the boxes leave space: a
+    /// small shift would look like an error. Returns the new ends.
     fn settle(&self, corners: &mut [Vec<Point>]) -> Vec<(usize, Junction)> {
         let mut junctions: Vec<_> = self.junctions().collect();
         for (edge, on) in &mut junctions {
@@ -134,17 +134,17 @@ impl Spread<'_> {
         junctions
     }
 
-    /// The edges that end on others, with where.
+    /// The edges that end on others, with their junctions.
     fn junctions(&self) -> impl Iterator<Item = (usize, Junction)> {
         self.order.iter().filter_map(|edge| Some((*edge, self.joins[*edge].junction()?)))
     }
 
-    /// Whether a part, given by its first corner, is the one that ends at the target.
+    /// Whether a part, given by its first corner, ends at the target.
     fn arrives(&self, edge: usize, first: usize, points: &[Point]) -> bool {
         first + 2 == points.len() && self.joins[edge].junction().is_none()
     }
 
-    /// From where to where parts go that others take in their direction, those of the others included.
+    /// The ranges of parts that others continue, including the continuations.
     fn longer(&self, corners: &[Vec<Point>]) -> BTreeMap<(usize, usize), (f64, f64)> {
         let mut longer: BTreeMap<(usize, usize), (f64, f64)> = BTreeMap::new();
         let junctions: Vec<_> = self.junctions().filter(|(_, on)| on.along).collect();
@@ -160,7 +160,7 @@ impl Spread<'_> {
         longer
     }
 
-    /// From where to where the last part of an edge that ends on another one can be moved.
+    /// The free range of the last part of an edge that ends on another one.
     fn reach(&self, on: Junction, corners: &[Vec<Point>]) -> (f64, f64) {
         let points = &corners[on.edge];
         let ends = [points[on.part], points[on.part + 1]].map(|end| on.axis().along(end));
@@ -209,7 +209,7 @@ impl Spread<'_> {
     }
 }
 
-/// Lets an edge end where the one that it joins is now.
+/// Moves the end of an edge to the new place of its joined edge.
 fn attach(corners: &mut [Vec<Point>], edge: usize, on: Junction) {
     let (joined, axis) = (corners[on.edge][on.part], on.axis());
     let [.., before, end] = &mut corners[edge][..] else { return };
@@ -223,7 +223,7 @@ fn attach(corners: &mut [Vec<Point>], edge: usize, on: Junction) {
     }
 }
 
-/// Leads what ends on another edge on to their target.
+/// Extends joined edges to their target.
 fn complete(corners: &mut [Vec<Point>], junctions: &[(usize, Junction)]) {
     for (edge, on) in junctions {
         let rest = corners[on.edge][on.part + 1..].to_vec();
@@ -231,13 +231,13 @@ fn complete(corners: &mut [Vec<Point>], junctions: &[(usize, Junction)]) {
     }
 }
 
-/// From where to where a straight part goes.
+/// The range of a straight part along the axis.
 fn span(axis: Axis, a: Point, b: Point) -> (f64, f64) {
     let (one, two) = (axis.along(a), axis.along(b));
     (one.min(two), one.max(two))
 }
 
-/// The parts that can be moved, and those that stay beside them.
+/// The movable parts and the fixed parts beside them.
 fn that_matter(parts: Vec<Part>) -> Vec<Part> {
     if parts.iter().filter(|part| part.is_fixed()).count() * 4 < parts.len() * 3 {
         return parts;
@@ -250,7 +250,7 @@ fn that_matter(parts: Vec<Part>) -> Vec<Part> {
     parts.into_iter().filter(matters).collect()
 }
 
-/// The room between the boxes beside a part.
+/// The space between the boxes beside a part.
 fn between(axis: Axis, boxes: &[Bounds], at: f64, span: (f64, f64)) -> (f64, f64) {
     let mut room = (f64::NEG_INFINITY, f64::INFINITY);
     for each in boxes {
@@ -266,8 +266,8 @@ fn between(axis: Axis, boxes: &[Bounds], at: f64, span: (f64, f64)) -> (f64, f64
     room
 }
 
-/// The places of the parts in the given order, and those that found too little room, with how far
-/// they are apart.
+/// The places of the parts in the given order, and the parts with too little space, with their
+/// distance.
 fn positions(parts: &[Part], order: &[usize]) -> (Vec<f64>, Vec<(usize, f64)>) {
     let ranks = Ranks::new(parts);
     let wishes = wishes(parts, order);
@@ -300,7 +300,7 @@ fn positions(parts: &[Part], order: &[usize]) -> (Vec<f64>, Vec<(usize, f64)>) {
     (positions, narrow.map(|part| (*part, distance[*part])).collect())
 }
 
-/// How far each part can be to the right.
+/// The maximum coordinate of each part.
 fn most(parts: &[Part], order: &[usize], ranks: &Ranks, distance: &[f64]) -> Vec<f64> {
     let backwards: Vec<_> = order.iter().rev().copied().collect();
     let mirrored =
@@ -311,7 +311,7 @@ fn most(parts: &[Part], order: &[usize], ranks: &Ranks, distance: &[f64]) -> Vec
     mirrored.into_iter().map(|position| -position).collect()
 }
 
-/// Where the parts would like to be: where the search has put them, those of one line around it.
+/// The preferred places of the parts: those of the search, with the parts of one line around it.
 fn wishes(parts: &[Part], order: &[usize]) -> Vec<f64> {
     let mut wishes: Vec<_> = parts.iter().map(|part| part.at).collect();
     let mut by_line: Vec<(usize, usize)> = order.iter().copied().enumerate().collect();
@@ -329,7 +329,7 @@ fn wishes(parts: &[Part], order: &[usize]) -> Vec<f64> {
     wishes
 }
 
-/// How many parts of a line stand before each one, or after it, side by side.
+/// The number of a line's parts before or after each part, side by side.
 fn depths(parts: &[Part], line: &[usize], backwards: bool) -> Vec<u32> {
     let mut depths = vec![0; line.len()];
     for step in 0..line.len() {
@@ -360,12 +360,12 @@ impl Ranks {
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let rank = |end: f64| ends.partition_point(|other| *other < end);
-        // Between two neighbouring ends nothing changes, so a range is the intervals that it covers.
+        // Nothing changes between two neighbouring ends, so a range is a set of intervals.
         let range = |(from, to): &(f64, f64)| (rank(*from), rank(*to).max(rank(*from) + 1) - 1);
         Ranks { count: ends.len(), ranges: spans.iter().map(range).collect() }
     }
 
-    /// Places the parts one after the other: `place` gets how far the earlier ones push a part.
+    /// Places the parts in order: `place` gets the pressure of earlier parts on a part.
     fn pushed(
         &self,
         order: &[usize],

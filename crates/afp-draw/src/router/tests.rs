@@ -8,7 +8,7 @@ fn bounds((left, top): Point, (width, height): Point) -> Bounds {
     Bounds { left, top, right: left + width, bottom: top + height }
 }
 
-/// An edge from the middle of the lower border of a box to the upper border of another one.
+/// An edge from the middle of the lower border of a box to the upper border of another.
 fn down(boxes: &[Bounds], from: usize, to: usize) -> Connector {
     let (one, two) = (boxes[from], boxes[to]);
     Connector {
@@ -43,7 +43,7 @@ fn routed(boxes: &[Bounds], edges: &[(usize, usize)]) -> Routes {
     route(boxes, &connectors(boxes, edges), &[])
 }
 
-/// Boxes in rows that are not quite straight, and edges between them; the same each time.
+/// Boxes in uneven rows, with random but reproducible edges.
 fn sample(count: usize, seed: u64) -> (Vec<Bounds>, Vec<(usize, usize)>) {
     let mut state = seed;
     let mut next = |below: u64| {
@@ -63,7 +63,7 @@ fn sample(count: usize, seed: u64) -> (Vec<Bounds>, Vec<(usize, usize)>) {
     (boxes, edges)
 }
 
-/// The straight parts of an edge: whether upright, the coordinate across, from where to where.
+/// The straight parts of an edge: whether vertical, the coordinate across, the range.
 fn parts(points: &[Point]) -> Vec<(bool, f64, f64, f64)> {
     let part = |pair: &[Point]| {
         let (a, b) = (pair[0], pair[1]);
@@ -76,7 +76,7 @@ fn parts(points: &[Point]) -> Vec<(bool, f64, f64, f64)> {
     points.windows(2).map(part).collect()
 }
 
-/// A box that an edge runs through.
+/// A box that an edge crosses.
 fn met<'b>(corners: &[Point], boxes: &'b [Bounds]) -> Option<&'b Bounds> {
     let through = |each: &&Bounds| {
         parts(corners).into_iter().any(|(upright, at, from, to)| {
@@ -92,7 +92,7 @@ fn met<'b>(corners: &[Point], boxes: &'b [Bounds]) -> Option<&'b Bounds> {
 }
 
 #[test]
-fn what_stands_below_is_reached_straight() {
+fn a_box_below_is_reached_straight() {
     let boxes = [bounds((0.0, 0.0), (100.0, 50.0)), bounds((10.0, 120.0), (100.0, 50.0))];
     assert_eq!(routed(&boxes, &[(0, 1)]).corners, [vec![(50.0, 50.0), (50.0, 120.0)]]);
 }
@@ -114,7 +114,7 @@ fn edges_between_boxes_touch_neither_boxes_nor_each_other() {
         let bundles = bundles(edges.iter().map(|(from, to)| (*from, *to, "")));
         for (edge, corners) in found.corners.iter().enumerate() {
             assert_eq!(met(corners, &boxes), None, "{corners:?}");
-            // Those of one bundle run on each other as soon as they meet.
+            // Edges of one bundle share a line after they meet.
             let apart = |other: &usize| bundles[edge].is_none() || bundles[edge] != bundles[*other];
             for other in (0..edge).filter(apart) {
                 let others = &found.corners[other];
@@ -131,9 +131,9 @@ fn edges_between_boxes_touch_neither_boxes_nor_each_other() {
     }
 }
 
-/// Nobody could tell forty parallel lines from one another, and each took a search across all of the others.
+/// Forty parallel lines were once indistinguishable, and each took a search across all others.
 #[test]
-fn many_edges_to_one_box_become_one_as_soon_as_they_meet() {
+fn many_edges_to_one_box_merge_where_they_meet() {
     let column = |index: usize| bounds((index as f64 * 0.04, index as f64 * 100.0), (120.0, 60.0));
     let boxes: Vec<_> = (0..41).map(column).collect();
     let edges: Vec<_> = (0..40).map(|from| (from, 40)).collect();
@@ -188,7 +188,7 @@ fn kept_routes_stay_and_others_go_around_them() {
     }
 }
 
-/// Each of them counted as an edge of its own as far as its tip: nothing crossed what many had become.
+/// Each of them once counted separately up to its tip, and nothing crossed the merged edges.
 #[test]
 fn a_kept_bundle_is_crossed_as_one_edge() {
     let column = |index: usize| bounds((0.0, index as f64 * 100.0), (120.0, 60.0));
@@ -206,7 +206,7 @@ fn a_kept_bundle_is_crossed_as_one_edge() {
     assert!(again < first + 100.0, "{again} px around what was {first} px");
 }
 
-/// All that could be reached was searched first.
+/// All reachable nodes were once searched first.
 #[test]
 fn an_edge_to_a_covered_box_takes_no_search() {
     let (mut boxes, _) = sample(25, 5);
@@ -217,7 +217,7 @@ fn an_edge_to_a_covered_box_takes_no_search() {
 }
 
 #[test]
-fn kept_edges_fill_gaps_as_laid_ones_do() {
+fn kept_edges_fill_gaps_like_laid_edges() {
     for seed in 1..=6 {
         let (boxes, edges) = sample(25, seed);
         let routes = vec![routed(&boxes, &edges).corners; 12].concat();
@@ -238,7 +238,7 @@ fn kept_edges_fill_gaps_as_laid_ones_do() {
     }
 }
 
-/// Positions of a layout file may be anything; memory went by their differences once.
+/// Positions of a layout file may be anything; memory once grew with their differences.
 #[test]
 fn boxes_far_from_each_other_need_no_more_memory() {
     for far in [100_000.0, 2_000_000_000.0] {
@@ -263,7 +263,7 @@ fn boxes_on_top_of_each_other_still_have_edges() {
     }
 }
 
-/// A thousand exits beside a thousand boxes took gigabytes.
+/// A thousand exits next to a thousand boxes once took gigabytes.
 #[test]
 fn edges_with_too_many_lines_are_routed_in_parts() {
     for seed in 1..=4 {
@@ -284,7 +284,7 @@ fn edges_with_too_many_lines_are_routed_in_parts() {
             assert_eq!(corners[corners.len() - 1].1, connector.tip);
             assert_eq!(met(corners, &boxes), None, "{seed}: {corners:?}");
         }
-        // Boxes alone have more lines than that.
+        // The boxes have more lines than that.
         let found = route_within(100, &boxes, &connectors, &[]);
         for (corners, connector) in found.corners.iter().zip(&connectors) {
             assert_eq!(

@@ -1,12 +1,12 @@
-//! The greatest value over a range, with ranges raised to a value: a segment tree.
+//! A segment tree: the maximum over a range, and raising a range to a value.
 
-/// Values by position, all of them negative infinity at first.
+/// Values by position, negative infinity at first.
 #[derive(Clone, Debug)]
 pub(super) struct Maxima {
     leaves: usize,
-    /// The greatest value anywhere below a node.
+    /// The maximum below a node.
     greatest: Vec<f64>,
-    /// The least that everything below a node has been raised to.
+    /// The minimum value of everything below a node.
     raised: Vec<f64>,
 }
 
@@ -17,11 +17,11 @@ impl Maxima {
         Maxima { leaves, greatest: none.clone(), raised: none }
     }
 
-    /// The greatest value from `first` to `last`.
+    /// The maximum from `first` to `last`.
     pub(super) fn greatest(&self, first: usize, last: usize) -> f64 {
         let (mut left, mut right) = (self.leaves + first, self.leaves + last);
         let mut found = self.greatest[left].max(self.greatest[right]);
-        // From both ends up: what is above an end holds for it, what lies beside it is in between.
+        // From both ends up: ancestors of an end apply to it, and siblings are in between.
         while left > 1 {
             let between = left / 2 != right / 2;
             if between && left.is_multiple_of(2) {
@@ -36,7 +36,7 @@ impl Maxima {
         found
     }
 
-    /// Raises what is lower from `first` to `last`.
+    /// Raises lower values from `first` to `last`.
     pub(super) fn raise(&mut self, first: usize, last: usize, to: f64) {
         let (mut left, mut right) = (self.leaves + first, self.leaves + last);
         self.lift(left, to);
@@ -67,7 +67,7 @@ mod tests {
     use super::Maxima;
 
     #[test]
-    fn ranges_are_raised_and_looked_at() {
+    fn ranges_are_raised_and_queried() {
         let mut maxima = Maxima::new(5);
         maxima.raise(1, 3, 2.0);
         maxima.raise(3, 4, 5.0);

@@ -1,12 +1,12 @@
-//! What edges look like together: where several become one, and where one would look dashed.
+//! The appearance of edges together: merged edges, and edges that would look dashed.
 
 use super::{DrawnEdge, Point};
 use crate::polyline::{self, Common};
 
-/// Gaps nearer to each other than that, in pixels, look like those of a dashed line.
+/// Gaps within this distance, in pixels, look like a dashed line.
 const CLOSE: f64 = 40.0;
 
-/// How long each edge is one with another one in front of their target.
+/// The length that each edge shares with another one before their target.
 pub(super) fn joined(edges: &[DrawnEdge]) -> Vec<f64> {
     let mut joined = vec![0.0; edges.len()];
     let routes = edges.iter().map(|edge| &edge.points[..]).enumerate().collect();
@@ -18,11 +18,12 @@ pub(super) fn joined(edges: &[DrawnEdge]) -> Vec<f64> {
     joined
 }
 
-/// How often each edge is crossed twice in a short distance. One that lies above those that cross it has no gaps.
+/// How often each edge is crossed twice in a short distance. An edge above its crossing edges has
+/// no gaps.
 pub(super) fn dashes(edges: &[DrawnEdge]) -> Vec<usize> {
     let mut dashes = vec![0; edges.len()];
     let (upright, level) = (segments(edges, true), segments(edges, false));
-    // Where each level piece was crossed last: uprights come from left to right.
+    // The last crossing of each horizontal piece: vertical pieces come from left to right.
     let mut last = vec![f64::NEG_INFINITY; level.len()];
     for line in &upright {
         let first = level.partition_point(|other| other.at <= line.from);
@@ -44,13 +45,13 @@ pub(super) fn dashes(edges: &[DrawnEdge]) -> Vec<usize> {
 /// A straight piece of an edge.
 struct Segment {
     edge: usize,
-    /// The coordinate that its points have in common.
+    /// The common coordinate of its points.
     at: f64,
     from: f64,
     to: f64,
 }
 
-/// The upright or the level pieces, by where they are.
+/// The vertical or the horizontal pieces, by position.
 fn segments(edges: &[DrawnEdge], upright: bool) -> Vec<Segment> {
     let mut found = Vec::new();
     for (edge, drawn) in edges.iter().enumerate() {

@@ -1,7 +1,7 @@
-//! Fragments of a plan, painted where they differ from those of the scene before.
+//! Fragments of a plan, painted only if they differ from the previous scene.
 //!
-//! Painting takes longer than everything else that a small change brings about, and such a change leaves nearly all
-//! fragments as they are.
+//! Painting dominates the time of a small change, and such a change leaves nearly all fragments
+//! unchanged.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use afp_dsl::outline::Part;
 use afp_syntax::item::Item;
 use rustc_hash::FxHashMap;
 
-/// What of a plan has been painted before.
+/// The already painted parts of a plan.
 #[derive(Default)]
 pub(super) struct Painted<'s> {
     elements: FxHashMap<&'s Item, &'s ElementScene>,
@@ -21,7 +21,7 @@ pub(super) struct Painted<'s> {
 }
 
 impl<'s> Painted<'s> {
-    /// What is in the scene before; nothing without one.
+    /// The parts of the previous scene; empty without one.
     pub(super) fn of(plan: Option<&'s PlanScene>) -> Painted<'s> {
         let Some(plan) = plan else { return Painted::default() };
         Painted {
@@ -60,7 +60,8 @@ impl<'s> Painted<'s> {
         }
     }
 
-    /// An edge that is one with another one for so long in front of its target; nothing where it leads to no element.
+    /// An edge that shares this length with another one before its target; `None` if it has no
+    /// target element.
     pub(super) fn edge(&self, edge: DrawnEdge, joined: f64) -> Option<EdgeScene> {
         let DrawnEdge { item, part, to, class, severity, points } = edge;
         let to = to?;

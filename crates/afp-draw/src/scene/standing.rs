@@ -1,7 +1,7 @@
-//! Where boxes stand: at their positions, or at the nearest free places.
+//! The places of boxes: their positions, or the nearest free places.
 //!
-//! From the first edit in a drawing on every box has a position. [`Boxes`] writes them, and makes room where a box has
-//! grown: then nothing else moves.
+//! From the first edit in a drawing on, every box has a position. [`Boxes`] writes the positions,
+//! and makes room for boxes that have grown; nothing else moves.
 
 use rustc_hash::FxHashMap;
 
@@ -14,30 +14,31 @@ use crate::view::View;
 use afp_dsl::outline::{Outline, PlanId};
 use afp_syntax::item::Item;
 
-/// Nearer than that beside one another, or one below the other, one box covers another: an edge needs so much room, and more
-/// above its target.
+/// A box covers another one within these distances, horizontally and vertically: an edge needs this
+/// space, and more above its target.
 const COVERED: (f64, f64) = (12.0, ABOVE);
 
-/// Distance between a box that has grown and one that gives way to it.
+/// Distance between a grown box and a box that gives way.
 const BELOW: f64 = 48.0;
 
-/// The boxes of a plan, and where they stand.
+/// The boxes of a plan, and their places.
 pub(super) struct Standing<'a> {
     cards: Vec<Card<'a>>,
-    /// The corner of each box that has its position.
+    /// The corner of each box's position.
     pub(super) corners: Vec<Point>,
-    /// The whole layout, where it chose all places.
+    /// The whole layout, if it is fully automatic.
     pub(super) automatic: Option<Automatic>,
 }
 
-/// A layout that chose all places.
+/// A fully automatic layout.
 pub(super) struct Automatic {
     pub(super) links: Vec<Link>,
     pub(super) laid_out: LaidOut,
 }
 
 impl<'a> Standing<'a> {
-    /// The boxes of a plan; those without a position stand as near as possible to where they are wished.
+    /// Places the boxes of a plan; boxes without a position are as near as possible to their
+    /// wishes.
     pub(super) fn new(view: &View<'a>, wishes: &[(Item, Position)]) -> Standing<'a> {
         let position = |card: &Card| view.position(&card.item);
         let declared = cards(view, &|_, _| None);
@@ -71,7 +72,8 @@ fn point(at: Position) -> Point {
     (at.x.into(), at.y.into())
 }
 
-/// The cards of boxes that stand somewhere, with states on the side to which they lead. An edge back up leaves at the border.
+/// The cards of placed boxes, with states on the sides of their targets. An edge back up leaves at
+/// the border.
 pub(super) fn leading<'a>(view: &View<'a>, corners: &[Point]) -> Vec<Card<'a>> {
     ordered(view, cards(view, &|_, _| None), |cards, links| {
         let middle = |at: usize| corners[at].0 + cards[at].rect.width / 2.0;
@@ -88,10 +90,10 @@ pub(super) fn leading<'a>(view: &View<'a>, corners: &[Point]) -> Vec<Card<'a>> {
     })
 }
 
-/// Further than anything is drawn.
+/// Farther than any drawing.
 const FAR: f64 = 1e9;
 
-/// Cards with states in the order of the wishes of their links.
+/// Cards with states in the order of their links' wishes.
 fn ordered<'a>(
     view: &View<'a>,
     declared: Vec<Card<'a>>,
@@ -111,7 +113,7 @@ fn ordered<'a>(
 #[derive(Clone, Debug)]
 pub struct Boxes(Vec<Standee>);
 
-/// A box and all that it takes.
+/// A box with its bounds.
 #[derive(Clone, Debug)]
 struct Standee {
     plan: PlanId,
@@ -121,7 +123,8 @@ struct Standee {
 }
 
 impl Boxes {
-    /// The boxes as they are drawn with such positions. Those without one stand as near as possible to where they are wished.
+    /// The boxes in a drawing with these positions. Boxes without a position are as near as
+    /// possible to their wishes.
     pub fn new(
         outline: &Outline,
         file: u16,
@@ -151,12 +154,12 @@ impl Boxes {
         Boxes(all.collect())
     }
 
-    /// Gives every box its position.
+    /// Writes the position of every box.
     pub fn write(&self, layout: &mut Layout) {
         self.0.iter().for_each(|one| layout.set(one.item.clone(), one.at));
     }
 
-    /// Moves what a box covers, since it has grown, down below it. A box is known by where it stood before.
+    /// Moves covered boxes down below a grown box. A box is identified by its previous place.
     pub fn make_room(&mut self, before: &Boxes) {
         let stood: FxHashMap<_, _> =
             before.0.iter().map(|one| ((one.at.x, one.at.y), one)).collect();
@@ -170,7 +173,7 @@ impl Boxes {
                 let (across, down) = self.0[one].apart(&self.0[other]);
                 let is_nearer = known[one].zip(known[other]).is_none_or(|(one, other)| {
                     let was = one.apart(other);
-                    // Boxes that somebody has put on one another stay so.
+                    // Boxes that a user has put on one another stay.
                     let by_hand = was.0 < 0.0 && was.1 < 0.0;
                     !by_hand && (across < was.0 - 0.5 || down < was.1 - 0.5)
                 });
@@ -187,7 +190,7 @@ impl Boxes {
 }
 
 impl Standee {
-    /// How far two boxes are apart across and down; less than nothing where they overlap.
+    /// The horizontal and vertical distance of two boxes; negative if they overlap.
     fn apart(&self, other: &Standee) -> (f64, f64) {
         let (one, two) = (&self.outer, &other.outer);
         let across = (two.x - one.right()).max(one.x - two.right());

@@ -23,7 +23,7 @@ fn scene(text: &str, before: Option<&Scene>) -> Scene {
     Scene::new(&whatever(text).outline, &Options::default(), before)
 }
 
-/// The texts of the plans that are shipped.
+/// The texts of the shipped plans.
 fn shipped() -> Vec<String> {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let files = ["plans", "examples"].map(|folder| afp_files(&format!("{root}/{folder}")));
@@ -60,8 +60,9 @@ fn every_part_has_its_identity() {
 }
 
 #[test]
-fn whatever_stands_in_a_file_is_drawn() {
-    // Every prefix would take minutes without optimisation; where it begins differs from plan to plan.
+fn every_prefix_of_a_file_is_drawn() {
+    // Every prefix would take minutes without optimisation; the first one differs from plan to
+    // plan.
     let step = if std::env::var_os("AFP_BY_NIGHT").is_some() { 1 } else { 61 };
     for text in shipped() {
         let ends: Vec<_> = text.char_indices().map(|(end, _)| end).collect();
@@ -81,7 +82,7 @@ fn whatever_stands_in_a_file_is_drawn() {
 }
 
 #[test]
-fn what_is_wrong_is_marked_where_it_is() {
+fn errors_are_marked_at_their_places() {
     let text = "use carbot\nplan P {\n    start go\n    actor go: Forwrd(distance = 3 cm) {\n\
                 Done -> nowhere\n    }\n    actor turn: Turn(angle = ) {\n    }\n}\n";
     let scene = scene(text, None);
@@ -110,7 +111,8 @@ fn a_file_without_a_plan_is_an_empty_drawing() {
     }
 }
 
-/// The text with one more actor behind an element, which leads to it and on to where that led.
+/// The text with an additional actor after an element: the element leads to it, and it leads to the
+/// old target.
 fn with_one_more(text: &str, scene: &Scene, index: usize) -> Option<String> {
     let edge = scene.plans[0].edges.iter().filter(|edge| edge.kind == "state").nth(index)?;
     let (from, to) = (edge.item.name(), edge.to.name());
@@ -126,7 +128,7 @@ fn with_one_more(text: &str, scene: &Scene, index: usize) -> Option<String> {
     Some(changed)
 }
 
-/// The positions of all boxes of a text, as the first edit in its drawing writes them.
+/// The positions of all boxes after the first edit in a drawing.
 fn written(text: &str) -> Layout {
     let (compiled, mut layout) = (whatever(text), Layout::default());
     boxes(&compiled, &layout).write(&mut layout);
@@ -137,7 +139,7 @@ fn boxes(compiled: &Compiled, layout: &Layout) -> Boxes {
     Boxes::new(&compiled.outline, compiled.plan_files.start as u16, layout, &[])
 }
 
-/// A scene with such positions.
+/// A scene with these positions.
 fn placed(text: &str, positions: &Layout, before: Option<&Scene>) -> Scene {
     let compiled = whatever(text);
     let positions = vec![positions.clone(); compiled.sources.len()];
@@ -146,7 +148,7 @@ fn placed(text: &str, positions: &Layout, before: Option<&Scene>) -> Scene {
 }
 
 #[test]
-fn adding_an_actor_leaves_the_others_where_they_are() {
+fn a_new_actor_does_not_move_the_others() {
     let mut tried = 0;
     for text in shipped() {
         let (before, layout) = (scene(&text, None), written(&text));
@@ -161,9 +163,9 @@ fn adding_an_actor_leaves_the_others_where_they_are() {
     assert!(tried >= 8, "{tried}");
 }
 
-/// The first edit moved what it did not touch, and so did undoing it.
+/// The first edit and its undo once moved other boxes.
 #[test]
-fn writing_all_positions_changes_nothing_that_is_drawn() {
+fn writing_all_positions_does_not_change_the_drawing() {
     let plans = shipped().into_iter().chain([LOOP.to_owned(), generated(30, 5)]);
     for text in plans {
         let (automatic, written) = (scene(&text, None), placed(&text, &written(&text), None));
@@ -180,7 +182,7 @@ fn writing_all_positions_changes_nothing_that_is_drawn() {
     }
 }
 
-/// A box that was moved once stayed where it was when its move was undone.
+/// A box that was moved once stayed there after an undo.
 #[test]
 fn a_small_scene_does_not_depend_on_the_one_before() {
     let first = scene(LOOP, None);
@@ -197,7 +199,7 @@ fn a_small_scene_does_not_depend_on_the_one_before() {
     }
 }
 
-/// The boxes of a text after a change of it, each by name with how far down it went.
+/// The boxes that a change of a text lowered, by name with the distance.
 fn lowered(before: &str, layout: &Layout, after: &str) -> Vec<(String, i32)> {
     let (old, new) = (whatever(before), whatever(after));
     let mut now = boxes(&new, layout);
@@ -213,7 +215,7 @@ fn lowered(before: &str, layout: &Layout, after: &str) -> Vec<(String, i32)> {
 }
 
 #[test]
-fn a_box_that_grows_moves_down_what_it_covers_and_nothing_else() {
+fn a_growing_box_moves_down_only_covered_boxes() {
     let watched = "use carbot\nplan P {\n    start a\n    actor a: Forward { ForwardSuccessful -> b }\n    \
                    actor b: Forward { ForwardSuccessful -> c }\n    actor c: Forward { ForwardSuccessful -> \
                    terminate }\n    actor d: Forward {}\n}\n";
@@ -222,18 +224,18 @@ fn a_box_that_grows_moves_down_what_it_covers_and_nothing_else() {
     let layout = Layout::read("P.start 0 0\nP.a 0 100\nP.b 0 230\nP.c 0 800\nP.d 900 130\n").0;
     let down = lowered(watched, &layout, &grown);
     assert!(matches!(&down[..], [(name, by)] if name == "b" && *by > 0), "{down:?}");
-    // Boxes that somebody put on one another stay so.
+    // Boxes that a user has put on one another stay.
     let layout = Layout::read("P.start 0 0\nP.a 0 100\nP.b 0 130\nP.c 0 800\nP.d 900 130\n").0;
     assert_eq!(lowered(watched, &layout, &grown), []);
     assert_eq!(lowered(&grown, &layout, watched), []);
-    // One after the other goes down, as far as it must.
+    // Covered boxes go down one after the other, as far as necessary.
     let layout = Layout::read("P.start 0 0\nP.a 0 100\nP.b 0 230\nP.c 0 340\nP.d 900 130\n").0;
     let down: Vec<_> =
         lowered(watched, &layout, &grown).into_iter().map(|(name, _)| name).collect();
     assert_eq!(down, ["b", "c"]);
 }
 
-/// How many boxes are more than 10 px away from where they were.
+/// The number of boxes that moved by more than 10 px.
 fn moved(before: &Scene, after: &Scene) -> usize {
     let far = |known: &&super::ElementScene| {
         let now = after.plans[0].elements.iter().find(|element| element.item == known.item);
@@ -249,9 +251,9 @@ const LOOP: &str = "use std\n\nplan P {\n    start a\n\n    actor a: Wait(durati
     Elapsed -> a, Error -> terminate }\n    actor back: Wait(duration = 1 s) { Elapsed -> b }\n}\n";
 
 #[test]
-fn a_new_box_stands_at_the_nearest_free_place() {
+fn a_new_box_is_at_the_nearest_free_place() {
     let before = scene(LOOP, None);
-    // Before everything, where the start tag stands, and between two rows.
+    // Before everything, in the place of the start tag, and between two rows.
     for (old, new, to) in [("start a", "start z", "a"), ("Elapsed -> c", "Elapsed -> z", "c")] {
         let text = LOOP.replace(old, new);
         let one = format!("\n    actor z: Wait(duration = 1 s) {{ Elapsed -> {to} }}\n}}\n");
@@ -265,7 +267,7 @@ fn a_new_box_stands_at_the_nearest_free_place() {
 }
 
 #[test]
-fn the_start_stands_above_a_first_element_that_is_placed() {
+fn the_start_is_above_a_placed_first_element() {
     let simple = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
     let starts = |scene: &Scene| {
         let rect = |at: usize| scene.plans[0].elements[at].rect;
@@ -287,7 +289,7 @@ fn the_start_stands_above_a_first_element_that_is_placed() {
 }
 
 #[test]
-fn a_moved_box_takes_its_own_edges_along_and_leaves_the_others() {
+fn a_moved_box_takes_only_its_own_edges_along() {
     let text = generated(30, 5);
     let compiled = compiled(&text);
     let before = Scene::new(&compiled.outline, &Options::default(), None);
@@ -310,7 +312,7 @@ fn a_moved_box_takes_its_own_edges_along_and_leaves_the_others() {
 }
 
 #[test]
-fn placed_elements_hold_their_places_through_edits() {
+fn placed_elements_keep_their_places_through_edits() {
     let text = WALL_FOLLOWING;
     let mut positions = Layout::default();
     let item = Item::inner("WallFollowing", "followWall");
@@ -323,7 +325,7 @@ fn placed_elements_hold_their_places_through_edits() {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 33) as usize % below
         };
-        // One character less or more, and now and then the whole text again.
+        // One character less or more, and sometimes the whole text again.
         if round % 12 == 0 {
             changed = text.to_owned();
         }
@@ -345,7 +347,7 @@ fn placed_elements_hold_their_places_through_edits() {
     }
 }
 
-/// What a scene shows, painted anew.
+/// The contents of a scene, painted without a previous scene.
 fn painted_anew(scene: &Scene) -> Vec<String> {
     let plans = || scene.plans.iter();
     let elements = plans().flat_map(|plan| &plan.elements);
@@ -366,7 +368,7 @@ fn fragments(scene: &Scene) -> Vec<&str> {
 }
 
 #[test]
-fn what_is_taken_over_is_what_would_be_painted() {
+fn reused_fragments_equal_painted_fragments() {
     let mut before: Option<Scene> = None;
     for end in
         (0..WALL_FOLLOWING.len()).step_by(97).filter(|end| WALL_FOLLOWING.is_char_boundary(*end))
@@ -380,7 +382,7 @@ fn what_is_taken_over_is_what_would_be_painted() {
 }
 
 #[test]
-fn only_what_has_changed_is_painted() {
+fn only_changed_fragments_are_painted() {
     let text = generated(30, 5);
     let before = scene(&text, None);
     let after = scene(&text.replacen("30 cm", "31 cm", 1), Some(&before));
@@ -391,7 +393,7 @@ fn only_what_has_changed_is_painted() {
 }
 
 #[test]
-fn an_icon_that_has_changed_is_painted() {
+fn a_changed_icon_is_painted() {
     let compiled = whatever(WALL_FOLLOWING);
     let with = |radius: u32, before| {
         let icon = format!("<svg viewBox=\"0 0 24 24\"><circle r=\"{radius}\"/></svg>");

@@ -1,4 +1,4 @@
-//! Writes the states of a plan, its sub-plans' states inside them.
+//! Writes the states of a plan, with its sub-plans' states inside them.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::names::{End, Scope, target};
 use super::view::{Exit, ExitKind, Input, View};
 use afp_dsl::graph::{Component, Element, Supervisor, Target};
 
-/// What a reader of the chart has to know.
+/// The explanation for readers of the chart.
 const HEAD: &str = "\
   The flow of action of an Action Flow Plan. Left out, because state charts have no words for it:
   - the order in which supervisors are asked: a chart is fed one event at a time, so whoever feeds it
@@ -24,7 +24,7 @@ const HEAD: &str = "\
   the supervisor's target is active already. A computation that resumes leads to the history of what
   was active.";
 
-/// A document in the making.
+/// A document during writing.
 #[derive(Default)]
 pub(super) struct Chart {
     out: String,
@@ -52,8 +52,8 @@ impl Chart {
         self.close("scxml");
     }
 
-    /// The global supervisors and the elements of a plan; `nested` where its ends are states inside
-    /// of its own state.
+    /// The global supervisors and the elements of a plan; `nested` if its ends are states inside
+    /// its own state.
     fn body(&mut self, view: &View, scope: &Scope, nested: bool) {
         for supervisor in view.supervisors(None) {
             self.comment(&supervisor_call(view, supervisor));
@@ -120,7 +120,7 @@ impl Chart {
         }
     }
 
-    /// The three ways in which a sub-plan's body ends.
+    /// The three endings of a sub-plan's body.
     fn done(&mut self, view: &View, scope: &Scope, element: &Element, inside: &Scope) {
         let states = view.states(element);
         let named = |name: &str| {
@@ -133,7 +133,7 @@ impl Chart {
             (End::Error, Some(after_fault(view, scope, element))),
         ];
         for (end, to) in ways {
-            // What is not connected cannot happen.
+            // An unconnected exit cannot happen.
             let Some(to) = to else { continue };
             let (id, end) = (&inside.id, inside.end(end));
             self.line(&format!(
@@ -151,8 +151,9 @@ impl Chart {
         self.transition(&events.join(" "), Some(&after_fault(view, scope, element)));
     }
 
-    /// The events of an element's supervisors, those of global ones to which it reacts by itself, and
-    /// those that lead to it and are not taken while it is active. They come before those of its plan.
+    /// The events of an element's supervisors, the element's reactions to global supervisors, and
+    /// the events that lead to the element and are ignored while it is active. They come before the
+    /// events of its plan.
     fn supervisors(&mut self, view: &View, scope: &Scope, element: &Element) {
         for supervisor in view.supervisors(Some(element)) {
             self.comment(&supervisor_call(view, supervisor));
@@ -187,7 +188,7 @@ impl Chart {
         self.inner_transition(event, target, false);
     }
 
-    /// A transition that, where it stays `within` its state, does not leave that state.
+    /// A transition that does not leave its state if its target is `within` it.
     fn inner_transition(&mut self, event: &str, target: Option<&str>, within: bool) {
         let target = target.map(|id| {
             let kind = if within { " type=\"internal\"" } else { "" };
@@ -227,7 +228,7 @@ fn event(path: &str, exit: &Exit) -> String {
     format!("{path}.{}", exit.name)
 }
 
-/// The state that an exit leads to.
+/// The target state of an exit.
 fn taken(view: &View, scope: &Scope, exit: &Exit) -> Option<String> {
     let end = match exit.kind {
         ExitKind::State | ExitKind::Error => End::Ok,

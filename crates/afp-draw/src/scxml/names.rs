@@ -1,19 +1,19 @@
 //! Ids of states and names of events.
 //!
-//! A chart matches events by their leading words between dots, so every event is one path and one
-//! outcome with a single dot between them, and no two of them can be taken for each other.
+//! A chart matches events by their leading words between dots. Therefore every event is one path
+//! and one outcome with a single dot between them, and all events are distinct.
 
 use afp_dsl::graph::Target;
 
-/// A plan where it is used: the outermost one, or the body of a sub-plan.
+/// A plan at its place of use: the outermost plan, or the body of a sub-plan.
 pub(super) struct Scope {
     /// The id of its state.
     pub(super) id: String,
-    /// What the events of its components begin with.
+    /// The prefix of its components' events.
     prefix: String,
 }
 
-/// How a plan ends, as its final states are named.
+/// The ending of a plan, as in its final states.
 #[derive(Clone, Copy)]
 pub(super) enum End {
     Ok,
@@ -40,7 +40,7 @@ impl Scope {
         format!("{}.{element}", self.id)
     }
 
-    /// The id of a final state; names hold no dash, so no element has it.
+    /// The id of a final state; element names have no dash.
     pub(super) fn end(&self, end: End) -> String {
         let name = match end {
             End::Ok => "OK",
@@ -50,28 +50,28 @@ impl Scope {
         format!("{}-{name}", self.id)
     }
 
-    /// The id of the state around actors and sub-plans, where computations come back to them.
+    /// The id of the state around actors and sub-plans, to which computations return.
     pub(super) fn acting(&self) -> String {
         format!("{}-acting", self.id)
     }
 
-    /// The id of what remembers which of them was active.
+    /// The id of the history state for the active one of them.
     pub(super) fn history(&self) -> String {
         format!("{}-acting-history", self.id)
     }
 
-    /// What the events of an element or of a global supervisor begin with.
+    /// The prefix of an element's or a global supervisor's events.
     pub(super) fn path(&self, name: &str) -> String {
         format!("{}{name}", self.prefix)
     }
 
-    /// What the events of a local supervisor begin with.
+    /// The prefix of a local supervisor's events.
     pub(super) fn local(&self, element: &str, supervisor: &str) -> String {
         format!("{}-{supervisor}", self.path(element))
     }
 }
 
-/// Where an edge leads when the event is taken; `None` where it is ignored.
+/// The target of an edge for a taken event; `None` if it is ignored.
 pub(super) fn target<'a>(
     scope: &Scope,
     target: Target,
@@ -82,7 +82,7 @@ pub(super) fn target<'a>(
         Target::Element(id) => Some(scope.state(element(id))),
         Target::Terminate => Some(scope.end(end)),
         Target::Fail(_) => Some(scope.end(End::Error)),
-        // What an event resumes has not been left; a computation goes back to it.
+        // An event that resumes does not leave the state; a computation returns to it.
         Target::Resume => matches!(end, End::Ok).then(|| scope.history()),
         Target::Ignore => None,
     }

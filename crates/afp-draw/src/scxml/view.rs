@@ -1,4 +1,4 @@
-//! The graph as a chart sees it: inputs with their texts, exits with their names.
+//! The graph for a chart: inputs with their texts, exits with their names.
 
 use super::super::formula;
 use afp_dsl::graph::{
@@ -17,7 +17,7 @@ pub(super) struct View<'a> {
     pub(super) data: bool,
 }
 
-/// An input port and what feeds it.
+/// An input port and its source.
 pub(super) struct Input<'a> {
     pub(super) port: &'a str,
     pub(super) text: String,
@@ -25,7 +25,7 @@ pub(super) struct Input<'a> {
     pub(super) bound: bool,
 }
 
-/// A way out of an element or a supervisor.
+/// An exit of an element or a supervisor.
 #[derive(Clone, Copy)]
 pub(super) struct Exit<'a> {
     pub(super) name: &'a str,
@@ -33,7 +33,7 @@ pub(super) struct Exit<'a> {
     pub(super) kind: ExitKind,
 }
 
-/// What makes control leave.
+/// The reason for leaving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ExitKind {
     State,
@@ -90,19 +90,19 @@ impl<'a> View<'a> {
         ports.zip(self.shown(formulas)).map(with).collect()
     }
 
-    /// All or nothing, as the options say.
+    /// The data, or nothing if the options leave it out.
     fn shown<'d, T>(&self, data: &'d [T]) -> &'d [T] {
         if self.data { data } else { &[] }
     }
 
-    /// A formula that stands where the port is declared is the port's default.
+    /// A formula at the port's declaration is the port's default.
     fn input(&self, port: &'a str, declared: Span, formula: &Formula) -> Input<'a> {
         let bound = formula.span != declared;
         let sources = self.sources.filter(|_| bound);
         Input { port, text: formula::text(formula, self.plan, sources), bound }
     }
 
-    /// The connected output ports, each with the entry it writes.
+    /// The connected output ports, each with its entry.
     pub(super) fn outputs(&self, element: &Element) -> Vec<(&'a str, &'a str)> {
         match element.component {
             Component::Actor(id) | Component::Computation(id) => {
@@ -153,7 +153,7 @@ impl<'a> View<'a> {
         states.chain(error).collect()
     }
 
-    /// The events, `DeadlineMissed` last where it is connected.
+    /// The events, with a connected `DeadlineMissed` last.
     pub(super) fn events(&self, supervisor: &Supervisor) -> Vec<Exit<'a>> {
         let names = outcome_names(self.graph.template(supervisor.template)).into_iter();
         let event =
@@ -166,7 +166,7 @@ impl<'a> View<'a> {
         names.zip(&supervisor.events).map(event).chain(missed).collect()
     }
 
-    /// The events of each global supervisor while an element is active, each with whether the element
+    /// The events of each global supervisor during an element, each with whether the element
     /// replaces it.
     pub(super) fn global_events(
         &self,

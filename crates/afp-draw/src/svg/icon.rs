@@ -1,18 +1,18 @@
-//! Icons inside the drawing.
+//! Icons in drawings.
 //!
-//! A toolbox's icon is a file that somebody wrote. It is read, and what is on the lists below is
-//! written anew: plain shapes with plain attributes. An icon with anything else is not used, so
-//! that a drawing never runs scripts or loads anything.
+//! A toolbox's icon is an untrusted file. It is parsed, and the elements and attributes on the
+//! lists below are written again: plain shapes with plain attributes. An icon with anything else is
+//! rejected, so that a drawing never runs scripts or loads files.
 
 use super::super::sketch::Glyph;
 use afp_dsl::outline::ComponentKind;
 use roxmltree::{Attribute, Document, Node};
 
-/// Elements that an icon may consist of.
+/// The allowed elements of an icon.
 const ELEMENTS: &[&str] =
     &["g", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon"];
 
-/// Attributes whose values are numbers, letters of paths and separators.
+/// Attributes with numbers, path letters and separators as values.
 const GEOMETRY: &[&str] = &[
     "d",
     "points",
@@ -38,24 +38,24 @@ const GEOMETRY: &[&str] = &[
     "stroke-opacity",
 ];
 
-/// Attributes whose values are a word or a colour.
+/// Attributes with a word or a colour as their value.
 const WORDS: &[&str] =
     &["fill", "stroke", "fill-rule", "clip-rule", "stroke-linecap", "stroke-linejoin", "color"];
 
-/// The attribute that may have brackets.
+/// The attribute that may have parentheses.
 const TRANSFORM: &str = "transform";
 
-/// Attributes of the icon's root that are left out, since they mean nothing in a symbol.
+/// Attributes of the icon's root that are left out, because they have no meaning in a symbol.
 const FRAME: &[&str] = &["width", "height", "x", "y", "id", "class", "version", "role"];
 
-/// More than this is no icon.
+/// The maximum size of an icon, in bytes.
 const LONGEST: usize = 64 * 1024;
 const DEEPEST: usize = 16;
 
-/// The icon as a `symbol` element with an id; `None` when it holds more than plain shapes.
+/// The icon as a `symbol` element with an id; `None` if it has more than plain shapes.
 pub(super) fn symbol(svg: &str, id: &str) -> Option<String> {
     let svg = svg.trim();
-    // Nothing comes before the root, as nothing but shapes is in it.
+    // The root comes first, because only shapes are in it.
     if svg.len() > LONGEST || svg.starts_with("<?") {
         return None;
     }
@@ -73,7 +73,7 @@ pub(super) fn symbol(svg: &str, id: &str) -> Option<String> {
     Some(format!("{open}<g{own}>{content}</g></symbol>"))
 }
 
-/// What is in an element, written anew.
+/// The content of an element, written again.
 fn content(of: Node, depth: usize) -> Option<String> {
     let is_blank =
         |node: &Node| node.is_text() && node.text().is_some_and(|it| it.trim().is_empty());
@@ -93,7 +93,7 @@ fn content(of: Node, depth: usize) -> Option<String> {
     of.children().filter(|node| !is_blank(node)).map(shape).collect()
 }
 
-/// A listed attribute with a plain value, written anew.
+/// A listed attribute with a plain value, written again.
 fn attribute(attribute: Attribute) -> Option<String> {
     let (name, value) = (attribute.name(), attribute.value());
     let plain =
@@ -115,7 +115,7 @@ fn is_view_box(text: &str) -> bool {
         && matches!(numbers.as_deref(), Some([_, _, width, height]) if *width > 0.0 && *height > 0.0)
 }
 
-/// The icon, as a whole `svg`, of what is made from a template that has none.
+/// The default icon of a kind, as a whole `svg`.
 pub fn default_icon(kind: ComponentKind) -> &'static str {
     glyph(Glyph::of(kind))
 }
@@ -148,7 +148,7 @@ pub(super) fn glyph(glyph: Glyph) -> &'static str {
             "<svg viewBox=\"0 0 24 24\" fill=\"currentColor\" stroke=\"currentColor\" ",
             "stroke-width=\"2\" stroke-linejoin=\"round\"><path d=\"M6 4l14 8-14 8z\"/></svg>"
         ),
-        // An octagon, a triangle and a disc: the form says what the colour says.
+        // An octagon, a triangle and a disc: the shape has the meaning of the colour.
         Glyph::Error => concat!(
             "<svg viewBox=\"0 0 24 24\" fill=\"currentColor\">",
             "<path fill-rule=\"evenodd\" d=\"M7 1h10l6 6v10l-6 6H7l-6-6V7zM10.500 ",
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_are_written_anew() {
+    fn shapes_are_written_again() {
         let svg = "<svg xmlns=\"x\" viewBox=\"0 0 24 24\" fill='none'>\n  <path\td = \"M0 0h9\" />\
                    <g transform=\"rotate(5)\"><circle r=\"2\"/></g></svg>\n";
         let expected = "<symbol id=\"i\" viewBox=\"0 0 24 24\"><g fill=\"none\"><path d=\"M0 0h9\"/>\
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn built_in_icons_and_glyphs_can_be_used() {
+    fn built_in_icons_and_glyphs_are_valid() {
         for (name, svg) in afp_toolboxes::ICONS {
             assert!(symbol(svg, "i").is_some(), "{name}");
         }
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn icons_with_anything_else_are_refused() {
+    fn icons_with_other_elements_are_refused() {
         for content in [
             "<script>x</script>",
             "<SCRIPT/>",

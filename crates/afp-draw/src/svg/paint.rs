@@ -14,14 +14,14 @@ use afp_syntax::item::Item;
 /// Radius of the corners of thick arrows.
 const BEND: f64 = 7.0;
 
-/// By how much of its radius a rounded corner is shorter than a sharp one.
+/// The relative shortening of a rounded corner, per radius.
 const CUT: f64 = 0.376_775;
 
 /// Length and half width of arrow tips, thick and thin.
 const THICK_TIP: (f64, f64) = (10.0, 5.5);
 const THIN_TIP: (f64, f64) = (7.0, 3.2);
 
-/// What a group shows: a sketch with the ids of its icons. Where it is the same as before, so is the group.
+/// The content of a group: a sketch with the ids of its icons. Groups with equal content are equal.
 #[derive(Clone, Debug, PartialEq)]
 pub(in super::super) struct Content {
     frames: Vec<Frame>,
@@ -43,16 +43,16 @@ struct IconUse {
 /// An icon.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
-    /// What a fragment calls it.
+    /// Its id in fragments.
     pub id: String,
     /// A `symbol` element.
     pub svg: String,
 }
 
-/// Paints parts and remembers which icons they use.
+/// Paints parts and records their icons.
 pub(in super::super) struct Painter<'a> {
     icons: Option<Icons<'a>>,
-    /// The id of each icon asked for; none for those that cannot be used.
+    /// The id of each requested icon; `None` for an unusable one.
     known: BTreeMap<(String, String), Option<String>>,
     symbols: Vec<Symbol>,
 }
@@ -62,12 +62,12 @@ impl<'a> Painter<'a> {
         Painter { icons, known: BTreeMap::new(), symbols: Vec::new() }
     }
 
-    /// The icons that have been used.
+    /// The used icons.
     pub(in super::super) fn symbols(self) -> Vec<Symbol> {
         self.symbols
     }
 
-    /// What a group of a sketch shows; its icons are remembered.
+    /// The content of a group; records its icons.
     pub(in super::super) fn content(&mut self, sketch: Sketch) -> Content {
         let Sketch { frames, labels, pictures, arrows, .. } = sketch;
         let icons = pictures.iter().filter_map(|picture| self.icon_use(picture)).collect();
@@ -87,7 +87,7 @@ impl<'a> Painter<'a> {
         Some(IconUse { id, x, y, size, class })
     }
 
-    /// The id of an icon, which is read when it is asked for first.
+    /// The id of an icon, which is read on first use.
     fn id(
         &mut self,
         key: (String, String),
@@ -108,7 +108,7 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// An element with all that is attached to it, as a group at its place.
+/// An element with all its parts, as a group at its place.
 pub(in super::super) fn element(item: &Item, content: &Content, at: Point) -> String {
     group(&format!("element\" data-item=\"{}", escaped(&item.to_string())), content, at)
 }
@@ -136,7 +136,7 @@ pub(in super::super) fn edge(item: &Item, part: &Part, arrow: &Arrow) -> String 
     out + "</g>\n"
 }
 
-/// An id that is the same for the same icon only, so that several pictures can stand in one page.
+/// An id that is only the same for the same icon, so that several pictures can share a page.
 fn symbol_id((toolbox, name): &(String, String), svg: &str) -> String {
     // FNV-1a.
     let add = |hash: u32, byte: u8| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
@@ -155,13 +155,14 @@ pub(super) fn number(value: f64) -> impl Display {
     Tenths::of(value)
 }
 
-/// Whether two places are written alike.
+/// Whether two places have the same text.
 pub(in super::super) fn alike(one: Point, other: Point) -> bool {
     let written = |(x, y): Point| (Tenths::of(x), Tenths::of(y));
     written(one) == written(other)
 }
 
-/// A number of tenths. A drawing has thousands of them, and whole numbers are written several times as fast as others.
+/// A number in tenths. A drawing has thousands of them, and this writes whole numbers several times
+/// as fast.
 #[derive(PartialEq)]
 struct Tenths(f64);
 
@@ -287,7 +288,7 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
     let neck = (end.0 - dx * length, end.1 - dy * length);
     let mut points = arrow.points.clone();
     if let Some(last) = points.last_mut() {
-        // The line ends inside the tip, so that no seam shows.
+        // The line ends inside the tip, so that no seam is visible.
         *last = (neck.0 + dx, neck.1 + dy);
     }
     let path = bent_path(&points);
@@ -301,7 +302,7 @@ fn paint_arrow(out: &mut String, arrow: &Arrow) {
         line(out, &format!("<path class=\"halo\" d=\"{crosses}\"/>"));
     }
     let kind = if arrow.is_flow() { "flow" } else { "thin" };
-    // Dashes are counted from the tip, so that those of edges that become one lie on each other.
+    // Dashes are counted from the tip, so that the dashes of merged edges coincide.
     let dashes = match arrow.joined {
         0.0 => String::new(),
         _ => format!(" stroke-dashoffset=\"{}\"", number(-length_of(&points))),
@@ -334,19 +335,19 @@ fn bent_path(points: &[(f64, f64)]) -> String {
     path
 }
 
-/// How long a polyline with rounded corners is.
+/// The length of a polyline with rounded corners.
 fn length_of(points: &[(f64, f64)]) -> f64 {
     let straight: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
     let cut = points.windows(3).map(|corner| radius(corner[0], corner[1], corner[2]) * CUT);
     straight - cut.sum::<f64>()
 }
 
-/// How round the corner of a polyline is.
+/// The radius of a polyline's corner.
 fn radius(before: (f64, f64), at: (f64, f64), after: (f64, f64)) -> f64 {
     BEND.min(distance(before, at) / 2.0).min(distance(at, after) / 2.0)
 }
 
-/// Text for XML content and attributes; control characters that XML forbids are left out.
+/// Escaped text for XML content and attributes; control characters that XML forbids are left out.
 pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {
@@ -381,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_are_rounded_as_far_as_there_is_room() {
+    fn corners_are_rounded_within_the_space() {
         let path = bent_path(&[(0.0, 0.0), (0.0, 20.0), (4.0, 20.0)]);
         assert_eq!(path, "M0 0L0 18Q0 20 2 20L4 20");
     }

@@ -1,12 +1,12 @@
 //! The colours and fonts of drawings, for light and dark pages and for paper.
 //!
-//! The tables below are the only place that names these colours; a page reads them as [`properties`]. A test measures
-//! them: texts differ from what they stand on by 4.5 : 1, lines and signs by 3 : 1, in every theme.
+//! Only the tables below define these colours; a page reads them as [`properties`]. A test measures
+//! the contrast in every theme: 4.5 : 1 for texts, 3 : 1 for lines and signs.
 
 use super::super::Theme;
 
-/// What does not depend on the theme. Everything is scoped to one class, since the picture may
-/// stand inside a page with styles of its own.
+/// The rules for all themes. All rules are scoped to one class, because the picture may be inside a
+/// page with its own styles.
 const COMMON: &str = "\
 .afp-plan{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif}
 .afp-plan .bold{font-weight:600}
@@ -89,8 +89,8 @@ const RULES: &[Rule] = &[
     ("text.resume", "fill:#a04a0d", "fill:#f0a868"),
 ];
 
-/// What a drawing by use adds: blue is used, orange with dashes is not, so that people who see few
-/// colours can tell them apart too; what is not counted is grey.
+/// The additional rules of a drawing by use. Used parts are blue; unused parts are orange and
+/// dashed, so that colour-blind readers can distinguish them. Uncounted parts are grey.
 const USAGE_COMMON: &str = "\
 .afp-plan .box.unused{stroke-dasharray:4 3}
 .afp-plan .box.partly{stroke-width:2.4}
@@ -137,7 +137,7 @@ const USAGE_RULES: &[Rule] = &[
     (".tip.unused", "fill:#d55e00", "fill:#f0924a"),
 ];
 
-/// The style sheet of a theme, for a drawing by kind or by use: for pages that put a scene together
+/// The style sheet of a theme, for a drawing by kind or by use: for pages that build a scene
 /// themselves. Paper is always light.
 pub fn sheet(theme: Theme, usage: bool) -> String {
     let sets = if usage { &[RULES, USAGE_RULES][..] } else { &[RULES] };
@@ -156,7 +156,8 @@ pub fn sheet(theme: Theme, usage: bool) -> String {
     format!("{COMMON}{colours}{more}")
 }
 
-/// The colours of drawings as properties of a page: `--icon-actor-color` is the `color` of `.icon.actor`.
+/// The colours of drawings as properties of a page: `--icon-actor-color` is the `color` of
+/// `.icon.actor`.
 pub fn properties() -> String {
     let all = |declarations: fn(&Rule) -> &'static str| {
         let named = RULES.iter().flat_map(|rule| {

@@ -6,45 +6,45 @@ use std::net::{IpAddr, SocketAddr};
 use afp_token::Token;
 use tungstenite::handshake::server::Request;
 
-/// What a client may do.
+/// The rights of a client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Look, and nothing else.
+    /// It may only watch.
     Watcher,
-    /// Write entries, press buttons, break things, stop the plan.
+    /// It may write entries, press buttons, inject faults, stop the plan.
     Operator,
 }
 
-/// The words that let clients in.
+/// The tokens that admit clients.
 #[derive(Clone, Debug)]
 pub(crate) struct Tokens {
     pub operator: Token,
     pub watcher: Token,
 }
 
-/// Why somebody is sent away, with the code of HTTP.
+/// The reason for a rejection, with the HTTP status.
 pub(crate) type Refusal = (u16, &'static str);
 
 impl Tokens {
-    /// Words that nobody guesses.
+    /// Random tokens.
     ///
     /// # Errors
-    /// The machine has no randomness.
+    /// The machine has no source of randomness.
     pub fn new() -> io::Result<Tokens> {
         Ok(Tokens { operator: Token::new()?, watcher: Token::new()? })
     }
 
     fn role(&self, said: &str) -> Option<Role> {
         let all = [(&self.operator, Role::Operator), (&self.watcher, Role::Watcher)];
-        // Both are looked at, so that the time does not tell which one it is.
+        // All tokens are compared, so that the time does not reveal the matching one.
         let found = all.map(|(token, role)| token.is(said).then_some(role));
         found.into_iter().flatten().next()
     }
 
-    /// What a request may do.
+    /// The role of a request.
     ///
     /// # Errors
-    /// It comes by a foreign name, from a foreign page, or without a token.
+    /// The host name or the page is not allowed, or the token is missing.
     pub fn admit(&self, request: &Request, at: SocketAddr) -> Result<Role, Refusal> {
         let header = |name: &str| request.headers().get(name).map(|value| value.to_str());
         match header("host") {
@@ -63,7 +63,8 @@ impl Tokens {
     }
 }
 
-/// Whether a host is this machine by its number or as itself: names of others may lead anywhere tomorrow.
+/// Whether a host is this machine's address or `localhost`: other names may point elsewhere
+/// tomorrow.
 fn is_own_name(host: &str, at: SocketAddr) -> bool {
     let name = match host.rsplit_once(':') {
         Some((name, port)) if port.parse() == Ok(at.port()) => name,
@@ -72,7 +73,7 @@ fn is_own_name(host: &str, at: SocketAddr) -> bool {
     name == "localhost" || name.trim_matches(['[', ']']).parse::<IpAddr>().is_ok()
 }
 
-/// Whether a page is one of this machine, or of Foxglove.
+/// Whether a page is from this machine or from Foxglove.
 fn is_known_page(origin: &str) -> bool {
     let Some((scheme, rest)) = origin.split_once("://") else { return false };
     let host = match rest.rsplit_once(':') {
@@ -101,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_token_lets_in_whoever_comes_by_a_name_of_the_machine() {
+    fn a_token_admits_a_client_with_a_name_of_the_machine() {
         for host in ["127.0.0.1:8765", "localhost:8765", "[::1]:8765", "192.168.0.7:8765"] {
             assert_eq!(admitted(host, None, "?token=steer"), Ok(Role::Operator));
             assert_eq!(admitted(host, None, "?a=b&token=watch"), Ok(Role::Watcher));
@@ -112,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn foreign_names_and_pages_are_sent_away_whatever_they_know() {
+    fn other_hosts_and_pages_are_rejected_even_with_a_token() {
         for host in
             ["evil.example:8765", "127.0.0.1:80", "127.0.0.1", "localhost.evil.example:8765", ""]
         {

@@ -1,4 +1,4 @@
-//! One client: what it says, and what it is sent.
+//! One client: its requests and its messages.
 
 use std::io::ErrorKind;
 use std::iter::repeat;
@@ -19,14 +19,14 @@ use super::paced::Paced;
 use super::protocol::{self, Call, ClientMessage, Parameter};
 use super::queue::Queue;
 
-/// How long what a client says is waited for, before what it is sent is looked after.
+/// The time to wait for a request before messages are sent.
 const LISTEN: Duration = Duration::from_millis(10);
-/// How long a client may read nothing at all.
+/// The maximum time in which a client reads nothing.
 const STALLED: Duration = Duration::from_secs(3);
-/// How long a client may take for the rest when the run is over.
+/// The time for the remaining messages after the end of the run.
 const GOODBYE: Duration = Duration::from_secs(1);
 
-/// Talks with a client until one of the two has had enough; `admitted` is told once it is let in.
+/// Talks with a client until one side ends; `admitted` is set after the handshake.
 pub(crate) fn serve(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens, admitted: &AtomicBool) {
     let Some(Admitted { socket, role, place: _place }) = handshake(stream, hub, tokens) else {
         return;
@@ -46,11 +46,11 @@ struct Client<'a> {
     hub: &'a Arc<Hub>,
     queue: &'a Arc<Queue>,
     role: Role,
-    /// Since when nothing can be written.
+    /// The time since which writing blocks.
     stalled: Option<Wall>,
 }
 
-/// Whether nothing was there in time.
+/// Whether an operation timed out.
 fn is_late(error: &Error) -> bool {
     matches!(error, Error::Io(io) if matches!(io.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut))
 }
@@ -78,7 +78,7 @@ impl Client<'_> {
         }
     }
 
-    /// Sends what waits, as far as the client reads in one turn; whether more of it waits.
+    /// Sends queued messages for one turn; returns whether more are queued.
     fn write(&mut self) -> Result<bool, Error> {
         self.socket.get_mut().begin_turn();
         loop {
@@ -92,14 +92,14 @@ impl Client<'_> {
             }
             let Some(message) = self.queue.next() else { return Ok(false) };
             match self.socket.write(message) {
-                // What could not be written yet is kept for the next turn.
+                // The unwritten rest is kept for the next turn.
                 Err(why) if !is_late(&why) => return Err(why),
                 _ => {}
             }
         }
     }
 
-    /// Notes since when the client reads nothing.
+    /// Records since when the client has read nothing.
     fn note_stall(&mut self) {
         match self.socket.get_ref().has_written() {
             true => self.stalled = None,
@@ -149,7 +149,7 @@ impl Client<'_> {
         }
     }
 
-    /// Writes entries; the client is told what cannot be written and, where it wants an answer, their values then.
+    /// Writes entries. The client gets the errors and, on request, the new values.
     fn set(&mut self, parameters: Vec<Parameter>, id: Option<String>) {
         let (queue, hub) = (Arc::clone(self.queue), Arc::clone(self.hub));
         let entries: Vec<_> = parameters.into_iter().map(Parameter::into_text).collect();
@@ -182,10 +182,10 @@ impl Client<'_> {
         }
     }
 
-    /// What a call asks of the run.
+    /// The question of a call.
     fn asked(&self, call: &Call<'_>) -> Result<Stimulus, String> {
         let service = self.hub.service(call.service).ok_or("there is no such service")?;
-        // Anybody may stop a robot.
+        // Every client may stop a robot.
         if self.role == Role::Watcher && *service != Service::Stop {
             return Err("this address is for watching: open the other one to press".to_owned());
         }

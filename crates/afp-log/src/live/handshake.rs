@@ -1,4 +1,4 @@
-//! The handshake with a client: it is admitted, has a place, and speaks the protocol.
+//! The handshake with a client: admission, a place, and the protocol.
 
 use std::net::TcpStream;
 use std::sync::Arc;
@@ -16,22 +16,22 @@ use super::protocol::NAMES;
 
 /// The longest message of a client, in bytes.
 const LONGEST: usize = 1 << 20;
-/// How long a write may rest before what the client says is looked after.
+/// The maximum time of a write before requests are read again.
 const WRITE: Duration = Duration::from_millis(100);
 
-/// A client that is let in.
+/// An admitted client.
 pub(crate) struct Admitted {
     pub socket: WebSocket<Paced>,
     pub role: Role,
-    /// Taken as long as the client is there.
+    /// Held while the client is connected.
     pub place: Place,
 }
 
-/// Lets a client in; none that is sent away or gives up. How long it may take is up to whoever holds the other end of the
-/// stream.
+/// Admits a client; `None` for a rejected or aborted connection. The owner of the other end of the
+/// stream limits the time.
 #[allow(clippy::result_large_err)] // The type is that of the library.
 pub(crate) fn handshake(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens) -> Option<Admitted> {
-    // What was accepted by a listener that does not wait may not wait either.
+    // A stream from a non-blocking listener may be non-blocking, too.
     stream.set_nonblocking(false).ok()?;
     stream.set_nodelay(true).ok()?;
     stream.set_write_timeout(Some(WRITE)).ok()?;
@@ -59,7 +59,7 @@ pub(crate) fn handshake(stream: TcpStream, hub: &Arc<Hub>, tokens: &Tokens) -> O
 
 const FULL: Refusal = (503, "too many clients watch already\n");
 
-/// The name of the protocol that both speak.
+/// The protocol's name that both sides support.
 fn name(request: &Request) -> Result<&'static str, Refusal> {
     let offered = request.headers().get_all("sec-websocket-protocol");
     let offered = offered.iter().filter_map(|value| value.to_str().ok());

@@ -1,4 +1,5 @@
-//! What all clients share: channels with their last messages, values of parameters, services.
+//! The shared state of all clients: channels with their last messages, values of parameters,
+//! services.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -18,18 +19,19 @@ use serde_json::{Value, json};
 use super::protocol;
 use super::queue::{Queue, Sent};
 
-/// The channel that tells of all entries.
+/// The channel with all entries.
 const CONFIGURATION: &str = "/plan/configuration";
 
-/// What a client asks of the run, and who is told what became of it.
+/// A client's question to the run, with a callback for the answer.
 pub(crate) enum Question {
-    /// Something happens to the robot or the plan.
+    /// A stimulus for the robot or the plan.
     Do { what: Stimulus, answer: Box<dyn FnOnce(Result<(), String>) + Send> },
-    /// Entries are written, as people write them: names and texts. Of each the answer gets its new value, or why it has none.
+    /// Writes entries from names and texts. For each entry the answer gets its new value or an
+    /// error.
     Write { entries: Vec<(String, String)>, answer: Box<dyn FnOnce(Vec<Written>) + Send> },
 }
 
-/// The value of an entry that was written, or why it was not.
+/// The new value of an entry, or an error.
 pub(crate) type Written = Result<Datum, String>;
 
 /// A service of the robot.
@@ -40,10 +42,10 @@ pub(crate) enum Service {
     Stop,
 }
 
-/// So many clients at most.
+/// The maximum number of clients.
 const CLIENTS: usize = 8;
 
-/// The place of a client, which is free again when this is dropped.
+/// A client's place, free again after drop.
 pub(crate) struct Place(Arc<Hub>);
 
 impl Drop for Place {
@@ -57,9 +59,9 @@ pub(crate) struct Hub {
     services: Vec<Service>,
     shared: Mutex<Shared>,
     inbox: Sender<Question>,
-    /// Questions that the run has not answered.
+    /// The number of open questions.
     open: AtomicUsize,
-    /// How many clients have a place.
+    /// The number of taken places.
     taken: AtomicUsize,
     over: AtomicBool,
 }
@@ -105,14 +107,14 @@ impl Hub {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A place for a client; none where all are taken.
+    /// A place for a client; `None` if all are taken.
     pub fn take_place(hub: &Arc<Hub>) -> Option<Place> {
         let more = |taken| (taken < CLIENTS).then_some(taken + 1);
         hub.taken.fetch_update(Ordering::AcqRel, Ordering::Acquire, more).ok()?;
         Some(Place(Arc::clone(hub)))
     }
 
-    /// Lets a client in: it is told what there is.
+    /// Adds a client and sends it the channels, parameters and services.
     pub fn join(&self, queue: &Arc<Queue>) {
         let mut shared = self.shared();
         let info = json!({
@@ -128,17 +130,17 @@ impl Hub {
         shared.clients.push(Arc::clone(queue));
     }
 
-    /// A client has gone.
+    /// Removes a client.
     pub fn leave(&self, queue: &Arc<Queue>) {
         self.shared().clients.retain(|known| !Arc::ptr_eq(known, queue));
     }
 
-    /// How many clients there are.
+    /// The number of clients.
     pub fn clients(&self) -> usize {
         self.shared().clients.len()
     }
 
-    /// A client wants a channel: it gets its last message, and all that come.
+    /// Subscribes a client to a channel: it gets the last message, and all later ones.
     pub fn subscribe(&self, queue: &Queue, channel: u32, subscription: u32) -> Result<(), String> {
         let shared = self.shared();
         let number = usize::try_from(channel).unwrap_or(usize::MAX);
@@ -149,7 +151,7 @@ impl Hub {
         Ok(())
     }
 
-    /// The values of parameters, of all where there is no name, as a message.
+    /// The values of parameters, of all without a name, as a message.
     pub fn values(&self, names: &[String], id: Option<&str>) -> String {
         let shared = self.shared();
         match names {
@@ -158,7 +160,8 @@ impl Hub {
         }
     }
 
-    /// The values of parameters that were just written, or could not be, as a message: the run tells of them later.
+    /// The values of parameters after a write or a failed write, as a message: the run's message
+    /// comes later.
     pub fn values_after(&self, written: Vec<(String, Option<Datum>)>, id: &str) -> String {
         let shared = self.shared();
         let (names, written): (Vec<_>, Vec<_>) = written.into_iter().unzip();
@@ -171,7 +174,7 @@ impl Hub {
         protocol::values(&values, Some(id))
     }
 
-    /// A client wants to be told of parameters when they change, of all where it names none.
+    /// Subscribes a client to changes of parameters, of all without a name.
     pub fn watch(&self, queue: &Queue, names: &[String]) {
         let shared = self.shared();
         match names {
@@ -180,39 +183,39 @@ impl Hub {
         }
     }
 
-    /// The service of a number.
+    /// The service with a number.
     pub fn service(&self, id: u32) -> Option<&Service> {
         self.services.get(usize::try_from(id.checked_sub(1)?).ok()?)
     }
 
-    /// Asks something of the run.
+    /// Sends a question to the run.
     pub fn ask(&self, question: Question) {
         self.open.fetch_add(1, Ordering::Release);
-        // Without a run there is nobody to be told.
+        // Without a run, there is no receiver.
         let _ = self.inbox.send(question);
     }
 
-    /// Whether something was asked that has not been answered.
+    /// Whether a question is open.
     pub fn is_asked(&self) -> bool {
         self.open.load(Ordering::Acquire) > 0
     }
 
-    /// A question has been answered.
+    /// Closes a question.
     pub fn answered(&self) {
         self.open.fetch_sub(1, Ordering::Release);
     }
 
-    /// Nothing comes any more.
+    /// Ends the message stream.
     pub fn end(&self) {
         self.over.store(true, Ordering::Release);
     }
 
-    /// Whether nothing comes any more.
+    /// Whether the message stream has ended.
     pub fn is_over(&self) -> bool {
         self.over.load(Ordering::Acquire)
     }
 
-    /// Takes in what all entries hold; who watches them is told of what is different.
+    /// Replaces the values of all entries and sends the changed ones to subscribers.
     fn configure(shared: &mut Shared, entries: Vec<(String, Datum)>) {
         let mut changed = Vec::new();
         for (path, datum) in entries {
@@ -233,19 +236,19 @@ impl Hub {
 }
 
 impl Shared {
-    /// Those parameters among these names that there are, with their values.
+    /// The existing parameters among these names, with their values.
     fn known(&self, names: &[String]) -> BTreeMap<String, Value> {
         let known = names.iter().filter_map(|name| self.parameters.get_key_value(name));
         known.map(|(name, value)| (name.clone(), value.clone())).collect()
     }
 
-    /// The value of an entry as its parameter has it.
+    /// The value of an entry as its parameter.
     fn shown(&self, entry: &str, datum: &Datum) -> Value {
         shown(datum, self.units.get(entry).map_or("", String::as_str))
     }
 }
 
-/// A value as a parameter has it: quantities as people write them.
+/// A value as a parameter, with a unit for quantities.
 fn shown(datum: &Datum, unit: &str) -> Value {
     match datum {
         Datum::Unset | Datum::Object(_) => Value::Null,
@@ -258,7 +261,7 @@ fn shown(datum: &Datum, unit: &str) -> Value {
 }
 
 impl Service {
-    /// What can be asked of the robot of a session, and that its plan ends.
+    /// The services of a session's robot, and the service that stops the plan.
     pub fn all(session: &dyn AnySession) -> Vec<Service> {
         let devices = session.devices();
         let dotted = |device: &DeviceRow, name: &str| format!("{}.{name}", device.name);
@@ -294,7 +297,7 @@ impl Service {
     }
 }
 
-/// The side on which the messages of a run come in.
+/// The run's end of the message stream.
 pub(crate) struct Stream(pub Arc<Hub>);
 
 impl Messages for Stream {
@@ -344,7 +347,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_there_is_not_is_not_kept_for_anybody() {
+    fn unknown_names_are_not_kept() {
         let (ask, _inbox) = std::sync::mpsc::channel();
         let hub = Hub::new("P", &crate::LogNames::default(), Vec::new(), ask);
         let queue = Queue::default();

@@ -1,10 +1,10 @@
-//! A connection that is written to for a bounded time in one turn, so that what a client says is heard however slowly it reads.
+//! A connection with a time limit for the writes of one turn, so that slow clients are still heard.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant as Wall};
 
-/// How long is written in one turn; one write more may rest until the stream's own limit.
+/// The time limit of one turn; the last write may also take the stream's own limit.
 const TURN: Duration = Duration::from_millis(50);
 
 #[derive(Debug)]
@@ -20,7 +20,7 @@ struct Turn {
 }
 
 impl Paced {
-    /// A connection that is written to without a bound before the first turn.
+    /// A connection without a limit before the first turn.
     pub fn new(stream: TcpStream) -> Paced {
         Paced { stream, turn: None }
     }
@@ -29,7 +29,7 @@ impl Paced {
         self.turn = Some(Turn { begun: Wall::now(), has_written: false });
     }
 
-    /// Whether the client has taken anything in this turn.
+    /// Whether the client has accepted data in this turn.
     pub fn has_written(&self) -> bool {
         self.turn.as_ref().is_some_and(|turn| turn.has_written)
     }
@@ -46,7 +46,7 @@ impl Read for Paced {
 }
 
 impl Write for Paced {
-    /// As that of the stream; `WouldBlock` once the turn is over.
+    /// Like the stream's; `WouldBlock` after the end of the turn.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let Some(turn) = &mut self.turn else { return self.stream.write(bytes) };
         if turn.begun.elapsed() > TURN {

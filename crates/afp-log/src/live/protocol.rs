@@ -1,14 +1,14 @@
-//! The messages of the protocol, as far as this server speaks it.
+//! The supported messages of the protocol.
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// What the protocol is called in a handshake: as clients say today, and as they said before.
+/// The protocol's name in a handshake: today's and the earlier one.
 pub(crate) const NAMES: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 
-/// What a client says in JSON. What this release does not know is none of these.
+/// A client's JSON message. Unknown messages are not part of it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "camelCase", rename_all_fields = "camelCase")]
 pub(crate) enum ClientMessage {
@@ -36,7 +36,7 @@ pub(crate) enum ClientMessage {
     Unknown,
 }
 
-/// A channel that a client wants, and what it calls its messages.
+/// A channel for a client, and the client's number for its messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Subscription {
@@ -53,7 +53,7 @@ pub(crate) struct Parameter {
 }
 
 impl Parameter {
-    /// Its name, and its value as people write it.
+    /// Its name, and its value as text.
     pub fn into_text(self) -> (String, String) {
         match self.value {
             Value::String(text) => (self.name, text),
@@ -72,7 +72,7 @@ pub(crate) struct Call<'a> {
 }
 
 impl Call<'_> {
-    /// The call that bytes are; none for others.
+    /// The call in some bytes; `None` for other bytes.
     pub fn read(bytes: &[u8]) -> Option<Call<'_>> {
         let (&[2], rest) = bytes.split_first_chunk()? else { return None };
         let (service, rest) = number(rest)?;
@@ -89,7 +89,7 @@ fn number(bytes: &[u8]) -> Option<(u32, &[u8])> {
     Some((u32::from_le_bytes(*number), rest))
 }
 
-/// The answer to a call: an empty object, as JSON.
+/// The response to a call: an empty object, as JSON.
 pub(crate) fn called(service: u32, call: u32) -> Vec<u8> {
     let mut bytes = vec![3];
     let encoding = "json";
@@ -101,7 +101,7 @@ pub(crate) fn called(service: u32, call: u32) -> Vec<u8> {
     bytes
 }
 
-/// Why a call came to nothing.
+/// The response to a failed call.
 pub(crate) fn call_failed(service: u32, call: u32, why: &str) -> String {
     let message = json!({
         "op": "serviceCallFailure", "serviceId": service, "callId": call, "message": why,
@@ -109,7 +109,7 @@ pub(crate) fn call_failed(service: u32, call: u32, why: &str) -> String {
     message.to_string()
 }
 
-/// A message of a channel, by the number that the client gave its subscription.
+/// A message of a channel, with the client's number of the subscription.
 pub(crate) fn message(subscription: u32, at: u64, payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(13 + payload.len());
     bytes.push(1);
@@ -119,12 +119,12 @@ pub(crate) fn message(subscription: u32, at: u64, payload: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Something that a person is to see: 0 for the record, 1 a warning, 2 an error.
+/// A message for a person: 0 information, 1 a warning, 2 an error.
 pub(crate) fn status(level: u8, text: &str) -> String {
     json!({"op": "status", "level": level, "message": text}).to_string()
 }
 
-/// Values of parameters, as an answer to the request of that name.
+/// Values of parameters, in response to the request with this name.
 pub(crate) fn values(parameters: &BTreeMap<String, Value>, id: Option<&str>) -> String {
     let shown = parameters.iter().map(|(name, value)| match value {
         Value::Null => json!({"name": name}),
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn calls_are_read_and_cut_off_ones_are_none() {
+    fn calls_are_read_and_truncated_calls_are_not() {
         let mut bytes = vec![2];
         for number in [7_u32, 9, 4] {
             bytes.extend(number.to_le_bytes());
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn requests_of_others_are_unknown_and_no_error() {
+    fn unknown_requests_are_not_errors() {
         let said = |text| serde_json::from_str::<ClientMessage>(text).ok();
         assert_eq!(
             said(r#"{"op":"fetchAsset","uri":"x","requestId":1}"#),

@@ -1,4 +1,4 @@
-//! What waits for a client to read it: bounded, so that nobody waits for the client.
+//! A client's message queue: bounded, so that the run never waits for the client.
 
 use std::collections::btree_map::{BTreeMap, Entry};
 use std::collections::{BTreeSet, VecDeque};
@@ -8,23 +8,23 @@ use tungstenite::Message;
 
 use super::protocol;
 
-/// So many messages of channels, and so many bytes of them, wait at most; then the oldest are dropped, but never the last one
-/// of a channel: what holds until something else is said must not stay wrong.
+/// The maximum number of queued messages of channels, and of their bytes. Beyond it, the oldest are
+/// dropped, but never the last one of a channel: an outdated state must not stay.
 const MESSAGES: usize = 1024;
 const BYTES: usize = 8 << 20;
-/// So many answers, and so many bytes of them beside the first one, wait at most; a client that leaves more unread has lost
-/// its connection.
+/// The maximum number of queued answers, and of their bytes in addition to the first one. A client
+/// with more unread answers loses its connection.
 const ANSWERS: usize = 1024;
 const ANSWER_BYTES: usize = 4 << 20;
 
-/// A message of a channel, shared by all who wait for it.
+/// A message of a channel, shared by all queues.
 #[derive(Clone, Debug)]
 pub(crate) struct Sent {
     pub at: u64,
     pub payload: Arc<[u8]>,
 }
 
-/// The queue of one client, and what the client wants.
+/// The queue of one client, and its subscriptions.
 #[derive(Debug, Default)]
 pub(crate) struct Queue(Mutex<Waiting>);
 
@@ -33,15 +33,15 @@ struct Waiting {
     answers: VecDeque<Message>,
     answer_bytes: usize,
     messages: VecDeque<(u32, Sent)>,
-    /// How many of them are of each channel, by the client's number.
+    /// The number of queued messages per channel, by the client's number.
     of_channel: BTreeMap<u32, usize>,
     bytes: usize,
     dropped: u64,
-    /// Whether too many answers were left unread.
+    /// Whether too many answers are unread.
     overflown: bool,
-    /// The client's number of each channel that it wants.
+    /// The client's number of each subscribed channel.
     wanted: BTreeMap<u32, u32>,
-    /// The parameters that it wants to be told of.
+    /// The subscribed parameters.
     parameters: BTreeSet<String>,
 }
 
@@ -50,7 +50,7 @@ impl Queue {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// An answer, or something else that must not get lost.
+    /// Queues an answer, or another message that must not get lost.
     pub fn answer(&self, message: impl Into<Message>) {
         let (mut waiting, message) = (self.get(), message.into());
         let bytes = waiting.answer_bytes + message.len();
@@ -62,7 +62,7 @@ impl Queue {
         }
     }
 
-    /// A message of a channel, if the client wants it.
+    /// Queues a message of a channel if the client has subscribed to it.
     pub fn message(&self, channel: u32, sent: &Sent) {
         let mut waiting = self.get();
         let Some(subscription) = waiting.wanted.get(&channel).copied() else { return };
@@ -74,7 +74,7 @@ impl Queue {
         }
     }
 
-    /// What is to be sent next; none while there is nothing.
+    /// The next message; `None` if the queue is empty.
     pub fn next(&self) -> Option<Message> {
         let mut waiting = self.get();
         if let Some(answer) = waiting.answers.pop_front() {
@@ -90,12 +90,12 @@ impl Queue {
         Some(protocol::message(subscription, at, &payload).into())
     }
 
-    /// Whether too many answers were left unread.
+    /// Whether too many answers are unread.
     pub fn is_overflown(&self) -> bool {
         self.get().overflown
     }
 
-    /// The client wants a channel, by a number of its own.
+    /// Subscribes to a channel, with the client's number.
     pub fn subscribe(&self, channel: u32, subscription: u32) {
         let mut waiting = self.get();
         if let Some(before) = waiting.wanted.insert(channel, subscription) {
@@ -103,19 +103,19 @@ impl Queue {
         }
     }
 
-    /// The client does not want a channel any more.
+    /// Ends a subscription.
     pub fn unsubscribe(&self, subscription: u32) {
         let mut waiting = self.get();
         waiting.wanted.retain(|_, known| *known != subscription);
         waiting.forget(subscription);
     }
 
-    /// The client wants to be told of these parameters when they change.
+    /// Subscribes to changes of these parameters.
     pub fn watch(&self, names: impl Iterator<Item = String>) {
         self.get().parameters.extend(names);
     }
 
-    /// The client does not want to be told of these any more, of none where it names none.
+    /// Ends the subscription to these parameters; empty means all.
     pub fn unwatch(&self, names: &[String]) {
         let known = &mut self.get().parameters;
         match names {
@@ -124,7 +124,7 @@ impl Queue {
         }
     }
 
-    /// Whether the client wants to be told of a parameter.
+    /// Whether the client has subscribed to a parameter.
     pub fn watches(&self, name: &str) -> bool {
         self.get().parameters.contains(name)
     }
@@ -149,14 +149,15 @@ impl Waiting {
         Some((subscription, sent))
     }
 
-    /// Nobody reads the messages of a channel any more.
+    /// Drops the queued messages of a subscription.
     fn forget(&mut self, subscription: u32) {
         self.messages.retain(|(of, _)| *of != subscription);
         self.bytes = self.messages.iter().map(|(_, sent)| sent.payload.len()).sum();
         self.of_channel.remove(&subscription);
     }
 
-    /// Where the oldest message is that has a later one of its channel; as far to the front as there are channels.
+    /// The position of the oldest message with a later one of its channel. The search is limited to
+    /// the number of channels.
     fn oldest_with_later(&self) -> Option<usize> {
         let has_later = |(of, _): &(u32, Sent)| self.of_channel.get(of).is_some_and(|it| *it > 1);
         self.messages.iter().position(has_later)
@@ -172,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn who_reads_too_slowly_loses_the_oldest_and_is_told() {
+    fn a_slow_client_loses_the_oldest_messages_and_is_notified() {
         for (length, kept) in [(1, MESSAGES), (BYTES / 4, 4)] {
             let queue = Queue::default();
             queue.message(3, &sent(0, length));
@@ -205,7 +206,7 @@ mod tests {
         assert_eq!(all[..2], [(10, 8), (20, 9)]);
         let others = 15..=16;
         assert!(others.contains(&(all.len() - 2)) && all[2..].iter().all(|(of, _)| *of == 30));
-        // Who comes and goes leaves nothing waiting.
+        // A client that comes and goes leaves no queued messages.
         (40..5000).for_each(|subscription| {
             queue.subscribe(1, subscription);
             queue.message(1, &sent(1, BYTES / 4));
@@ -215,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn who_leaves_answers_unread_is_known() {
+    fn a_client_with_unread_answers_is_found() {
         for (length, kept) in [(1, ANSWERS), (ANSWER_BYTES / 4, 4), (ANSWER_BYTES * 2, 1)] {
             let queue = Queue::default();
             let answer = || queue.answer("x".repeat(length));

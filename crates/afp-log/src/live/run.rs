@@ -16,7 +16,7 @@ use super::admission::Tokens;
 use super::hub::{Hub, Question, Service, Stream, Written};
 use super::server;
 
-/// A run that others watch.
+/// A run with live clients.
 pub struct Live {
     hub: Arc<Hub>,
     inbox: Receiver<Question>,
@@ -26,10 +26,10 @@ pub struct Live {
 }
 
 impl Live {
-    /// Begins to serve a run about to start, on an address; port 0 is any that is free.
+    /// Starts a server for a run that is about to start; port 0 is any free port.
     ///
     /// # Errors
-    /// The address is taken or none of this machine.
+    /// The address is taken or does not belong to this machine.
     pub fn start(at: SocketAddr, name: &str, session: &dyn AnySession) -> io::Result<Live> {
         let (ask, inbox) = channel();
         let hub = Arc::new(Hub::new(name, session.names(), Service::all(session), ask));
@@ -38,7 +38,7 @@ impl Live {
         Ok(Live { hub, inbox, thread: Some(thread), at, tokens })
     }
 
-    /// The addresses for clients: of who may steer, and of who may only watch.
+    /// The addresses for clients: for steering, and for watching.
     pub fn addresses(&self) -> [String; 2] {
         let mut at = self.at;
         if at.ip().is_unspecified() {
@@ -48,27 +48,27 @@ impl Live {
         [operator, watcher].map(|token| format!("ws://{at}/?token={}", token.word()))
     }
 
-    /// Whether others than this machine reach it.
+    /// Whether other machines can reach it.
     pub fn is_open(&self) -> bool {
         !self.at.ip().is_loopback()
     }
 
-    /// How many clients watch.
+    /// The number of clients.
     pub fn clients(&self) -> usize {
         self.hub.clients()
     }
 
-    /// Takes the messages of the run.
+    /// The receiver for the messages of the run.
     pub fn messages(&self) -> Box<dyn Messages> {
         Box::new(Stream(Arc::clone(&self.hub)))
     }
 
-    /// Whether somebody has asked for something.
+    /// Whether a question is open.
     pub fn is_asked(&self) -> bool {
         self.hub.is_asked()
     }
 
-    /// Does what was asked for, at an instant that is not over.
+    /// Answers the open questions at the present instant or later.
     pub fn serve(&self, session: &mut dyn AnySession, at: Instant) {
         while let Ok(question) = self.inbox.try_recv() {
             match question {
@@ -82,7 +82,7 @@ impl Live {
         }
     }
 
-    /// Nothing comes any more; those who still read get the rest.
+    /// Ends the message stream; clients get the rest.
     pub fn finish(mut self) {
         self.close();
     }
@@ -90,7 +90,7 @@ impl Live {
     fn close(&mut self) {
         self.hub.end();
         if let Some(thread) = self.thread.take() {
-            // A thread that broke off has nothing left to say.
+            // A thread that has panicked has no result.
             let _ = thread.join();
         }
     }
@@ -108,7 +108,7 @@ impl fmt::Debug for Live {
     }
 }
 
-/// Writes an entry; gives its new value.
+/// Writes an entry and returns its new value.
 fn write(session: &mut dyn AnySession, entry: &str, text: &str) -> Written {
     let text = text.trim();
     match session.set(entry, text) {
@@ -122,7 +122,7 @@ fn write(session: &mut dyn AnySession, entry: &str, text: &str) -> Written {
     }
 }
 
-/// Asks a run for something.
+/// Applies a stimulus to a run.
 fn ask(session: &mut dyn AnySession, at: Instant, what: &Stimulus) -> Result<(), String> {
     let request = what.request(session.devices(), session.names());
     let asked = request.and_then(|request| session.at(at, request));

@@ -1,4 +1,4 @@
-//! The port: a thread that waits for clients, and one for each client.
+//! The port: a thread that accepts clients, and one thread for each client.
 
 use std::io;
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
@@ -11,19 +11,19 @@ use super::admission::Tokens;
 use super::client;
 use super::hub::Hub;
 
-/// So many who have not been let in at most; then the one that has waited longest is sent away.
+/// The maximum number of connections before admission. Beyond it, the oldest one is disconnected.
 const STRANGERS: usize = 16;
-/// How long a handshake may take.
+/// The time limit of a handshake.
 const HANDSHAKE: Duration = Duration::from_secs(5);
-/// How long clients may take for the rest when the run is over.
+/// The time for the remaining messages after the end of the run.
 const GOODBYE: Duration = Duration::from_secs(2);
-/// How often a client that wants in is looked for.
+/// The interval of checks for new connections.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Waits for clients on an address; gives the one that it is in the end, and the thread.
+/// Listens on an address; returns the actual address and the thread.
 ///
 /// # Errors
-/// The address is taken or none of this machine.
+/// The address is taken or does not belong to this machine.
 pub(crate) fn start(
     at: SocketAddr,
     hub: Arc<Hub>,
@@ -38,19 +38,19 @@ pub(crate) fn start(
     Ok((at, thread))
 }
 
-/// Somebody who came to the port.
+/// A connection to the port.
 struct Visitor {
     stream: TcpStream,
     since: Wall,
-    /// Whether it is a client.
+    /// Whether it is admitted.
     admitted: Arc<AtomicBool>,
-    /// Whether it was sent away: its thread may take a while to notice.
+    /// Whether it was disconnected: its thread may notice it later.
     sent_away: bool,
     thread: JoinHandle<()>,
 }
 
 impl Visitor {
-    /// Begins to talk with whoever came; nobody where there is no thread for it.
+    /// Starts a thread for a connection; `None` if no thread can be created.
     fn new(stream: TcpStream, hub: &Arc<Hub>, tokens: &Arc<Tokens>) -> Option<Visitor> {
         let (hub, tokens) = (Arc::clone(hub), Arc::clone(tokens));
         let (admitted, since) = (Arc::<AtomicBool>::default(), Wall::now());
@@ -60,7 +60,7 @@ impl Visitor {
         Some(Visitor { stream, since, admitted, sent_away: false, thread })
     }
 
-    /// Whether it is still to be let in.
+    /// Whether it waits for admission.
     fn is_stranger(&self) -> bool {
         !self.sent_away && !self.admitted.load(Ordering::Acquire)
     }
@@ -69,15 +69,15 @@ impl Visitor {
         self.thread.is_finished()
     }
 
-    /// Ends the connection, at whatever its thread is.
+    /// Ends the connection in any state of its thread.
     fn send_away(&mut self) {
         self.sent_away = true;
-        // One that is gone already does not mind.
+        // The connection may already be closed.
         let _ = self.stream.shutdown(Shutdown::Both);
     }
 }
 
-/// Lets clients in until nothing comes any more, then waits for those who still read.
+/// Accepts clients until the stream of messages ends, then waits for clients that still read.
 fn listen(listener: &TcpListener, hub: &Arc<Hub>, tokens: &Arc<Tokens>) {
     let mut visitors: Vec<Visitor> = Vec::new();
     while !hub.is_over() {
@@ -86,14 +86,14 @@ fn listen(listener: &TcpListener, hub: &Arc<Hub>, tokens: &Arc<Tokens>) {
         visitors.iter_mut().filter(late).for_each(Visitor::send_away);
         match listener.accept() {
             Ok((stream, _)) => {
-                // In the order in which they came.
+                // In the order of their arrival.
                 let many = visitors.iter().filter(|it| it.is_stranger()).count() >= STRANGERS;
                 if many && let Some(first) = visitors.iter_mut().find(|it| it.is_stranger()) {
                     first.send_away();
                 }
                 visitors.extend(Visitor::new(stream, hub, tokens));
             }
-            // Nobody came, or somebody who is gone already.
+            // No new connection, or one that is already closed.
             Err(_) => thread::sleep(LOOK),
         }
     }

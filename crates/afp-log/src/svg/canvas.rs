@@ -10,11 +10,11 @@ use super::symbol::symbol;
 
 /// Around the room, pixels.
 pub(super) const MARGIN: f64 = 28.0;
-/// The width that the room is drawn in, pixels, unless it is very tall.
+/// The width of the room, in pixels, unless it is very tall.
 const ROOM_WIDTH: f64 = 860.0;
 const ROOM_HEIGHT: f64 = 860.0;
 
-/// At most so many lines of the floor cross a picture in a direction.
+/// The maximum number of floor lines in a direction.
 const MOST_LINES: f64 = 200.0;
 
 /// The radius of an echo's dot, pixels.
@@ -38,19 +38,20 @@ impl View {
         (MARGIN + (x - self.low[0]) * self.scale, MARGIN + (self.high[1] - y) * self.scale)
     }
 
-    /// From one line of the floor to the next: a metre, or a power of ten of them where the lines would be too many.
+    /// The distance between two lines of the floor: a metre, or a power of ten of metres if there
+    /// would be too many lines.
     fn step(&self) -> f64 {
         let side = (self.high[0] - self.low[0]).max(self.high[1] - self.low[1]);
         libm::pow(10.0, libm::ceil(libm::log10(side / MOST_LINES)).max(0.0))
     }
 
-    /// Where the room ends to the right and below, pixels.
+    /// The right and lower end of the room, in pixels.
     pub(super) fn end(&self) -> (f64, f64) {
         self.point([self.high[0], self.low[1]])
     }
 }
 
-/// A picture being drawn.
+/// A picture during drawing.
 pub(super) struct Canvas {
     view: View,
     body: String,
@@ -61,7 +62,7 @@ impl Canvas {
         Canvas { view, body: String::new() }
     }
 
-    /// The floor, with a line every metre, or so.
+    /// The floor, with a line about every metre.
     pub(super) fn floor(&mut self) {
         let (View { low, high, .. }, step) = (self.view, self.view.step());
         let ((x, y), (right, below)) = (self.view.point([low[0], high[1]]), self.view.end());
@@ -91,7 +92,7 @@ impl Canvas {
         ));
     }
 
-    /// The way of something that moves by itself.
+    /// The path of a moving obstacle.
     pub(super) fn way(&mut self, places: &[[f64; 2]]) {
         let points = self.points(places);
         self.put(format_args!(r#"<polyline class="way" points="{points}"/>"#));
@@ -105,19 +106,19 @@ impl Canvas {
         ));
     }
 
-    /// An obstacle, or where one began that stands elsewhere in the end.
+    /// An obstacle, or the start of an obstacle that has moved.
     pub(super) fn obstacle(&mut self, corners: &[[f64; 2]], low: bool, began: bool) {
         let points = self.points(corners);
         let (class, began) = (if low { "low" } else { "high" }, if began { " began" } else { "" });
         self.put(format_args!(r#"<polygon class="{class}{began}" points="{points}"/>"#));
     }
 
-    /// A name in the middle of an obstacle; left out where it would stick out far.
+    /// A name in the middle of an obstacle; left out if it would stick out far.
     pub(super) fn label(&mut self, middle: [f64; 2], width: f64, name: &str) {
         let (x, y) = self.view.point(middle);
         let needed = name.chars().count() as f64 * 6.5;
         let room = width * self.view.scale;
-        // A narrow thing gets its name beside it.
+        // A narrow obstacle has its name beside it.
         let (x, anchor) =
             if needed <= room { (x, "middle") } else { (x + room / 2.0 + 6.0, "start") };
         let anchor = if x + needed > self.view.end().0 { "end" } else { anchor };
@@ -147,7 +148,7 @@ impl Canvas {
         self.put(format_args!(r#"<polyline class="path" stroke="{color}" points="{points}"/>"#));
     }
 
-    /// The floor that the body passed over.
+    /// The floor under the moving body.
     pub(super) fn footprint(&mut self, body: &[[f64; 2]], points: &[[f64; 2]]) {
         let side = body.iter().map(|[_, y]| y.abs()).fold(0.0, f64::max);
         let (points, width) = (self.points(points), 2.0 * side * self.view.scale);
@@ -165,7 +166,7 @@ impl Canvas {
         ));
     }
 
-    /// A symbol where an event was taken; its title tells when.
+    /// A symbol at the place of an event; its title has the time.
     pub(super) fn mark(&mut self, pose: Pose2, kind: usize, size: f64, at: Instant) {
         let (x, y) = self.view.point([pose.x, pose.y]);
         let symbol = symbol(kind, x, y, size);
@@ -173,7 +174,7 @@ impl Canvas {
         self.put(format_args!("<g class=\"mark\"><title>{secs:.3} s</title>{symbol}</g>"));
     }
 
-    /// Draws what must not run into the legend.
+    /// Draws contents that must not run into the legend.
     pub(super) fn clipped(&mut self, draw: impl FnOnce(&mut Self)) {
         let (right, below) = self.view.end();
         let (width, height) = (right + MARGIN / 2.0, below + MARGIN / 2.0);
@@ -185,13 +186,13 @@ impl Canvas {
         self.put(format_args!("</g>"));
     }
 
-    /// A thin line: a way, as it was or as somebody takes it to be.
+    /// A thin line: a true or estimated path.
     pub(super) fn line(&mut self, class: &str, points: &[[f64; 2]]) {
         let points = self.points(points);
         self.put(format_args!(r#"<polyline class="line {class}" points="{points}"/>"#));
     }
 
-    /// Where an echo seems to come from.
+    /// The apparent place of an echo.
     pub(super) fn echo(&mut self, class: &str, at: [f64; 2]) {
         let (x, y) = self.view.point(at);
         self.put(format_args!(
@@ -199,7 +200,7 @@ impl Canvas {
         ));
     }
 
-    /// The arc on which an echo may come from anywhere: its ends, left first, and the range.
+    /// The arc of an echo's possible places: its ends, left first, and the range.
     pub(super) fn arc(&mut self, [left, right]: [[f64; 2]; 2], range: f64) {
         let ((x, y), (to_x, to_y)) = (self.view.point(left), self.view.point(right));
         let radius = range * self.view.scale;
@@ -208,7 +209,7 @@ impl Canvas {
         ));
     }
 
-    /// One metre, or what is from line to line, below the room.
+    /// The distance between two lines, below the room.
     pub(super) fn scale_bar(&mut self) {
         let (_, below) = self.view.end();
         let (x, y) = (MARGIN, below + 20.0);
@@ -253,14 +254,14 @@ impl Canvas {
     }
 }
 
-/// The multiples of a number between two others, as many as fit into a picture.
+/// The multiples of a number between two others, limited to the maximum for a picture.
 fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
     let first = libm::ceil(from / step);
     let all = (0..=MOST_LINES as u32).map(move |count| (first + f64::from(count)) * step);
     all.take_while(move |at| *at <= to)
 }
 
-/// A text that may stand between tags.
+/// Text with escaped special characters.
 pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
@@ -303,7 +304,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_floor_has_lines_that_fit_however_far_it_goes() {
+    fn a_floor_of_any_size_has_a_fitting_number_of_lines() {
         for (side, lines, step) in [
             (8.5, 9, 1.0),
             (99.0, 100, 1.0),

@@ -1,5 +1,4 @@
-//! What the camera saw: a film strip from a log, each picture with its time and the actor that was
-//! active.
+//! A film strip of the camera's pictures in a log, each with its time and the active actor.
 
 mod still;
 
@@ -15,11 +14,12 @@ use super::{NOBODY, PALETTE, follow, known_actors};
 use crate::{LogData, LogNames};
 use still::fewer_colors;
 
-/// A longer film is thinned out evenly to so many pictures.
+/// The maximum number of pictures; longer films are thinned out evenly.
 const MOST: usize = 40;
-/// Pictures in a row.
+/// The number of pictures in a row.
 const COLUMNS: usize = 5;
-/// A picture, pixels; it keeps its shape. In a PNG, which has two for each, a pixel of the camera is 3 by 3.
+/// The width of a picture, in pixels; it keeps its aspect ratio. In a PNG with two pixels for each,
+/// a camera pixel is 3 by 3.
 const WIDTH: f64 = 240.0;
 const HEIGHT: f64 = 180.0;
 /// Below a picture, and between two of them.
@@ -44,7 +44,7 @@ struct Shot<'a> {
     actor: Option<ComponentId>,
 }
 
-/// Draws the film strip of a logged run; `None` for a log without pictures of a camera.
+/// Draws the film strip of a logged run; `None` for a log without camera pictures.
 pub fn draw_film(log: &LogData) -> Option<String> {
     if log.images.is_empty() {
         return None;
@@ -78,7 +78,7 @@ pub fn draw_film(log: &LogData) -> Option<String> {
     Some(svg)
 }
 
-/// At most so many pictures, from the first to the last.
+/// At most this number of pictures, from the first to the last.
 fn thinned(images: &[(Instant, Vec<u8>)]) -> Vec<&(Instant, Vec<u8>)> {
     match images.len() {
         count @ ..=MOST => images.iter().take(count).collect(),
@@ -116,7 +116,7 @@ fn draw(
     let (below, text) = (y + HEIGHT, y + HEIGHT + 20.0);
     let right = x + WIDTH;
     let secs = shot.at.as_secs_f64();
-    // What is no picture of a log's, or larger than any camera's, is left out.
+    // An invalid or oversized picture is left out.
     if let Some(fewer) = fewer_colors(shot.png) {
         let data = STANDARD.encode(fewer);
         let _ = writeln!(

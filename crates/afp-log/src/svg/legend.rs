@@ -1,4 +1,4 @@
-//! What the colours and symbols mean, and the run in figures, beside the room.
+//! The legend of colours and symbols, and the run's figures, beside the room.
 
 use std::fmt::Write;
 
@@ -7,9 +7,9 @@ use super::symbol::symbol;
 
 /// The height of a line, pixels.
 const LINE: f64 = 21.0;
-/// An average letter, pixels.
+/// The width of an average letter, in pixels.
 const LETTER: f64 = 7.2;
-/// Symbols take this much before their text, pixels.
+/// The width of symbols before their text, in pixels.
 const INDENT: f64 = 30.0;
 
 /// The column beside the room.
@@ -54,7 +54,7 @@ impl Legend {
         }
     }
 
-    /// What a map of echoes shows.
+    /// The symbols of a map of echoes.
     pub(super) fn sonar(&mut self) {
         self.section("RANGE SENSOR");
         let circle = |class: &str, x: f64, y: f64| {
@@ -83,7 +83,7 @@ impl Legend {
         self.entry(&symbol, "way by odometry");
     }
 
-    /// A symbol and what it means.
+    /// A symbol and its meaning.
     fn entry(&mut self, symbol: &str, text: &str) {
         self.put(format_args!("{symbol}"));
         self.text("name", INDENT, text);

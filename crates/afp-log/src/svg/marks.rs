@@ -1,4 +1,4 @@
-//! Symbols for events, one for each kind that was taken.
+//! Symbols for the kinds of events.
 
 use std::collections::BTreeSet;
 
@@ -7,11 +7,12 @@ use afp_session::Mark;
 
 use super::canvas::Canvas;
 
-/// So many kinds of events have a symbol of their own.
+/// The number of kinds with their own symbol.
 const SYMBOLS: usize = 12;
 
-/// The kinds of events that have symbols, in the order of the plan: all that lead somewhere, so that one has the same
-/// symbol in every run; in a plan with more of them than symbols those that came.
+/// The kinds of events with symbols, in the order of the plan: all that lead somewhere, so that
+/// each has the same symbol in every run. In a plan with more kinds than symbols, only those that
+/// happened.
 pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, Outcome)> {
     let supervisors = (0..names.components()).map(ComponentId);
     let supervisors =
@@ -21,7 +22,7 @@ pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, Outc
         known.filter(move |event| !matches!(names.target(id, *event), "" | "ignore"))
     };
     let all = supervisors.flat_map(|id| events(id).map(move |event| (id, event)));
-    // Elements may lead them elsewhere.
+    // Elements may have their own edges for them.
     let elements = (0..names.components()).map(ComponentId);
     let reactions = elements.flat_map(|id| (0..).map_while(move |n| names.reaction(id, n)));
     let reactions = reactions.filter(|edge| !matches!(edge.target, "" | "ignore"));
@@ -34,11 +35,11 @@ pub(super) fn kinds(marks: &[Mark], names: &dyn Names) -> Vec<(ComponentId, Outc
     }
 }
 
-/// A kind that came more often, such as one that resumes each second, has small symbols, so that the path is seen.
+/// A kind with more events than this has small symbols, so that the path stays visible.
 const OFTEN: usize = 12;
 const SMALL: f64 = 0.45;
 
-/// Draws each mark where it was taken, with the symbol of its kind; small ones below others.
+/// Draws each mark at its place, with the symbol of its kind; small symbols below others.
 pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, Outcome)]) {
     let is = |kind: &(ComponentId, Outcome), mark: &Mark| *kind == (mark.supervisor, mark.event);
     let count = |kind| marks.iter().filter(|mark| is(kind, mark)).count();
@@ -52,7 +53,7 @@ pub(super) fn draw(canvas: &mut Canvas, marks: &[Mark], kinds: &[(ComponentId, O
     }
 }
 
-/// The kinds that came with their symbols, by their names, and how often each came.
+/// The kinds that happened with their symbols, by name, and their counts.
 pub(super) fn counted<'a>(
     marks: &'a [Mark],
     kinds: &'a [(ComponentId, Outcome)],

@@ -1,7 +1,7 @@
-//! What the range sensor said over the true walls: a map from a log.
+//! The range sensor's echoes over the true walls: a map from a log.
 //!
-//! Each echo is drawn twice: from where the robot truly was, which shows the sensor's own errors, and
-//! from where its odometry took it to be, which shows what a map made on board would look like.
+//! Each echo is drawn twice. At the robot's true pose, it shows the sensor's own errors. At the
+//! odometry's estimate, it shows a map as the robot itself would make it.
 
 use afp_core::Instant;
 use afp_session::{AnyWorld, Pose2};
@@ -11,7 +11,7 @@ use super::legend::Legend;
 use super::{bounds, follow, marks, room, subtitle};
 use crate::{Heard, LogData};
 
-/// An echo in the world: where it seems to come from, and the ends of the arc that the cone leaves open.
+/// An echo in the world: its apparent place, and the ends of the arc of possible places.
 struct Echo {
     at: [f64; 2],
     arc: [[f64; 2]; 2],
@@ -74,7 +74,7 @@ fn places(poses: &[(Instant, Pose2)]) -> Vec<[f64; 2]> {
     poses.iter().map(|(_, pose)| [pose.x, pose.y]).collect()
 }
 
-/// The echoes, from where the robot was according to some poses.
+/// The echoes, seen from some poses of the robot.
 fn echoes<'a>(
     rangings: &'a [Heard],
     poses: &'a [(Instant, Pose2)],
@@ -90,7 +90,7 @@ fn echoes<'a>(
     })
 }
 
-/// The pose at an instant, between the two that were logged around it.
+/// The pose at an instant, interpolated between the logged poses.
 fn pose_at(poses: &[(Instant, Pose2)], at: Instant) -> Option<Pose2> {
     let behind = poses.partition_point(|(time, _)| *time < at);
     let after = *poses.get(behind).or(poses.last())?;
@@ -107,19 +107,19 @@ mod tests {
     }
 
     #[test]
-    fn poses_are_found_between_those_that_were_logged() {
+    fn poses_between_logged_poses_are_interpolated() {
         let at = Instant::from_nanos;
         let poses = [(at(0), pose(0.0, 3.0)), (at(100), pose(1.0, -3.0))];
         let middle = pose_at(&poses, at(50)).unwrap();
         assert!((middle.x - 0.5).abs() < 1e-12);
-        // The short way round.
+        // The shorter way around.
         assert!((middle.heading - std::f64::consts::PI).abs() < 1e-9, "{middle:?}");
         assert_eq!(pose_at(&poses, at(500)).unwrap().x, 1.0);
         assert!(pose_at(&[], at(5)).is_none());
     }
 
     #[test]
-    fn an_echo_lies_ahead_of_the_sensor() {
+    fn an_echo_is_ahead_of_the_sensor() {
         let heard = Heard {
             device: "sonar".into(),
             at: Instant::ZERO,

@@ -1,8 +1,8 @@
-//! The shapes that stand for kinds of events, on the path and in the legend.
+//! The shapes for kinds of events, on the path and in the legend.
 
-/// The symbol of a kind, around a point in pixels; `size` is 1 for the usual one.
+/// The symbol of a kind, around a point in pixels; `size` is 1 by default.
 pub(super) fn symbol(kind: usize, x: f64, y: f64, size: f64) -> String {
-    // After six kinds the shapes come again, filled.
+    // After six kinds the shapes repeat, filled.
     let fill = if kind / 6 % 2 == 1 { " fill=\"#2b2b2b\"" } else { "" };
     let polygon = |corners: &[(f64, f64)]| {
         let points =

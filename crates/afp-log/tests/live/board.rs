@@ -1,4 +1,4 @@
-//! A robot that is there, as far as anybody can tell from here.
+//! A robot that looks like a real robot to this test.
 
 use std::convert::Infallible;
 
@@ -6,7 +6,7 @@ use afp_carbot::table::Carbot;
 use afp_core::{Environment, Instant, Platform, StillClock};
 use afp_session::{Hardware, Robot, Samples, Settings};
 
-/// A robot that is there, as far as anybody can tell from here.
+/// A robot that looks like a real robot to this test.
 pub struct Board;
 
 impl Environment for Board {

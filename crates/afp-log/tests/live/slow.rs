@@ -11,7 +11,7 @@ use tungstenite::stream::MaybeTlsStream;
 use super::{Client, live, service, session};
 
 #[test]
-fn who_reads_slowly_is_heard_all_the_same() {
+fn requests_of_slow_clients_are_handled() {
     let mut session = session();
     let live = live(&*session);
     let mut to = live.messages();
@@ -21,7 +21,7 @@ fn who_reads_slowly_is_heard_all_the_same() {
     client.say(&json!({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": channel}]}));
     client.say(&json!({"op": "getParameters", "parameterNames": [], "id": "there"}));
     client.hear("parameterValues");
-    // A quarter is read of what is sent.
+    // The client reads a quarter of the data.
     let message = vec![7; 1 << 16];
     let begun = Wall::now();
     let mut asked = None;

@@ -1,4 +1,4 @@
-//! What cameras see.
+//! Pictures of cameras.
 
 use std::fs;
 
@@ -18,7 +18,7 @@ const fn camera(name: &'static str) -> DeviceRow {
 
 const DEVICES: [DeviceRow; 2] = [camera("left"), camera("right")];
 
-/// The samples of an instant, as a session asks for them and gives them.
+/// The samples of an instant, in a session's order.
 fn sample(log: &mut SessionLog, at: Instant) {
     for signal in [SignalId(0), SignalId(1)] {
         if log.wants(at, signal) {
@@ -38,7 +38,7 @@ fn each_of_two_cameras_is_logged_twice_a_second() {
         sample(&mut log, at(turn * 20));
     }
     drop(log);
-    // A log that nobody has ended keeps the name of one that is being written.
+    // An unfinished log keeps its part name.
     let part = fs::read_dir(dir.path()).unwrap().next().unwrap().unwrap().path();
     let topics = read(&part).unwrap().topics;
     for topic in ["/robot/left", "/robot/right"] {

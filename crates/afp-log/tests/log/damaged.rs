@@ -1,4 +1,4 @@
-//! Logs that are damaged, compressed in another way, or of something else.
+//! Logs that are damaged, have another compression, or are not of a run.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use afp_log::{LogError, doctor, read, read_any, recover};
 
 use crate::{at, create, written};
 
-/// Where chunks begin, and how long they are.
+/// The starts and lengths of chunks.
 fn chunks(bytes: &[u8]) -> Vec<(usize, usize)> {
     let summary = mcap::Summary::read(bytes).unwrap().unwrap();
     let chunks = summary.chunk_indexes.iter();
@@ -19,7 +19,7 @@ fn chunks(bytes: &[u8]) -> Vec<(usize, usize)> {
 }
 
 #[test]
-fn what_is_behind_a_damaged_chunk_is_saved() {
+fn data_after_a_damaged_chunk_is_saved() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut log = create(&path);
@@ -32,7 +32,7 @@ fn what_is_behind_a_damaged_chunk_is_saved() {
     assert!(whole.damage.is_none() && whole.missing.is_empty() && chunks.len() > 2, "{whole:?}");
     let (bad, saved) = (dir.path().join("bad.mcap"), dir.path().join("saved.mcap"));
     for (number, (begin, length)) in chunks.iter().copied().enumerate() {
-        // Its kind, how long it is, when it begins, and what it holds.
+        // Its kind, its length, its start time, and its contents.
         for at in [begin, begin + 1, begin + 3, begin + 8, begin + length / 2] {
             let mut bytes = bytes.clone();
             bytes[at] ^= 0x10;
@@ -54,7 +54,7 @@ fn what_is_behind_a_damaged_chunk_is_saved() {
 }
 
 #[test]
-fn a_recovered_log_repeats_its_run_up_to_what_it_misses() {
+fn a_recovered_log_repeats_its_run_up_to_the_first_gap() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut log = create(&path);
@@ -75,7 +75,7 @@ fn a_recovered_log_repeats_its_run_up_to_what_it_misses() {
         fs::write(&bad, bytes).unwrap();
         let last = read(&bad).unwrap().span.unwrap().1;
         recover(&bad, &saved).unwrap();
-        // What it misses stays known when it is recovered once more.
+        // A second recovery keeps the gap.
         recover(&saved, &again).unwrap();
         let log = read(&again).unwrap();
         assert_eq!((log.recipe().until, log.trace()), (Some(last), None));
@@ -86,7 +86,7 @@ fn a_recovered_log_repeats_its_run_up_to_what_it_misses() {
 }
 
 #[test]
-fn what_is_damaged_beside_the_messages_costs_none() {
+fn damage_outside_of_messages_loses_no_messages() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(dir.path());
     let bytes = fs::read(&path).unwrap();
@@ -104,7 +104,7 @@ fn what_is_damaged_beside_the_messages_costs_none() {
 }
 
 #[test]
-fn what_is_compressed_in_another_way_is_refused() {
+fn an_unknown_compression_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     let mut bytes = fs::read(written(dir.path())).unwrap();
     let name = b"\x03\0\0\0lz4";
@@ -123,7 +123,7 @@ fn what_is_compressed_in_another_way_is_refused() {
 }
 
 #[test]
-fn what_is_no_log_of_a_run_is_told() {
+fn a_file_without_a_run_is_reported() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("foreign.mcap");
     let mut writer = mcap::Writer::new(fs::File::create(&path).unwrap()).unwrap();

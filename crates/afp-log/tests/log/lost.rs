@@ -1,4 +1,4 @@
-//! What a log has after a stretch in which its writer did not keep up.
+//! A log after a period in which its writer was too slow.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -27,7 +27,7 @@ const DEVICES: [DeviceRow; 1] =
 const LEFT: SignalId = SignalId(0);
 const OUTLINE: SignalId = SignalId(1);
 
-/// A disk that stalls while somebody else holds it.
+/// A disk that stalls while a lock is held.
 struct Disk {
     writer: mcap::Writer<BufWriter<File>>,
     free: Arc<Mutex<()>>,
@@ -72,7 +72,7 @@ impl Messages for Disk {
 
 const CLEAR: Record<'_> = Record::Polled { supervisor: ComponentId(2), verdict: Verdict::Clear };
 
-/// More than the queue holds.
+/// More items than the queue's capacity.
 const MANY: usize = 20_000;
 
 fn commit() -> Record<'static> {
@@ -91,7 +91,7 @@ fn lost(log: &LogData) -> u64 {
 }
 
 #[test]
-fn what_got_lost_is_said_again() {
+fn lost_state_is_written_again() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let disk = Disk::new(&path);
@@ -133,7 +133,7 @@ fn what_got_lost_is_said_again() {
 }
 
 #[test]
-fn how_a_run_came_out_does_not_get_lost() {
+fn the_result_of_a_run_is_not_lost() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let disk = Disk::new(&path);

@@ -1,4 +1,4 @@
-//! A log is written, read back, cut short, recovered.
+//! A log is written, read, truncated, recovered.
 
 mod cameras;
 mod damaged;
@@ -25,7 +25,7 @@ use afp_log::{
 };
 use afp_session::{Datum, EventAt, EventKind, NamedRecord, Observer};
 
-/// A log whose run has begun, of a robot with those devices.
+/// A log of a started run, for a robot with these devices.
 fn begun(path: &Path, devices: &'static [DeviceRow]) -> SessionLog {
     let (about, names) = (About::default(), Box::new(Names1));
     let recorder = Recorder::create(path, &about, names, WhenFull::Wait).unwrap();
@@ -178,7 +178,7 @@ fn written(dir: &Path) -> PathBuf {
 }
 
 #[test]
-fn what_is_written_is_read() {
+fn a_written_log_is_read_back() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(dir.path());
     let log = read(&path).unwrap();
@@ -222,7 +222,7 @@ fn statistics_count_misses_interruptions_and_coverage() {
 }
 
 #[test]
-fn the_same_run_makes_the_same_messages() {
+fn equal_runs_have_equal_messages() {
     let dir = tempfile::tempdir().unwrap();
     let one = read(&written(dir.path())).unwrap();
     let two = read(&written(dir.path())).unwrap();
@@ -231,7 +231,7 @@ fn the_same_run_makes_the_same_messages() {
 }
 
 #[test]
-fn a_log_cut_anywhere_is_read_as_far_as_it_goes() {
+fn a_truncated_log_is_read_up_to_its_end() {
     let dir = tempfile::tempdir().unwrap();
     let bytes = fs::read(written(dir.path())).unwrap();
     let part = dir.path().join("b.mcap.part");
@@ -265,7 +265,7 @@ fn a_flipped_byte_is_found() {
 }
 
 #[test]
-fn whatever_does_not_belong_to_a_log_is_found() {
+fn foreign_data_in_a_log_is_found() {
     let dir = tempfile::tempdir().unwrap();
     let sound = fs::read(written(dir.path())).unwrap();
     let bad = dir.path().join("bad.mcap");
@@ -318,7 +318,7 @@ fn an_abandoned_log_keeps_its_part_name() {
 }
 
 #[test]
-fn what_cannot_be_written_or_read_is_said() {
+fn unwritable_and_unreadable_files_are_reported() {
     let dir = tempfile::tempdir().unwrap();
     let nowhere = dir.path().join("no/such/folder/a.mcap");
     let failed =
@@ -332,7 +332,7 @@ fn what_cannot_be_written_or_read_is_said() {
 }
 
 #[test]
-fn a_full_queue_is_counted_and_told() {
+fn a_full_queue_is_counted_and_reported() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut log = Recorder::create(&path, &about(), Box::new(Names1), WhenFull::Drop).unwrap();
@@ -351,7 +351,7 @@ fn a_full_queue_is_counted_and_told() {
 }
 
 #[test]
-fn a_log_may_be_recovered_under_the_name_that_its_run_was_to_give_it() {
+fn a_log_can_be_recovered_under_the_name_from_its_run() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(dir.path());
     let part = dir.path().join("a.mcap.part");
@@ -364,7 +364,7 @@ fn a_log_may_be_recovered_under_the_name_that_its_run_was_to_give_it() {
 }
 
 #[test]
-fn a_second_log_of_a_name_is_refused_while_one_is_written() {
+fn a_second_log_of_a_name_is_refused_during_writing() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut one = create(&path);
@@ -406,7 +406,7 @@ fn a_log_goes_through_a_pipe() {
 }
 
 #[test]
-fn a_log_that_says_nothing_of_its_run_is_sound() {
+fn a_log_without_a_description_of_its_run_is_valid() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("bare.mcap");
     let names = Box::new(Names1);

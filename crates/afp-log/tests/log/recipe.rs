@@ -34,7 +34,7 @@ fn requests_of_each_kind() -> Vec<Stimulus> {
 }
 
 #[test]
-fn a_recipe_comes_back_as_it_was_written() {
+fn a_recipe_is_read_back_unchanged() {
     let text = |name: &str, text: &str| TextFile { name: name.to_owned(), text: text.to_owned() };
     let requests = requests_of_each_kind();
     let recipe = Recipe {

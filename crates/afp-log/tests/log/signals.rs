@@ -1,4 +1,4 @@
-//! What is written of signals.
+//! Signals in a log.
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalId, SignalRow, SignalType};
@@ -12,7 +12,7 @@ const SAYS: [SignalRow; 1] =
 const DEVICES: [DeviceRow; 1] =
     [DeviceRow { name: "signals", help: "", controls: &[], faults: &[], signals: &SAYS }];
 
-/// The samples of an instant, as a session gives them.
+/// The samples of an instant, in a session's order.
 fn sample(log: &mut SessionLog, at: Instant, tone: Option<f64>) {
     if let Some(tone) = tone {
         log.on_sample(at, SignalId(0), SampleRef::Float(tone));
@@ -21,7 +21,7 @@ fn sample(log: &mut SessionLog, at: Instant, tone: Option<f64>) {
 }
 
 #[test]
-fn when_a_signal_falls_silent_is_logged() {
+fn a_silent_signal_is_logged() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut log = begun(&path, &DEVICES);

@@ -1,31 +1,31 @@
-//! The battery: two lithium cells in a row, drained by the computer and the motors.
+//! The battery: two lithium cells in series, drained by the computer and the motors.
 
 use afp_carbot::devices::Charge;
 use afp_core::quantity::Voltage;
 
-/// What a full battery holds, joules: 5.2 Ah at 7.4 V.
+/// The energy of a full battery, in joules: 5.2 Ah at 7.4 V.
 const CAPACITY: f64 = 5.2 * 7.4 * 3600.0;
-/// Inner resistance, ohms.
+/// The internal resistance, in ohms.
 const RESISTANCE: f64 = 0.06;
-/// What the computer and the sensors draw, watts.
+/// The power of the computer and the sensors, in watts.
 const IDLE: f64 = 5.0;
-/// What a wheel draws per metre a second, watts.
+/// The power of a wheel per metre a second, in watts.
 const WHEEL: f64 = 15.0;
-/// Voltage without a load by the share of the charge that is left.
+/// The voltage without a load, by the remaining share of the charge.
 const CURVE: [(f64, f64); 7] =
     [(0.0, 5.6), (0.05, 6.4), (0.1, 6.9), (0.2, 7.2), (0.5, 7.5), (0.9, 8.0), (1.0, 8.4)];
-/// The motors reach their top speed down to this voltage. At the lower one, three volts a cell, the controller cuts
-/// them off, since cells that go lower are damaged.
+/// Down to this voltage, the motors reach their top speed. At the lower voltage, three volts a
+/// cell, the controller cuts them off to protect the cells.
 const FULL_SPEED: f64 = 6.6;
 const CUT_OFF: f64 = 6.0;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Battery {
-    /// Joules that have been drawn.
+    /// The drawn energy, in joules.
     drawn: f64,
     /// The share of a full charge at the start.
     first: f64,
-    /// The share that may be left at most.
+    /// The maximum of the remaining share.
     most: f64,
     voltage: f64,
 }
@@ -37,12 +37,12 @@ impl Battery {
         battery
     }
 
-    /// Lets no more than this share be left; 1 lets all.
+    /// Limits the remaining share; 1 means no limit.
     pub(crate) fn limit(&mut self, most: f64) {
         self.most = most;
     }
 
-    /// Draws for `dt` seconds with the wheels at these speeds, metres a second.
+    /// Draws energy for `dt` seconds with the wheels at these speeds, in metres a second.
     pub(crate) fn step(&mut self, wheels: [f64; 2], dt: f64) {
         let power = IDLE + WHEEL * (wheels[0].abs() + wheels[1].abs());
         self.drawn += power * dt;
@@ -50,12 +50,12 @@ impl Battery {
         self.voltage = open - RESISTANCE * power / open;
     }
 
-    /// The share of the motors' top speed that the voltage is good for.
+    /// The share of the motors' top speed at the present voltage.
     pub(crate) fn speed(&self) -> f64 {
         ((self.voltage - CUT_OFF) / (FULL_SPEED - CUT_OFF)).clamp(0.0, 1.0)
     }
 
-    /// What the gauge tells: the voltage to 10 mV, the share to 1 %.
+    /// The reading of the gauge: the voltage to 10 mV, the share to 1 %.
     pub(crate) fn charge(&self) -> Charge {
         Charge {
             voltage: Voltage::from_si(libm::round(self.voltage * 100.0) / 100.0),
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn a_low_battery_drives_slowly_and_an_empty_one_not_at_all() {
+    fn a_low_battery_drives_slowly_and_an_empty_battery_stops() {
         assert_eq!(Battery::new(0.0).speed(), 0.0);
         assert!(Battery::new(0.05).speed() < 1.0);
         assert_eq!(Battery::new(0.2).speed(), 1.0);

@@ -1,10 +1,10 @@
-//! The bumper's switch: it bounces, as contacts do.
+//! The bumper's switch, with a bouncing contact.
 
 use crate::noise::Noise;
 
-/// After a change the contact is uncertain for so many steps.
+/// The number of steps in which the contact bounces after a change.
 const BOUNCING: u32 = 2;
-/// And says the wrong thing with this probability.
+/// The probability of a wrong reading while the contact bounces.
 const WRONG: f64 = 0.3;
 
 /// The switch behind the bumper.
@@ -17,13 +17,13 @@ pub struct Switch {
 }
 
 impl Switch {
-    /// One that is not pressed, with a stream of noise.
+    /// A switch that is not pressed, with a noise stream.
     pub fn new(noise: Noise) -> Self {
         Switch { noise, pressed: false, bouncing: 0, says: false }
     }
 
-    /// One step in which the bumper is pressed or not. A change is felt at once; then the contact
-    /// bounces for 10 ms.
+    /// Makes a step with the bumper pressed or not. A change has an immediate effect; then the
+    /// contact bounces for 10 ms.
     pub fn step(&mut self, pressed: bool) {
         self.says = pressed;
         if pressed != self.pressed {
@@ -35,7 +35,7 @@ impl Switch {
         }
     }
 
-    /// What the switch says.
+    /// The switch's reading.
     pub fn says(&self) -> bool {
         self.says
     }
@@ -47,7 +47,7 @@ mod tests {
     use crate::noise::Source;
 
     #[test]
-    fn a_press_is_felt_at_once_bounces_and_settles() {
+    fn a_press_is_felt_immediately_bounces_and_settles() {
         let mut bounced = 0;
         for seed in 0..50 {
             let mut switch = Switch::new(Source::Bumper.of(seed));

@@ -1,4 +1,4 @@
-//! The camera: pictures of the scene, taken at its own rate and drawn only for whoever looks.
+//! The camera: pictures of the scene at the camera's own rate, rendered only on demand.
 
 mod render;
 mod track;
@@ -14,18 +14,18 @@ use std::sync::OnceLock;
 
 pub(crate) use track::track;
 
-/// It takes a picture every so often.
+/// The interval between pictures.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
-/// Where it sits: ahead of the turning centre and above the floor, metres.
+/// The camera's position ahead of the turning centre and above the floor, in metres.
 pub(crate) const FORWARD: f64 = 0.18;
 pub(crate) const HEIGHT: f64 = 0.20;
-/// The whole angle that a row covers, radians.
+/// The horizontal field of view, in radians.
 const OPENING: f64 = 70.0 / 180.0 * core::f64::consts::PI;
 /// Pixels.
 const COLUMNS: usize = 160;
 const ROWS: usize = 120;
 
-/// How it is mounted and what it covers.
+/// The mounting and the field of view.
 pub(crate) fn lens() -> Lens {
     Lens {
         forward: Length::from_si(FORWARD),
@@ -36,18 +36,18 @@ pub(crate) fn lens() -> Lens {
     }
 }
 
-/// Compares its pictures, in virtual time.
+/// The flow sensor for the camera's pictures, in virtual time.
 pub(crate) fn flow_sensor() -> FlowSensor<LucasKanade, VirtualWorker<FlowJob<LucasKanade>>> {
     let job = FlowJob::new(COLUMNS, ROWS, LucasKanade::new(COLUMNS, ROWS));
     FlowSensor::new(COLUMNS, ROWS, VirtualWorker::new([job]))
 }
 
-/// A picture that was taken; it is drawn when it is first looked at.
+/// A picture; it is rendered on first use.
 #[derive(Debug)]
 pub(crate) struct Exposure {
     scene: Scene,
     robot: Place,
-    /// Decides on the noise of this picture alone.
+    /// The seed for the noise of only this picture.
     seed: u64,
     number: u64,
     rgb: OnceLock<Vec<u8>>,

@@ -1,4 +1,4 @@
-//! The colour sensor, which looks at the floor under the front of the robot.
+//! The colour sensor, which measures the floor under the front of the robot.
 
 use crate::noise::{Noise, Source};
 use crate::scene::Scene;
@@ -6,9 +6,9 @@ use crate::vehicle::Place;
 use afp_carbot::devices::Color;
 use afp_core::Duration;
 
-/// It measures every so often.
+/// The interval between measurements.
 pub(crate) const PERIOD: Duration = Duration::from_millis(20);
-/// How far ahead of the turning centre it sits, metres.
+/// The distance ahead of the turning centre, in metres.
 const FORWARD: f64 = 0.15;
 /// Standard deviation of each colour.
 const NOISE: f64 = 0.01;
@@ -23,7 +23,7 @@ impl ColorSensor {
         ColorSensor { noise: Source::Color.of(seed) }
     }
 
-    /// What it sees from a robot at this place.
+    /// Measures the colour from a robot at this place.
     pub(crate) fn look(&mut self, scene: &Scene, robot: Place) -> Color {
         let [red, green, blue] = scene
             .floor(robot.beyond(FORWARD, 0.0))

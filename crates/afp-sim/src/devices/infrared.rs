@@ -1,4 +1,4 @@
-//! The infrared direction sensor: the brightest source that it sees.
+//! The infrared direction sensor, which finds the brightest visible source.
 
 use crate::noise::{Noise, Source};
 use crate::scene::Scene;
@@ -8,16 +8,16 @@ use afp_carbot::devices::Glow;
 use afp_core::Duration;
 use afp_core::quantity::Angle;
 
-/// It measures every so often.
+/// The interval between measurements.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
-/// The whole field of view, radians.
+/// The whole field of view, in radians.
 pub(crate) const FIELD: f64 = 120.0 / 180.0 * core::f64::consts::PI;
-/// Where it sits: ahead of the turning centre and above the floor, metres.
+/// The sensor's position ahead of the turning centre and above the floor, in metres.
 const FORWARD: f64 = 0.18;
 const HEIGHT: f64 = 0.12;
-/// What is darker than this is not seen.
+/// The minimum strength of a visible source.
 const THRESHOLD: f64 = 0.01;
-/// Nearer than this a source gets no brighter, metres.
+/// A source does not get brighter below this distance, in metres.
 const NEAR: f64 = 0.1;
 /// Standard deviations of the bearing, radians, and of the strength, as a share.
 const BEARING_NOISE: f64 = 3.0 / 180.0 * core::f64::consts::PI;
@@ -34,9 +34,9 @@ impl Infrared {
         Infrared { noise: Source::Infrared.of(seed) }
     }
 
-    /// What it sees from a robot at this place.
+    /// Measures the light from a robot at this place.
     pub(crate) fn look(&mut self, lights: &[Light], scene: &Scene, robot: Place) -> Option<Glow> {
-        // Drawn every time, so that what is seen does not shift the stream.
+        // The noise is drawn every time, so that readings do not shift the stream.
         let (turn, gain) = (self.noise.normal(), self.noise.normal());
         let eye = robot.beyond(FORWARD, 0.0);
         let mut brightest: Option<(f64, f64)> = None;

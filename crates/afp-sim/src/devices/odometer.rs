@@ -1,14 +1,14 @@
 //! Dead reckoning from the wheels' counters.
 //!
-//! It errs as a real one does: the wheels are not exactly as large and as far apart as the
-//! controller believes, they slip, and the counts are noisy.
+//! Its errors are realistic: the controller's wheel size and track width are slightly wrong, the
+//! wheels slip, and the counts are noisy.
 
 use crate::noise::{Noise, Source};
 use crate::vehicle::wheel::{WHEEL_X, WHEEL_Y, Wheel};
 use afp_carbot::devices::Motion;
 use afp_core::quantity::{Angle, AngularSpeed, Length, Speed};
 
-/// Standard deviations of what differs from robot to robot: wheel size and track width.
+/// Standard deviations of the robots' calibration: wheel size and track width.
 const SCALE: f64 = 0.006;
 const TRACK: f64 = 0.008;
 /// Standard deviation of the counts of one step, as a share of the speed.
@@ -45,7 +45,7 @@ impl Odometer {
     /// Counts `dt` seconds of the wheels' motion.
     pub(crate) fn step(&mut self, wheels: &[Wheel; 2], dt: f64) {
         let ((left_x, left_y), (right_x, right_y)) = (wheels[0].velocity(), wheels[1].velocity());
-        // The body's motion that explains both wheels best.
+        // The least-squares motion of the body for both wheels.
         let across = WHEEL_Y * (right_x - left_x) + WHEEL_X * (left_y + right_y);
         let turn = across / (2.0 * (WHEEL_X * WHEEL_X + WHEEL_Y * WHEEL_Y));
         let speed = (left_x + right_x) / 2.0;

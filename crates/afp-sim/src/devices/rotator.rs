@@ -3,10 +3,10 @@
 use crate::vehicle::servo::Servo;
 use afp_core::quantity::Angle;
 
-/// It turns so far to either side, radians, and so fast, radians a second.
+/// The maximum angle to either side, in radians, and the rate, in radians a second.
 const REACH: f64 = 130.0 / 180.0 * core::f64::consts::PI;
 const RATE: f64 = 300.0 / 180.0 * core::f64::consts::PI;
-/// Its telemetry rounds to this, radians.
+/// The resolution of its telemetry, in radians.
 const RESOLUTION: f64 = 0.25 / 180.0 * core::f64::consts::PI;
 
 #[derive(Clone, Debug)]
@@ -39,12 +39,12 @@ impl Rotator {
         }
     }
 
-    /// Where it points against the heading, radians.
+    /// Its angle relative to the heading, in radians.
     pub(crate) fn position(&self) -> f64 {
         self.servo.position()
     }
 
-    /// Where its telemetry says that it points.
+    /// Its angle in the telemetry.
     pub(crate) fn telemetry(&self) -> Angle {
         let steps = libm::round(self.position() / RESOLUTION);
         Angle::from_si(steps * RESOLUTION)

@@ -1,8 +1,8 @@
 //! The ultrasonic range sensor: a cone of sound.
 //!
-//! Several rays stand for the cone. A ray is heard when enough of its sound comes back: less at
-//! the cone's edge, from far away, and from a smooth surface at a slant, which mirrors the sound
-//! away. The nearest ray that is heard is the echo.
+//! Several rays represent the cone. A ray is heard when enough of its sound comes back. Less sound
+//! comes back at the cone's edge, from far away, and from a smooth surface at a slant, which
+//! mirrors the sound away. The nearest heard ray is the echo.
 
 use crate::noise::Noise;
 use crate::stage::{Rays, Stage};
@@ -10,39 +10,39 @@ use afp_carbot::devices::Beam;
 use afp_core::Duration;
 use afp_core::quantity::{Angle, Length};
 
-/// The rotator's axis is this far before the turning centre, metres.
+/// The distance of the rotator's axis ahead of the turning centre, in metres.
 pub(crate) const FORWARD: f64 = 0.10;
-/// A ping is sent every so often.
+/// The interval between pings.
 pub(crate) const PERIOD: Duration = Duration::from_millis(50);
-/// How many rays stand for the cone.
+/// The number of rays in the cone.
 pub(crate) const RAYS: usize = 9;
 /// The speed of sound, metres a second.
 const SOUND: f64 = 343.0;
-/// The least that the sensor can measure, metres.
+/// The minimum range, in metres.
 const MIN: f64 = 0.03;
 pub(crate) const MAX: f64 = CARBOT.most;
-/// A range sensor that listens to a cone of sound, and how it errs.
+/// A range sensor with a cone of sound, and its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeModel {
-    /// The cone's whole angle, radians.
+    /// The cone's full angle, in radians.
     pub opening: f64,
-    /// The most that it measures, metres.
+    /// The maximum range, in metres.
     pub most: f64,
-    /// An echo is heard above this amplitude (1: square, on the axis, one metre away).
+    /// The minimum amplitude of an audible echo (1: square, on the axis, at one metre).
     pub threshold: f64,
-    /// How much of the sound is left at the cone's edge.
+    /// The remaining share of the sound at the cone's edge.
     pub edge: f64,
     /// Standard deviation of a range: metres, and share of the range.
     pub noise: [f64; 2],
-    /// Standard deviation of the speed of sound that a sensor wrongly assumes, as a share.
+    /// Standard deviation of the sensor's assumed speed of sound, as a share.
     pub calibration: f64,
-    /// What it rounds to, metres.
+    /// The resolution, in metres.
     pub resolution: f64,
-    /// Probability that a ping is lost for no reason, and more for one that is barely heard.
+    /// The probability of a lost ping, and the additional probability for a barely audible ping.
     pub lost: [f64; 2],
 }
 
-/// The Carbot's.
+/// The Carbot's sensor.
 pub(crate) const CARBOT: RangeModel = RangeModel {
     opening: 30.0 / 180.0 * core::f64::consts::PI,
     most: 4.0,
@@ -54,7 +54,7 @@ pub(crate) const CARBOT: RangeModel = RangeModel {
     lost: [0.01, 0.4],
 };
 
-/// How the sensor is mounted.
+/// The sensor's mounting.
 pub(crate) fn beam() -> Beam {
     Beam {
         forward: Length::from_si(FORWARD),
@@ -70,12 +70,12 @@ pub struct RangeSensor {
     model: RangeModel,
     noise: Noise,
     scale: f64,
-    /// Bearing of each ray against the axis as cosine and sine, and its share of the sound.
+    /// The bearing of each ray against the axis, as cosine and sine, and its share of the sound.
     rays: [(f64, f64, f64); RAYS],
 }
 
 impl RangeSensor {
-    /// One of a model, with a stream of noise for its readings and one for what differs from robot to robot.
+    /// A sensor with one noise stream for its readings and one for its calibration.
     pub fn new(model: RangeModel, noise: Noise, build: &mut Noise) -> Self {
         let mut rays = [(1.0, 0.0, 1.0); RAYS];
         for (i, ray) in rays.iter_mut().enumerate() {
@@ -86,15 +86,17 @@ impl RangeSensor {
         RangeSensor { noise, scale: 1.0 + model.calibration * build.normal(), model, rays }
     }
 
-    /// What comes back from a ping that is sent `forward` of the body's middle, at a bearing against the heading, in
-    /// radians: the measured range in metres, or none where nothing is heard or it measures more than its most: such an echo comes
-    /// after it has stopped listening.
+    /// Returns the range of a ping's echo, in metres. The ping starts `forward` of the body's
+    /// middle, at a bearing against the heading in radians.
+    ///
+    /// Returns `None` without an echo, or if the echo comes from beyond the maximum range: the
+    /// sensor no longer listens for it.
     pub fn ping(&mut self, stage: &Stage, forward: f64, bearing: f64) -> Option<f64> {
         let rays = stage.rays(forward);
         self.ping_along(rays.along(bearing), &rays)
     }
 
-    /// The same in the direction (`cos`, `sin`) of the world.
+    /// Like [`RangeSensor::ping`], in the world's direction (`cos`, `sin`).
     pub(crate) fn ping_along(&mut self, (cos, sin): (f64, f64), rays: &Rays<'_>) -> Option<f64> {
         let RangeModel { most, threshold, noise, resolution, lost, .. } = self.model;
         let mut nearest: Option<(f64, f64)> = None;
@@ -108,7 +110,7 @@ impl RangeSensor {
                 nearest = Some((met.range, loudness));
             }
         }
-        // Drawn for every ping, so that what is heard does not shift the stream.
+        // The noise is drawn for every ping, so that readings do not shift the stream.
         let (chance, error) = (self.noise.uniform(), self.noise.normal());
         let (range, loudness) = nearest?;
         let faint = (2.0 - loudness / threshold).max(0.0);
@@ -121,7 +123,7 @@ impl RangeSensor {
     }
 }
 
-/// How much sound a smooth surface sends back, by the cosine of the slant: its 16th power.
+/// The share of sound that a smooth surface returns: the 16th power of the slant's cosine.
 fn mirrored(cos: f64) -> f64 {
     let square = cos * cos;
     let fourth = square * square;
@@ -129,7 +131,7 @@ fn mirrored(cos: f64) -> f64 {
     eighth * eighth
 }
 
-/// How long the sound is under way, there and back; silence takes as long as the farthest echo.
+/// The sound's travel time, there and back. Silence takes as long as the farthest echo.
 pub(crate) fn flight(range: Option<f64>) -> Duration {
     Duration::from_secs_f64(2.0 * range.unwrap_or(MAX) / SOUND)
 }

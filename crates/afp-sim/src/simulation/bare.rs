@@ -1,4 +1,4 @@
-//! The engine alone: what a benchmark measures the simulation against.
+//! Only the engine: the baseline for benchmarks of the simulation.
 
 use crate::chassis::Chassis;
 use crate::devices::sonar;
@@ -30,8 +30,8 @@ impl Bare {
         self.physics.step();
     }
 
-    /// Casts the rays of one ping as the sensor does whose robot stands at `from` and looks along
-    /// `bearing` against its heading, in radians; returns how many met something.
+    /// Casts the rays of one ping from a robot at `from`, with the sensor at `bearing` against the
+    /// heading, in radians. Returns how many rays hit an obstacle.
     pub fn ping(&self, from: Pose, bearing: f64) -> usize {
         let heard = InteractionGroups::new(ROBOT, HIGH, InteractionTestMode::And);
         let queries = self.physics.query_pipeline_with_filter(QueryFilter::new().groups(heard));

@@ -1,4 +1,5 @@
-//! Contacts: what the bumper feels, and what the judge counts; the way that the robot came; and the edge of a map, which nothing feels.
+//! Contacts for the bumper and the judge, the robot's path, and the edge of a map, which no sensor
+//! feels.
 
 use super::Simulation;
 use super::sensors::Raw;
@@ -7,23 +8,23 @@ use crate::world::is_beyond;
 use afp_carbot::devices::{Bump, Navigator};
 use afp_core::Instant;
 
-/// The bumper covers the front face and this much of the sides, metres.
+/// The bumper covers the front and this length of the sides, in metres.
 const WRAP: f64 = 0.02;
 
 impl Simulation {
-    /// Looks at what the robot touches after a step.
+    /// Updates the robot's contacts after a step.
     pub(super) fn feel(&mut self, now: Instant) {
         let mut touched = false;
         self.stage.feel(now, |touch| touched |= touch.at[0] > HALF_LENGTH - WRAP);
         self.sensors.switch.step(touched);
     }
 
-    /// Whether something or somebody presses the bumper.
+    /// Whether an obstacle or a hand presses the bumper.
     pub(super) fn is_touched(&self) -> bool {
         self.sensors.held || self.sensors.switch.says()
     }
 
-    /// Remembers by what way the robot came and where the bumper is pressed, as far as it can tell.
+    /// Records the robot's path and the place of the bumper's press, from the odometry.
     pub(super) fn note_motion(&mut self, now: Instant) {
         let Ok(at) = self.sensors.lines.odometry.read(Raw::odometry(self)).value else { return };
         self.trail.note(at, &self.body());
@@ -32,7 +33,7 @@ impl Simulation {
         }
     }
 
-    /// Notes when the robot leaves the map.
+    /// Records when the robot leaves the map.
     pub(super) fn look_for_edge(&mut self, now: Instant) {
         let at = self.position().translation;
         if self.left_map.is_none() && is_beyond(&self.map, [at.x, at.y].map(f64::from)) {

@@ -1,4 +1,4 @@
-//! The simulation as the Carbot's devices, but for its sensors.
+//! The Carbot's devices in the simulation, except the sensors.
 
 use super::Simulation;
 use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
@@ -17,7 +17,7 @@ impl Environment for Simulation {
         self.shown = (false, None);
     }
 
-    /// Blocks the wheels at once. They and the rotator obey nobody until
+    /// Blocks the wheels immediately. Wheels and rotator ignore commands until
     /// [`Simulation::reset_emergency_stop`].
     fn emergency_stop(&mut self) {
         self.stopped = true;
@@ -28,12 +28,12 @@ impl Environment for Simulation {
 }
 
 impl Simulation {
-    /// Lets the robot obey again after an emergency stop.
+    /// Ends an emergency stop.
     pub fn reset_emergency_stop(&mut self) {
         self.stopped = false;
     }
 
-    /// Whether the robot has been stopped and obeys nobody.
+    /// Whether the robot is in an emergency stop.
     pub fn emergency_stopped(&self) -> bool {
         self.stopped
     }

@@ -1,4 +1,4 @@
-//! Faults begin and end.
+//! The beginning and end of faults.
 
 use super::Simulation;
 use crate::vehicle::drive::Health;
@@ -7,11 +7,11 @@ use afp_core::{Duration, Instant};
 use afp_session::Active;
 
 impl Simulation {
-    /// Breaks something from an instant, or from now if that is over, for a while;
-    /// [`Duration::MAX`] is for good.
+    /// Injects a fault at an instant, or now if the instant has passed, for a duration.
+    /// [`Duration::MAX`] is permanent.
     ///
-    /// At one instant physics comes first, then the fault, then what reads. Of two defects of one
-    /// sensor that which began last counts.
+    /// At one instant, physics comes first, then the fault, then readings. If two defects affect
+    /// one sensor, the later one counts.
     pub fn inject(&mut self, fault: Fault, from: Instant, during: Duration) {
         let from = from.max(self.now);
         self.faults.add(fault, from, from + during);
@@ -20,14 +20,14 @@ impl Simulation {
         }
     }
 
-    /// Passes on what has begun and what is over by now.
+    /// Begins and ends the faults that are due.
     pub(super) fn break_and_mend(&mut self) {
         let mut faults = std::mem::take(&mut self.faults);
         self.apply_faults(&faults.advance(self.now));
         self.faults = faults;
     }
 
-    /// Breaks exactly these.
+    /// Applies exactly these faults.
     pub(crate) fn apply_faults(&mut self, active: &Active<'_, Fault>) {
         self.drive.set_health(Health {
             dead: active.any(|fault| fault == Fault::ControllerDead),
@@ -41,7 +41,7 @@ impl Simulation {
     }
 }
 
-/// The least of some shares, within 0 to 1; what is no number leaves nothing.
+/// The least of some shares, within 0 to 1. A share that is not a number counts as 0.
 fn least(active: &Active<'_, Fault>, share: fn(Fault) -> Option<f64>) -> f64 {
     let shares = active.iter().filter_map(share);
     shares.fold(1.0, |least, share| if share > 0.0 { least.min(share) } else { 0.0 })

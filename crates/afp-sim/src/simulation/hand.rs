@@ -1,4 +1,4 @@
-//! Changes of the world from outside: the robot and movable things are put elsewhere, new things are dropped.
+//! Changes to the world from outside: moving the robot and other objects, and dropping new objects.
 
 use super::Simulation;
 use crate::stage::{Mover, collider};
@@ -12,7 +12,7 @@ use rapier2d::parry::query;
 use rapier2d::parry::shape::{Shape, SharedShape};
 use rapier2d::prelude::RigidBodyHandle;
 
-/// What can be dropped.
+/// The shapes of new objects.
 pub(super) const SHAPES: [Droppable; 3] = [
     Droppable {
         shape: "crate",
@@ -25,13 +25,13 @@ pub(super) const SHAPES: [Droppable; 3] = [
     Droppable { shape: "wall", outline: &[[0.03, 0.5], [-0.03, 0.5], [-0.03, -0.5], [0.03, -0.5]] },
 ];
 
-/// Their heights, metres, and masses, kilograms.
+/// Their heights, in metres, and masses, in kilograms.
 const BODIES: [(f64, f64); SHAPES.len()] = [(0.3, 2.0), (0.12, 0.3), (0.4, 30.0)];
 
-/// Things that were dropped, of all shapes, are no more than this: each costs time in every step.
+/// The maximum number of dropped objects, of all shapes: each costs time in every step.
 const MOST: usize = 64;
 
-/// Something at a place where there is room for it.
+/// An object at a free place.
 enum Placed {
     Robot,
     Thing { body: RigidBodyHandle, to: Isometry },
@@ -45,13 +45,13 @@ impl Simulation {
             Placed::Thing { body, to } => self.set_down(body, to),
             Placed::New { obstacle, start, shape } => self.drop_new(obstacle, start, shape)?,
         }
-        // Rays and pictures of this instant see it there.
+        // Rays and pictures of this instant see the new position.
         self.stage.physics.detect_collisions(&(), &());
         self.note_obstacles();
         Ok(())
     }
 
-    /// Whether something can be put somewhere now.
+    /// Checks whether an object can be placed somewhere now.
     pub(super) fn check_hand(&self, what: &Put, at: Pose) -> Result<(), RequestError> {
         self.placed(what, at).map(|_| ())
     }
@@ -71,8 +71,8 @@ impl Simulation {
         }
     }
 
-    /// A thing that can be pushed, by its name or the one that scenes give it: its middle at a place, and turned
-    /// against how it stood at the start.
+    /// Moves a movable object, by its name or its name in scenes. The pose is that of its middle,
+    /// turned relative to the start.
     fn carried(&self, name: &str, at: Pose) -> Result<Placed, RequestError> {
         let unknown = || RequestError::NoThing(name.to_owned());
         let is_it = |index: usize, it: &Obstacle| {
@@ -151,7 +151,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Whether nothing stands where a shape is to stand; `own` is the obstacle that it is.
+    /// Checks that no obstacle is in the place of a shape; `own` is the shape's own obstacle.
     fn look_for_room(
         &self,
         shape: &dyn Shape,
@@ -169,7 +169,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Whether the robot does not stand where a shape is to stand.
+    /// Checks that the robot is not in the place of a shape.
     fn look_for_robot(&self, shape: &dyn Shape, at: &Isometry) -> Result<(), RequestError> {
         let meets = query::intersection_test(at, shape, self.position(), &*self.robot());
         match meets.is_ok_and(|test| test.intersecting) {
@@ -182,11 +182,12 @@ impl Simulation {
         self.stage.chassis.shared()
     }
 
-    /// Lets a body stand somewhere, at rest.
+    /// Places a body somewhere, at rest.
     pub(super) fn set_down(&mut self, body: RigidBodyHandle, at: Isometry) {
         self.stage.disturb();
         let physics = &mut self.stage.physics;
-        // With all that rested against it: the engine takes one that is awake among sleeping ones for its own mistake.
+        // The call also wakes the bodies that rested against it: the engine does not expect an
+        // active body among sleeping ones.
         physics.islands.wake_up(&mut physics.bodies, body, true);
         let body = &mut physics.bodies[body];
         body.set_position(at, true);

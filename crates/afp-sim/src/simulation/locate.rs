@@ -22,16 +22,16 @@ use std::f64::consts::TAU;
 /// The filter in virtual time.
 pub(super) type SimulatedLocator = Locator<VirtualWorker<LocateJob>>;
 
-/// The search for ways in virtual time.
+/// The path planner in virtual time.
 pub(super) type SimulatedPlanner = Planner<VirtualWorker<SearchJob>>;
 
-/// Beliefs are drawn as discs so thin, metres, with so many corners.
+/// Thickness of the discs that show beliefs, in metres, and their number of corners.
 const THIN: f64 = 0.01;
 const CORNERS: u32 = 16;
 
 impl Simulation {
-    /// What looks for the robot; it is made for whoever asks first. It is told the map and the start, as somebody who
-    /// puts a robot down tells it, and nothing else that is true.
+    /// The localisation, created on first use. It knows the map and the start, like a robot that
+    /// somebody puts down, and no other ground truth.
     pub(super) fn locator(&mut self) -> &mut SimulatedLocator {
         let Simulation { locator, audible, stage, start, seed, .. } = self;
         locator.get_or_insert_with(|| {
@@ -41,7 +41,7 @@ impl Simulation {
         })
     }
 
-    /// What searches for ways; it is made for whoever asks first, of the same map.
+    /// The path planner, created on first use, on the same map.
     pub(super) fn planner(&mut self) -> &mut SimulatedPlanner {
         let body = self.body();
         let Simulation { planner, audible, stage, .. } = self;
@@ -51,12 +51,13 @@ impl Simulation {
         })
     }
 
-    /// How far the robot is from where it takes itself to be: metres and radians; none while nobody asks.
+    /// The distance and angle between the robot and its estimate, in metres and radians; `None`
+    /// while the localisation is unused.
     pub fn localisation_error(&self) -> Option<[f64; 2]> {
         self.located.last()
     }
 
-    /// Puts the robot down at another place, as somebody does who carries it. No wheel turns meanwhile.
+    /// Moves the robot to another place, as if somebody carried it. The wheels do not turn.
     pub fn carry_to(&mut self, place: Pose) {
         self.set_down(self.stage.body, isometry(place));
     }
@@ -84,7 +85,7 @@ impl Simulation {
         }
     }
 
-    /// Lets ways lead round what stands right before the robot, where it takes itself to be.
+    /// Adds the obstacle directly ahead of the estimated position to the planner's map.
     pub(super) fn plan_round(&mut self, now: Instant) {
         let motion = self.sensors.lines.odometry.read(Raw::odometry(self));
         if let (Some(planner), Some(locator)) = (&mut self.planner, &self.locator)
@@ -94,7 +95,8 @@ impl Simulation {
         }
     }
 
-    /// Lets the filter hear what range sensor and odometry say, by lines that may be broken.
+    /// Passes the readings of range sensor and odometry to the filter, over lines that may have
+    /// faults.
     pub(super) fn locate(&mut self) {
         let (now, truth) = (self.now, self.truth().pose());
         let echo = self.sensors.lines.ultrasonic.read(self.sensors.echo);

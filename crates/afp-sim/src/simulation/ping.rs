@@ -1,4 +1,4 @@
-//! From a ping to the reading of its echo that the plan gets.
+//! From a ping to the plan's reading of its echo.
 
 use super::Simulation;
 use crate::devices::sonar;
@@ -6,7 +6,7 @@ use afp_carbot::devices::{Echo, Reading};
 use afp_core::Instant;
 
 impl Simulation {
-    /// Sends a ping from where the sensor is now.
+    /// Sends a ping from the sensor's present position.
     pub(super) fn ping(&mut self, now: Instant) {
         let rays = self.stage.rays(sonar::FORWARD);
         let range =
@@ -19,7 +19,7 @@ impl Simulation {
         self.sensors.ping = Some((now + sonar::flight(range), Reading { time: now, value }));
     }
 
-    /// Takes the echo that has arrived by now.
+    /// Receives an echo that has arrived.
     pub(super) fn receive(&mut self) {
         if let Some((_, echo)) = self.sensors.ping.take_if(|(arrival, _)| *arrival <= self.now) {
             self.sensors.echo = echo;

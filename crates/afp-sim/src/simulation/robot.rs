@@ -1,4 +1,4 @@
-//! The simulation as a robot that sessions drive.
+//! The simulation as the robot of a session.
 
 use afp_carbot::table::{Carbot, Control, Fault, signal};
 use afp_core::{Instant, Platform};
@@ -116,7 +116,7 @@ impl Simulation {
         to.put(signal::CONTACT, SampleRef::Text(contact.map_or("", |it| &it.name)));
     }
 
-    /// An obstacle where it is now, as a scene shows it.
+    /// The present shape of an obstacle, for a scene.
     fn shape(&self, index: usize) -> Option<Shape> {
         let obstacle = self.stage.obstacles.get(index)?;
         Some(Shape { outline: self.outline(index), ..shape(index, obstacle) })

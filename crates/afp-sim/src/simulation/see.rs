@@ -1,4 +1,4 @@
-//! The sensors that see: infrared, colour and camera, each at its own rate.
+//! The optical sensors: infrared, colour and camera, each at its own rate.
 
 use super::Simulation;
 use crate::devices::camera::{self, Exposure};
@@ -11,7 +11,7 @@ use std::mem;
 use std::sync::Arc;
 
 impl Simulation {
-    /// Lets those look whose time it is.
+    /// Updates the sensors whose time has come.
     pub(super) fn see(&mut self, now: Instant) {
         let robot = Place::new(self.position());
         let nth = |period: Duration| {

@@ -1,7 +1,7 @@
-//! The sensors: what each says, its line to the plan, and what logs show of it.
+//! The sensors: their readings, their lines to the plan, and their signals in logs.
 //!
-//! A new sensor is here a field of [`Sensors`] with its device, a line in the list `lines!`, its trait, and its signals in
-//! `sample_sensors`.
+//! A new sensor needs a field of [`Sensors`] with its device, a line in the list `lines!`, its
+//! trait, and its signals in `sample_sensors`.
 
 use super::robot::frame;
 use super::{Simulation, Snapshot};
@@ -35,17 +35,17 @@ use std::sync::Arc;
 const SONAR: &str = "sonar";
 const CAMERA: &str = "camera";
 
-/// The devices that measure, with what they said last.
+/// The measuring devices, with their latest readings.
 #[derive(Clone)]
 pub(super) struct Sensors {
     pub(super) odometer: Odometer,
     pub(super) rotator: Rotator,
     pub(super) sonar: RangeSensor,
-    /// The ping that is under way: when its echo arrives and what it will say.
+    /// The ping in flight: the time and the content of its echo.
     pub(super) ping: Option<(Instant, Reading<Echo>)>,
     pub(super) echo: Reading<Echo>,
     pub(super) switch: Switch,
-    /// Whether somebody holds the bumper in.
+    /// Whether a hand holds the bumper pressed.
     pub(super) held: bool,
     pub(super) escape: bool,
     pub(super) battery: Cells,
@@ -54,10 +54,10 @@ pub(super) struct Sensors {
     pub(super) color_sensor: ColorEye,
     pub(super) color: Reading<Color>,
     pub(super) exposure: Reading<Arc<Exposure>>,
-    /// The one before, for the truth about how pictures move.
+    /// The previous picture, for the ground truth of optical flow.
     pub(super) exposed_before: Option<Arc<Exposure>>,
     pub(super) lines: Lines,
-    /// Whether a line delays.
+    /// Whether a line has a delay.
     delayed: bool,
 }
 
@@ -87,7 +87,8 @@ impl Sensors {
         }
     }
 
-    /// Steps the devices that measure all the time; [`Simulation::see`] has those with rates of their own.
+    /// Steps the devices that measure continuously; [`Simulation::see`] steps the devices with
+    /// their own rates.
     pub(super) fn step(&mut self, wheels: &[Wheel; 2]) {
         self.odometer.step(wheels, DT);
         self.rotator.step(DT);
@@ -96,17 +97,17 @@ impl Sensors {
     }
 }
 
-/// Makes the lines of the sensors from a list: the device in the toolbox, the type of its readings, the reading before the
-/// line, and the defect that a fault is to it.
+/// Generates the sensors' lines from a list: the device in the toolbox, the type of its readings,
+/// the reading before the line, and the defect of each fault.
 macro_rules! lines {
     ($($device:ident: $value:ty = $raw:expr, $defect:expr;)+) => {
-        /// From each sensor to the plan.
+        /// The lines from the sensors to the plan.
         #[derive(Clone, Debug, Default)]
         pub(super) struct Lines {
             $(pub(super) $device: Line<$value>,)+
         }
 
-        /// The readings of the sensors themselves, before their lines.
+        /// The sensors' own readings, before their lines.
         pub(super) struct Raw;
 
         impl Raw {
@@ -117,18 +118,18 @@ macro_rules! lines {
         }
 
         impl Simulation {
-            /// Lets the lines have exactly these defects.
+            /// Sets exactly these defects on the lines.
             pub(super) fn set_lines(&mut self, active: &Active<'_, Fault>) {
                 self.sensors.delayed = false;
                 $({
-                    // Of two defects that which began last counts.
+                    // If there are two defects, the later one counts.
                     let (defect, raw) = (active.find($defect), Raw::$device(self));
                     self.sensors.delayed |= matches!(defect, Some(Defect::Delayed(_)));
                     self.sensors.lines.$device.set(defect, raw);
                 })+
             }
 
-            /// Lets the lines that delay know what the sensors say now.
+            /// Records the present readings for lines with a delay.
             pub(super) fn note(&mut self) {
                 if self.sensors.delayed {
                     let now = self.now;
@@ -154,7 +155,7 @@ lines! {
     battery: Charge = |sim| sim.measured(sim.sensors.battery.charge()), Fault::battery;
 }
 
-/// What a fault does to the odometry: the controller counts the wheels.
+/// The defect of the odometry for a fault of the controller, which counts the wheels.
 fn wheel_counters(fault: Fault) -> Option<Defect> {
     match fault {
         Fault::ControllerDead => Some(Defect::Lost),
@@ -163,12 +164,12 @@ fn wheel_counters(fault: Fault) -> Option<Defect> {
 }
 
 impl Simulation {
-    /// A reading as it arrives at the plan.
+    /// The plan's reading, after the line.
     fn deliver<T: Clone>(&self, line: &Line<T>, raw: Reading<T>) -> Reading<T> {
         line.sense(raw, self.now, &self.clock)
     }
 
-    /// Takes the time that one use of a sensor costs.
+    /// Charges the time for one use of a sensor.
     fn charge_for<T: Clone>(&self, line: &Line<T>) {
         if let Some(cost) = line.cost() {
             self.clock.spend(self.now, cost);
@@ -297,7 +298,7 @@ impl Simulation {
         }
     }
 
-    /// What the sensors for light said last, before their lines make anything of it.
+    /// The latest readings of the light sensors, before their lines.
     fn sample_light(&self, to: &mut Samples<'_, '_>) {
         if let Ok(Some(glow)) = self.sensors.glow.value {
             to.put(signal::INFRARED_DIRECTION, SampleRef::Float(glow.bearing.si()));

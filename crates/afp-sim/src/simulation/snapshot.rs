@@ -1,4 +1,4 @@
-//! What logs and pictures show of an instant.
+//! The state of an instant in logs and pictures.
 
 use super::Simulation;
 use crate::truth::Pose;
@@ -12,11 +12,11 @@ pub struct Snapshot {
     pub time: Instant,
     /// The true pose.
     pub pose: Pose,
-    /// What the odometry believes, against the start.
+    /// The odometry's estimate, relative to the start.
     pub odometry: Motion,
-    /// Where the rotator points against the heading, radians.
+    /// The rotator's angle relative to the heading, in radians.
     pub rotator: f64,
-    /// The latest echo; none before the first.
+    /// The latest echo; `None` before the first.
     pub sonar: Option<Sonar>,
     /// Whether the bumper is pressed.
     pub touched: bool,
@@ -25,23 +25,23 @@ pub struct Snapshot {
 /// A completed ping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sonar {
-    /// When it was sent.
+    /// The time of the ping.
     pub time: Instant,
-    /// Where the sensor pointed against the heading, radians.
+    /// The sensor's bearing relative to the heading, in radians.
     pub bearing: f64,
-    /// The distance heard, metres; none for silence.
+    /// The measured distance, in metres; `None` for silence.
     pub distance: Option<f64>,
 }
 
 impl Simulation {
-    /// The latest picture of the camera, whatever its line makes of it, and when it was taken; `None`
-    /// before the first. It is drawn when it is first looked at.
+    /// The camera's latest picture, before its line, and its time; `None` before the first picture.
+    /// It is rendered on first use.
     pub fn view(&self) -> Option<(Instant, Frame<'_>)> {
         let exposure = self.sensors.exposure.value.as_ref().ok()?;
         Some((self.sensors.exposure.time, exposure.frame()))
     }
 
-    /// What logs and pictures show of this instant.
+    /// The state of this instant for logs and pictures.
     pub fn snapshot(&self) -> Snapshot {
         let sonar = self.sensors.echo.value.ok().map(|echo| Sonar {
             time: self.sensors.echo.time,

@@ -1,4 +1,4 @@
-//! How well the robot keeps its distance to a wall, while one is beside it: a measure that is asked for.
+//! The error of the robot's distance to a wall while it follows one: an optional measure.
 
 use afp_core::trace::{ComponentId, ComponentKind, Record};
 use afp_core::{Duration, Instant, ValueRef};
@@ -6,28 +6,28 @@ use afp_session::{Figure, FigureValue, Measure, NamedRecord, SAMPLE};
 
 use super::Simulation;
 
-/// Wall following counts from so long after its start.
+/// Errors count after this time of wall following.
 const SETTLING: Duration = Duration::from_secs(2);
-/// The template whose distance to the wall is judged, and its input that says which.
+/// The template for wall following, and the input with its distance.
 const FOLLOWER: &str = "WallForward";
 const DISTANCE_PORT: &str = "walldist";
 
 /// The error of wall following so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WallDistance {
-    /// Of absolute values, metres.
+    /// The sum of absolute values, in metres.
     sum: f64,
     max: f64,
     samples: u64,
     following: Option<Following>,
 }
 
-/// A wall is followed.
+/// The active wall following.
 #[derive(Clone, Copy, Debug)]
 struct Following {
     actor: ComponentId,
     since: Instant,
-    /// Metres.
+    /// The wanted distance, in metres.
     wanted: f64,
 }
 

@@ -1,28 +1,31 @@
-//! Steps of a robot that nothing can touch, without the engine.
+//! Steps of a robot without neighbours, computed without the engine.
 //!
-//! Most steps are such. The engine keeps a box around the robot that is wider than it by some centimetres, and looks for
-//! others only where the robot leaves it. Within the box, with nothing else in it and nothing else moving, all that the
-//! engine does is to integrate one body: that is done here with the same operations in the same order.
+//! Most steps are of this kind. The engine keeps a box around the robot, some centimetres wider
+//! than the robot, and searches for neighbours only when the robot leaves it. If the box has
+//! nothing else in it and nothing else moves, the engine only integrates one body. This module does
+//! the same operations in the same order.
 
 use super::Stage;
 use rapier2d::math::{Pose as Isometry, Rotation};
 use rapier2d::parry::bounding_volume::{Aabb, BoundingVolume};
 
-/// Slower than this the engine neither limits a body's speed nor sweeps its way: metres and radians a second.
+/// Below these speeds the engine neither limits a body's speed nor sweeps its path: metres and
+/// radians a second.
 const SLOW: f32 = 1.0;
 const CALM: f32 = 10.0;
 
-/// What is known of the robot's surroundings.
+/// The known surroundings of the robot.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Surroundings {
     /// The engine's box around the robot after its last step.
     boxed: Option<Aabb>,
-    /// The same, where the robot is alone in it and nothing else moves.
+    /// The same box, if the robot is alone in it and nothing else moves.
     free: Option<Aabb>,
 }
 
 impl Stage {
-    /// Makes a step as the engine would, if the robot stays where nothing can touch it. Whether it did.
+    /// Makes the engine's step if the robot stays where nothing can touch it. Returns whether it
+    /// did.
     pub(super) fn step_alone(&mut self) -> bool {
         let Some(free) = self.surroundings.free else { return false };
         let parameters = &self.physics.integration_parameters;
@@ -56,7 +59,8 @@ impl Stage {
         true
     }
 
-    /// Looks around after a step of the engine. What left its box is looked at by the engine in its next step.
+    /// Updates the surroundings after a step of the engine. The engine itself handles a body that
+    /// left its box in the next step.
     pub(super) fn look_around(&mut self) {
         let leaf = self.collider.into_raw_parts().0;
         let boxed = self.physics.query_pipeline().bvh.leaf_node(leaf).map(|leaf| leaf.aabb());
@@ -67,7 +71,7 @@ impl Stage {
         self.surroundings = Surroundings { boxed, free: boxed.filter(|_| settled) };
     }
 
-    /// Forgets what is around the robot, since somebody has put something elsewhere.
+    /// Forgets the surroundings after an outside change.
     pub(crate) fn disturb(&mut self) {
         self.surroundings = Surroundings::default();
     }
@@ -87,7 +91,8 @@ mod tests {
     use crate::world::World;
     use afp_core::Instant;
 
-    /// A push that changes now and then, against the motion, so that the robot goes to and fro and into things.
+    /// A push that changes from time to time, against the motion, so that the robot drives back and
+    /// forth and into obstacles.
     fn push(stage: &Stage, step: u64) -> Push {
         let twist = stage.twist();
         let [ahead, turn] = [(step / 160) % 3, (step / 110) % 4].map(|n| n as f64);
@@ -99,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_without_the_engine_are_those_of_the_engine_bit_for_bit() {
+    fn steps_without_the_engine_equal_its_steps_bit_for_bit() {
         let (mut alone, mut touches) = (0, 0);
         for room in 0..12 {
             let world = World::random(room);

@@ -1,4 +1,4 @@
-//! Builds a world and the robot in it for the engine.
+//! Builds a world and the robot in the engine.
 
 use super::DT;
 use super::movers::Mover;
@@ -11,13 +11,13 @@ use rapier2d::prelude::{
     ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
 };
 
-/// What the range sensor hears.
+/// Obstacles that the range sensor detects.
 pub(crate) const HIGH: Group = Group::GROUP_1;
-/// What it looks over.
+/// Obstacles below the range sensor.
 const LOW: Group = Group::GROUP_2;
 pub(crate) const ROBOT: Group = Group::GROUP_3;
 
-/// What the engine knows of a world.
+/// A world in the engine.
 pub(crate) struct Built {
     pub(crate) physics: PhysicsWorld,
     pub(crate) body: RigidBodyHandle,
@@ -26,7 +26,7 @@ pub(crate) struct Built {
     pub(crate) movers: Vec<Mover>,
 }
 
-/// Builds a world and the robot in it for the engine.
+/// Builds a world and the robot in the engine.
 pub(crate) fn build(world: &World, chassis: &Chassis) -> Result<Built, WorldError> {
     let mut physics = PhysicsWorld::new();
     physics.gravity = Vector::ZERO;
@@ -50,12 +50,12 @@ pub(crate) fn build(world: &World, chassis: &Chassis) -> Result<Built, WorldErro
     }
     let body = RigidBodyBuilder::dynamic().pose(isometry(world.start)).can_sleep(false);
     let (body, collider) = physics.insert(body, robot(chassis));
-    // Rays meet nothing before the first update of the search tree.
+    // Rays hit nothing before the first update of the search tree.
     physics.detect_collisions(&(), &());
     Ok(Built { physics, body, collider, shapes, movers })
 }
 
-/// An obstacle's collider; its index in the world is its user data.
+/// An obstacle's collider; its user data is the obstacle's index in the world.
 pub(crate) fn collider(
     obstacle: &Obstacle,
     shape: SharedShape,

@@ -1,20 +1,20 @@
-//! What the robot has run into, and for how long.
+//! The robot's collisions and their durations.
 
 use super::STEP;
 use afp_core::Instant;
 
-/// A stretch of time in which the robot touched one obstacle.
+/// A period in which the robot touched one obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Collision {
-    /// The obstacle, by its place in [`crate::World::obstacles`].
+    /// The obstacle's index in [`crate::World::obstacles`].
     pub obstacle: usize,
-    /// When they first touched.
+    /// The time of the first touch.
     pub begin: Instant,
-    /// When they last touched.
+    /// The time of the last touch.
     pub end: Instant,
 }
 
-/// Touches of one obstacle that are no farther apart than this are one collision, nanoseconds.
+/// Touches of one obstacle within this time are one collision, in nanoseconds.
 const APART: u64 = 300_000_000;
 
 /// The collisions so far, oldest first.
@@ -34,7 +34,7 @@ impl Collisions {
         &self.0
     }
 
-    /// Those that last at `now`. A touch lasts to the end of the physics step that found it.
+    /// The collisions that last at `now`. A touch lasts until the end of its physics step.
     pub(crate) fn lasting(&self, now: Instant) -> impl DoubleEndedIterator<Item = &Collision> {
         self.0.iter().filter(move |touch| now.since(touch.end) < STEP)
     }

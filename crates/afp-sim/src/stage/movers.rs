@@ -1,4 +1,4 @@
-//! Obstacles that move: those that can be pushed and those that follow a path.
+//! Obstacles that move: pushable obstacles and obstacles on a path.
 
 use super::{DT, Stage};
 use crate::vehicle::Place;
@@ -8,7 +8,7 @@ use rapier2d::math::{Pose as Isometry, Vector};
 use rapier2d::parry::shape::SharedShape;
 use rapier2d::prelude::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 
-/// How fast something that slides over the floor gets slower, metres a second squared.
+/// The deceleration of a sliding object, in metres a second squared.
 const FLOOR: f32 = 0.4 * 9.81;
 
 /// An obstacle that moves.
@@ -16,22 +16,22 @@ const FLOOR: f32 = 0.4 * 9.81;
 pub(crate) struct Mover {
     obstacle: usize,
     body: RigidBodyHandle,
-    /// Where it was at the start.
+    /// Its place at the start.
     start: Isometry,
     moved_by: MovedBy,
 }
 
-/// What moves it.
+/// The cause of the motion.
 #[derive(Clone)]
 enum MovedBy {
-    /// By itself.
+    /// It follows a path.
     Scripted(Path),
-    /// When it is pushed; its radius of gyration, metres, at least a centimetre.
+    /// It is pushed; its radius of gyration is in metres and at least a centimetre.
     Pushed { gyration: f32 },
 }
 
 impl Mover {
-    /// A body for an obstacle that moves; none for one that does not.
+    /// A body for a moving obstacle; `None` for a fixed one.
     pub(crate) fn body(obstacle: &Obstacle, at: Isometry) -> Option<RigidBodyBuilder> {
         match obstacle.mobility {
             Mobility::Fixed => None,
@@ -40,7 +40,7 @@ impl Mover {
         }
     }
 
-    /// The `i`-th obstacle, with its body; it stands at `start` and has a shape.
+    /// The `i`-th obstacle with its body, at `start` and with a shape.
     pub(crate) fn new(
         i: usize,
         body: RigidBodyHandle,
@@ -58,7 +58,7 @@ impl Mover {
         Mover { obstacle: i, body, start, moved_by }
     }
 
-    /// The obstacle, by its place in [`World::obstacles`](crate::World).
+    /// The obstacle's index in [`World::obstacles`](crate::World).
     pub(crate) fn obstacle(&self) -> usize {
         self.obstacle
     }
@@ -67,12 +67,12 @@ impl Mover {
         self.body
     }
 
-    /// Where it was at the start.
+    /// Its place at the start.
     pub(crate) fn start(&self) -> Isometry {
         self.start
     }
 
-    /// Whether it stays where it is until it is pushed. What follows a path may only be waiting.
+    /// Whether it stays in place until it is pushed. An obstacle on a path may only be waiting.
     pub(super) fn rests(&self, body: &RigidBody) -> bool {
         matches!(self.moved_by, MovedBy::Pushed { .. }) && body.is_sleeping()
     }
@@ -91,8 +91,8 @@ impl Mover {
     }
 }
 
-/// The floor's friction of one step. It acts on four places that are as far from the middle as the radius of gyration:
-/// so what turns is easier to slide, and the other way round.
+/// The floor's friction of one step. It acts at four places at the radius of gyration, so that a
+/// turning object slides more easily and a sliding object turns more easily.
 fn slide(body: &mut RigidBody, gyration: f32) {
     let less = FLOOR * DT as f32;
     let (velocity, turn) = (body.linvel(), body.angvel());
@@ -109,15 +109,15 @@ fn slide(body: &mut RigidBody, gyration: f32) {
 }
 
 impl Stage {
-    /// Lets everything that moves begin the step that ends at `now`.
+    /// Begins the step that ends at `now` for all moving obstacles.
     pub(super) fn begin_movers(&mut self, now: Instant) {
         for mover in &self.movers {
             mover.step(&mut self.physics.bodies[mover.body], now);
         }
     }
 
-    /// The corners of an obstacle, by its place among the [`Stage::obstacles`], where it is now: metres,
-    /// counter-clockwise; none for an obstacle that is not there.
+    /// The present corners of an obstacle, by its index in [`Stage::obstacles`]: metres,
+    /// counter-clockwise; empty for an unknown index.
     pub fn outline(&self, obstacle: usize) -> Vec<[f64; 2]> {
         let Some(there) = self.obstacles.get(obstacle) else { return Vec::new() };
         let corners = there.outline.corners();
@@ -129,12 +129,12 @@ impl Stage {
         corners.into_iter().map(|[x, y]| moved.beyond(x, y)).collect()
     }
 
-    /// The obstacles that move, by their places among the [`Stage::obstacles`].
+    /// The moving obstacles, by their indices in [`Stage::obstacles`].
     pub fn movers(&self) -> impl Iterator<Item = usize> {
         self.movers.iter().map(|mover| mover.obstacle)
     }
 
-    /// Notes where everything that moves is, and tells of what is elsewhere than before.
+    /// Records the places of all moving obstacles and reports the obstacles that have moved.
     pub(crate) fn note_movers(&mut self, mut moved: impl FnMut(usize, [f64; 2], [f64; 2])) {
         for (n, mover) in self.movers.iter().enumerate() {
             let at = *self.physics.bodies[mover.body].position();

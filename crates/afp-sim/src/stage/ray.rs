@@ -1,18 +1,18 @@
-//! What rays meet that are sent from the robot.
+//! Rays from the robot, and their hits.
 
 use super::{HIGH, ROBOT, Stage};
 use rapier2d::geometry::{InteractionGroups, InteractionTestMode};
 use rapier2d::math::Vector;
 use rapier2d::prelude::{QueryFilter, QueryPipeline, Ray};
 
-/// What a ray met.
+/// The hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met {
-    /// How far away, metres.
+    /// The distance, in metres.
     pub range: f64,
     /// The cosine of the angle between the ray and the surface's normal.
     pub cos: f64,
-    /// By its place among the [`Stage::obstacles`].
+    /// The index in [`Stage::obstacles`].
     pub obstacle: usize,
 }
 
@@ -26,8 +26,9 @@ pub(crate) struct Rays<'a> {
 }
 
 impl Stage {
-    /// What a ray meets that begins `forward` of the body's middle and goes along a bearing against the heading, in
-    /// radians: no farther than `most`, metres, and nothing that is lower than [`Chassis::ranging_height`].
+    /// The hit of a ray that begins `forward` of the body's middle, at a bearing against the
+    /// heading in radians. Hits are within `most` metres, and obstacles lower than
+    /// [`Chassis::ranging_height`] are ignored.
     ///
     /// [`Chassis::ranging_height`]: crate::parts::Chassis::ranging_height
     pub fn ray(&self, forward: f64, bearing: f64, most: f64) -> Option<Met> {
@@ -64,7 +65,7 @@ impl Rays<'_> {
         Some(Met { range: f64::from(hit.time_of_impact), cos, obstacle })
     }
 
-    /// How much of the sound that hits an obstacle is sent back.
+    /// The share of the sound that an obstacle returns.
     pub(crate) fn echo(&self, obstacle: usize) -> f64 {
         self.stage.obstacles.get(obstacle).map_or(1.0, |it| it.echo)
     }

@@ -1,9 +1,9 @@
-//! A copy of a stage that goes on by itself.
+//! A copy of a stage with its own future.
 
 use super::Stage;
 use rapier2d::prelude::{CCDSolver, CollisionPipeline, PhysicsPipeline, PhysicsWorld};
 
-/// The same at the same instant: both go on alike.
+/// The same state at the same instant: both copies continue alike.
 impl Clone for Stage {
     fn clone(&self) -> Self {
         Stage {
@@ -21,7 +21,7 @@ impl Clone for Stage {
     }
 }
 
-/// The state of the engine. Its pipelines are room to compute in and begin empty.
+/// The state of the engine. Its pipelines are only buffers and begin empty.
 fn physics(of: &PhysicsWorld) -> PhysicsWorld {
     PhysicsWorld {
         gravity: of.gravity,

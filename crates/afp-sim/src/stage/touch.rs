@@ -1,29 +1,29 @@
-//! What the robot's body touches.
+//! The contacts of the robot's body.
 
 use super::Stage;
 use afp_core::Instant;
 use rapier2d::parry::query;
 
-/// Nearer than this is a touch, metres.
+/// The maximum distance of a touch, in metres.
 const TOUCH: f32 = 0.001;
-/// What pushes is no farther away: the engine keeps a pair's contact points while it moves little, and has been seen to push
-/// across a gap of 13 mm at a corner that went by.
+/// The maximum distance of a pushing obstacle. The engine keeps a pair's contact points during
+/// small motions. It once pushed across a gap of 13 mm at a passing corner.
 const PUSH: f32 = 0.02;
 
-/// Something that the robot's body touches.
+/// A contact of the robot's body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
-    /// By its place among the [`Stage::obstacles`].
+    /// The index in [`Stage::obstacles`].
     pub obstacle: usize,
-    /// Where, in the body's frame: ahead and to the left of its middle, metres.
+    /// The place in the body's frame: ahead and to the left of its middle, in metres.
     pub at: [f64; 2],
-    /// Out of the body into the thing, a unit vector of the body's frame.
+    /// The direction from the body into the obstacle, a unit vector in the body's frame.
     pub into: [f64; 2],
 }
 
 impl Touch {
-    /// How fast a motion of the body, metres and radians a second about its middle, would go into the thing, metres a
-    /// second; negative where it leaves it.
+    /// The speed of a motion of the body into the obstacle, in metres a second; negative away from
+    /// it. The motion is in metres and radians a second about the middle.
     pub fn speed_into(&self, (ahead, turn): (f64, f64)) -> f64 {
         let [x, y] = self.at;
         (ahead - turn * y) * self.into[0] + turn * x * self.into[1]
@@ -31,15 +31,16 @@ impl Touch {
 }
 
 impl Stage {
-    /// What the robot touched when it was last looked at.
+    /// The contacts at the last check.
     pub fn touches(&self) -> &[Touch] {
         &self.touches
     }
 
-    /// Looks at what the robot touches after a step, notes it as collisions, and tells of each touch.
+    /// Checks the robot's contacts after a step, records them as collisions, and calls `felt` for
+    /// each.
     ///
-    /// The engine keeps a pair's contact points over several steps, so the distance is computed
-    /// afresh for the few pairs that are near.
+    /// The engine keeps a pair's contact points over several steps. This function computes the
+    /// distances of near pairs again.
     pub fn feel(&mut self, now: Instant, mut felt: impl FnMut(Touch)) {
         self.touches.clear();
         for pair in self.physics.narrow_phase.contact_pairs_with(self.collider) {
@@ -51,7 +52,8 @@ impl Stage {
             let colliders = &self.physics.colliders;
             let (robot, other) = (&colliders[self.collider], &colliders[other]);
             let (at, there) = (robot.position(), other.position());
-            // What the engine held apart in this step, in advance of any touch, pushed all the same.
+            // The engine separates bodies before they touch; such a pair has pushed in this step,
+            // too.
             let near = if pair.total_impulse_magnitude() > 0.0 { PUSH } else { TOUCH };
             let contact = query::contact(at, robot.shape(), there, other.shape(), near);
             let Ok(Some(contact)) = contact else { continue };

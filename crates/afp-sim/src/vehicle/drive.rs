@@ -1,8 +1,8 @@
-//! The drive: the controller that obeys driving commands, and what its wheels do to the body.
+//! The drive: the controller for driving commands, and the wheels' effect on the body.
 //!
-//! Two wheels in front steer and drive independently, two castors roll along behind. The
-//! controller turns a command (speed, turn rate) into the direction and speed of each wheel, and
-//! stops by itself when commands cease.
+//! Two wheels in front steer and drive independently, and two castors follow. The controller turns
+//! a command (speed, turn rate) into the direction and speed of each wheel. It stops the robot if
+//! the commands cease.
 
 use super::floor::{Demand, Footing};
 use super::wheel::{WHEEL_X, WHEEL_Y, Wheel};
@@ -11,34 +11,34 @@ use crate::chassis::Chassis;
 use crate::chassis::MASS;
 use afp_core::{Duration, Instant};
 
-/// Without a new command for so long the controller stops the robot.
+/// Without a new command for this time, the controller stops the robot.
 pub(crate) const DEAD_MAN: Duration = Duration::from_millis(200);
-/// Top speed of a wheel's rim, metres a second; so of the robot too.
+/// The top speed of a wheel's rim and of the robot, in metres a second.
 const TOP_SPEED: f64 = 0.31;
-/// A castor's rolling resistance, newtons.
+/// A castor's rolling resistance, in newtons.
 const ROLLING: f64 = 0.02 * MASS * 9.81 / 4.0;
 
 /// The drive with its controller.
 #[derive(Clone, Debug)]
 pub(crate) struct Drive {
     wheels: [Wheel; 2],
-    /// Of the wheels, then of the castors.
+    /// The contacts of the wheels, then of the castors.
     footing: Footing<4>,
     command: (f64, f64),
     commanded: Instant,
-    /// The last command, whatever became of it.
+    /// The last command, even if it had no effect.
     asked: (f64, f64),
     health: Health,
 }
 
-/// What faults and the battery leave of the drive.
+/// The effect of faults and the battery on the drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Health {
-    /// The controller hears no command.
+    /// The controller ignores commands.
     pub(crate) dead: bool,
     /// The left and the right motor are blocked.
     pub(crate) stalled: [bool; 2],
-    /// The share of the grip that is left.
+    /// The remaining share of the grip.
     pub(crate) grip: f64,
 }
 
@@ -73,13 +73,13 @@ impl Drive {
         &self.wheels
     }
 
-    /// The last command, metres and radians a second; zeros before the first. Neither a controller that
-    /// is dead nor one that stops by itself changes it.
+    /// The last command, in metres and radians a second; zeros before the first. A dead controller
+    /// and an automatic stop do not change it.
     pub(crate) fn asked(&self) -> (f64, f64) {
         self.asked
     }
 
-    /// Takes a command; one that is not finite means a standstill.
+    /// Takes a command; a command that is not finite stops the robot.
     pub(crate) fn command(&mut self, speed: f64, turn: f64, now: Instant) {
         let finite = speed.is_finite() && turn.is_finite();
         let (speed, turn) = if finite { (speed, turn) } else { (0.0, 0.0) };
@@ -92,7 +92,7 @@ impl Drive {
         self.obey(speed, turn);
     }
 
-    /// Blocks the wheels at once.
+    /// Blocks the wheels immediately.
     pub(crate) fn block(&mut self) {
         self.asked = (0.0, 0.0);
         self.obey(0.0, 0.0);
@@ -101,7 +101,7 @@ impl Drive {
         }
     }
 
-    /// Breaks or mends parts of it.
+    /// Sets its faults.
     pub(crate) fn set_health(&mut self, health: Health) {
         self.health = health;
         for (wheel, stalled) in self.wheels.iter_mut().zip(health.stalled) {
@@ -120,7 +120,7 @@ impl Drive {
     }
 
     /// Moves wheels and motors for `dt` seconds up to `now`, at the share `power` of the wanted
-    /// speed; returns what pushes the body.
+    /// speed. Returns the push on the body.
     pub(crate) fn step(&mut self, body: Twist, now: Instant, power: f64, dt: f64) -> Push {
         if now.since(self.commanded) > DEAD_MAN {
             self.obey(0.0, 0.0);
@@ -140,9 +140,9 @@ impl Drive {
     }
 }
 
-/// A command in which no wheel is faster than the top speed, on the same curve.
+/// The command on the same curve, reduced so that no wheel exceeds the top speed.
 pub(crate) fn reduced(speed: f64, turn: f64) -> (f64, f64) {
-    // In quarters the sum of any two finite values is finite.
+    // The sum of quarters of two finite values is always finite.
     let (ahead, across) = (speed.abs() / 4.0 + turn.abs() / 4.0 * WHEEL_Y, turn / 4.0 * WHEEL_X);
     let outer = libm::hypot(ahead, across);
     let top = TOP_SPEED / 4.0;
@@ -156,14 +156,14 @@ pub(crate) fn reduced(speed: f64, turn: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// How fast the rim of the faster wheel goes with a command.
+    /// The speed of the faster wheel's rim for a command.
     fn rim((speed, turn): (f64, f64)) -> f64 {
         let at = |y: f64| (speed - turn * y).hypot(turn * WHEEL_X);
         at(WHEEL_Y).max(at(-WHEEL_Y))
     }
 
     #[test]
-    fn a_command_for_which_the_wheels_are_fast_enough_is_obeyed_as_it_is() {
+    fn a_command_within_the_limits_is_not_changed() {
         for command in [(0.0, 0.0), (TOP_SPEED, 0.0), (-TOP_SPEED, 0.0), (0.2, -0.6), (0.0, 1.6)] {
             assert_eq!(reduced(command.0, command.1), command);
         }

@@ -1,16 +1,19 @@
-//! What the floor does to the body where wheels and castors stand on it.
+//! The floor's effect on the body through the contacts of wheels and castors.
 //!
-//! Each contact stops its slip as far as friction can hold, in every direction alike (the friction circle), and a
-//! driven wheel along its way no further than its motor can: then the wheel turns as the floor lets it. All
-//! push the same body, so what they do is found together: by projected Gauss-Seidel iteration that begins
-//! with the step before (E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005). What else pushes the
-//! body, boxes and walls, shows only afterwards in how it moves; the wheels hold against what it was last.
+//! Each contact stops its slip as far as friction allows, equally in every direction (the friction
+//! circle). Along its rolling direction, a driven wheel is also limited by its motor; then the
+//! floor turns the wheel. All contacts push the same body, so they are solved together: by
+//! projected Gauss-Seidel iteration that begins with the previous step (E. Catto, Iterative
+//! Dynamics with Temporal Coherence, GDC 2005). Other pushes on the body, from boxes and walls, are
+//! only visible afterwards in its motion. The wheels hold against the last such push.
 
-/// At most so many rounds over the contacts in a step; with what they remember, most steps take half of them.
+/// The maximum number of iterations over the contacts in a step. With a warm start, most steps take
+/// half of them.
 const ROUNDS: usize = 12;
-/// No contact has changed its mind by more than this in the last round, newton seconds: 2 um/s of the body.
+/// The iteration ends if no contact has changed by more than this in the last round, in newton
+/// seconds: 2 um/s of the body.
 const SETTLED: f64 = 1e-5;
-/// What moves a body: it yields per kilogram, and per kilogram square metre. Rounds do not divide.
+/// The body's inverse mass and inverse inertia. Rounds do not divide.
 #[derive(Clone, Copy, Debug)]
 struct Yielding {
     mass: f64,
@@ -19,7 +22,7 @@ struct Yielding {
     per_inertia: f64,
 }
 
-/// How the body moves, in its own frame: ahead, to the left, turning.
+/// The motion of the body, in its own frame: ahead, to the left, turning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Twist {
     /// Ahead, metres a second.
@@ -30,7 +33,7 @@ pub struct Twist {
     pub turn: f64,
 }
 
-/// What pushes the body, in its own frame: newtons and newton metres about the centre.
+/// The push on the body, in its own frame: newtons and newton metres about the centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Push {
     /// Ahead, newtons.
@@ -46,50 +49,51 @@ pub struct Push {
 struct Contact {
     /// Ahead and to the left of the body's centre, metres.
     at: (f64, f64),
-    /// The mass that it moves, at least, kilograms: in the direction in which the body yields most.
+    /// The minimum effective mass at the contact, in kilograms: in the direction in which the body
+    /// yields most.
     mass: f64,
-    /// What it did to the body in the step before, newton seconds.
+    /// Its impulse on the body in the previous step, in newton seconds.
     impulse: (f64, f64),
-    /// Whether that was all that friction holds.
+    /// Whether the impulse was limited by friction.
     slides: bool,
-    /// Whether its motor could not do what it should.
+    /// Whether its motor was too weak.
     yields: bool,
 }
 
-/// What a contact wants and what it can do in a step.
+/// The target and the limits of a contact in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Demand {
-    /// The velocity at which nothing slips, in the body's frame: that of the wheel's rim.
+    /// The slip-free velocity in the body's frame: the velocity of the wheel's rim.
     pub rim: (f64, f64),
-    /// The most that friction holds, newtons.
+    /// The maximum friction, in newtons.
     pub most: f64,
-    /// What drives it; none for what rolls along or is blocked.
+    /// The motor; `None` for a castor or a blocked wheel.
     pub motor: Option<Motor>,
 }
 
-/// What drives a wheel.
+/// The motor of a wheel.
 #[derive(Clone, Copy, Debug)]
 pub struct Motor {
     /// The direction in which the wheel rolls, in the body's frame.
     pub direction: (f64, f64),
-    /// The most that it pushes, forwards and backwards, newtons at the rim.
+    /// The maximum push, forwards and backwards, in newtons at the rim.
     pub force: f64,
 }
 
-/// Where the body stands on the floor.
+/// The contacts of the body with the floor.
 #[derive(Clone, Debug)]
 pub struct Footing<const N: usize> {
     contacts: [Contact; N],
     body: Yielding,
-    /// How the body moves after the step before unless something else pushed it.
+    /// The body's expected motion after the previous step, without other pushes.
     expected: Twist,
-    /// How it moves if what else pushed it goes on.
+    /// The body's motion if the other pushes continue.
     motion: Twist,
 }
 
 impl<const N: usize> Footing<N> {
-    /// A body of a mass, kilograms, and an inertia about its centre, kilogram square metres, on those places, ahead and to
-    /// the left of the centre, metres.
+    /// A body with these contacts, ahead and to the left of its centre in metres. `mass` is in
+    /// kilograms, and `inertia` about the centre in kilogram square metres.
     pub fn new(mass: f64, inertia: f64, places: [(f64, f64); N]) -> Self {
         let still = Twist::default();
         let body = Yielding { mass, inertia, per_mass: 1.0 / mass, per_inertia: 1.0 / inertia };
@@ -97,15 +101,15 @@ impl<const N: usize> Footing<N> {
         Footing { contacts, body, expected: still, motion: still }
     }
 
-    /// How fast the floor passes below a contact along a direction, where a motor could not do what it should in
-    /// the last step: so fast its wheel turns.
+    /// The speed of the floor below a contact along a direction, if its motor was too weak in the
+    /// last step. The wheel turns with this speed.
     pub fn yielding(&self, contact: usize, (x, y): (f64, f64)) -> Option<f64> {
         let contact = self.contacts.get(contact).filter(|contact| contact.yields)?;
         let (across, along) = contact.velocity(&self.motion);
         Some(across * x + along * y)
     }
 
-    /// What the contacts do together to a body that moves like this, within a step of `dt` seconds.
+    /// The push of all contacts on a body with this motion, within a step of `dt` seconds.
     pub fn push(&mut self, demands: [Demand; N], body: Twist, dt: f64) -> Push {
         let others = body.less(self.expected);
         let mut after =
@@ -116,7 +120,7 @@ impl<const N: usize> Footing<N> {
         for round in 0..ROUNDS {
             let mut change = 0.0_f64;
             for (contact, demand) in self.contacts.iter_mut().zip(demands) {
-                // What slides gives all it has, wherever the others settle.
+                // A sliding contact uses all friction, independent of the others.
                 if round == 0 || !contact.slides {
                     change = change.max(contact.solve(demand, &mut after, &self.body, dt));
                 }
@@ -134,7 +138,7 @@ impl<const N: usize> Footing<N> {
 }
 
 impl Twist {
-    /// What is left without another.
+    /// The difference of two motions.
     fn less(self, other: Twist) -> Twist {
         Twist { x: self.x - other.x, y: self.y - other.y, turn: self.turn - other.turn }
     }
@@ -146,21 +150,21 @@ impl Contact {
         Contact { at: (x, y), mass, impulse: (0.0, 0.0), slides: false, yields: false }
     }
 
-    /// How the body moves there.
+    /// The body's velocity at the contact.
     fn velocity(&self, body: &Twist) -> (f64, f64) {
         let (x, y) = self.at;
         (body.x - body.turn * y, body.y + body.turn * x)
     }
 
-    /// Changes the impulse so that less slips, and the body's motion by it; by how much.
+    /// Changes the impulse to reduce slip, and the body's motion with it. Returns the change.
     fn solve(&mut self, demand: Demand, body: &mut Twist, of: &Yielding, dt: f64) -> f64 {
         let (vx, vy) = self.velocity(body);
         let (px, py) = self.impulse;
-        // The same share in every direction: so what slips is braked against the way it slips.
+        // The same share in every direction, so that friction acts against the slip.
         let wanted = (px - (vx - demand.rim.0) * self.mass, py - (vy - demand.rim.1) * self.mass);
         let most = demand.most * dt;
         (self.impulse, self.slides) = limited(wanted, most);
-        // Where the floor holds less than the motor gives, the wheel spins.
+        // If the floor holds less than the motor's force, the wheel spins.
         let motor = demand.motor.and_then(|motor| motor.overcome(wanted, self.impulse, most, dt));
         self.yields = motor.is_some();
         self.impulse = motor.unwrap_or(self.impulse);
@@ -169,7 +173,7 @@ impl Contact {
         dx.abs().max(dy.abs())
     }
 
-    /// Lets an impulse act on the body.
+    /// Applies an impulse to the body.
     fn act(&self, (px, py): (f64, f64), body: &mut Twist, of: &Yielding) {
         let (x, y) = self.at;
         body.x += px * of.per_mass;
@@ -179,8 +183,9 @@ impl Contact {
 }
 
 impl Motor {
-    /// The impulse of a step of `dt` seconds where the motor is too weak for the `held` one, the part of what is `wanted`
-    /// that the floor can hold: along the wheel's way what the motor gives, and across it what the floor holds beside that.
+    /// The impulse of a step of `dt` seconds if the motor is too weak for the `held` impulse, the
+    /// part of the `wanted` one that friction allows. Along the wheel, the motor limits it; across
+    /// the wheel, the remaining friction does.
     fn overcome(
         &self,
         wanted: (f64, f64),
@@ -200,7 +205,7 @@ impl Motor {
     }
 }
 
-/// An impulse no larger than `most`, and whether it would have been.
+/// Limits an impulse to `most`; returns also whether it was larger.
 fn limited((x, y): (f64, f64), most: f64) -> ((f64, f64), bool) {
     let square = x * x + y * y;
     if square <= most * most {
@@ -225,7 +230,7 @@ mod tests {
 
     const CORNERS: [(f64, f64); 4] = [(0.13, 0.14), (0.13, -0.14), (-0.13, 0.14), (-0.13, -0.14)];
 
-    /// What the floor does in a step to a body that moved like this before, too.
+    /// The floor's push on a body that had the same motion in the previous step.
     fn push(body: Twist, demand: Demand) -> Push {
         let mut footing = Footing::new(MASS, inertia(), CORNERS);
         footing.expected = body;
@@ -242,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn what_friction_can_hold_stands_after_a_step() {
+    fn motion_that_friction_can_hold_stops_after_a_step() {
         let body = Twist { x: 0.02, y: -0.01, turn: 0.05 };
         let hold = Demand { rim: (0.0, 0.0), most: 50.0, motor: None };
         let end = after(body, push(body, hold));
@@ -250,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn what_slides_is_braked_with_all_friction_against_its_way() {
+    fn sliding_is_braked_with_all_friction_against_the_motion() {
         let body = Twist { x: 0.3, y: 0.4, turn: 0.0 };
         let slide = Demand { rim: (0.0, 0.0), most: 1.5, motor: None };
         let push = push(body, slide);
@@ -259,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motor_yields_where_the_floor_holds_more_along_its_wheel_than_it_gives() {
+    fn a_motor_yields_if_the_floor_holds_more_along_its_wheel() {
         let motor = Some(Motor { direction: (1.0, 0.0), force: 5.0 });
         let wheel = |rim| Demand { rim, most: 8.0, motor };
         let still = Twist::default();
@@ -276,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_spins_is_braked_by_all_friction_at_its_corners() {
+    fn a_spinning_body_is_braked_by_all_friction_at_its_corners() {
         let body = Twist { turn: 9.0, ..Twist::default() };
         let slide = Demand { rim: (0.0, 0.0), most: 1.5, motor: None };
         let push = push(body, slide);
@@ -285,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn wheels_that_agree_carry_the_body_with_them() {
+    fn wheels_with_one_target_carry_the_body_with_them() {
         let (x, turn) = (0.2, 0.4);
         let demands = CORNERS.map(|(ahead, left)| Demand {
             rim: (x - turn * left, turn * ahead),
@@ -302,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn wheels_that_hold_do_not_give_way_to_a_steady_push() {
+    fn holding_wheels_do_not_give_way_to_a_steady_push() {
         let hold = Demand { rim: (0.0, 0.0), most: 5.0, motor: None };
         let mut footing = Footing::new(MASS, inertia(), CORNERS);
         let (mut body, mut aside) = (Twist::default(), 0.0);

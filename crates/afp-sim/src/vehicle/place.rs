@@ -1,4 +1,4 @@
-//! Where the robot is, in double precision.
+//! The robot's place, in double precision.
 
 use rapier2d::math::Pose as Isometry;
 
@@ -19,25 +19,25 @@ impl Place {
         }
     }
 
-    /// The place so far ahead and to the left.
+    /// The place at this distance ahead and to the left.
     pub(crate) fn beyond(&self, ahead: f64, left: f64) -> [f64; 2] {
         let [x, y] = self.turned([ahead, left]);
         [self.at[0] + x, self.at[1] + y]
     }
 
-    /// A direction of the robot's frame in the world's.
+    /// A direction of the robot's frame, in the world's frame.
     pub(crate) fn turned(&self, [ahead, left]: [f64; 2]) -> [f64; 2] {
         let [cos, sin] = self.ahead;
         [ahead * cos - left * sin, ahead * sin + left * cos]
     }
 
-    /// A direction of the world's frame in the robot's.
+    /// A direction of the world's frame, in the robot's frame.
     pub(crate) fn towards(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [cos, sin] = self.ahead;
         [x * cos + y * sin, y * cos - x * sin]
     }
 
-    /// Where it is, and its direction as cosine and sine.
+    /// The position, and the direction as cosine and sine.
     pub(crate) fn parts(&self) -> ([f64; 2], [f64; 2]) {
         (self.at, self.ahead)
     }

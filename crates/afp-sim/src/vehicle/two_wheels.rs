@@ -1,27 +1,28 @@
-//! The commonest drive: two wheels side by side on one axis, and castors that carry the rest.
+//! The most common drive: two wheels side by side on one axis, and castors for the rest of the
+//! weight.
 
 use super::floor::{Demand, Footing, Motor, Push, Twist};
 use crate::chassis::Chassis;
 
-/// Slower than this a wheel is held by its gear where it is to stand, metres a second.
+/// Below this speed, the gear holds a wheel that should stop, in metres a second.
 const HELD: f64 = 0.005;
-/// What gravity does, metres a second squared.
+/// The acceleration of gravity, in metres a second squared.
 const GRAVITY: f64 = 9.81;
 
 /// Wheels and motors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelModel {
-    /// From the middle to either wheel, metres.
+    /// The distance from the middle to either wheel, in metres.
     pub half_track: f64,
-    /// From the axis to the castor behind, metres.
+    /// The distance from the axis back to the castor, in metres.
     pub castor: f64,
-    /// The fastest rim, metres a second.
+    /// The maximum speed of a rim, in metres a second.
     pub fastest: f64,
     /// A motor follows its command with this time constant, seconds.
     pub lag: f64,
-    /// The most that a motor pushes, newtons at the rim.
+    /// The maximum push of a motor, in newtons at the rim.
     pub force: f64,
-    /// The most that friction holds, as a share of the weight on a wheel.
+    /// The friction coefficient, as a share of the weight on a wheel.
     pub friction: f64,
 }
 
@@ -31,22 +32,22 @@ pub struct TwoWheels {
     model: WheelModel,
     /// The left and the right wheel, then the castor.
     footing: Footing<3>,
-    /// The most that friction holds of a wheel and of the castor, newtons.
+    /// The maximum friction of a wheel and of the castor, in newtons.
     holds: [f64; 2],
-    /// What the rims are to do, and what they do, metres a second.
+    /// The commanded and the actual speeds of the rims, in metres a second.
     asked: [f64; 2],
     rims: [f64; 2],
-    /// How far either rim has rolled, metres.
+    /// The rolled distance of each rim, in metres.
     travelled: [f64; 2],
     grip: f64,
     blocked: [bool; 2],
 }
 
 impl TwoWheels {
-    /// Wheels of a body, which stand.
+    /// The stationary wheels of a body.
     pub fn new(model: WheelModel, chassis: &Chassis) -> Self {
         let places = [(0.0, model.half_track), (0.0, -model.half_track), (-model.castor, 0.0)];
-        // The middle of the weight is near the axis.
+        // The centre of mass is near the axis.
         let weight = chassis.mass * GRAVITY;
         TwoWheels {
             footing: Footing::new(chassis.mass, chassis.inertia(), places),
@@ -60,8 +61,9 @@ impl TwoWheels {
         }
     }
 
-    /// Asks for a speed ahead, metres a second, and a turn rate, radians a second. Where a rim would be too fast, both are
-    /// reduced by the same factor; what is not finite means a standstill.
+    /// Commands a forward speed, in metres a second, and a turn rate, in radians a second. If a rim
+    /// would be too fast, both are reduced by the same factor. A command that is not finite stops
+    /// the wheels.
     pub fn ask(&mut self, speed: f64, turn: f64) {
         let across = turn * self.model.half_track;
         let wanted = [speed - across, speed + across];
@@ -76,18 +78,19 @@ impl TwoWheels {
         self.blocked = blocked;
     }
 
-    /// Leaves so much of the grip, as a share.
+    /// Sets the remaining share of the grip.
     pub fn set_grip(&mut self, grip: f64) {
         self.grip = grip;
     }
 
-    /// The distance ahead, metres, and the angle turned, radians, as counters on the wheels see them: what slips counts.
+    /// The distance ahead, in metres, and the turned angle, in radians, from the wheel counters.
+    /// Slip counts.
     pub fn counted(&self) -> [f64; 2] {
         let [left, right] = self.travelled;
         [(left + right) / 2.0, (right - left) / (2.0 * self.model.half_track)]
     }
 
-    /// Drives for `dt` seconds below a body that moves like this; what pushes the body.
+    /// Drives for `dt` seconds below a body with this motion; returns the push on the body.
     pub fn step(&mut self, body: Twist, dt: f64) -> Push {
         for ((rim, asked), blocked) in self.rims.iter_mut().zip(self.asked).zip(self.blocked) {
             *rim += (asked - *rim) * (dt / self.model.lag).min(1.0);
@@ -97,7 +100,7 @@ impl TwoWheels {
         }
         let push = self.footing.push([self.demand(0), self.demand(1), self.castor()], body, dt);
         for (n, (rim, travelled)) in self.rims.iter_mut().zip(&mut self.travelled).enumerate() {
-            // Where its motor is too weak a wheel turns as the floor lets it.
+            // If its motor is too weak, the floor turns the wheel.
             *rim = self.footing.yielding(n, (1.0, 0.0)).unwrap_or(*rim);
             *travelled += *rim * dt;
         }

@@ -1,27 +1,28 @@
-//! One of the two wheels in front: it steers and drives by itself.
+//! A front wheel, which steers and drives independently.
 //!
-//! It pushes the body where it touches the floor, see [`super::floor`].
+//! It pushes the body at its contact with the floor, see [`super::floor`].
 
 use super::floor::{Demand, Motor};
 use super::servo::Servo;
 use crate::chassis::MASS;
 
-/// The wheels stand this far before the turning centre and to its sides, metres.
+/// The wheels' distance ahead of the turning centre and to its sides, in metres.
 pub(crate) const WHEEL_X: f64 = 0.13;
 pub(crate) const WHEEL_Y: f64 = 0.14;
-/// A motor follows its command with this time constant, seconds, and no faster than this,
-/// metres a second squared.
+/// The time constant of a motor, in seconds, and its maximum acceleration, in metres a second
+/// squared.
 const MOTOR_LAG: f64 = 0.06;
 const MOTOR_ACCELERATION: f64 = 2.0;
 /// Steering servos: reach, radians, and rate, radians a second.
 const STEER_REACH: f64 = 1.75;
 const STEER_RATE: f64 = 7.0;
-/// The most that a wheel's friction holds, newtons.
+/// The maximum friction of a wheel, in newtons.
 const FRICTION: f64 = 0.7 * MASS * 9.81 / 4.0;
-/// The most that a motor pushes, newtons at the rim: less than friction holds, so a blocked wheel stands.
+/// The maximum push of a motor, in newtons at the rim: less than friction, so a blocked wheel does
+/// not turn.
 const MOTOR_FORCE: f64 = 6.5;
 
-/// Slower than this a wheel is held by its gear where it is to stand, metres a second.
+/// Below this speed, the gear holds a wheel that should stop, in metres a second.
 const HELD: f64 = 0.005;
 
 /// A wheel that steers and drives.
@@ -29,11 +30,11 @@ const HELD: f64 = 0.005;
 pub(crate) struct Wheel {
     pub(super) y: f64,
     steering: Servo,
-    /// Direction it rolls in.
+    /// The rolling direction.
     direction: (f64, f64),
-    /// How fast its rim goes.
+    /// The speed of the rim.
     speed: f64,
-    /// How the command wants its contact patch to move.
+    /// The commanded velocity of the contact.
     wanted: (f64, f64),
     stalled: bool,
 }
@@ -50,12 +51,12 @@ impl Wheel {
         }
     }
 
-    /// The rim's velocity in the body's frame, as a counter on the wheel sees it.
+    /// The rim's velocity in the body's frame, as in the wheel counter.
     pub(crate) fn velocity(&self) -> (f64, f64) {
         (self.speed * self.direction.0, self.speed * self.direction.1)
     }
 
-    /// Wants the patch to move as a body with this command would move it.
+    /// Sets the contact's velocity from the body's commanded motion.
     pub(super) fn obey(&mut self, speed: f64, turn: f64) {
         let (x, y) = (speed - turn * self.y, turn * WHEEL_X);
         self.wanted = (x, y);
@@ -67,7 +68,7 @@ impl Wheel {
             if ahead > 0.0 { ahead - core::f64::consts::PI } else { ahead + core::f64::consts::PI };
         let here = self.steering.position();
         let nearer = if (ahead - here).abs() <= (back - here).abs() { ahead } else { back };
-        // Both lie half a turn apart, so one is always within reach.
+        // The two directions are half a turn apart, so one is always within reach.
         let other = if nearer == ahead { back } else { ahead };
         self.steering.aim(if nearer.abs() <= STEER_REACH { nearer } else { other });
     }
@@ -78,7 +79,7 @@ impl Wheel {
             let (sin, cos) = libm::sincos(self.steering.position());
             self.direction = (cos, sin);
         }
-        // A wheel that still steers drives only as far as its direction serves.
+        // While the wheel steers, it drives only with the useful part of its direction.
         let target = power * (self.wanted.0 * self.direction.0 + self.wanted.1 * self.direction.1);
         let limit = MOTOR_ACCELERATION * dt;
         self.speed += ((target - self.speed) * (dt / MOTOR_LAG)).clamp(-limit, limit);
@@ -92,20 +93,20 @@ impl Wheel {
         self.stalled = stalled;
     }
 
-    /// Stands at once.
+    /// Stops immediately.
     pub(super) fn block(&mut self) {
         self.speed = 0.0;
     }
 
-    /// How fast its rim goes, metres a second.
+    /// The speed of its rim, in metres a second.
     pub(crate) fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// That its patch slips nowhere, with this share of the grip.
+    /// The contact's demand for no slip, with this share of the grip.
     pub(super) fn demand(&self, grip: f64) -> Demand {
         let motor = Motor { direction: self.direction, force: MOTOR_FORCE };
-        // A wheel that is to stand and all but does is held by its gear.
+        // The gear holds a wheel that should stop and has nearly stopped.
         let held = self.stalled || (self.wanted == (0.0, 0.0) && self.speed.abs() < HELD);
         let motor = (!held).then_some(motor);
         Demand { rim: self.velocity(), most: FRICTION * grip, motor }
@@ -116,7 +117,7 @@ impl Wheel {
         self.direction
     }
 
-    /// Turns as the floor lets it, where the motor is too weak.
+    /// Turns with the floor if the motor is too weak.
     pub(super) fn give_way(&mut self, speed: f64) {
         self.speed = speed;
     }

@@ -1,4 +1,4 @@
-//! What the range sensor should hear on the map of a world: computed once for all simulations of that world.
+//! The expected readings of the range sensor in a world, computed once for all its simulations.
 
 use super::{Obstacle, World};
 use crate::chassis::Chassis;
@@ -8,23 +8,24 @@ use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 impl World {
-    /// The map that a robot has: what it shows and what is high enough for the robot's range sensor.
+    /// The robot's map: the obstacles on the map that are high enough for its range sensor.
     pub fn audible_map(&self, robot: &Chassis) -> Map {
         map(&self.obstacles, robot)
     }
 }
 
-/// Made for the first who asks; copies of a world share it. It says nothing of a world that its obstacles do not say.
+/// Computed on first use and shared by copies of a world. It depends only on the obstacles.
 #[derive(Clone, Default)]
 pub(crate) struct Audible(Arc<OnceLock<EchoField>>);
 
 impl Audible {
-    /// What the Carbot's sensor, with this beam, should hear on such a chassis where these obstacles stand.
+    /// The expected readings of the Carbot's sensor, with this beam and chassis, among these
+    /// obstacles.
     pub(crate) fn field(&self, obstacles: &[Obstacle], robot: &Chassis, beam: &Beam) -> EchoField {
         let map = map(obstacles, robot);
         let made = |map| EchoField::new(map, beam);
         let known = self.0.get_or_init(|| made(map.clone()));
-        // Whoever changed a copy of a world has obstacles of another one.
+        // A changed copy of a world has other obstacles.
         if *known.map() == map { known.clone() } else { made(map) }
     }
 }
@@ -52,7 +53,7 @@ mod tests {
     use crate::devices::sonar;
 
     #[test]
-    fn copies_share_what_is_heard_until_their_obstacles_differ() {
+    fn copies_share_the_field_until_their_obstacles_differ() {
         let world = World::random(3);
         let of =
             |world: &World| world.audible.field(&world.obstacles, &Chassis::CARBOT, &sonar::beam());
@@ -65,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_has_on_its_map_what_its_own_sensor_does_not_look_over() {
+    fn a_map_has_the_obstacles_that_the_robots_own_sensor_detects() {
         let world = World::random(3);
         let of = |ranging_height| world.audible_map(&Chassis { ranging_height, ..Chassis::CARBOT });
         assert_ne!(of(0.1), of(2.0));

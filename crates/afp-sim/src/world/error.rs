@@ -1,4 +1,4 @@
-//! What is wrong with a world file, and where.
+//! Errors in a world file, with their places.
 
 use afp_session::WorldError;
 use toml_edit::Document;

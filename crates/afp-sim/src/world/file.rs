@@ -1,4 +1,4 @@
-//! A world file read: its tables, and what its values must satisfy.
+//! Reads a world file: its tables and the rules for its values.
 
 mod check;
 mod keys;
@@ -20,22 +20,21 @@ use toml_edit::de::{Deserializer, Error};
 use check::{Check, Key, number};
 use tables::File;
 
-/// A wall is this thick where the file does not say, metres.
+/// The default thickness of a wall, in metres.
 const THICKNESS: f64 = 0.1;
-/// A wall is this high where the file does not say, metres.
+/// The default height of a wall, in metres.
 const WALL_HEIGHT: f64 = 2.5;
-/// A source of infrared light is this high where the file does not say, metres.
+/// The default height of an infrared source, in metres.
 const LIGHT_HEIGHT: f64 = 0.15;
-/// The fastest that something moves by itself, metres a second: no quicker than the physics'
-/// steps can follow.
+/// The maximum speed of an obstacle on a path, in metres a second: the limit of the physics' steps.
 const FASTEST: f64 = 5.0;
-/// Colours where the file gives none.
+/// The default colours.
 const FLOOR_COLOR: Rgb = [200, 194, 184];
 const WALL_COLOR: Rgb = [226, 221, 208];
 const BOX_COLOR: Rgb = [176, 141, 87];
 const POLYGON_COLOR: Rgb = [127, 143, 166];
 
-/// Reads a file and checks each value by itself; gives what it says for its robot alone, too.
+/// Reads a file and checks each value. Also returns the tables of the file's robot.
 pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
     if let Some(hidden) = hidden(text).into_iter().next() {
         let message = format!("'{}' {}", hidden.shown, hidden.fault());
@@ -93,7 +92,7 @@ pub(super) fn read<O: OwnTables>(text: &str) -> Result<(World, O), WorldError> {
     Ok((world, own))
 }
 
-/// What a file says in the shape of `T`.
+/// A file's tables as a `T`.
 fn tables<T: DeserializeOwned>(document: &Document<&str>) -> Result<T, WorldError> {
     T::deserialize(Deserializer::from(document.clone())).map_err(|error| wrong(&error))
 }
@@ -193,7 +192,7 @@ impl Check<'_> {
         }
     }
 
-    /// Whether a map shows it: by default what stands still.
+    /// Whether a map shows it: by default, fixed obstacles.
     fn mapped(
         &self,
         key: &Key,
@@ -271,8 +270,8 @@ impl Check<'_> {
     }
 }
 
-/// A side of a wall, half a thickness longer at either end, so that corners are closed; none for
-/// two points that are the same.
+/// A side of a wall, half a thickness longer at both ends to close corners; `None` for two equal
+/// points.
 fn side(from: [f64; 2], to: [f64; 2], thickness: f64) -> Option<Outline> {
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let length = libm::hypot(dx, dy);

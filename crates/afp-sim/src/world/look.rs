@@ -1,11 +1,11 @@
-//! What things look like to camera and colour sensor.
+//! The appearance of objects to camera and colour sensor.
 
 /// Red, green and blue, 0 to 255.
 pub type Rgb = [u8; 3];
 
 /// The side of a texture's smallest part, metres.
 const PART: f64 = 0.1;
-/// How dark the dark parts of a pattern are.
+/// The brightness of a pattern's dark parts.
 const DARK: f64 = 0.5;
 
 /// Colour and pattern of a surface.
@@ -29,12 +29,12 @@ pub enum Texture {
     Checks,
     /// Rows of bricks, 20 cm by 10 cm, in dark mortar.
     Bricks,
-    /// Blurred blots that never repeat, as on carpet, plaster or bark.
+    /// Blurred spots that never repeat, like carpet, plaster or bark.
     Mottled,
 }
 
 impl Texture {
-    /// Every texture with what world files call it.
+    /// Every texture with its name in world files.
     pub(super) const NAMES: [(&'static str, Texture); 5] = [
         ("plain", Texture::Plain),
         ("stripes", Texture::Stripes),
@@ -43,7 +43,7 @@ impl Texture {
         ("mottled", Texture::Mottled),
     ];
 
-    /// The share of light that a place on a surface throws back: `along` it and `up`, metres.
+    /// The share of light that a place on a surface reflects: `along` it and `up`, in metres.
     fn light(self, along: f64, up: f64) -> f64 {
         let (along, up) = (along / PART, up / PART);
         let odd = |x: f64| (libm::floor(x) as i64).rem_euclid(2) == 1;
@@ -57,7 +57,7 @@ impl Texture {
             }
             Texture::Mottled => {
                 let blots = 0.6 * blots(along, up) + 0.4 * blots(along / 3.7, up / 3.7);
-                // They seldom meet their extremes; twice the contrast makes up for it.
+                // Extreme values are rare; twice the contrast compensates for this.
                 return 1.0 - DARK * (2.0 * blots - 0.5).clamp(0.0, 1.0);
             }
         };
@@ -65,7 +65,7 @@ impl Texture {
     }
 }
 
-/// Blots, one in each square of side 1, with soft edges: 0 to 1.
+/// Spots with soft edges, one in each square of side 1: 0 to 1.
 fn blots(x: f64, y: f64) -> f64 {
     let (left, low) = (libm::floor(x), libm::floor(y));
     let soft = |t: f64| t * t * (3.0 - 2.0 * t);
@@ -76,7 +76,7 @@ fn blots(x: f64, y: f64) -> f64 {
     under * (1.0 - b) + over * b
 }
 
-/// A number from 0 to 1 that a corner of the squares has by chance, always the same.
+/// A fixed random number from 0 to 1 for a corner of the squares.
 fn chance(x: f64, y: f64) -> f64 {
     let mix = |n: u64| (n ^ (n >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let corner = (x as i64 as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (y as i64 as u64);

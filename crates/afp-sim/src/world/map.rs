@@ -1,7 +1,7 @@
-//! Maps of `map_server`: a `.yaml` file and a picture, turned into a world.
+//! Maps of `map_server`: a `.yaml` file and a picture, converted to a world.
 //!
-//! The world is written as the text of a world file, so that logs and pictures know what to do
-//! with it. Occupied cells become boxes, each as large as can be.
+//! The result is the text of a world file, so that logs and pictures can use it. Occupied cells
+//! become boxes that are as large as possible.
 
 mod boxes;
 mod picture;
@@ -14,27 +14,27 @@ use picture::Grid;
 use settings::{Cell, Settings};
 use std::fmt::Write;
 
-/// More boxes than this are no map of rooms.
+/// The maximum number of boxes in a map of rooms.
 const MOST: usize = 50_000;
-/// The robot starts with so much room around it, metres.
+/// The free space around the robot at its start, in metres.
 const ROOM: f64 = 0.05;
 
 impl World {
-    /// The name of the picture that a map's `.yaml` file asks for, against its own folder.
+    /// The picture's file name in a map's `.yaml` file, relative to its folder.
     ///
     /// # Errors
-    /// The text is no map.
+    /// The text is not a map.
     pub fn map_picture(yaml: &str) -> Result<String, WorldError> {
         Settings::read(yaml).map(|settings| settings.image)
     }
 
     /// The text of a world file for a map: `yaml` is the text of its `.yaml` file, `picture` the
-    /// bytes of its PGM or PNG. What is a wall is 2.5 m high; the robot starts inside of the
-    /// walls, at the free place nearest to the origin of the map's frame, and looks along x.
+    /// bytes of its PGM or PNG. Walls are 2.5 m high. The robot starts inside of the walls, at the
+    /// free place nearest to the origin of the map's frame, and faces along x.
     ///
     /// # Errors
-    /// The text or the picture is none, the map is in a mode that is not known, nothing of it is occupied, it has too many
-    /// cells or no place for the robot.
+    /// The text or the picture is invalid, the map's mode is unknown, no cell is occupied, the map
+    /// has too many cells or no place for the robot.
     pub fn map_text(name: &str, yaml: &str, picture: &[u8]) -> Result<String, WorldError> {
         let settings = Settings::read(yaml)?;
         let known = picture::read(picture, |pixel| settings.cell(pixel));
@@ -61,7 +61,7 @@ impl World {
     }
 }
 
-/// Whether a map of so many cells is not too large and not too far from the origin.
+/// Whether a map with this number of cells is small enough and near enough to the origin.
 fn is_near(settings: &Settings, [width, height]: [f64; 2]) -> bool {
     let corners = [[0.0, 0.0], [width, 0.0], [0.0, height], [width, height]];
     let places = corners.map(|[across, up]| settings.place(across, up));
@@ -69,8 +69,8 @@ fn is_near(settings: &Settings, [width, height]: [f64; 2]) -> bool {
     places.as_flattened().iter().chain(&sizes).all(|value| value.abs() <= FARTHEST)
 }
 
-/// The middle of the cell nearest to the origin whose surroundings are not occupied: of one that is known to be free and
-/// cannot be reached from beyond the map, else of one that is known to be free, else of any.
+/// The middle of the start cell: the cell nearest to the origin with free surroundings. Known free
+/// cells that cannot be reached from beyond the map come first, then known free cells, then others.
 fn start(settings: &Settings, cells: &Cells, known: &Grid<Cell>) -> Option<[f64; 2]> {
     let radius = libm::hypot(HALF_LENGTH, HALF_WIDTH) + ROOM;
     let reach = libm::ceil(radius / settings.resolution) as usize;

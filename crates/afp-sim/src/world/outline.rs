@@ -9,9 +9,9 @@ use rapier2d::parry::shape::SharedShape;
 pub enum Outline {
     /// A rectangle around its middle, turned by the pose's heading.
     Box {
-        /// Where its middle is.
+        /// The pose of its middle.
         pose: Pose,
-        /// Half its length and width, metres.
+        /// Half its length and width, in metres.
         half: [f64; 2],
     },
     /// A convex polygon, metres in the world's frame, counter-clockwise.
@@ -27,7 +27,7 @@ impl Outline {
         }
     }
 
-    /// The outline as parry's shape and where it is; none for a polygon without an area.
+    /// The outline as parry's shape with its place; `None` for a polygon without an area.
     pub(crate) fn shape(&self) -> Option<(Isometry, SharedShape)> {
         match self {
             Outline::Box { pose, half } => {

@@ -1,12 +1,12 @@
-//! The path of an obstacle that moves by itself.
+//! The path of a moving obstacle.
 
-/// Straight legs between places, gone along for ever: around if closed, else there and back.
+/// Straight legs between places, repeated endlessly: around if closed, or else there and back.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     legs: Vec<Leg>,
-    /// When it sets off, seconds.
+    /// The start time, in seconds.
     start: f64,
-    /// How long it takes until it is back, seconds.
+    /// The duration until it is back, in seconds.
     period: f64,
 }
 
@@ -15,15 +15,16 @@ pub struct Path {
 struct Leg {
     from: [f64; 2],
     to: [f64; 2],
-    /// When it begins, seconds after the way began.
+    /// Its beginning, in seconds after the start of the path.
     begin: f64,
-    /// How long the going takes, seconds.
+    /// The duration of the motion, in seconds.
     takes: f64,
 }
 
 impl Path {
-    /// The way from where it stands through `places`, given against there in metres, with `speed`
-    /// in metres a second, resting `wait` seconds at each. None when it leads nowhere.
+    /// The path from the start through `places`, given relative to the start in metres. `speed` is
+    /// in metres a second, and the obstacle waits `wait` seconds at each place. `None` if the path
+    /// has no length.
     pub(super) fn new(
         places: &[[f64; 2]],
         closed: bool,
@@ -50,13 +51,12 @@ impl Path {
         (period > 0.0 && period.is_finite()).then_some(Path { legs, start, period })
     }
 
-    /// The places that it goes through, against where it stands at the start, metres; the first is
-    /// there.
+    /// The places on the path, relative to the start, in metres; the first is the start.
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
         self.legs.iter().map(|leg| leg.from)
     }
 
-    /// Where it is `time` seconds after the start, against where it stood then, metres.
+    /// The offset from the start, `time` seconds after the start, in metres.
     pub fn offset(&self, time: f64) -> [f64; 2] {
         if time <= self.start {
             return [0.0, 0.0];
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_way_goes_there_and_back_with_rests() {
+    fn an_open_path_goes_there_and_back_with_rests() {
         let path = Path::new(&[[1.0, 0.0], [1.0, 2.0]], false, 0.5, 1.0, 3.0).unwrap();
         let cases = [
             (2.0, [0.0, 0.0]),
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_way_goes_around() {
+    fn a_closed_path_goes_around() {
         let path = Path::new(&[[1.0, 0.0], [1.0, 1.0]], true, 1.0, 0.0, 0.0).unwrap();
         let back = path.offset(2.0 + 0.5 * 2f64.sqrt());
         assert!(near(back, [0.5, 0.5]), "{back:?}");
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_that_leads_nowhere_is_none() {
+    fn a_path_without_a_length_is_none() {
         assert_eq!(Path::new(&[], false, 1.0, 0.0, 0.0), None);
         assert_eq!(Path::new(&[[0.0, 0.0]], true, 1.0, 0.0, 0.0), None);
     }

@@ -1,15 +1,16 @@
-//! Places made up: where a robot may be sent, or put.
+//! Random places for a robot.
 
 use super::World;
 use crate::noise::Source;
 use crate::truth::Pose;
 
-/// How many places are tried.
+/// The maximum number of tried places.
 const TRIES: u32 = 1000;
 
 impl World {
-    /// A pose that a seed makes up in which the robot stands free as things are at the start, at least so far from its
-    /// start, metres; none where a thousand tries find none, as in a world in which nothing stands.
+    /// A random free pose from a seed, with the obstacles at their start and at least this distance
+    /// from the robot's start, in metres. `None` if a thousand tries find no pose, for example in a
+    /// world without obstacles.
     pub fn free_pose(&self, seed: u64, apart: f64) -> Option<Pose> {
         let corners = self.obstacles.iter().flat_map(|obstacle| obstacle.outline.corners());
         let (low, high) =
@@ -35,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_made_up_is_free_far_enough_and_always_the_same() {
+    fn a_random_place_is_free_far_enough_and_reproducible() {
         for seed in 0..20 {
             let room = World::random(seed);
             let pose = room.free_pose(seed, 1.0).expect("a room has such a place");

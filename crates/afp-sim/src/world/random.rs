@@ -1,20 +1,20 @@
-//! Rooms made up: furnished, never the same, and again the same for the same seed.
+//! Random furnished rooms: each seed has its own room, which never changes.
 //!
-//! A room is written as the text of a world file, so that a log or a person can keep it.
+//! A room is the text of a world file, so that a log or a user can keep it.
 
 use super::World;
 use crate::chassis::{HALF_LENGTH, HALF_WIDTH};
 use crate::noise::{Noise, Source};
 use std::fmt::Write;
 
-/// Between two things, and between a thing in the open and a wall, there is room for the robot:
+/// The space for the robot between two objects, and between an object in the open and a wall, in
 /// metres.
 const PASSAGE: f64 = 0.6;
-/// Tries to place one thing.
+/// The number of tries to place an object.
 const TRIES: u32 = 30;
 
-/// A kind of furniture: name, least and greatest size along the wall and away from it, height,
-/// whether it stands at a wall, colour, texture and echo.
+/// A kind of furniture: name, minimum and maximum size along the wall and away from it, height,
+/// whether it is at a wall, colour, texture and echo.
 type Kind = (&'static str, [f64; 2], [f64; 2], f64, bool, &'static str, &'static str, f64);
 
 const KINDS: [Kind; 9] = [
@@ -30,9 +30,9 @@ const KINDS: [Kind; 9] = [
 ];
 
 impl World {
-    /// A furnished room that nobody drew: 4 to 8 m by 3.5 to 6 m, some with a doorway, with
-    /// furniture, things that are low, that can be pushed and that walk about, coloured patches
-    /// and a source of infrared light. The same seed gives the same room.
+    /// A random furnished room: 4 to 8 m by 3.5 to 6 m, some with a doorway. It has furniture, low
+    /// objects, movable objects, a walker, coloured patches and a source of infrared light. The
+    /// same seed gives the same room.
     pub fn random(seed: u64) -> World {
         made(seed).1
     }
@@ -43,7 +43,7 @@ impl World {
     }
 }
 
-/// The first room of the seed's stream in which the robot has a place.
+/// The first room in the seed's stream with a place for the robot.
 fn made(seed: u64) -> (String, World) {
     let mut noise = Source::Rooms.of(seed);
     loop {
@@ -56,13 +56,13 @@ fn made(seed: u64) -> (String, World) {
     }
 }
 
-/// A room that is being furnished.
+/// A room during its creation.
 struct Room<'a> {
     noise: &'a mut Noise,
     size: [f64; 2],
-    /// Where a wall with a doorway divides it, if one does.
+    /// The position of a dividing wall with a doorway, if there is one.
     divided: Option<f64>,
-    /// What stands in it: middle and the circle around it.
+    /// The objects: middle and radius of the circle around them.
     taken: Vec<([f64; 2], f64)>,
     text: String,
 }
@@ -75,7 +75,7 @@ impl<'a> Room<'a> {
         Room { noise, size, divided, taken: Vec::new(), text: String::new() }
     }
 
-    /// The text of the whole file; none if no place is left for the robot.
+    /// The text of the whole file; `None` if there is no place for the robot.
     fn furnish(mut self, seed: u64) -> Option<String> {
         self.walls();
         let pieces = 4 + self.noise.below(7);
@@ -107,12 +107,12 @@ impl<'a> Room<'a> {
                     "\n[[wall]]\nname = \"partition\"\npoints_m = [[{x:.3}, {a:.3}], [{x:.3}, {b:.3}]]\n"
                 ));
             }
-            // Nothing stands in the doorway.
+            // The doorway stays free.
             self.taken.push(([x, from + door / 2.0], door / 2.0));
         }
     }
 
-    /// Puts a piece of furniture somewhere, if there is room for it.
+    /// Places a piece of furniture if there is space for it.
     fn piece(&mut self, kind: Kind) {
         let (name, least, most, height, at_wall, color, texture, echo) = kind;
         let size = [0, 1].map(|i| between(self.noise, least[i], most[i]));
@@ -133,7 +133,7 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// A place with its back to a wall, and the heading there.
+    /// A place with its back to a wall, and its heading.
     fn at_wall(&mut self, size: [f64; 2], radius: f64) -> Option<([f64; 2], f64)> {
         for _ in 0..TRIES {
             let side = self.noise.below(4) as usize;
@@ -157,7 +157,7 @@ impl<'a> Room<'a> {
         Some((at, if straight { 0.0 } else { heading }))
     }
 
-    /// A place for a circle that is so far from the walls and everything else.
+    /// A place for a circle at this distance from the walls and all objects.
     fn place(&mut self, radius: f64, gap: f64) -> Option<[f64; 2]> {
         let edge = radius + gap + 0.05;
         if self.size.iter().any(|size| *size <= 2.0 * edge) {
@@ -172,14 +172,14 @@ impl<'a> Room<'a> {
         None
     }
 
-    /// Whether a circle leaves gaps to all that stands there.
+    /// Whether a circle leaves gaps to all objects.
     fn free(&self, at: [f64; 2], radius: f64, gap: f64) -> bool {
         let apart = |b: [f64; 2]| libm::hypot(at[0] - b[0], at[1] - b[1]);
         self.divided.is_none_or(|x| (at[0] - x).abs() > radius + gap + 0.05)
             && self.taken.iter().all(|(b, r)| apart(*b) > r + radius + gap)
     }
 
-    /// Somebody who walks about between two places with nothing in between.
+    /// A walker between two places with a free path.
     fn walker(&mut self) {
         if self.noise.uniform() < 0.5 {
             return;
@@ -194,7 +194,7 @@ impl<'a> Room<'a> {
         if !clear || libm::hypot(by[0], by[1]) < 0.5 {
             return;
         }
-        // The whole way is taken: the robot does not start on it.
+        // The whole path is taken: the robot does not start on it.
         self.taken.extend((0..=8).map(|i| {
             let share = f64::from(i) / 8.0;
             ([0, 1].map(|k| from[k] + by[k] * share), 0.35)

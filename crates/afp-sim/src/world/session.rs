@@ -1,4 +1,4 @@
-//! The Carbot's worlds as those of a simulated robot: what sessions, pictures and logs know of them.
+//! The Carbot's worlds for sessions, pictures and logs.
 
 use super::{FARTHEST, Mobility, Obstacle, Outline, World, WorldError};
 use crate::chassis::Chassis;
@@ -6,7 +6,7 @@ use crate::truth::Pose;
 use afp_session::frames::{BODY, WORLD};
 use afp_session::{Drawing, Patch, Shape, Thing};
 
-/// A box has room for its name from this width on, metres.
+/// The minimum width of a box with a visible name, in metres.
 const ROOM_FOR_NAME: f64 = 0.2;
 
 impl afp_session::World for World {
@@ -46,7 +46,7 @@ impl afp_session::World for World {
 }
 
 impl World {
-    /// The same world with a robot of some body at another start.
+    /// The same world with a robot's body at another start.
     pub(super) fn started_with(&self, robot: &Chassis, start: Pose) -> Result<World, WorldError> {
         let near = |value: f64| value.abs() <= FARTHEST;
         if ![start.x, start.y, start.heading.to_degrees()].into_iter().all(near) {
@@ -59,7 +59,7 @@ impl World {
         }
     }
 
-    /// What stands in it, and a robot's body.
+    /// Its obstacles, and a robot's body.
     pub(super) fn scene_with(&self, robot: &Chassis) -> Vec<Shape> {
         let obstacles = self.obstacles.iter().enumerate();
         let body = Shape {
@@ -72,7 +72,7 @@ impl World {
         obstacles.map(|(index, obstacle)| shape(index, obstacle)).chain([body]).collect()
     }
 
-    /// What a picture shows of it, with a robot's body.
+    /// Its drawing, with a robot's body.
     pub(super) fn drawing_with(&self, robot: &Chassis) -> Drawing {
         let patch =
             |patch: &super::Patch| Patch { corners: patch.corners.clone(), color: patch.color };
@@ -87,7 +87,7 @@ impl World {
     }
 }
 
-/// An obstacle as it stands at the start.
+/// An obstacle at the start.
 pub(crate) fn shape(index: usize, obstacle: &Obstacle) -> Shape {
     let [red, green, blue] = obstacle.look.color.map(|part| f64::from(part) / 255.0);
     Shape {
@@ -99,7 +99,7 @@ pub(crate) fn shape(index: usize, obstacle: &Obstacle) -> Shape {
     }
 }
 
-/// What of an obstacle a picture shows, beside a robot.
+/// The drawing of an obstacle, next to a robot.
 fn thing(index: usize, obstacle: &Obstacle, robot: &Chassis) -> Thing {
     let Shape { id, outline, .. } = shape(index, obstacle);
     let count = outline.len() as f64;

@@ -1,4 +1,4 @@
-//! Worlds of robots that are no Carbot.
+//! Worlds for other robots.
 
 use std::fmt::Debug;
 
@@ -35,11 +35,11 @@ use afp_session::{Drawing, Pose2, Shape};
 /// # Ok::<(), afp_session::WorldError>(())
 /// ```
 pub trait Body: Clone + Debug + Send + Sync + 'static {
-    /// Its body.
+    /// The robot's body.
     const CHASSIS: Chassis;
-    /// The text of the world for plans that come without one.
+    /// The text of the default world.
     const DEFAULT: &'static str;
-    /// What files say for this robot alone; [`NoTables`] where that is nothing.
+    /// The tables of this robot's files; [`NoTables`] if there are none.
     type Own: OwnTables;
 }
 
@@ -63,26 +63,27 @@ pub trait Body: Clone + Debug + Send + Sync + 'static {
 /// }
 /// ```
 pub trait OwnTables: DeserializeOwned + Clone + Debug + Send + Sync + 'static {
-    /// The keys at the top of a file that are its own. What is none of these and none of all worlds is a mistake.
+    /// The robot's own keys at the top of a file. A key that is neither one of these nor a common
+    /// key is an error.
     const KEYS: &'static [&'static str];
 
-    /// What is wrong with the values, `None` for nothing.
+    /// The error in the values, if there is one.
     fn wrong(&self) -> Option<String> {
         None
     }
 
-    /// Adds to a picture what it shows of them.
+    /// Adds the tables to a drawing.
     fn draw(&self, drawing: &mut Drawing) {
         let _ = drawing;
     }
 
-    /// What scenes show of them at the start.
+    /// The shapes of the tables in a scene, at the start.
     fn scene(&self) -> Vec<Shape> {
         Vec::new()
     }
 }
 
-/// The tables of a robot of which world files say nothing of their own.
+/// The tables of a robot without its own tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 pub struct NoTables {}
 
@@ -90,12 +91,12 @@ impl OwnTables for NoTables {
     const KEYS: &'static [&'static str] = &[];
 }
 
-/// A world, written as those of the Carbot are, for a robot with another body.
+/// A world in the Carbot's format, for a robot with another body.
 #[derive(Clone, Debug)]
 pub struct WorldOf<B: Body> {
     /// The world.
     pub world: World,
-    /// What the file says for this robot alone.
+    /// The robot's own tables.
     pub own: B::Own,
 }
 

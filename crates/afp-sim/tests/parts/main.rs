@@ -1,4 +1,5 @@
-//! A robot that is no Carbot, put together of the parts: it drives, hears, bumps, pushes and fails, and a session drives it.
+//! Another robot, built from the parts: it drives, hears, bumps, pushes and fails, and a session
+//! drives it.
 
 mod rover;
 
@@ -28,7 +29,7 @@ fn rover(rest: &str, seed: u64) -> Rover {
     <Rover as Simulated>::new(&world, seed).unwrap()
 }
 
-/// Drives for a while from the start on.
+/// Drives for a while from the start.
 fn driven(rest: &str, (speed, turn): (f64, f64), millis: u64) -> Rover {
     let mut rover = rover(rest, 3);
     rover.drive(speed, turn);
@@ -37,7 +38,7 @@ fn driven(rest: &str, (speed, turn): (f64, f64), millis: u64) -> Rover {
 }
 
 #[test]
-fn wheels_drive_and_turn_it_as_asked() {
+fn wheels_follow_a_command() {
     let rover = driven("", (0.2, 0.0), 2000);
     let pose = rover.pose();
     assert!((0.33..0.41).contains(&(pose.x - 1.0)) && (pose.y - 1.0).abs() < 0.01, "{pose:?}");
@@ -45,13 +46,13 @@ fn wheels_drive_and_turn_it_as_asked() {
     assert!((ahead - (pose.x - 1.0)).abs() < 0.02 && turned.abs() < 0.02, "{ahead} {turned}");
     let pose = driven("", (0.0, 1.0), 1500).pose();
     assert!((1.2..1.5).contains(&pose.heading) && (pose.x - 1.0).abs() < 0.02, "{pose:?}");
-    // Both rims beyond what they can: half as fast on the same curve.
+    // Both rims are over their limit: half the speed on the same curve.
     let pose = driven("", (0.6, 0.0), 2000).pose();
     assert!((0.5..0.62).contains(&(pose.x - 1.0)), "{pose:?}");
 }
 
 #[test]
-fn a_wall_is_heard_felt_and_holds_it() {
+fn a_wall_is_heard_and_felt_and_stops_the_robot() {
     let mut rover = driven("", (0.3, 0.0), 1000);
     let heard = rover.range().expect("the wall ahead");
     // From the sensor on the front edge to the wall's face.
@@ -63,14 +64,14 @@ fn a_wall_is_heard_felt_and_holds_it() {
     assert!((rover.pose().x - (3.95 - 0.15)).abs() < 0.01, "{:?}", rover.pose());
     let [contact] = rover.stage().collisions() else { panic!("{:?}", rover.stage().collisions()) };
     assert_eq!(rover.stage().obstacles()[contact.obstacle].name, "wall 1");
-    // Its motors are weaker than its grip: the wheels stand, and the counters with them.
+    // Its motors are weaker than its grip: the wheels stop, and the counters with them.
     let before = rover.way()[0];
     rover.advance(at(17_000));
     assert!((rover.way()[0] - before).abs() < 0.01);
 }
 
 #[test]
-fn what_is_low_is_felt_and_not_heard_and_what_is_light_is_pushed() {
+fn low_objects_are_felt_and_not_heard_and_light_objects_are_pushed() {
     let step = "[[box]]\npose_m_deg = [2, 1, 0]\nsize_m = [0.2, 0.6]\nheight_m = 0.04\n";
     let mut rover = driven(step, (0.2, 0.0), 500);
     assert!(rover.range().is_none_or(|range| range > 2.0), "{:?}", rover.range());
@@ -85,7 +86,7 @@ fn what_is_low_is_felt_and_not_heard_and_what_is_light_is_pushed() {
 }
 
 #[test]
-fn slip_shows_in_the_counters_and_a_blocked_wheel_turns_it_on_the_spot() {
+fn slip_shows_in_the_counters_and_a_blocked_wheel_turns_the_robot() {
     let mut slipping = rover("", 3);
     slipping.drive(0.3, 0.0);
     slipping.set_wheels(0.0, [false; 2]);
@@ -99,7 +100,7 @@ fn slip_shows_in_the_counters_and_a_blocked_wheel_turns_it_on_the_spot() {
 }
 
 #[test]
-fn an_emergency_stop_holds_it() {
+fn an_emergency_stop_stops_the_robot() {
     let mut rover = driven("", (0.3, 0.0), 1000);
     rover.emergency_stop();
     rover.drive(0.3, 0.0);
@@ -135,7 +136,7 @@ fn session(seed: u64) -> Box<dyn AnySession> {
 }
 
 #[test]
-fn a_session_drives_a_plan_on_it_and_repeats_the_run() {
+fn a_session_drives_a_plan_on_the_robot_and_repeats_the_run() {
     let run = |session: &mut dyn AnySession| {
         session.run(at(30_000), &mut Open, &mut []).unwrap();
         session.trace()
@@ -147,7 +148,7 @@ fn a_session_drives_a_plan_on_it_and_repeats_the_run() {
     let contacts = first.end().0.into_iter().find(|figure| figure.name == "contacts").unwrap();
     let FigureValue::Spans { spans, .. } = contacts.value else { panic!("{:?}", contacts.value) };
     assert!(spans.len() < 4, "it turns before most walls: {spans:?}");
-    // From a copy in the middle on the rest goes alike.
+    // A copy in the middle continues alike.
     let mut whole = session(3);
     whole.run(at(11_000), &mut Open, &mut []).unwrap();
     let mut copy = whole.keyframe().expect("it can be copied");
@@ -155,7 +156,7 @@ fn a_session_drives_a_plan_on_it_and_repeats_the_run() {
 }
 
 #[test]
-fn a_sensor_that_is_lost_ends_the_plan() {
+fn a_lost_sensor_ends_the_plan() {
     let mut session = session(3);
     let lost = find_fault(DEVICES, "ranger", "lost").unwrap();
     session.at(at(2000), Request::Break(lost, None, Duration::MAX)).unwrap();
@@ -164,12 +165,12 @@ fn a_sensor_that_is_lost_ends_the_plan() {
 }
 
 #[test]
-fn its_worlds_are_checked_for_its_own_body() {
+fn its_worlds_are_checked_for_its_body() {
     let starts = |x: &str| {
         let text = ROOM.replace("[1, 1, 0]", &format!("[{x}, 1, 0]"));
         <Rover as Simulated>::World::read(&text).err().map(|error| error.message)
     };
-    // The Carbot's half length is 20 cm, this one's radius 15 cm.
+    // The Carbot's half length is 20 cm, and this robot's radius is 15 cm.
     assert_eq!(starts("0.22"), None);
     assert!(starts("0.19").unwrap().contains("inside of 'wall 1'"));
     let world = <Rover as Simulated>::World::read(ROOM).unwrap();
@@ -177,7 +178,7 @@ fn its_worlds_are_checked_for_its_own_body() {
     let _: fn(_, _) -> Session<afp::load::LoadedPlan<Rover>, Rover> = Session::loaded;
 }
 
-/// What a world file with these lines says for the rover alone, or what is wrong with it and where.
+/// The rover's tables in a world file with these lines, or the error and its place.
 fn docks(rest: &str) -> Result<Vec<[f64; 2]>, String> {
     let text = format!("{ROOM}{rest}");
     let world = <Rover as Simulated>::World::read(&text).map_err(|error| {
@@ -192,7 +193,7 @@ fn docks(rest: &str) -> Result<Vec<[f64; 2]>, String> {
 }
 
 #[test]
-fn world_files_have_tables_of_a_robot_of_ones_own() {
+fn world_files_have_tables_of_other_robots() {
     assert_eq!(docks(""), Ok(vec![]));
     assert_eq!(docks("[[dock]]\nat_m = [1, 2]\n"), Ok(vec![[1.0, 2.0]]));
     let two = "[[dock]]\nat_m = [1, 2]\n[[dock]]\nat_m = [1, 2]\n";

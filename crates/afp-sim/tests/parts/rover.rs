@@ -35,7 +35,7 @@ pub const DEVICES: &[DeviceRow] = Devices::TABLE;
 
 const RADIUS: f64 = 0.15;
 const DT: f64 = 0.005;
-/// Steps from one ping to the next.
+/// The number of steps between two pings.
 const PING: u64 = 10;
 
 const WHEELS: WheelModel = WheelModel {
@@ -58,7 +58,7 @@ const RANGER: RangeModel = RangeModel {
     lost: [0.01, 0.4],
 };
 
-/// What it is to its worlds.
+/// The rover's body in its worlds.
 #[derive(Clone, Debug)]
 pub struct Round;
 
@@ -69,7 +69,7 @@ impl Body for Round {
     type Own = Docks;
 }
 
-/// Where the rover can be charged, which is nothing to other robots.
+/// The rover's charging places, which other robots do not have.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Docks {
     #[serde(default, rename = "dock")]
@@ -94,12 +94,12 @@ impl OwnTables for Docks {
     }
 }
 
-/// The drive, as templates know it.
+/// The drive in templates.
 pub trait Wheels {
     fn drive(&mut self, speed: f64, turn: f64);
 }
 
-/// The sensors, as templates know them.
+/// The sensors in templates.
 pub trait Senses {
     fn bumper(&self) -> Reading<bool>;
     fn ranger(&self) -> Reading<Option<Length>>;
@@ -307,7 +307,7 @@ impl Simulated for Rover {
 }
 
 const BLIND: Fault = Fault::new(&Reason { code: "blind", text: "a sensor does not answer" });
-/// What is older tells nothing of now.
+/// Older readings are ignored.
 const FRESH: Duration = Duration::from_millis(200);
 
 #[derive(Clone)]
@@ -370,13 +370,13 @@ impl<E: Senses + ?Sized> Supervisor<templates::CheckRange, E> for CheckRange {
     }
 }
 
-/// The templates that plans for it may use.
+/// The templates for the rover's plans.
 pub fn register(registry: &mut Registry<Rover>) {
     afp_std::templates::register(registry);
     templates::register(registry);
 }
 
-/// The graph of a plan for it.
+/// The graph of a plan for the rover.
 pub fn graph(plan: &str) -> Graph {
     let mut toolboxes: Toolboxes = afp_toolboxes::sources().collect();
     toolboxes.add(Source::new("rover.afp", templates::SOURCE), "rover");

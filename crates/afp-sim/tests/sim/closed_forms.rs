@@ -1,24 +1,24 @@
-//! The vehicle against what can be computed by hand; docs/simulator.md has the figures.
+//! The vehicle against closed-form results; docs/simulator.md has the figures.
 
 use crate::{among, drive, wait};
 use afp_carbot::devices::Odometry;
 use afp_core::{Duration, Environment};
 use afp_sim::{Fault, Simulation};
 
-/// Standard gravity, and what of the weight the two wheels that drive can hold: half of it rests
-/// on them, with a friction of 0.7.
+/// Standard gravity times the share of the weight that the two driven wheels hold: half of the
+/// weight is on them, with a friction of 0.7.
 const GRIP: f64 = 0.7 * 9.81 / 2.0;
-/// What the castors brake: the other half with a rolling resistance of 0.02.
+/// The braking of the castors: the other half with a rolling resistance of 0.02.
 const ROLLING: f64 = 0.02 * 9.81 / 2.0;
 
-/// `is` against `expected`, as a share; printed for the figures in docs/simulator.md.
+/// The error of `is` against `expected`, as a share; printed for the figures in docs/simulator.md.
 fn off(what: &str, is: f64, expected: f64) -> f64 {
     let off = is / expected - 1.0;
     println!("{what}: {is:.4}, computed {expected:.4}, {:+.2} %", off * 100.0);
     off.abs()
 }
 
-/// How far the robot goes and turns within a while, counted every 10 ms.
+/// The robot's distance and turn during a time, summed every 10 ms.
 fn way(sim: &mut Simulation, speed: f64, turn: f64, millis: u64) -> (f64, f64) {
     let (mut length, mut angle) = (0.0, 0.0);
     let mut last = sim.truth().pose();
@@ -43,7 +43,7 @@ fn at_low_speed_it_drives_the_circles_of_a_bicycle() {
         drive(&mut sim, speed, turn, 1000);
         let (length, angle) = way(&mut sim, speed, turn, 10_000);
         let what = format!("circle at {speed} m/s, {turn} rad/s");
-        // Where the wheels roll without slipping, both fix the turning centre.
+        // If the wheels roll without slip, both determine the turning centre.
         let radius = off(&format!("{what}: radius"), length / angle.abs(), (speed / turn).abs());
         let rate = off(&format!("{what}: turn rate"), angle / 10.0, turn);
         assert!(radius < 0.001, "{what}");
@@ -52,7 +52,7 @@ fn at_low_speed_it_drives_the_circles_of_a_bicycle() {
 }
 
 #[test]
-fn it_turns_in_place_at_the_rate_that_is_asked_for() {
+fn it_turns_in_place_at_the_commanded_rate() {
     for turn in [0.3_f64, 0.8, -1.5] {
         let mut sim = among("");
         drive(&mut sim, 0.0, turn, 1000);
@@ -67,7 +67,7 @@ fn it_turns_in_place_at_the_rate_that_is_asked_for() {
     }
 }
 
-/// How far the robot goes from a stop command on.
+/// The robot's distance after a stop command.
 fn stopping_distance(sim: &mut Simulation, speed: f64) -> (f64, f64) {
     drive(sim, speed, 0.0, 3000);
     let before = sim.truth().pose().x;
@@ -80,11 +80,11 @@ fn stopping_distance(sim: &mut Simulation, speed: f64) -> (f64, f64) {
 }
 
 #[test]
-fn it_stops_where_lag_and_brakes_say() {
+fn it_stops_by_lag_and_brakes() {
     for speed in [0.31, 0.2, 0.1] {
         let (real, way) = stopping_distance(&mut among(""), speed);
-        // The motors brake with 2 m/s^2 down to 0.12 m/s, then with a time constant of 60 ms. In steps of
-        // 5 ms that is up to the way of one less.
+        // The motors brake with 2 m/s^2 down to 0.12 m/s, then with a time constant of 60 ms. In
+        // steps of 5 ms, the error is up to the distance of one step.
         let knee = real.min(0.12);
         let computed = (real * real - knee * knee) / 4.0 + knee * 0.06;
         off(&format!("stopping from {speed} m/s"), way, computed);
@@ -93,7 +93,7 @@ fn it_stops_where_lag_and_brakes_say() {
 }
 
 #[test]
-fn on_a_slippery_floor_it_stops_where_friction_says() {
+fn on_a_slippery_floor_it_stops_by_friction() {
     for grip in [0.05, 0.1, 0.2] {
         let mut sim = among("");
         drive(&mut sim, 0.31, 0.0, 3000);
@@ -105,12 +105,12 @@ fn on_a_slippery_floor_it_stops_where_friction_says() {
 }
 
 #[test]
-fn in_a_curve_friction_has_the_last_word() {
+fn friction_limits_the_speed_in_a_curve() {
     let mut sim = among("");
     drive(&mut sim, 0.3, 0.0, 2000);
     sim.inject(Fault::WheelsSlip { share: 0.005 }, sim.now(), Duration::MAX);
     let (length, angle) = way(&mut sim, 0.21, 0.63, 2000);
-    // The curve asks for 0.13 m/s^2, the floor gives 0.02 and what the castors add.
+    // The curve needs 0.13 m/s^2; the floor gives 0.02 plus the castors' part.
     let (speed, radius) = (length / 2.0, length / angle.abs());
     let across = speed * speed / radius;
     println!("in a slippery curve: {across:.3} m/s^2 across of {:.3}", 0.005 * GRIP + ROLLING);
@@ -118,7 +118,7 @@ fn in_a_curve_friction_has_the_last_word() {
 }
 
 #[test]
-fn the_odometer_drifts_as_much_as_wheels_differ() {
+fn the_odometer_drifts_by_the_difference_of_the_wheels() {
     let (mut squares, mut turns) = (0.0, 0.0);
     for seed in 0..40 {
         let mut sim = crate::among_with("", seed);

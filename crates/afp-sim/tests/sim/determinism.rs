@@ -5,9 +5,8 @@ use afp_carbot::devices::Rotator;
 use afp_core::quantity::Angle;
 use afp_sim::{Simulation, World};
 
-/// What the script comes to with the pinned version of the engine, on every platform and at every
-/// level of optimisation. A new engine, a changed model or a changed room changes it; nothing
-/// else may.
+/// The script's hash with the pinned version of the engine, on every platform and at every level of
+/// optimisation. Only a new engine, model or room may change it.
 const GOLDEN: u64 = 0x35ae60ab2d4e57af;
 
 /// Adds a number's bits to a hash (FNV-1a).
@@ -17,7 +16,7 @@ fn mix(hash: &mut u64, value: f64) {
     }
 }
 
-/// Drives a fixed script of curves, turns and bumps, and hashes what could be seen on the way.
+/// Drives a fixed script of curves, turns and bumps, and hashes the observable states.
 fn script(seed: u64) -> u64 {
     let room = include_str!("../../../../worlds/wall_following.toml");
     let world = World::parse(room).expect("the room is well-formed");
@@ -45,7 +44,7 @@ fn the_same_seed_gives_the_same_run() {
 }
 
 #[test]
-fn the_run_is_the_recorded_one() {
+fn the_run_equals_the_recorded_run() {
     assert_eq!(script(11), GOLDEN, "{:#018x}", script(11));
 }
 

@@ -1,4 +1,4 @@
-//! What breaks when a fault is injected, and that it is whole again afterwards.
+//! The effects of injected faults, and their end.
 
 use crate::{among, at, drive, the_box, wait};
 use afp_carbot::devices::{
@@ -20,7 +20,7 @@ fn wall_ahead() -> Simulation {
 }
 
 #[test]
-fn a_lost_sensor_does_not_answer_from_the_instant_to_before_the_end() {
+fn a_lost_sensor_is_silent_from_its_start_to_before_its_end() {
     let mut sim = wall_ahead();
     let lost = Fault::Ultrasonic(Defect::Lost);
     sim.inject(lost, at(503), Duration::from_millis(100));
@@ -34,7 +34,7 @@ fn a_lost_sensor_does_not_answer_from_the_instant_to_before_the_end() {
     assert!(sim.echo().value.is_ok());
 }
 
-/// What can be wrong with each sensor.
+/// The possible faults of each sensor.
 const SENSORS: [fn(Defect) -> Fault; 9] = [
     Fault::Ultrasonic,
     Fault::Rotator,
@@ -48,7 +48,7 @@ const SENSORS: [fn(Defect) -> Fault; 9] = [
 ];
 
 #[test]
-fn every_sensor_can_be_lost_or_deliver_no_number() {
+fn every_sensor_can_be_lost_or_return_no_number() {
     for (defect, expected) in
         [(Defect::Lost, Invalid::NoAnswer), (Defect::NotANumber, Invalid::NotFinite)]
     {
@@ -75,7 +75,7 @@ fn every_sensor_can_be_lost_or_deliver_no_number() {
 }
 
 #[test]
-fn a_frozen_sensor_repeats_its_value_as_if_it_were_new() {
+fn a_frozen_sensor_repeats_its_value_as_a_new_reading() {
     let mut sim = among("");
     drive(&mut sim, 0.2, 0.0, 500);
     let before = sim.motion();
@@ -89,7 +89,7 @@ fn a_frozen_sensor_repeats_its_value_as_if_it_were_new() {
 }
 
 #[test]
-fn a_delayed_sensor_tells_what_was_with_the_time_when_it_was() {
+fn a_delayed_sensor_returns_old_readings_with_their_times() {
     let mut sim = among("");
     drive(&mut sim, 0.2, 0.0, 1000);
     let begin = sim.motion();
@@ -104,7 +104,7 @@ fn a_delayed_sensor_tells_what_was_with_the_time_when_it_was() {
 }
 
 #[test]
-fn of_two_defects_the_later_counts_and_then_the_earlier_again() {
+fn the_later_of_two_defects_counts_and_then_the_earlier_again() {
     let mut sim = among("");
     let touch = |defect| Fault::Touch(defect);
     sim.inject(touch(Defect::NotANumber), at(200), Duration::from_millis(100));
@@ -119,7 +119,7 @@ fn of_two_defects_the_later_counts_and_then_the_earlier_again() {
 }
 
 #[test]
-fn each_use_of_a_slow_sensor_takes_time_by_the_clock() {
+fn each_use_of_a_slow_sensor_costs_time() {
     let mut sim = among("");
     let clock = sim.clock();
     let cost = Duration::from_millis(20);
@@ -135,7 +135,7 @@ fn each_use_of_a_slow_sensor_takes_time_by_the_clock() {
 }
 
 #[test]
-fn a_stuck_rotator_stays_and_tells_so() {
+fn a_stuck_rotator_stays_and_its_telemetry_shows_it() {
     let mut sim = among("");
     break_now(&mut sim, Fault::RotatorStuck);
     sim.point(Angle::from_deg(40.0), at(0));
@@ -157,7 +157,7 @@ fn a_stalled_motor_makes_the_robot_turn_around_its_wheel() {
 }
 
 #[test]
-fn on_a_slippery_floor_wheels_spin_and_the_odometer_believes_them() {
+fn on_a_slippery_floor_the_wheels_spin_and_the_odometer_counts_it() {
     let way = |grip: Option<f64>| {
         let mut sim = among("");
         if let Some(grip) = grip {
@@ -190,7 +190,7 @@ fn a_dead_controller_stops_the_robot_within_its_dead_man_time() {
 }
 
 #[test]
-fn a_low_battery_says_so_and_makes_slow() {
+fn a_low_battery_is_reported_and_slows_the_robot() {
     let mut sim = among("");
     sim.inject(Fault::BatteryLow { share: 0.04 }, at(0), Duration::MAX);
     drive(&mut sim, 0.3, 0.0, 3000);
@@ -223,7 +223,7 @@ fn an_emergency_stop_holds_until_it_is_reset() {
 }
 
 #[test]
-fn faults_that_are_over_leave_the_run_of_the_sound_robot() {
+fn ended_faults_leave_the_run_of_the_intact_robot() {
     let mut whole = among("");
     let mut mended = among("");
     for broken in SENSORS {
@@ -236,7 +236,7 @@ fn faults_that_are_over_leave_the_run_of_the_sound_robot() {
 }
 
 #[test]
-fn wheels_that_something_blocks_stand_and_on_slippery_floor_they_spin() {
+fn blocked_wheels_stop_and_on_a_slippery_floor_they_spin() {
     // A cupboard of eighty kilograms, ten centimetres ahead of the front.
     let cupboard = "\n[[box]]\nname = \"cupboard\"\npose_m_deg = [0.6, 0.0, 0.0]\nsize_m = [0.6, 0.6]\nheight_m = 1.8\nmass_kg = 80.0\n";
     let mut sim = among(cupboard);

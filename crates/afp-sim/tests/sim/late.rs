@@ -1,4 +1,4 @@
-//! What templates make of readings that come late.
+//! Templates with late readings.
 
 use crate::{among_with, at, drive};
 use afp_carbot::devices::Navigator;
@@ -8,7 +8,7 @@ use afp_core::quantity::{Angle, AngularSpeed, Speed};
 use afp_core::{Actor, ActorTemplate, Duration, Events, Fault, Poll, Supervisor};
 use afp_sim::{Defect, Simulation};
 
-/// A robot at the origin, a beacon, and an infrared sensor that is so many milliseconds late.
+/// A robot at the origin, a beacon, and an infrared sensor with this delay in milliseconds.
 fn late(beacon: [f64; 2], millis: u64, seed: u64) -> Simulation {
     let mut sim = among_with(&format!("[[infrared]]\nposition_m = {beacon:?}\n"), seed);
     let delayed = Defect::Delayed(Duration::from_millis(millis));
@@ -35,7 +35,7 @@ fn run<'a, T: ActorTemplate, A: Actor<T, Simulation>>(
 }
 
 #[test]
-fn a_robot_faces_light_as_well_with_late_readings() {
+fn a_robot_faces_light_with_late_readings() {
     type Template = templates::TurnToInfrared;
     for millis in [0, 100, 300, 450] {
         let (mut worst, mut squares) = (0.0_f64, 0.0);
@@ -58,7 +58,7 @@ fn a_robot_faces_light_as_well_with_late_readings() {
 }
 
 #[test]
-fn a_robot_gets_to_light_with_late_readings() {
+fn a_robot_reaches_light_with_late_readings() {
     type Template = templates::ApproachInfrared;
     for millis in [0, 100, 300, 450] {
         let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
@@ -81,7 +81,7 @@ fn a_robot_gets_to_light_with_late_readings() {
 }
 
 #[test]
-fn a_bearing_is_against_the_heading_of_the_moment_with_late_readings_too() {
+fn a_late_bearing_is_relative_to_the_present_heading() {
     type Template = templates::CheckInfrared;
     for millis in [0, 300] {
         let mut sim = late([2.0, 0.0], millis, 1);
@@ -90,7 +90,7 @@ fn a_bearing_is_against_the_heading_of_the_moment_with_late_readings_too() {
             Supervisor::<Template, Simulation>::start(inputs, &mut sim, at(0)).unwrap();
         let (mut seen, mut squares) = (0.0, 0.0);
         for n in 0..100 {
-            // To and fro, so that the light stays in view.
+            // Left and right, so that the light stays in view.
             drive(&mut sim, 0.0, if n % 40 < 20 { 0.8 } else { -0.8 }, 50);
             let (live, now) = (check_infrared::Live { strength: 0.05 }, sim.now());
             let event =

@@ -28,7 +28,8 @@ fn p95(errors: &[[f64; 2]], of: usize) -> f64 {
     all[all.len() * 95 / 100]
 }
 
-/// `AFP_ROOMS` more rooms, from the thousandth on: the figures in the book are those of a hundred.
+/// `AFP_ROOMS` additional rooms, from number 1000 on; the figures in the book are from a hundred
+/// rooms.
 fn rooms(few: u64) -> std::ops::Range<u64> {
     match std::env::var("AFP_ROOMS").ok().and_then(|text| text.parse::<u64>().ok()) {
         Some(many) => 1000..1000 + many,
@@ -37,7 +38,7 @@ fn rooms(few: u64) -> std::ops::Range<u64> {
 }
 
 #[test]
-fn a_robot_that_wanders_knows_where_it_is() {
+fn a_wandering_robot_knows_its_place() {
     let mut errors = Vec::new();
     for seed in rooms(4) {
         let mut robot = Wanderer::new(&World::random(seed), seed);
@@ -58,7 +59,7 @@ fn a_robot_that_was_carried_finds_itself_again() {
         let place = robot.free_place(&world);
         robot.robot.carry_to(place);
         let errors = wander(&mut robot, 40);
-        // Well known for a second, without having been so by accident.
+        // The place is known for a full second, so that it is not an accident.
         let known = errors.windows(10).position(|second| second.iter().all(|[off, _]| *off < 0.15));
         times.extend(known.map(|at| at as f64 / 10.0));
         if known.is_none_or(|at| at > 300) {
@@ -70,10 +71,10 @@ fn a_robot_that_was_carried_finds_itself_again() {
     assert!(slow.len() * 10 <= times.len(), "not within 30 s: {slow:?}");
 }
 
-/// The filter of a simulation believes what one believes that has map, start and readings, and no simulation: nothing
-/// else that is true can have come to it.
+/// The belief of a simulation's filter equals the belief of a filter with only map, start and
+/// readings. The simulation passes no other ground truth to it.
 #[test]
-fn the_belief_comes_from_map_and_readings_alone() {
+fn the_belief_uses_only_map_and_readings() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
     let beam = robot.robot.beam();
@@ -87,7 +88,7 @@ fn the_belief_comes_from_map_and_readings_alone() {
     for tick in 1..=1500_u64 {
         robot.tick();
         let (now, motion) = (robot.robot.now(), robot.robot.motion());
-        // What arrived before a ping is heard when the next is sent.
+        // Echoes that arrived before a ping are handled before the next ping.
         if tick.is_multiple_of(5) {
             alone.on_echo(robot.robot.echo(), motion, now);
         }
@@ -96,9 +97,9 @@ fn the_belief_comes_from_map_and_readings_alone() {
     }
 }
 
-/// The ways that a simulation finds are those that a planner finds that has map, start and readings, and no simulation.
+/// The paths of a simulation equal the paths of a planner with only map, start and readings.
 #[test]
-fn ways_come_from_map_and_readings_alone() {
+fn paths_use_only_map_and_readings() {
     let world = World::random(5);
     let mut robot = Wanderer::new(&world, 5);
     let (beam, body) = (robot.robot.beam(), robot.robot.body());
@@ -109,7 +110,7 @@ fn ways_come_from_map_and_readings_alone() {
         Planner::new(field(), &body, beam.forward, VirtualWorker::new);
     let metres = |place: [f64; 2]| (Length::from_si(place[0]), Length::from_si(place[1]));
     let there = metres([world.start.x, world.start.y]);
-    // Both hear from the first search on.
+    // Both get readings from the first search on.
     let to = Aim::Place { at: there, near: Length::from_si(0.3) };
     let trip = |from| Trip { from, to };
     let search =
@@ -162,7 +163,7 @@ fn without_odometry_there_is_no_belief() {
 }
 
 #[test]
-fn a_robot_that_is_carried_is_where_it_was_put() {
+fn a_carried_robot_is_at_its_new_place() {
     let mut robot = Simulation::new(&World::random(5), 5).unwrap();
     let place = Pose { x: 1.0, y: 1.5, heading: 0.5 };
     robot.carry_to(place);

@@ -1,4 +1,4 @@
-//! The simulated world and robot: what they promise to templates and judges.
+//! The guarantees of the simulated world and robot for templates and judges.
 
 mod closed_forms;
 mod determinism;
@@ -28,14 +28,14 @@ fn among(obstacles: &str) -> Simulation {
     among_with(obstacles, 1)
 }
 
-/// The same with another seed.
+/// Like [`among`], with another seed.
 fn among_with(obstacles: &str, seed: u64) -> Simulation {
     let text = format!("version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\n{obstacles}");
     let world = World::parse(&text).expect("the test's world is well-formed");
     Simulation::new(&world, seed).expect("the test's world can be built")
 }
 
-/// A box of a height, by its middle and its size.
+/// A box with a height, by its middle and its size.
 fn the_box(middle: [f64; 2], size: [f64; 2], height: f64) -> String {
     format!(
         "[[box]]\npose_m_deg = [{}, {}, 0.0]\nsize_m = {size:?}\nheight_m = {height}\n",
@@ -43,12 +43,12 @@ fn the_box(middle: [f64; 2], size: [f64; 2], height: f64) -> String {
     )
 }
 
-/// Lets time pass without commands.
+/// Waits without commands.
 fn wait(sim: &mut Simulation, millis: u64) {
     sim.advance_to(sim.now() + Duration::from_millis(millis));
 }
 
-/// Repeats a command every 10 ms for so long.
+/// Repeats a command every 10 ms for a time.
 fn drive(sim: &mut Simulation, speed: f64, turn: f64, millis: u64) {
     for _ in 0..millis / 10 {
         let now = sim.now();
@@ -57,7 +57,7 @@ fn drive(sim: &mut Simulation, speed: f64, turn: f64, millis: u64) {
     }
 }
 
-/// The instant so many milliseconds after zero.
+/// The instant this number of milliseconds after zero.
 fn at(millis: u64) -> Instant {
     Instant::ZERO + Duration::from_millis(millis)
 }

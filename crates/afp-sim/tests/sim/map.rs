@@ -11,7 +11,7 @@ use crate::world::placed;
 const YAML: &str = "image: room.pgm\nmode: trinary\nresolution: 0.1\norigin: [-1.0, -2.0, 0]\n\
                     negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
-/// Four by five metres with walls one cell thick, and a cell of unknown in a corner.
+/// Four by five metres with walls one cell thick, and an unknown cell in a corner.
 fn room() -> Vec<u8> {
     let mut picture = b"P5\n# made for a test\n40 50\n255\n".to_vec();
     for row in 0..50 {
@@ -31,7 +31,7 @@ fn room() -> Vec<u8> {
 }
 
 #[test]
-fn a_map_has_its_walls_where_they_are_and_the_robot_near_the_origin() {
+fn a_map_has_its_walls_at_their_places_and_the_robot_near_the_origin() {
     assert_eq!(World::map_picture(YAML).as_deref(), Ok("room.pgm"));
     let text = World::map_text("a \"room\"", YAML, &room()).unwrap();
     let world = World::parse(&text).unwrap();
@@ -53,7 +53,7 @@ fn a_map_has_its_walls_where_they_are_and_the_robot_near_the_origin() {
 
 #[test]
 fn the_robot_starts_inside_of_the_walls() {
-    // A closed room far from the origin; around it is free floor, nearer to the origin.
+    // A closed room far from the origin; the floor around it is free and nearer to the origin.
     let mut picture = b"P5\n60 30\n255\n".to_vec();
     for row in 0..30 {
         for column in 0..60 {
@@ -79,7 +79,7 @@ fn a_turned_map_is_turned_about_its_corner() {
 }
 
 #[test]
-fn what_is_wrong_with_a_map_is_said() {
+fn errors_in_a_map_are_reported() {
     let cases = [
         (YAML.replace("resolution: 0.1", "resolution: big"), "line 3, column 1: resolution: is"),
         (
@@ -116,9 +116,9 @@ fn what_is_wrong_with_a_map_is_said() {
     assert_eq!(message, "the map's picture is neither PGM nor PNG");
 }
 
-/// How many cells of a row of greys are walls.
+/// The number of walls in a row of greys.
 fn walls(settings: &str, greys: &[u8]) -> Vec<usize> {
-    // Around the row of greys is room for the robot, and a wall, without which it is no map.
+    // The row of greys has free space for the robot around it, and a wall, because a map needs one.
     let mut rows = vec![[254; 40]; 40];
     rows[0] = [0; 40];
     rows[20][..greys.len()].copy_from_slice(greys);
@@ -146,7 +146,7 @@ fn walls(settings: &str, greys: &[u8]) -> Vec<usize> {
 }
 
 #[test]
-fn each_mode_has_its_walls_and_unknown_cells_are_what_the_map_says() {
+fn the_mode_of_a_map_decides_on_walls_and_unknown_cells() {
     // Free, unknown, just below and just above the threshold of 0.65, black.
     let greys = [254, 205, 90, 88, 0];
     let cases: [(&str, &[u8], &[usize]); 7] = [
@@ -164,7 +164,7 @@ fn each_mode_has_its_walls_and_unknown_cells_are_what_the_map_says() {
 }
 
 #[test]
-fn every_key_but_the_mode_must_be_there() {
+fn every_key_except_the_mode_is_required() {
     for line in YAML.lines().filter(|line| !line.starts_with("mode")) {
         let (key, _) = line.split_once(':').unwrap();
         let without = YAML.replace(&format!("{line}\n"), "");
@@ -172,15 +172,15 @@ fn every_key_but_the_mode_must_be_there() {
         assert!(message.starts_with(&format!("line 1, column 1: {key}: is to")), "{message}");
         assert!(message.contains(", and is missing"), "{message}");
     }
-    // Words and quotes as other readers of YAML take them.
+    // Words and quotes in the notation of other YAML readers.
     let words = YAML.replace("negate: 0", "negate: no").replace("0.65", "'0.65'");
     let words = words.replace("mode: trinary", "\"mode\" : Trinary");
     assert_eq!(World::map_text("m", &words, &room()), World::map_text("m", YAML, &room()));
 }
 
 #[test]
-fn a_png_may_say_how_opaque_its_cells_are() {
-    // Black walls around floor; a black cell that is clear, and a dark one that is opaque.
+fn cells_of_a_png_may_have_an_opacity() {
+    // Black walls around floor; a black transparent cell, and a dark opaque cell.
     let cells = room().split_off(room().len() - 40 * 50);
     let mut pixels: Vec<[u8; 2]> = cells.iter().map(|grey| [*grey, 255]).collect();
     (pixels[25 * 40 + 5], pixels[25 * 40 + 9]) = ([0, 0], [80, 255]);
@@ -201,7 +201,7 @@ fn a_png_may_say_how_opaque_its_cells_are() {
 }
 
 #[test]
-fn who_leaves_the_map_is_told_when() {
+fn the_time_of_leaving_the_map_is_recorded() {
     // A map with a wall on one side only.
     let open: Vec<u8> =
         room().iter().enumerate().map(|(i, grey)| if i > 500 { 254 } else { *grey }).collect();

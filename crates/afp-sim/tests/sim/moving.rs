@@ -1,10 +1,10 @@
-//! Obstacles that move, and surfaces that send little sound back.
+//! Moving obstacles, and surfaces that return little sound.
 
 use crate::{among, at, drive, the_box, wait};
 use afp_carbot::devices::{Camera, TouchSensor, Ultrasonic};
 
 #[test]
-fn a_scripted_box_goes_its_way_and_all_sensors_follow_it() {
+fn a_scripted_box_follows_its_path_and_all_sensors_detect_it() {
     let shuttle = the_box([1.3, 1.0], [0.4, 0.4], 0.5)
         + "path = { by_m = [[0.0, -1.0]], speed_m_s = 0.5, wait_s = 4.0 }\n";
     let mut sim = among(&shuttle);
@@ -22,7 +22,7 @@ fn a_scripted_box_goes_its_way_and_all_sensors_follow_it() {
 }
 
 #[test]
-fn what_goes_its_way_pushes_the_robot_and_presses_the_bumper() {
+fn a_scripted_box_pushes_the_robot_and_presses_the_bumper() {
     let ram =
         the_box([1.0, 0.0], [0.4, 1.0], 0.5) + "path = { by_m = [[-1.0, 0.0]], speed_m_s = 0.3 }\n";
     let mut sim = among(&ram);
@@ -37,7 +37,7 @@ fn what_goes_its_way_pushes_the_robot_and_presses_the_bumper() {
 }
 
 #[test]
-fn the_robot_pushes_what_is_light_and_not_what_is_heavy() {
+fn the_robot_pushes_light_objects_and_not_heavy_ones() {
     let pushed = |mass: f64| {
         let thing = the_box([0.5, 0.0], [0.3, 0.3], 0.3) + &format!("mass_kg = {mass}\n");
         let mut sim = among(&thing);
@@ -56,19 +56,19 @@ fn the_robot_pushes_what_is_light_and_not_what_is_heavy() {
 }
 
 #[test]
-fn what_is_pushed_beside_its_middle_turns_away() {
+fn an_object_pushed_off_its_middle_turns_away() {
     let thing = the_box([0.5, 0.22], [0.3, 0.3], 0.3) + "mass_kg = 0.5\n";
     let mut sim = among(&thing);
     drive(&mut sim, 0.2, 0.0, 2000);
     let corners = sim.outline(0);
     let side = [corners[0][0] - corners[1][0], corners[0][1] - corners[1][1]];
-    // By another engine it has turned 0.53 rad by then, see docs/simulator.md.
+    // Another engine turns it by 0.53 rad in this time, see docs/simulator.md.
     let turned = side[1].atan2(side[0]);
     assert!((0.3..0.6).contains(&turned), "{turned}");
 }
 
 #[test]
-fn what_is_pushed_against_a_wall_stays_before_it() {
+fn an_object_pushed_against_a_wall_stays_before_it() {
     for height in [0.08, 0.5] {
         let world = the_box([0.5, 0.0], [0.3, 0.3], height)
             + "mass_kg = 0.3\n"
@@ -81,7 +81,7 @@ fn what_is_pushed_against_a_wall_stays_before_it() {
 }
 
 #[test]
-fn soft_things_are_heard_from_near_only() {
+fn soft_objects_are_only_heard_from_near() {
     let heard = |x: f64, echo: f64| {
         let wall = the_box([x, 0.0], [0.2, 4.0], 2.0) + &format!("echo = {echo}\n");
         let mut sim = among(&wall);

@@ -1,7 +1,7 @@
-//! How well objects are found by their colours in what the camera shows of rooms made up. What is really to be seen is
-//! told by a second picture, of the same room without the object.
+//! How well objects are found by their colours in camera pictures of random rooms. A second picture
+//! of the same room without the object provides the ground truth.
 //!
-//! `AFP_VIEWS` says how many views there are.
+//! `AFP_VIEWS` sets the number of views.
 
 use std::env;
 
@@ -12,15 +12,15 @@ use afp_sim::{Simulation, World};
 
 use crate::wait;
 
-/// Views unless told otherwise.
+/// The default number of views.
 const VIEWS: u64 = 60;
 /// Colours that no furniture has: pink, lime and turquoise.
 const COLORS: [[u8; 3]; 3] = [[217, 26, 128], [112, 208, 26], [16, 176, 192]];
-/// An object is to be found when so many pixels show it.
+/// An object must be found if this number of pixels show it.
 const SEEN: usize = 40;
-/// And it is rightly found when it is told to be so near to where it is, radians.
+/// The maximum angle between a found object and its true direction, in radians.
 const RIGHT: f64 = 4.0 / 180.0 * std::f64::consts::PI;
-/// What counts as told of an object of which fewer pixels are to be seen than should be is neither right nor wrong.
+/// Between this number of pixels and [`SEEN`], finding an object is neither right nor wrong.
 const HINT: usize = 8;
 
 /// A picture of a room.
@@ -41,7 +41,7 @@ impl View {
     }
 }
 
-/// What a picture shows of an object that another one lacks: its pixels, and the middle of their columns.
+/// The pixels of an object that only one of two pictures shows, and the middle of their columns.
 fn truth(with: &Frame<'_>, without: &Frame<'_>) -> (usize, f64) {
     let differs = |n: &usize| with.rgb[3 * n..3 * n + 3] != without.rgb[3 * n..3 * n + 3];
     let columns = (0..with.width * with.height).filter(differs).map(|n| n % with.width);
@@ -60,7 +60,8 @@ fn chances(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A room, and a box of a colour somewhere before the robot: near or far, small or large, whole or half hidden.
+/// A room, and a coloured box ahead of the robot: near or far, small or large, visible or half
+/// hidden.
 fn views(seed: u64) -> Option<(View, View, [u8; 3])> {
     let (room, start) = (World::random_text(seed), World::random(seed).start);
     let mut chance = chances(seed);
@@ -82,7 +83,8 @@ fn views(seed: u64) -> Option<(View, View, [u8; 3])> {
     Some((View::of(&(room.clone() + &object), seed)?, View::of(&room, seed)?, color))
 }
 
-/// How often an object was found that was there, missed, and found where it is not.
+/// How often a visible object was found or missed, and how often an object was found at a wrong
+/// place.
 #[derive(Debug, Default)]
 struct Score {
     right: f64,
@@ -114,7 +116,7 @@ impl Score {
 }
 
 #[test]
-fn objects_are_found_by_their_colours_where_they_are_to_be_seen() {
+fn visible_objects_are_found_by_their_colours() {
     let count = env::var("AFP_VIEWS").map_or(VIEWS, |text| text.parse().expect("a number"));
     let mut score = Score::default();
     let mut done = 0;
@@ -126,7 +128,7 @@ fn objects_are_found_by_their_colours_where_they_are_to_be_seen() {
         if score.wrong + score.missed > before {
             println!("room {seed}: {there:?} {:?}", look.find(&with.frame(), &lens));
         }
-        // Of the same room without it nothing is to be found.
+        // The same room without the object must have no find.
         score.add(look.find(&without.frame(), &lens), (0, 0.0), &without);
         done += 1;
         if done == count {
@@ -138,7 +140,7 @@ fn objects_are_found_by_their_colours_where_they_are_to_be_seen() {
 }
 
 #[test]
-fn the_foot_of_an_object_tells_how_far_it_is() {
+fn the_foot_of_an_object_gives_its_distance() {
     for far in [0.6, 1.0, 2.0, 3.0] {
         let text = crate::the_box([far + 0.15, 0.0], [0.3, 0.3], 0.4);
         let mut sim = crate::among(&(text + "color = \"#d91a80\"\n"));

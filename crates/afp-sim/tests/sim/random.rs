@@ -1,10 +1,10 @@
-//! Rooms made up.
+//! Random rooms.
 
 use afp_sim::World;
 use afp_sim::world::Mobility;
 
 #[test]
-fn a_hundred_rooms_are_furnished_and_each_is_of_its_own() {
+fn a_hundred_rooms_are_furnished_and_differ() {
     let mut texts = Vec::new();
     let (mut pieces, mut pushed, mut walkers, mut low, mut divided) = (0, 0, 0, 0, 0);
     for seed in 0..100 {

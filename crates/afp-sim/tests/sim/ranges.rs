@@ -1,27 +1,27 @@
-//! The range sensor against the geometry of what stands around it; docs/simulator.md has the figures.
+//! The range sensor against the geometry of its surroundings; docs/simulator.md has the figures.
 //!
-//! The expected range is that of the nearest place within the cone that sends sound back to where it came
-//! from. The cone consists of nine rays, so what is heard lies up to half the gap between two of them
-//! beside the nearest place, or a whole gap inside of an edge. Each test says how much farther that is; what
-//! is left to allow is [`NOISE`].
+//! The expected range is that of the nearest place within the cone that returns sound to the
+//! sensor. The cone consists of nine rays, so the echo comes from up to half a gap of rays next to
+//! the nearest place, or a whole gap inside of an edge. Each test computes this additional
+//! distance; the remaining tolerance is [`NOISE`].
 
 use crate::{among_with, at, the_box, wait};
 use afp_carbot::devices::{Rotator, Ultrasonic};
 use afp_core::quantity::Angle;
 use std::f64::consts::TAU;
 
-/// Half the cone, and the gap between two of its rays, degrees.
+/// Half the cone, and the gap between two of its rays, in degrees.
 const HALF: f64 = 15.0;
 const GAP: f64 = 30.0 / 8.0;
-/// The share that a mean over 20 robots may be off. Each takes sound to be 0.3 % too fast or too slow, which makes
-/// 0.07 % for all; the rest is four times the deviation of the mean.
+/// The tolerance of a mean over 20 robots, as a share. Each robot's speed of sound is off by 0.3 %,
+/// which makes 0.07 % for all. The rest is four times the deviation of the mean.
 const NOISE: f64 = 0.003;
-/// The sensor is this far before the robot's middle, metres.
+/// The sensor's distance ahead of the robot's middle, in metres.
 const FORWARD: f64 = 0.1;
 
-/// The mean of the ranges heard with the sensor pointed in a direction, and the share of pings that were heard.
+/// The mean of the ranges with the sensor pointed in a direction, and the share of heard pings.
 ///
-/// Robots differ in how fast they believe sound to be: many make the mean.
+/// Robots differ in their assumed speed of sound, so the mean is over many robots.
 fn listen(world: &str, degrees: f64) -> (f64, f64) {
     let (mut sum, mut heard) = (0.0, 0.0);
     for seed in 0..20 {
@@ -38,8 +38,8 @@ fn listen(world: &str, degrees: f64) -> (f64, f64) {
     (sum / f64::max(heard, 1.0), heard / 800.0)
 }
 
-/// Demands that at least half of the pings are heard, and a mean between the range of the nearest place and that where the
-/// rays meet it at worst.
+/// Asserts that at least half of the pings are heard, and that the mean is between the range of the
+/// nearest place and the worst range of the rays.
 fn expect(what: &str, world: &str, degrees: f64, nearest: f64, worst: f64) {
     let (mean, share) = listen(world, degrees);
     println!(
@@ -51,7 +51,7 @@ fn expect(what: &str, world: &str, degrees: f64, nearest: f64, worst: f64) {
     assert!((nearest * (1.0 - NOISE)..worst * (1.0 + NOISE)).contains(&mean), "{what}: {mean}");
 }
 
-/// Demands that nothing is heard.
+/// Asserts silence.
 fn expect_silence(world: &str, degrees: f64) {
     assert_eq!(listen(world, degrees).1, 0.0);
 }
@@ -64,8 +64,9 @@ fn sin(degrees: f64) -> f64 {
     degrees.to_radians().sin()
 }
 
-/// The range of a plane so far away, its normal so many degrees off the cone's axis: of the nearest place
-/// within the cone, and with the gap between the rays. At the cone's edge there is a ray.
+/// The range of a plane at this distance, with its normal this number of degrees off the cone's
+/// axis: of the nearest place within the cone, and with the gap between the rays. There is a ray at
+/// the cone's edge.
 fn plane(distance: f64, slant: f64) -> (f64, f64) {
     let beyond = (slant.abs() - HALF).max(0.0);
     let off = if beyond > 0.0 { beyond } else { GAP / 2.0 };
@@ -73,7 +74,7 @@ fn plane(distance: f64, slant: f64) -> (f64, f64) {
 }
 
 #[test]
-fn what_measures_more_than_its_most_is_silence_and_no_broken_sensor() {
+fn a_distance_beyond_the_range_is_silence() {
     let wall = the_box([FORWARD + 3.99 + 0.1, 0.0], [0.2, 20.0], 2.0);
     let mut heard = [0, 0];
     for seed in 0..20 {
@@ -98,8 +99,8 @@ fn a_wall_is_as_far_as_its_normal_is_long() {
 }
 
 #[test]
-fn in_a_corner_the_nearer_of_both_walls_counts() {
-    // One wall ahead, one on the left; what the robot sees of them in each direction.
+fn in_a_corner_the_nearer_wall_counts() {
+    // One wall ahead, one on the left; the visible wall in each direction.
     for (ahead, left, bearing) in [
         (1.0, 0.6, 0.0),
         (1.0, 0.6, 90.0),
@@ -117,7 +118,7 @@ fn in_a_corner_the_nearer_of_both_walls_counts() {
     }
 }
 
-/// A post as a polygon of 32 corners on a circle, so far from the sensor and straight ahead.
+/// A post straight ahead, as a polygon of 32 corners on a circle, at this distance from the sensor.
 fn post(distance: f64, radius: f64) -> String {
     let middle = FORWARD + distance + radius;
     let corner = |n: u32| {
@@ -137,8 +138,8 @@ fn a_round_post_is_as_far_as_its_nearest_side() {
         (1.5, 0.3, 5.0),
         (2.5, 0.3, 0.0),
     ] {
-        // Where a ray meets a circle that passes beside its middle, and what the sides of the polygon lie
-        // inside of the circle.
+        // The intersection of a ray with a circle off its middle, and the distance of the polygon's
+        // sides inside of the circle.
         let middle = distance + radius;
         let beside = middle * sin(GAP / 2.0);
         let circle = middle * cos(GAP / 2.0) - (radius * radius - beside * beside).sqrt();
@@ -156,19 +157,19 @@ fn a_thin_post_far_away_is_missed_between_two_rays() {
     expect_silence(&thin, GAP / 2.0);
 }
 
-/// A box of 0.4 m by 0.4 m straight ahead that turns a corner to the sensor, so far away.
+/// A box of 0.4 m by 0.4 m straight ahead, with a corner towards the sensor at this distance.
 fn edge_on(distance: f64) -> String {
     let middle = FORWARD + distance + 0.2 * 2.0_f64.sqrt();
     format!("[[box]]\npose_m_deg = [{middle}, 0.0, 45.0]\nsize_m = [0.4, 0.4]\nheight_m = 1.0\n")
 }
 
 #[test]
-fn an_edge_is_heard_from_near_only() {
-    // Both sides slant by 45 deg: of the sound 2^-8 comes back, and 0.02 / r^2 is heard.
+fn an_edge_is_only_heard_from_near() {
+    // Both sides slant by 45 deg: 2^-8 of the sound comes back, and 0.02 / r^2 is heard.
     let farthest = (0.5_f64.powi(8) / 0.02).sqrt();
     for (distance, bearing) in [(0.25, 0.5), (0.3, GAP / 2.0), (0.35, -0.5)] {
         assert!(distance < farthest);
-        // The law of sines: the ray, half a gap beside the edge, meets a side at 45 deg less that.
+        // The law of sines: a ray half a gap off the edge hits a side at 45 deg less that.
         let worst = distance * sin(45.0) / sin(45.0 - GAP / 2.0);
         expect(&format!("edge at {distance} m"), &edge_on(distance), bearing, distance, worst);
     }
@@ -178,9 +179,9 @@ fn an_edge_is_heard_from_near_only() {
 }
 
 #[test]
-fn of_a_box_that_covers_part_of_the_cone_the_nearest_place_counts() {
+fn the_nearest_place_counts_for_a_box_in_a_part_of_the_cone() {
     for (distance, from) in [(1.0, -8.0), (1.0, 3.0), (0.6, 9.0), (1.5, 1.0)] {
-        // Its front begins so many degrees left of the axis; 1.5 m behind there is a wall.
+        // Its front begins this number of degrees left of the axis; a wall is 1.5 m behind it.
         let edge = distance * sin(from) / cos(from);
         let middle = [FORWARD + distance + 0.2, edge + 0.5];
         let wall = the_box([FORWARD + distance + 1.6, 0.0], [0.2, 20.0], 2.0);
@@ -193,7 +194,7 @@ fn of_a_box_that_covers_part_of_the_cone_the_nearest_place_counts() {
 }
 
 #[test]
-fn what_is_beside_the_cone_is_not_heard() {
+fn obstacles_outside_of_the_cone_are_not_heard() {
     let distance = 1.0;
     let edge = distance * sin(HALF + 0.5) / cos(HALF + 0.5);
     let middle = [FORWARD + distance + 0.2, edge + 0.5];

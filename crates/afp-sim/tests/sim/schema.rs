@@ -1,11 +1,11 @@
-//! The published schema of world files says what the reader reads.
+//! The published schema of world files agrees with the reader.
 
 use afp_sim::World;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use toml_edit::{DocumentMut, Item};
 
-/// A file with every table, and every key that can stand beside the others.
+/// A file with every table and every combinable key.
 const FULL: &str = r##"
 version = 1
 name = "everything"
@@ -53,7 +53,7 @@ strength = 2
 corners_m = [[-9, -9], [9, -9], [9, 9], [-9, 9]]
 "##;
 
-/// Each table of the schema, and how a file gets a key `KEY` into it.
+/// Each table of the schema, and a file with a key `KEY` in that table.
 const TABLES: [(&str, &str); 10] = [
     ("", "KEY = 1"),
     ("robot", "[robot]\nKEY = 1"),
@@ -87,7 +87,7 @@ fn required(table: &Value) -> BTreeSet<&str> {
 }
 
 #[test]
-fn the_reader_knows_the_keys_of_the_schema_and_no_others() {
+fn the_reader_has_exactly_the_keys_of_the_schema() {
     let schema = schema();
     for (name, text) in TABLES {
         let error = World::parse(&text.replace("KEY", "no_such_key"));
@@ -102,7 +102,7 @@ fn the_reader_knows_the_keys_of_the_schema_and_no_others() {
 #[test]
 fn the_page_on_worlds_names_every_key() {
     let page = include_str!("../../../../docs/simulator.md");
-    // Every other part between fences, and of those between ticks, is text.
+    // Text is outside of fences and outside of inline code.
     let text: String = page.split("```").step_by(2).collect();
     let words =
         text.split('`').skip(1).step_by(2).flat_map(|span| span.split([' ', '[', ']', ',']));
@@ -116,7 +116,7 @@ fn the_page_on_worlds_names_every_key() {
 }
 
 #[test]
-fn what_the_schema_requires_is_what_the_reader_misses() {
+fn required_keys_of_the_schema_are_required_by_the_reader() {
     World::parse(FULL).expect("the example is whole");
     let schema = schema();
     for (name, _) in TABLES {
@@ -142,7 +142,7 @@ fn what_the_schema_requires_is_what_the_reader_misses() {
 }
 
 #[test]
-fn both_know_the_same_textures_and_defaults() {
+fn schema_and_reader_have_the_same_textures_and_defaults() {
     let schema = schema();
     let textures = schema["$defs"]["texture"]["enum"].as_array().expect("a list");
     for texture in textures.iter().filter_map(Value::as_str) {

@@ -1,4 +1,4 @@
-//! What infrared sensor, colour sensor and camera see.
+//! The readings of infrared sensor, colour sensor and camera.
 
 use crate::{among, at, drive, the_box, wait};
 use afp_carbot::devices::{Camera, ColorSensor, Glow, InfraredSensor, Invalid};
@@ -36,7 +36,7 @@ fn infrared_light_has_a_bearing_and_a_strength_that_falls_with_the_square_of_the
 }
 
 #[test]
-fn infrared_light_is_seen_within_60_degrees_and_not_through_what_is_high() {
+fn infrared_light_is_seen_within_60_degrees_and_not_through_high_obstacles() {
     let wall = the_box([1.0, 0.0], [0.1, 1.0], 1.0);
     let step = the_box([1.0, 0.0], [0.1, 1.0], 0.08);
     let cases = [
@@ -88,14 +88,14 @@ const RED_BOX: &str = "[[box]]\npose_m_deg = [1.28, 0.0, 0.0]\nsize_m = [0.2, 0.
                        height_m = 0.5\ncolor = \"#c00000\"\n";
 
 #[test]
-fn the_camera_sees_a_box_where_it_is() {
+fn the_camera_shows_a_box_at_its_place() {
     let mut sim = among(RED_BOX);
     assert_eq!(sim.frame().value.map(|frame| frame.number), Err(Invalid::NotYet));
     wait(&mut sim, 50);
     let lens = sim.lens();
     let frame = sim.frame().value.expect("the camera works");
     assert_eq!((frame.width, frame.height, frame.number), (lens.columns, lens.rows, 1));
-    // The face is one metre before the lens, 20 cm to either side, up to 30 cm above the lens.
+    // The face is one metre ahead of the lens, 20 cm to either side, up to 30 cm above the lens.
     let focus = 80.0 / (lens.opening.si() / 2.0).tan();
     let red = |x: usize, y: usize| {
         let [red, green, blue] = frame.pixel(x, y).unwrap();
@@ -113,7 +113,7 @@ fn the_camera_sees_a_box_where_it_is() {
 }
 
 #[test]
-fn what_is_near_hides_what_is_far_and_one_sees_the_top_of_what_is_low() {
+fn near_objects_hide_far_ones_and_the_top_of_a_low_object_is_visible() {
     let low = "[[box]]\npose_m_deg = [0.78, 0.0, 0.0]\nsize_m = [0.2, 0.2]\nheight_m = 0.1\n\
                color = \"#0000c0\"\n";
     let mut sim = among(&format!("{RED_BOX}{low}"));
@@ -129,7 +129,7 @@ fn what_is_near_hides_what_is_far_and_one_sees_the_top_of_what_is_low() {
 }
 
 #[test]
-fn pictures_come_20_times_a_second_and_are_the_same_for_whoever_looks_when() {
+fn pictures_come_20_times_a_second_and_do_not_depend_on_their_readers() {
     let run = |every: u64| {
         let mut sim = among(RED_BOX);
         let mut film = Film::default();
@@ -154,7 +154,7 @@ fn pictures_come_20_times_a_second_and_are_the_same_for_whoever_looks_when() {
 }
 
 #[test]
-fn a_camera_that_is_frozen_delayed_or_lost_shows_the_past_or_nothing() {
+fn a_frozen_delayed_or_lost_camera_shows_the_past_or_nothing() {
     let mut sim = among(RED_BOX);
     sim.advance_to(at(500));
     let number = |sim: &Simulation| sim.frame().value.map(|frame| frame.number);

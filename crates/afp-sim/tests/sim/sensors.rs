@@ -1,4 +1,4 @@
-//! What the sensors say.
+//! The readings of the sensors.
 
 use crate::{among, drive, the_box, wait};
 use afp_carbot::devices::{
@@ -14,7 +14,7 @@ fn look(sim: &mut Simulation, degrees: f64) -> Echo {
     sim.echo().value.expect("the sensor works")
 }
 
-/// The mean of the ranges of `count` pings and how many were heard.
+/// The mean of the ranges of `count` pings and the number of heard pings.
 fn ranges(sim: &mut Simulation, degrees: f64, count: u32) -> (f64, u32) {
     look(sim, degrees);
     let (mut sum, mut heard) = (0.0, 0);
@@ -27,7 +27,7 @@ fn ranges(sim: &mut Simulation, degrees: f64, count: u32) -> (f64, u32) {
     (sum / f64::from(heard.max(1)), heard)
 }
 
-/// A wall square ahead, its face one metre before the sensor.
+/// A wall square ahead, its face one metre from the sensor.
 fn wall_ahead() -> String {
     the_box([1.2, 0.0], [0.2, 6.0], 2.0)
 }
@@ -43,7 +43,7 @@ fn a_plane_wall_reads_its_perpendicular_distance_while_its_normal_is_in_the_beam
 }
 
 #[test]
-fn beside_the_beam_a_wall_reads_farther_and_at_a_slant_nothing() {
+fn next_to_the_beam_a_wall_reads_farther_and_at_a_slant_nothing() {
     let mut sim = among(&wall_ahead());
     let (mean, _) = ranges(&mut sim, 30.0, 100);
     assert!((1.0..1.08).contains(&mean), "{mean}");
@@ -86,7 +86,7 @@ fn an_echo_arrives_when_the_sound_does() {
 }
 
 #[test]
-fn the_rotator_takes_its_time_and_has_an_end() {
+fn the_rotator_has_a_rate_and_a_limit() {
     let mut sim = among("");
     sim.point(Angle::from_deg(90.0), sim.now());
     wait(&mut sim, 200);
@@ -129,8 +129,8 @@ fn the_judge_measures_from_the_right_side() {
 }
 
 #[test]
-fn a_wall_that_ended_is_not_beside_the_robot() {
-    // The wall's end, as far ahead of the robot's middle.
+fn a_wall_behind_the_robot_is_not_beside_it() {
+    // The position of the wall's end ahead of the robot's middle.
     for (end, beside) in [(0.5, true), (0.0, true), (-0.19, true), (-0.21, false), (-0.5, false)] {
         let truth = |x: f64| among(&the_box([x, -0.6], [4.0, 0.2], 2.0));
         let sim = truth(end - 2.0);

@@ -1,4 +1,4 @@
-//! Rooms made up, commands and faults at random: nothing is ever out of its mind.
+//! Random rooms, commands and faults: all values stay finite.
 
 use crate::wait;
 use afp_carbot::devices::{
@@ -12,7 +12,7 @@ use afp_sim::{Fault, Simulation, World};
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
 
-/// How many rooms there are, and how long the robot drives in each, seconds.
+/// The number of rooms, and the duration in each, in seconds.
 const ROOMS: u64 = 40;
 const SECONDS: u64 = 10;
 
@@ -23,7 +23,7 @@ impl Dice {
         low + (high - low) * f64::from(self.0.next_u32()) / 4_294_967_295.0
     }
 
-    /// Now and then what no program should ask for.
+    /// Sometimes a command that a program should not send.
     fn command(&mut self, most: f64) -> f64 {
         match self.0.next_u32() % 20 {
             0 => f64::NAN,
@@ -34,7 +34,7 @@ impl Dice {
     }
 }
 
-/// Breaks three things at random instants for a random while.
+/// Injects three faults at random instants for random durations.
 fn break_things(sim: &mut Simulation, dice: &mut Dice) -> Vec<Fault> {
     let all: Vec<_> = faults(TABLE).filter_map(|(id, ..)| Carbot::fault(id, None)).collect();
     let mut pick = || {
@@ -47,7 +47,7 @@ fn break_things(sim: &mut Simulation, dice: &mut Dice) -> Vec<Fault> {
     (0..3).map(|_| pick()).collect()
 }
 
-/// Everything that a plan could read is a number or says that it is none.
+/// Asserts that every reading is a number or an error.
 fn check_readings(sim: &Simulation, place: &str) {
     if let Ok(motion) = sim.motion().value {
         let all = [motion.x.si(), motion.y.si(), motion.heading.si(), motion.speed.si()];
@@ -110,7 +110,7 @@ fn in_any_room_with_any_faults_everything_stays_finite_and_an_emergency_stop_hol
         wait(&mut sim, 100);
         let moved = sim.truth().pose();
         let way = (moved.x - stood.x).hypot(moved.y - stood.y);
-        // What goes its own way may push the robot.
+        // An obstacle on a path may push the robot.
         let pushed = sim.truth().collisions().iter().any(|touch| touch.end >= now);
         assert!(way < 1e-4 || pushed, "{place}: {way}");
     }

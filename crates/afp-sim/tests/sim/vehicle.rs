@@ -1,4 +1,4 @@
-//! How the robot moves.
+//! The robot's motion.
 
 use crate::{among, drive, the_box, wait};
 use afp_carbot::devices::{Navigator, Odometry, TouchSensor};
@@ -14,7 +14,7 @@ fn speed(sim: &mut Simulation) -> f64 {
 }
 
 #[test]
-fn top_speed_is_31_centimetres_a_second_whatever_is_asked_for() {
+fn top_speed_is_31_centimetres_a_second_for_every_command() {
     let mut sim = among("");
     drive(&mut sim, 5.0, 0.0, 2000);
     let speed = speed(&mut sim);
@@ -54,7 +54,7 @@ fn stops_within_five_centimetres_and_300_ms_from_top_speed() {
 }
 
 #[test]
-fn it_stands_within_300_ms_of_any_curve_and_turn() {
+fn it_stops_within_300_ms_from_any_curve_and_turn() {
     for (ahead, turn) in [
         (0.31, 1.8),
         (0.31, -1.8),
@@ -65,7 +65,7 @@ fn it_stands_within_300_ms_of_any_curve_and_turn() {
         (0.0, -100.0),
         (100.0, 100.0),
     ] {
-        // Also while the wheels still steer.
+        // Even while the wheels still steer.
         for millis in [100, 200, 300, 2000] {
             let mut sim = among("");
             drive(&mut sim, ahead, turn, millis);
@@ -123,7 +123,7 @@ fn the_controller_stops_by_itself_200_ms_after_the_last_command() {
 }
 
 #[test]
-fn a_command_that_is_no_number_is_a_stop() {
+fn a_command_that_is_not_a_number_is_a_stop() {
     let mut sim = among("");
     drive(&mut sim, 0.2, 0.0, 1000);
     drive(&mut sim, f64::NAN, 0.0, 500);
@@ -170,7 +170,7 @@ fn backing_into_something_does_not_press_the_bumper() {
 }
 
 #[test]
-fn time_in_many_pieces_is_the_same_as_in_one() {
+fn time_in_many_pieces_equals_time_in_one_piece() {
     let mut whole = among("");
     let mut pieces = among("");
     for sim in [&mut whole, &mut pieces] {

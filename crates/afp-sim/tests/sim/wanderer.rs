@@ -1,4 +1,4 @@
-//! A robot that drives about by what it hears and touches, and looks to all sides meanwhile.
+//! A robot that drives around by echoes and contacts, and looks to all sides.
 
 use afp_carbot::devices::{
     Localisation, Navigator, RotatingTelemetry, Rotator, TouchSensor, Ultrasonic,
@@ -13,7 +13,7 @@ use rand_pcg::rand_core::Rng;
 pub(crate) struct Wanderer {
     pub(crate) robot: Simulation,
     random: Pcg32,
-    /// Until when it does what: metres and radians a second.
+    /// The end of the current motion, and the motion: metres and radians a second.
     doing: (Instant, f64, f64),
     looks_left: bool,
 }
@@ -60,7 +60,7 @@ impl Wanderer {
         })
     }
 
-    /// A place somewhere in the room where the robot fits.
+    /// A random place in the room with space for the robot.
     pub(crate) fn free_place(&mut self, world: &World) -> Pose {
         let [low, high] = world.audible_map(&Chassis::CARBOT).bounds();
         let mut unit = || f64::from(self.random.next_u32()) / f64::from(u32::MAX);

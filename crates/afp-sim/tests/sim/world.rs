@@ -1,4 +1,4 @@
-//! World files: what is read, and that every mistake is named with its place.
+//! World files: their contents, and a message with a place for every error.
 
 use afp_sim::world::Outline;
 use afp_sim::{World, WorldError};
@@ -43,7 +43,7 @@ pub fn placed(text: &str, error: &WorldError) -> String {
     format!("line {line}, column {column}: {}", error.message)
 }
 
-/// The message for the good world with one change, and what to write instead.
+/// The message for the valid world with one change, and its help.
 fn mistake(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from}");
     let text = GOOD.replacen(from, to, 1);
@@ -51,7 +51,7 @@ fn mistake(from: &str, to: &str) -> String {
     format!("{}; {}", placed(&text, &error), error.help)
 }
 
-/// What stands in the good world, what in its place, and what is said then.
+/// A part of the valid world, its replacement, and the message.
 const MISTAKES: &[(&str, &str, &str)] = &[
     ("closed = true", "colour = 3", "line 9, column 1: '[[wall]]' has no 'colour'; write 'color'"),
     (
@@ -206,7 +206,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn every_mistake_is_named_with_its_line_and_what_mends_it() {
+fn every_error_has_its_line_and_a_fix() {
     for (from, to, expected) in MISTAKES {
         let message = mistake(from, to);
         assert!(message.contains(expected), "{to}: {message}");

@@ -1,9 +1,10 @@
-//! The robot `{{name}}`: what its devices offer, the templates of its toolbox, the robot simulated.
+//! The robot `{{name}}`: its devices, the templates of its toolbox, and its simulation.
 //!
-//! Templates know the robot through the traits here alone, so that the real robot is another type that implements them.
+//! Templates use the robot only through these traits. The real robot is another type that
+//! implements them.
 
 pub mod templates {
-    //! What `{{name}}.afp` declares, as Rust.
+    //! The declarations of `{{name}}.afp`, in Rust.
     afp::toolbox!("{{name}}.afp", robot: super::Wheels + super::Bumper);
 }
 
@@ -18,13 +19,13 @@ use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 
 /// The driven wheels.
 pub trait Wheels {
-    /// Asks for a speed ahead and a turn rate, until further notice.
+    /// Sets the forward speed and the turn rate until the next command.
     fn drive(&mut self, speed: Speed, turn: AngularSpeed);
 
-    /// The way ahead and the angle turned since the start, as the wheels count them.
+    /// The distance travelled and the angle turned since the start, from the wheel counters.
     fn counted(&self) -> (Length, Angle);
 
-    /// Asks for a standstill.
+    /// Stops the wheels.
     fn halt(&mut self) {
         self.drive(Speed::from_si(0.0), AngularSpeed::from_si(0.0));
     }

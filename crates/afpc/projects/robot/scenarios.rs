@@ -1,3 +1,3 @@
-//! The scenarios of the plans, each a test of its own.
+//! The scenarios of the plans; each one is a test.
 
 afp::scenarios!("plans/tests", robot = {{snake}}::{{Name}});

@@ -1,4 +1,4 @@
-//! The robot simulated: how it moves, what it senses, how it fails.
+//! The simulated robot: its motion, its sensors and its faults.
 
 use afp::core::Platform;
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
@@ -14,16 +14,16 @@ use crate::templates::devices::{Control, Devices, Fault};
 use crate::templates::signal;
 use crate::{Bumper, Wheels};
 
-/// Time goes on in such steps.
+/// The simulation step.
 const TICK: Duration = Duration::from_millis(5);
 /// Radius and height of the body, metres.
 const BODY: [f64; 2] = [0.15, 0.1];
-/// The wheels follow what they are asked within this time, seconds.
+/// The time constant of the wheels, in seconds.
 const LAG: f64 = 0.08;
-/// The counters are wrong by so much of the way, as a standard deviation.
+/// The relative error of the counters, as a standard deviation.
 const COUNT_ERROR: f64 = 0.02;
 
-/// Where it drives: a floor drawn with letters.
+/// The robot's surroundings: a floor drawn with letters.
 #[derive(Clone, Debug)]
 pub struct Floor(Grid);
 
@@ -35,12 +35,12 @@ pub struct {{Name}} {
     now: Instant,
     clock: VirtualClock,
     pose: Pose2,
-    /// Speed ahead and turn rate: asked for, of the wheels, and counted up.
+    /// Forward speed and turn rate: commanded, actual, and integrated by the counters.
     asked: [f64; 2],
     moving: [f64; 2],
     counted: [f64; 2],
     counters: Noise,
-    /// Stopped for good.
+    /// Whether the robot has stopped permanently.
     stopped: bool,
     grip: f64,
     touched: bool,
@@ -70,7 +70,7 @@ impl {{Name}} {
         self.bumper.note(self.raw_bumper(), self.now);
     }
 
-    /// What the bumper itself says.
+    /// The raw reading of the bumper.
     fn raw_bumper(&self) -> Reading<bool> {
         Reading::valid(self.touched || self.held, self.now)
     }
@@ -89,7 +89,7 @@ impl Environment for {{Name}} {
 impl Wheels for {{Name}} {
     fn drive(&mut self, speed: Speed, turn: AngularSpeed) {
         let asked = [speed.si(), turn.si()];
-        // Of a number that is none the motors make nothing.
+        // The motors ignore a command that is not a number.
         self.asked = if asked.iter().all(|number| number.is_finite()) { asked } else { [0.0; 2] };
     }
 

@@ -1,4 +1,4 @@
-//! What the robot does and watches: the templates of its toolbox.
+//! The templates of the robot's toolbox: its actions and its supervisors.
 
 use afp::quantity::{Angle, AngularSpeed, Length, Speed};
 use afp::{Actor, Duration, Events, Fault, Instant, Poll, Reason, Supervisor};
@@ -30,7 +30,7 @@ impl<E: Wheels + ?Sized> Actor<templates::Drive, E> for Drive {
             env.halt();
             return Ok(Poll::Ready(drive::State::Driven));
         }
-        // Slower near the end: the motors need a moment.
+        // The robot slows down near the end because the motors react late.
         let speed = self.inputs.speed.si().min(0.02 + 3.0 * rest).copysign(distance);
         env.drive(Speed::from_si(speed), AngularSpeed::from_si(0.0));
         Ok(Poll::Pending)
@@ -77,10 +77,10 @@ impl<E: Wheels + ?Sized> Actor<templates::Turn, E> for Turn {
     }
 }
 
-/// A sensor that does not answer is a fault, not "all is well".
+/// A sensor that does not answer is a fault.
 const SILENT: Fault =
     Fault::new(&Reason { code: "bumper-silent", text: "the bumper does not answer" });
-/// What is older says nothing of now.
+/// Older readings are ignored.
 const MAX_AGE: Duration = Duration::from_millis(100);
 
 /// Watches the bumper.

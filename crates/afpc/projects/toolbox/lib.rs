@@ -1,7 +1,7 @@
 //! Implements the templates of `{{name}}.afp`.
 
 pub mod templates {
-    //! What the toolbox declares, as Rust.
+    //! The declarations of the toolbox, in Rust.
     afp::toolbox!("{{name}}.afp", robot: super::Navigator);
 }
 
@@ -10,14 +10,14 @@ use afp::{Actor, Fault, Instant, Poll};
 use afp_carbot::devices::Navigator;
 use templates::wag;
 
-/// Turns to and fro.
+/// Turns left and right.
 #[derive(Clone, Debug)]
 pub struct Wag {
     inputs: wag::Inputs,
     began: Instant,
 }
 
-// On whatever robot has a drive.
+// For every robot with a drive.
 impl<E: Navigator + ?Sized> Actor<templates::Wag, E> for Wag {
     fn start(inputs: wag::Inputs, _: &mut E, now: Instant) -> Result<Self, Fault> {
         Ok(Wag { inputs, began: now })

@@ -1,4 +1,4 @@
-//! `afpc build`: a readable Rust crate from a plan, and the binary that it makes.
+//! `afpc build`: generates a readable Rust crate from a plan and builds its binary.
 
 use std::path::{Path, PathBuf};
 
@@ -64,24 +64,21 @@ with --json it is an object with the summary: plan, whether it was built, folder
 Generated manifests take the afp crates from the checkout that built afpc; [afp] path, git or
 version in afp.toml says otherwise.";
 
-/// Where plans are built unless told otherwise.
+/// The default folder for builds.
 const BUILDS: &str = "target/afp";
 
-/// What has been made, as far as it got.
+/// The results so far.
 #[derive(Default)]
 struct Made {
-    /// The name of the plan.
     plan: Option<String>,
-    /// The folder of the crate.
     folder: Option<PathBuf>,
-    /// The program.
     binary: Option<PathBuf>,
 }
 
-/// Generates and builds.
+/// Generates and builds the crate.
 ///
 /// # Errors
-/// The plan is wrong, the folder cannot be written, there is no cargo, cargo fails.
+/// The plan is invalid, the folder cannot be written, cargo is missing, cargo fails.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let (reader, mut made) = (Reader::of(arguments.json), Made::default());
     let code = match build(arguments, reader, &mut made) {
@@ -132,7 +129,7 @@ fn build(arguments: &Arguments, reader: Reader, made: &mut Made) -> Result<(), N
     let built = cargo::build(Job {
         folder: &folder,
         caller: None,
-        // Plans beside one another share what they are built from.
+        // Plans in the same folder share compiled dependencies.
         target: arguments.output.is_none().then_some(&*shared),
         toolchain: toolchain.as_ref(),
         artifact: Artifact::Program,
@@ -180,7 +177,7 @@ fn generate(
     Ok(files)
 }
 
-/// The robot itself, where the program shall have it.
+/// The hardware robot, if the program needs it.
 fn hardware(arguments: &Arguments, file: &PlanFile) -> Result<Option<HardwareLink>, NoPlan> {
     let project = &file.own.project;
     let asked = arguments.hardware || (arguments.target.linux().is_some() && !arguments.lib);
@@ -191,7 +188,7 @@ fn hardware(arguments: &Arguments, file: &PlanFile) -> Result<Option<HardwareLin
     }
 }
 
-/// Checks that a machine has the time that the plan needs.
+/// Checks that a machine is fast enough for the plan.
 fn is_fast_enough(
     machine: Machine,
     file: &PlanFile,
@@ -209,7 +206,7 @@ fn whole(path: PathBuf) -> PathBuf {
 }
 
 impl Made {
-    /// The last line for tools.
+    /// The last line of `--json`.
     fn summary(&self, built: bool) -> Value {
         let text = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
         let (folder, binary) = (text(&self.folder), text(&self.binary));

@@ -1,4 +1,4 @@
-//! `afpc check`: everything that is wrong with plans and toolboxes.
+//! `afpc check`: reports all errors in plans and toolboxes.
 
 mod toolbox;
 
@@ -51,7 +51,7 @@ Examples:
 /// Checks all files; the worst exit code wins.
 ///
 /// # Errors
-/// A target that there is not, a closed standard output.
+/// An unknown target, a closed standard output.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let mut code = EXIT_OK;
     let mut told = HashSet::new();
@@ -66,12 +66,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     Ok(code)
 }
 
-/// What has been told already, since files may be used by several others: file, place, message.
+/// The diagnostics that were already printed: file, place, message. Several files can share an
+/// included file.
 type Told = HashSet<(PathBuf, Span, Code, Message)>;
 
 fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPlan> {
     let reader = Reader::of(arguments.json);
-    // The other files are still worth checking.
+    // The check continues with the other files.
     let text = match PlanText::read(name) {
         Ok(text) => text,
         Err(error) => {
@@ -106,7 +107,7 @@ fn check(name: &str, arguments: &Arguments, told: &mut Told) -> Result<u8, NoPla
     conclude(wrong, &file.path, arguments.json)
 }
 
-/// The exit code of one file, which people read in words, too.
+/// The exit code of one file; prints a summary for people.
 fn conclude(wrong: bool, path: &Path, json: bool) -> Result<u8, NoPlan> {
     if wrong {
         return Ok(EXIT_FAILED);
@@ -127,8 +128,8 @@ fn leave_out_told(compiled: &mut Compiled, told: &mut Told) {
     });
 }
 
-/// Prints a table for each target, or one for none in particular; nothing for a plan with errors of
-/// names, types or flow, whose timing means nothing.
+/// Prints a table for each target, or one table without a target. Prints nothing for a plan with
+/// errors in names, types or flow: its timing is undefined.
 fn show_timing(file: &PlanFile, targets: &[Target], json: bool) -> Result<(), NoPlan> {
     let Some(graph) = &file.compiled.graph else { return Ok(()) };
     let path = file.path.display();

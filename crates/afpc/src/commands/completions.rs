@@ -1,4 +1,4 @@
-//! `afpc completions`: what a shell needs to complete command lines.
+//! `afpc completions`: completion scripts for shells.
 
 use clap::{Args, Command};
 use clap_complete::Shell;
@@ -19,7 +19,7 @@ Examples:
   afpc completions zsh > ~/.zfunc/_afpc
   afpc completions fish > ~/.config/fish/completions/afpc.fish";
 
-/// Prints the completions of a command line.
+/// Prints the completion script for a shell.
 ///
 /// # Errors
 /// Standard output cannot be written.
@@ -30,9 +30,9 @@ pub fn run(arguments: &Arguments, all: &Command) -> Result<u8, NoPlan> {
     print(&String::from_utf8_lossy(&script))
 }
 
-/// The command without what its help does not show: completions offer hidden options, too.
+/// The command without hidden options, which completions would offer.
 fn seen(command: &Command) -> Command {
-    // Names are of the whole program, which is over when they are printed.
+    // clap needs static names; the program ends after printing them.
     let name: &'static str = command.get_name().to_owned().leak();
     let seen = Command::new(name)
         .args(command.get_arguments().filter(|argument| !argument.is_hide_set()).cloned())

@@ -1,4 +1,4 @@
-//! `afpc dap`: the debug adapter on standard input and output, or for clients that connect.
+//! `afpc dap`: the debug adapter on standard input and output, or on a port.
 
 mod listen;
 mod senses;
@@ -38,7 +38,7 @@ pub struct Arguments {
     listen: Listen,
 }
 
-/// What the help ends with.
+/// The examples at the end of the help.
 pub const EXAMPLES: &str = "\
 Examples:
   afpc dap                         an editor starts this and talks on standard input and output
@@ -47,10 +47,10 @@ Examples:
 'launch' takes: program, world, seed, set (values by name), until (seconds), speed (a factor), stopOnEntry; or
 log, the log of a run that is over";
 
-/// Serves clients; gives the exit code.
+/// Serves clients and returns the exit code.
 ///
 /// # Errors
-/// The plan is wrong, the port is taken, what comes on standard input is not the protocol.
+/// The plan is invalid, the port is taken, the input does not follow the protocol.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     arguments.listen.check()?;
     if let Some(plan) = &arguments.plan {
@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     Ok(EXIT_OK)
 }
 
-/// The path of a folder from the root, without links.
+/// The canonical absolute path of a folder.
 fn opened(folder: &Path) -> Result<PathBuf, RunError> {
     let path = folder.canonicalize().map_err(RunError::file("cannot open the folder", folder))?;
     match path.is_dir() {

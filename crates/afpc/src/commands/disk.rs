@@ -1,4 +1,4 @@
-//! Where language servers find texts that nobody has open: the files of this machine.
+//! Closed documents for language servers: the files of this machine.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! `afpc explain`: what an error code means.
+//! `afpc explain`: the meaning of an error code.
 
 use afp_run::RunError;
 use afp_syntax::diagnostics::Code;

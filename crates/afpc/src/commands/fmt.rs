@@ -36,8 +36,8 @@ Exit codes: 0 all is formatted, 1 a file has syntax errors or cannot be read or 
 /// Formats all files; the worst exit code wins.
 ///
 /// # Errors
-/// A closed standard output. A file that cannot be read, understood or written is reported, and
-/// the others are still formatted.
+/// Standard output is closed. An unreadable, invalid or read-only file is reported, and the other
+/// files are still formatted.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let mut code = EXIT_OK;
     for name in &arguments.files {
@@ -70,7 +70,7 @@ fn one(name: &str, check: bool) -> Result<u8, NoPlan> {
             Ok(EXIT_FAILED)
         }
         (false, true) => print(&formatted),
-        // A file that is formatted keeps its time, so that nothing is built again for it.
+        // An unchanged file keeps its modification time, so that nothing is rebuilt.
         (false, false) if formatted == text => Ok(EXIT_OK),
         (false, false) => {
             write_whole("cannot write the plan", Path::new(name), &formatted)?;
@@ -100,12 +100,12 @@ fn formatted(shown: &str, text: &str) -> Result<String, NoPlan> {
     })
 }
 
-/// A text with the ends of its lines alike, which nobody sees.
+/// A text with normalized line ends.
 fn without_returns(text: &str) -> String {
     text.replace("\r\n", "\n")
 }
 
-/// The lines that would change, as a unified diff.
+/// The changed lines, as a unified diff.
 fn difference(shown: &str, text: &str, formatted: &str) -> String {
     let diff = TextDiff::from_lines(text, formatted);
     let formatted_name = format!("{shown} (formatted)");

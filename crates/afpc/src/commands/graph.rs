@@ -50,7 +50,7 @@ pub struct Arguments {
     no_data: bool,
 }
 
-/// How a plan is drawn.
+/// The formats of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// The paper's notation, for browsers and papers
@@ -85,11 +85,11 @@ Examples:
   afpc graph plans/wall_following.afp --format scxml
   afpc graph plans/wall_following.afp --format dot | dot -Tpdf -o plan.pdf";
 
-/// Draws a plan, one with errors too: what is wrong is marked where it is, and said.
+/// Draws a plan, even a plan with errors: the drawing marks them, and they are printed.
 ///
 /// # Errors
-/// The options do not fit the format, a file cannot be read or written, a plan with errors shall be
-/// a state chart.
+/// The options do not fit the format, a file cannot be read or written, a plan with errors cannot
+/// become a state chart.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let format = arguments.format()?;
     arguments.fit(format)?;
@@ -99,7 +99,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     file.report(Reader::People)?;
     let code = if file.compiled.diags.has_errors() { EXIT_FAILED } else { EXIT_OK };
     if file.compiled.outline.main.is_none() {
-        // There is nothing to draw, and a good drawing may be there.
+        // There is nothing to draw, and an existing drawing is kept.
         return Err(NoPlan::Wrong);
     }
     let positions = positions(&file);
@@ -130,10 +130,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     Ok(code)
 }
 
-/// A drawing of a plan of a file with what was used of it, in the colours for the picture's file.
+/// Draws a plan with its usage, in the colours of the output format.
 ///
 /// # Errors
-/// The name of the picture's file is not that of a picture.
+/// The output file's extension is not that of a picture.
 pub(super) fn with_usage(
     file: &PlanFile,
     graph: &Graph,
@@ -154,7 +154,7 @@ pub(super) fn with_usage(
     Ok(afp_draw::svg(&file.compiled.outline, &options))
 }
 
-/// The positions of the plans' side files, by file.
+/// The positions from the plans' side files, by file.
 fn positions(file: &PlanFile) -> Vec<Layout> {
     let outline = &file.compiled.outline;
     let holds_plans =
@@ -166,8 +166,8 @@ fn positions(file: &PlanFile) -> Vec<Layout> {
     file.compiled.sources.iter().enumerate().map(read).collect()
 }
 
-/// The positions of a side file, none without one. What cannot be used there is told on standard
-/// error: a drawing does not fail for it.
+/// The positions of a side file; empty without a file. Invalid lines are reported on standard error
+/// and do not stop the drawing.
 fn layout(path: &str, outline: &Outline, file: usize) -> Layout {
     let (text, why) = match read_text_file(path.as_ref()) {
         Ok(text) => (text, None),
@@ -210,7 +210,7 @@ fn scale(text: &str) -> Result<f32, String> {
 
 impl Arguments {
     /// # Errors
-    /// The name of the file says none.
+    /// The file extension does not name a format.
     fn format(&self) -> Result<Format, RunError> {
         let Some(path) = self.output.as_deref().filter(|_| self.format.is_none()) else {
             return Ok(self.format.unwrap_or(Format::Svg));
@@ -226,13 +226,13 @@ impl Arguments {
     fn theme(&self, format: Format) -> afp_draw::Theme {
         match (self.theme, format) {
             (Some(Theme::Dark), _) => afp_draw::Theme::Dark,
-            // A PNG cannot ask the system of its reader.
+            // A PNG cannot adapt to the reader's system.
             (Some(Theme::Light), _) | (_, Format::Png) => afp_draw::Theme::Light,
             (Some(Theme::Auto) | None, _) => afp_draw::Theme::Auto,
         }
     }
 
-    /// Refuses options that would not change anything.
+    /// Rejects options that would have no effect.
     fn fit(&self, format: Format) -> Result<(), RunError> {
         use Format::{Dot, Png, Scxml, Svg};
 

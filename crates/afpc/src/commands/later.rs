@@ -1,10 +1,10 @@
-//! Commands that are not in this program: designed for another release, or left out of this build.
+//! Commands that are not in this program: planned for a later release, or left out of this build.
 
 use afp_run::RunError;
 #[cfg(feature = "dap")]
 use clap::Args;
 
-/// Name, what it waits for, and what there is meanwhile.
+/// Name, reason, and alternative.
 const LATER: &[(&str, &str, &str)] = &[
     ("replay", "replay of logs", "'afpc run --again RUN.mcap' makes the run of a log once more"),
     (
@@ -19,7 +19,7 @@ const LATER: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// How to be reached from other machines, for those who look for it.
+/// The option for remote clients.
 #[cfg(feature = "dap")]
 #[derive(Args, Debug)]
 pub struct Listen {
@@ -30,10 +30,10 @@ pub struct Listen {
 
 #[cfg(feature = "dap")]
 impl Listen {
-    /// Refuses to be reached without a tunnel, which encrypts.
+    /// Rejects unencrypted remote access.
     ///
     /// # Errors
-    /// Somebody wants to be.
+    /// The option is given.
     pub fn check(&self) -> Result<(), RunError> {
         match self.listen {
             None => Ok(()),
@@ -45,7 +45,7 @@ impl Listen {
     }
 }
 
-/// Commands that this program was built without; each is a feature of its name.
+/// Commands that this program was built without. Each is a feature with the command's name.
 const LEFT_OUT: &[&str] = &[
     #[cfg(not(feature = "dap"))]
     "dap",
@@ -55,15 +55,15 @@ const LEFT_OUT: &[&str] = &[
     "studio",
 ];
 
-/// The names of such commands.
+/// The names of the unavailable commands.
 pub fn names() -> impl Iterator<Item = &'static str> {
     LATER.iter().map(|(name, ..)| *name).chain(LEFT_OUT.iter().copied())
 }
 
-/// What to say to somebody who asks for such a command.
+/// The error for an unavailable command.
 pub fn refusal(name: &str) -> Option<RunError> {
     if LEFT_OUT.contains(&name) {
-        // Its page is made by other programs than cargo.
+        // The studio's page is not built by cargo.
         let help = match name {
             "studio" => "in a checkout of AFP, 'cargo studio' builds it and opens it",
             _ => "'cargo install --path crates/afpc --features full' brings everything there is",

@@ -1,4 +1,4 @@
-//! `afpc log`: what happened in a run, and whether its log is sound.
+//! `afpc log`: the events of a run, and the state of its log.
 
 mod info;
 mod pictures;
@@ -68,14 +68,14 @@ Examples:
 
 Exit codes: 0 done or sound, 1 the file cannot be read or is not sound, 2 wrong usage";
 
-/// What to say to somebody who names what to do before the log.
+/// The message for an action before the log's name.
 pub fn swapped(first: &str, second: &str) -> Option<RunError> {
     let action = Action::from_str(first, false).ok()?.to_possible_value()?;
     let (action, help) = (action.get_name(), format!("write 'afpc log {second} {first}'"));
     Some(RunError::usage(format!("'{action}' stands behind the log, not before it"), help))
 }
 
-/// Does what is asked for.
+/// Does the selected action.
 ///
 /// # Errors
 /// A file cannot be read or written.

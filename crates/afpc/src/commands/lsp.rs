@@ -16,18 +16,18 @@ pub const EXAMPLES: &str = "\
 Editors start it; docs/editors.md says how. It is made to be spoken to by a program: messages come in
 on standard input and go out on standard output.";
 
-/// The longest message: a document that somebody has open.
+/// The maximum length of a message: a whole open document.
 const LONGEST: usize = 1 << 26;
-/// So many pieces that have arrived wait to be read at most.
+/// The maximum number of unread chunks.
 const ARRIVALS: usize = 64;
 
-/// Serves one client until it says goodbye or is gone.
+/// Serves one client until it disconnects.
 ///
 /// # Errors
-/// What arrives on standard input are no messages, or the last one is not whole.
+/// The input is not a sequence of messages, or the last message is incomplete.
 pub fn run() -> Result<u8, NoPlan> {
     let (sender, arrived) = sync_channel(ARRIVALS);
-    // It ends with the stream, or with the program.
+    // The thread ends with the stream or with the program.
     thread::spawn(move || read(io::stdin(), |bytes| sender.send(bytes).is_ok()));
     let server = Server::new(Box::new(Disk));
     let code = converse(server, &arrived, io::stdout().lock());
@@ -35,7 +35,7 @@ pub fn run() -> Result<u8, NoPlan> {
     Ok(code.map_err(|why| failed(io::Error::other(why)))?)
 }
 
-/// Talks with a client; gives the exit code.
+/// Talks with a client and returns the exit code.
 fn converse(
     mut server: Server,
     arrived: &Receiver<Vec<u8>>,
@@ -45,7 +45,7 @@ fn converse(
     loop {
         let heard = match frames.next_message() {
             Ok(Some(text)) => answer(&mut server, &text, &mut to),
-            // What is no text is no JSON.
+            // Invalid UTF-8 is invalid JSON.
             Err(WireError::NoText) => answer(&mut server, "", &mut to),
             Err(why) => return Err(why),
             Ok(None) => {
@@ -63,7 +63,7 @@ fn converse(
         };
         match (server.exit_code(), heard) {
             (Some(code), _) => return Ok(code),
-            // Nobody reads any more.
+            // The client has closed its end.
             (None, Err(_)) => return Ok(EXIT_OK),
             (None, Ok(())) => {}
         }
@@ -90,7 +90,7 @@ mod tests {
 
     use super::*;
 
-    /// What a server says to some bytes before they end, and how it ends.
+    /// The server's output and result for some bytes of input.
     fn told(bytes: &[u8], size: usize) -> (Result<u8, WireError>, String) {
         let (sender, arrived) = channel();
         bytes.chunks(size).for_each(|piece| sender.send(piece.to_vec()).unwrap());
@@ -110,7 +110,7 @@ mod tests {
     const EXIT: &str = r#"{"jsonrpc":"2.0","method":"exit"}"#;
 
     #[test]
-    fn what_is_no_message_is_refused_and_the_conversation_goes_on() {
+    fn a_malformed_message_is_refused_and_the_conversation_continues() {
         for (message, code) in [
             ("{", "-32700"),
             ("", "-32700"),
@@ -169,7 +169,7 @@ mod tests {
                     break;
                 }
             }
-            // It ends, with an exit code or with what is wrong with the stream.
+            // The server ends with an exit code or with the error of the stream.
             let (end, _) = told(&bytes, 1 + below(200));
             assert!(end.is_err() || end.is_ok_and(|code| code <= 1));
         }

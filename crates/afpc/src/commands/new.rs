@@ -1,4 +1,4 @@
-//! `afpc new`: a project that works at once.
+//! `afpc new`: creates a working project.
 
 mod files;
 
@@ -38,10 +38,10 @@ Examples:
   afpc new greeter --toolbox
   afpc new rover --robot";
 
-/// Makes the project.
+/// Creates the project.
 ///
 /// # Errors
-/// The name cannot be, there is such a folder already, a file cannot be written.
+/// The name is invalid, the folder exists, a file cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let kind = match (arguments.toolbox, arguments.robot) {
         (true, _) => Kind::Toolbox,
@@ -49,25 +49,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
         _ => Kind::Plan,
     };
     let folder = &arguments.folder;
-    // '.' and '..' have the name of the folder that they lead to.
+    // '.' and '..' get the name of the folder that they lead to.
     let whole = folder.canonicalize().ok().filter(|_| folder.file_name().is_none());
     let whole = whole.as_ref().unwrap_or(folder);
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    // A plan alone needs no crate, so nothing has to be known of where ours are.
+    // A plan needs no crate, and therefore no path to the afp crates.
     let afp = match kind {
         Kind::Plan => Origin::Version(env!("CARGO_PKG_VERSION").to_owned()),
         Kind::Toolbox | Kind::Robot => origin::of_afp(&around(folder)?)?,
     };
     let files = files::files(&name, kind, &origin::as_written(afp.clone()))?;
     let is_there = folder.symlink_metadata().is_ok();
-    // A folder that is empty is as good as none; what cannot be looked into is something else.
+    // An empty folder is allowed. An unreadable folder is an error.
     if is_there && fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_some()) {
         let message = format!("'{}' is there already, and is not empty", folder.display());
         let help = "write the name of a folder that is not there yet, such as 'afpc new patrol'";
         return Err(RunError::usage(message, help).into());
     }
     if let Err(why) = write(folder, &files) {
-        // Half a project would be in the way of the next try. What is told is why there is none.
+        // Half a project would block the next try. The first error is reported.
         if !is_there {
             let _ = fs::remove_dir_all(folder);
         }
@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     Ok(EXIT_OK)
 }
 
-/// Writes the files below a folder, which is made.
+/// Writes the files below a folder, and creates the folder.
 fn write(folder: &Path, files: &[files::File]) -> Result<(), RunError> {
     for file in files {
         let path = folder.join(&file.path);
@@ -89,13 +89,13 @@ fn write(folder: &Path, files: &[files::File]) -> Result<(), RunError> {
     Ok(())
 }
 
-/// The project around a new folder, which may say where the afp crates are.
+/// The project around a new folder, which may define the path of the afp crates.
 fn around(folder: &Path) -> Result<ProjectFile, RunError> {
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     Ok(ProjectFile::find(folder.parent().unwrap_or(&folder))?)
 }
 
-/// What there is now, and what to do with it.
+/// The list of new files and the next commands.
 fn next(folder: &Path, files: &[files::File], pinned: Option<&str>, kind: Kind) -> String {
     let is_plan = |path: &str| path.starts_with("plans/") && !path.starts_with("plans/tests/");
     let plan = files.iter().find(|file| is_plan(&file.path)).map_or("", |file| &file.path);

@@ -1,4 +1,5 @@
-//! `afpc run`: compiles a plan in memory and drives the robot of the project with it, simulated or itself.
+//! `afpc run`: compiles a plan in memory and drives the project's robot with it, in simulation or
+//! for real.
 
 use std::path::Path;
 
@@ -23,7 +24,7 @@ pub struct Arguments {
     options: RunOptions,
 }
 
-/// The plan of a log whose run can be repeated here.
+/// The plan of a log whose run can be repeated.
 fn of_log(log: &Path) -> Result<PlanFile, RunError> {
     let file = PlanFile::of_log(&afp_log::read(log)?, log)?;
     let Some(name) = file.foreign.first() else { return Ok(file) };
@@ -37,10 +38,10 @@ fn of_log(log: &Path) -> Result<PlanFile, RunError> {
     ))
 }
 
-/// Runs a plan; gives the exit code.
+/// Runs a plan and returns the exit code.
 ///
 /// # Errors
-/// The plan is wrong, a file does not work.
+/// The plan is invalid, a file cannot be used.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     arguments.options.check()?;
     let file = match (&arguments.plan, &arguments.options.again) {

@@ -1,8 +1,8 @@
-//! Bytes that arrive on a stream, for those who wait for something else, too.
+//! Bytes from a stream, read on a separate thread.
 
 use std::io::{ErrorKind, Read};
 
-/// Hands on what arrives, until nothing does or nobody wants it.
+/// Passes on all input until the stream ends or the receiver stops.
 pub fn read(mut from: impl Read, mut arrived: impl FnMut(Vec<u8>) -> bool) {
     let mut buffer = [0; 1 << 14];
     loop {

@@ -1,4 +1,4 @@
-//! `afpc studio`: plans drawn and edited in the browser.
+//! `afpc studio`: draws and edits plans in the browser.
 
 mod debug;
 
@@ -37,7 +37,7 @@ pub struct Arguments {
     listen: Listen,
 }
 
-/// What the help ends with.
+/// The examples at the end of the help.
 pub const EXAMPLES: &str = "\
 Examples:
   afpc studio                      the plans of this folder; an empty one is a good beginning
@@ -46,14 +46,14 @@ Examples:
 
 It listens on this machine alone, and its address works once: whoever does not know it is not let in.";
 
-/// A file with plans that AFP ships: its name, and its text.
+/// A file with plans that AFP ships: its name and its text.
 macro_rules! shipped {
     ($name:literal) => {
         (concat!($name, ".afp"), include_str!(concat!("../../../../plans/", $name, ".afp")))
     };
 }
 
-/// A shipped plan with its world, and the files that it uses, those too that they use.
+/// A shipped plan with its world and all files that it uses, directly or indirectly.
 macro_rules! example {
     ($name:literal $(, $uses:literal)*) => {
         (
@@ -64,10 +64,10 @@ macro_rules! example {
     };
 }
 
-/// The name of a file, and its text.
+/// Name and text of a file.
 type File = (&'static str, &'static str);
 
-/// Plans to begin with.
+/// The example plans.
 const EXAMPLES_TO_COPY: [(File, &str, &[File]); 7] = [
     example!("wall_following"),
     example!("patterns"),
@@ -78,12 +78,12 @@ const EXAMPLES_TO_COPY: [(File, &str, &[File]); 7] = [
     example!("patrol", "avoid_obstacle", "navigate_room", "parts/boundary", "parts/go_to"),
 ];
 
-/// The examples as the studio copies them.
+/// The examples in the studio's form.
 fn examples() -> Vec<Example> {
     let made = EXAMPLES_TO_COPY.into_iter().map(|((name, plan), world, uses)| Example {
         name: name.to_owned(),
         plan: plan.to_owned(),
-        // The schema lies in the checkout alone.
+        // The schema exists only in the checkout.
         world: Some(world.lines().filter(|line| !line.starts_with("#:")).map(with_end).collect()),
         uses: uses.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect(),
     });
@@ -94,10 +94,10 @@ fn with_end(line: &str) -> String {
     format!("{line}\n")
 }
 
-/// Serves until Ctrl-C; gives the exit code.
+/// Serves until Ctrl-C and returns the exit code.
 ///
 /// # Errors
-/// No such file or folder, the port is taken.
+/// The file or folder does not exist, the port is taken.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     arguments.listen.check()?;
     let (folder, open) = folder(&arguments.path)?;
@@ -139,7 +139,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     Ok(EXIT_OK)
 }
 
-/// Says an address, and opens it unless that is left to people.
+/// Prints an address, and opens it in the browser unless `no_open` is set.
 fn show(address: &str, no_open: bool) -> Result<(), NoPlan> {
     print(&format!("{address}\n"))?;
     if no_open {
@@ -152,7 +152,7 @@ fn show(address: &str, no_open: bool) -> Result<(), NoPlan> {
     Ok(())
 }
 
-/// The folder of what was named, which is that of its project where there is one, and the file in it.
+/// The folder of the given path, or the folder of its project, and the file in it.
 fn folder(path: &Path) -> Result<(PathBuf, Option<PathBuf>), RunError> {
     let real = path.canonicalize().map_err(RunError::file("cannot open", path))?;
     if real.is_dir() {
@@ -168,7 +168,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_example_is_a_plan_without_mistakes_that_has_its_world() {
+    fn every_example_is_a_valid_plan_with_its_world() {
         for example in examples() {
             let place = tempfile::tempdir().unwrap();
             let plans = place.path().join("plans");

@@ -1,4 +1,4 @@
-//! `afpc sweep`: many runs of a plan, all cores at once, and what they came to.
+//! `afpc sweep`: many runs of a plan on all cores, and their results.
 
 mod reporter;
 
@@ -95,10 +95,10 @@ fn worlds(text: &str) -> Result<Worlds, String> {
     afp_sweep::worlds(text).map(Worlds)
 }
 
-/// Runs a sweep; gives the exit code.
+/// Runs a sweep and returns the exit code.
 ///
 /// # Errors
-/// The plan is wrong, a file does not work, there is something to vary that is not there.
+/// The plan is invalid, a file cannot be used, a varied value does not exist.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     let file = PlanFile::read(&arguments.plan.plan)?;
     runner::become_one_for(file.compiled.graph.iter().map(|graph| (&file.own, graph)), linked)?;
@@ -126,7 +126,7 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     go_on(&engine, &reporter, &mut journal, &mut outcomes)?;
     let kept = journal.close();
     outcomes.sort_by_key(|outcome| outcome.run);
-    // What the runs came to is seen, too, where no table of it can be written.
+    // The results are printed even if their table cannot be written.
     let written = output.write(&sweep, &outcomes);
     let findings = Findings::new(&outcomes);
     reporter.end(&outcomes, &findings, written.is_ok().then_some(&output))?;
@@ -159,7 +159,7 @@ impl Arguments {
     }
 }
 
-/// Does the runs that are not done, and keeps each before the next one is taken.
+/// Does the remaining runs, and records each run before the next one starts.
 fn go_on(
     engine: &Engine<'_>,
     reporter: &Reporter<'_>,
@@ -183,8 +183,8 @@ fn go_on(
     broken.map_or(Ok(()), Err)
 }
 
-/// What runs the plans: with toolboxes of one's own, what the program was built from counts too. Python says the same of
-/// plans that it has no part in, and goes on with their sweeps.
+/// The program that runs the plans. With the project's toolboxes, their sources count too. Python
+/// computes the same text for plans without such toolboxes and can continue their sweeps.
 fn program(linked: &Linked<'_>) -> Result<String, RunError> {
     let build = Build::this().to_string();
     if !linked.is_runner() {

@@ -1,4 +1,4 @@
-//! `afpc templates`: what toolboxes can do, from their files.
+//! `afpc templates`: the contents of toolboxes, from their files.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -32,13 +32,13 @@ Examples:
 
 Toolboxes are the built-in ones and those of the project in this folder.";
 
-/// Columns of kind and name together.
+/// The width of kind and name together.
 const COLUMN: usize = 32;
 
-/// Prints what there is.
+/// Prints toolboxes or templates.
 ///
 /// # Errors
-/// The project is wrong, a toolbox file is wrong, nothing has that name.
+/// The project or a toolbox file is invalid, or the name is unknown.
 pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     let own = OwnToolboxes::read(ProjectFile::find(Path::new("."))?)?;
     let toolboxes = own.with_built_in()?;
@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, NoPlan> {
     print(&text(&toolboxes, arguments.name.as_deref())?)
 }
 
-/// What is printed for a name.
+/// The text for a name.
 fn text(toolboxes: &Toolboxes, name: Option<&str>) -> Result<String, RunError> {
     let Some(name) = name else {
         let lists: Vec<_> = toolboxes.iter().map(|toolbox| list(toolbox)).collect();
@@ -73,7 +73,7 @@ fn text(toolboxes: &Toolboxes, name: Option<&str>) -> Result<String, RunError> {
     }
 }
 
-/// Says that nothing has that name, and what may be meant.
+/// The error for an unknown name, with suggestions.
 fn unknown(toolboxes: &Toolboxes, of: Option<&str>, asked: &str) -> RunError {
     let message = format!("there is no toolbox or template '{asked}'");
     let name = asked.split_once('.').map_or(asked, |(_, name)| name);
@@ -89,7 +89,7 @@ fn unknown(toolboxes: &Toolboxes, of: Option<&str>, asked: &str) -> RunError {
     RunError::usage(message, help)
 }
 
-/// A toolbox with its templates, a line each.
+/// A toolbox with one line for each template.
 fn list(toolbox: &Toolbox) -> String {
     let mut text = format!("{}: {}\n", toolbox.name, one_line(&toolbox.doc));
     for template in &toolbox.templates {
@@ -99,7 +99,7 @@ fn list(toolbox: &Toolbox) -> String {
     text
 }
 
-/// A template as its file declares it, help behind each line.
+/// A template's declaration, with help after each line.
 fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String {
     let mut text = format!("{} {} of '{}'\n", kind(template), template.name, toolbox.name);
     match one_line(&template.doc).as_str() {
@@ -110,7 +110,7 @@ fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String
     }
     let written = |word: &str, span| format!("{word}{}", declared(span, sources));
     let inputs = template.inputs.iter().map(|port| match &template.reads_table {
-        // What no type of a port can say.
+        // Port types cannot express this.
         Some(reads) if reads.port.name == port.name => {
             (format!("in {}: (a table)", port.name), one_line(&port.doc))
         }
@@ -135,7 +135,7 @@ fn describe(toolbox: &Toolbox, template: &Template, sources: &Sources) -> String
     text
 }
 
-/// What it commands, and how fast it is.
+/// The commanded device and the timing of a template.
 fn timing(template: &Template) -> String {
     let time = |word: &str, nanos: u64| {
         let text = match nanos {
@@ -162,7 +162,7 @@ fn kind(template: &Template) -> &'static str {
     }
 }
 
-/// What a declaration says on its line from a name on, up to the next one, single blanks only.
+/// The text of a declaration from its name to the next declaration, on one line.
 fn declared(name: Span, sources: &Sources) -> String {
     let text = sources.get(name.file).map_or("", |source| &source.text);
     let rest = text.get(name.start as usize..).and_then(|rest| rest.lines().next());
@@ -173,7 +173,7 @@ fn declared(name: Span, sources: &Sources) -> String {
     all.trim_end_matches('}').to_owned()
 }
 
-/// What the parts of a template begin with: several may stand on one line.
+/// The words at the start of a template's parts; several parts may share a line.
 const PARTS: [&str; 11] = [
     "budget", "deadline", "event", "every", "icon", "in", "out", "state", "states", "stop", "uses",
 ];

@@ -1,4 +1,4 @@
-//! `afpc test`: runs scenarios, all cores at once, and says what they came to.
+//! `afpc test`: runs scenarios on all cores and reports the results.
 
 mod cover;
 mod find;
@@ -98,33 +98,33 @@ Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario fail
 struct Case<'a> {
     /// The file with the scenario and the plan that it is for.
     plan_file: &'a PlanFile,
-    /// The file as it was named.
+    /// The file name from the command line.
     file: &'a Path,
-    /// The line of its name.
+    /// The line of the scenario's name.
     line: usize,
-    /// The scenario, or what is wrong with it.
+    /// The scenario or its error.
     scenario: Result<&'a Scenario, &'a InvalidScenario>,
 }
 
-/// What became of a case.
+/// The result of a case.
 struct Done {
     verdict: Result<Verdict, Failure>,
-    /// The log of a failed one.
+    /// The log of a failed case.
     log: Option<PathBuf>,
 }
 
-/// Why a case was not run.
+/// The reasons for not running a case.
 enum Failure {
-    /// It is wrong, or its plan has changed: what the compiler says.
+    /// The scenario is invalid or its plan has changed: the compiler's message.
     Invalid(String),
-    /// Its world is not there, and the like.
+    /// The world is missing, for example.
     Run(RunError),
 }
 
-/// What the scenarios of a plan used.
+/// The usage of a plan by its scenarios.
 struct Used<'a> {
     plan_file: &'a PlanFile,
-    /// One of them.
+    /// One of the scenarios.
     scenario: &'a Scenario,
     coverage: Coverage,
 }
@@ -134,10 +134,10 @@ fn percent(text: &str) -> Result<f64, String> {
     percent.ok_or_else(|| "expected a number from 0 to 100".to_owned())
 }
 
-/// Runs scenarios; gives the exit code.
+/// Runs scenarios and returns the exit code.
 ///
 /// # Errors
-/// Nothing to run, a file that cannot be read.
+/// There is nothing to run, a file cannot be read.
 pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if arguments.generate {
         let files: Vec<_> = arguments.what.iter().map(PathBuf::from).collect();
@@ -159,15 +159,15 @@ pub fn run(arguments: &Arguments, linked: &Linked<'_>) -> Result<u8, NoPlan> {
     if cases.is_empty() && code == EXIT_OK {
         return Err(find::nothing(&filters, &files).into());
     }
-    // Building takes minutes: what needs none of it is said before.
+    // Building takes minutes. All other errors are reported first.
     link(&read, linked)?;
     run_all(&cases, code, arguments, linked)
 }
 
-/// Reads the files, and gives the exit code that those come to that are wrong.
+/// Reads the files and returns the exit code of the invalid files.
 ///
 /// # Errors
-/// The only one cannot be read; of several, each hides nothing of the others.
+/// The only file cannot be read. With several files, an invalid file does not hide the others.
 fn read(files: &[PathBuf]) -> Result<(Vec<PlanFile>, u8), NoPlan> {
     let (mut read, mut code) = (Vec::new(), EXIT_OK);
     for file in files {
@@ -180,7 +180,7 @@ fn read(files: &[PathBuf]) -> Result<(Vec<PlanFile>, u8), NoPlan> {
             }
             Err(error) => return Err(error.into()),
         };
-        // Scenarios that are wrong fail alone.
+        // An invalid scenario does not fail the others.
         if file.compiled.diags.has_errors() && file.compiled.invalid.is_empty() {
             say(file.compiled.render(true));
             code = EXIT_FAILED;
@@ -190,7 +190,7 @@ fn read(files: &[PathBuf]) -> Result<(Vec<PlanFile>, u8), NoPlan> {
     Ok((read, code))
 }
 
-/// Becomes a program with the toolboxes that the plans of all scenarios use, if some are not linked in.
+/// Becomes a program with the toolboxes of all scenarios' plans, if some are not linked in.
 fn link(files: &[PlanFile], linked: &Linked<'_>) -> Result<(), NoPlan> {
     let plans = files.iter().flat_map(|file| {
         file.compiled.scenarios.iter().map(|scenario| (&file.own, &*scenario.graph))
@@ -231,7 +231,8 @@ fn matches(case: &Case<'_>, filters: &[String]) -> bool {
     filters.is_empty() || filters.iter().any(|filter| name.contains(&filter.to_lowercase()))
 }
 
-/// Runs the cases on all cores until somebody stops it; gives the exit code, `code` where all passed.
+/// Runs the cases on all cores until somebody stops the command. Returns the exit code, `code` if
+/// all cases passed.
 fn run_all(
     cases: &[Case<'_>],
     code: u8,
@@ -266,7 +267,7 @@ fn run_all(
     Ok(if failed { EXIT_PLAN_ERROR } else { code })
 }
 
-/// What the runs used, for each plan with a case that is for it.
+/// The usage of each plan that has a case.
 fn coverage<'a>(
     done: &[(&'a Case<'a>, Done)],
     logs: &[PathBuf],
@@ -308,7 +309,7 @@ impl Done {
     }
 }
 
-/// What becomes of a case; `None` where it was stopped before that was known.
+/// Runs a case; `None` if it was stopped before it ended.
 fn run_one(case: &Case<'_>, robot: &dyn Loader, stop: &StopFlag) -> Option<Done> {
     let mut go_on = || !stop.is_raised();
     if !go_on() {
@@ -332,7 +333,7 @@ fn run_one(case: &Case<'_>, robot: &dyn Loader, stop: &StopFlag) -> Option<Done>
     if !failed {
         return Some(Done { verdict, log: None });
     }
-    // The same run once more, since passing ones need no log.
+    // Passing scenarios need no log, so a failed scenario runs a second time.
     let path = find::log_of(case.file, &scenario.name);
     let log = path.and_then(|path| {
         let to = Recording { path: &path, compiled: &case.plan_file.compiled };

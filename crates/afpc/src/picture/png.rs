@@ -1,5 +1,5 @@
-//! Drawings as pixels: the SVG, painted with the fonts that come along, so that a picture is the
-//! same on every machine.
+//! Drawings as pixels: the SVG, rendered with bundled fonts, so that a picture is the same on every
+//! machine.
 
 use std::collections::HashMap;
 
@@ -7,30 +7,31 @@ use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg;
 
-/// DejaVu Sans, cut down to European scripts, arrows and mathematical signs. Other letters are left out.
+/// DejaVu Sans, reduced to European scripts, arrows and mathematical signs. Other letters are left
+/// out.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("../../fonts/DejaVuSans.ttf"),
     include_bytes!("../../fonts/DejaVuSans-Bold.ttf"),
 ];
 
-/// The name inside of both fonts.
+/// The family name in both fonts.
 const FAMILY: &str = "DejaVu Sans";
 
-/// Pixels of the largest picture: 1 GB while it is painted.
+/// The maximum number of pixels: rendering needs 1 GB.
 pub const MOST_PIXELS: f64 = 250e6;
 
-/// Why there is no picture.
+/// The reasons for a missing picture.
 pub enum Failure {
-    /// It would have so many pixels.
+    /// The number of pixels is too large.
     TooLarge(f64, f64),
-    /// The renderer gave up.
+    /// The renderer failed.
     Renderer(String),
 }
 
-/// A drawing as a PNG file, `scale` pixels for each of its own.
+/// A drawing as a PNG file, with `scale` pixels per SVG pixel.
 ///
 /// # Errors
-/// [`Failure`]; a drawing of ours is always read.
+/// [`Failure`]; AFP's own drawings are always readable.
 pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Failure> {
     let renderer = |error: &dyn std::fmt::Display| Failure::Renderer(error.to_string());
     let mut options = usvg::Options { font_family: FAMILY.to_owned(), ..Default::default() };
@@ -51,8 +52,8 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, Failure> {
     encoded(&pixels).map_err(|error| renderer(&error))
 }
 
-/// Pixels as a file: by a palette where they have few enough colours, which takes a third fewer bytes; without their opacity
-/// where all of them are opaque, as those of our pictures are.
+/// Encodes pixels: with a palette if there are few colours, which saves a third of the bytes;
+/// without an alpha channel if all pixels are opaque, as in AFP's pictures.
 fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, EncodingError> {
     let colors = || {
         pixels.pixels().iter().map(|pixel| {
@@ -81,7 +82,8 @@ fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, EncodingError> {
     Ok(file)
 }
 
-/// The colours in the order in which they come, and which of them each pixel has; none where there are too many for a byte.
+/// The colours in order of appearance, and the colour index of each pixel; `None` for more than 256
+/// colours.
 fn indexed(colors: impl Iterator<Item = [u8; 4]>) -> Option<(Vec<u8>, Vec<u8>)> {
     let mut known = HashMap::new();
     let mut palette = Vec::new();
@@ -102,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pixels_have_their_colour_by_its_place_in_the_palette_unless_there_are_too_many() {
+    fn pixels_use_a_palette_unless_there_are_too_many_colours() {
         let (red, blue) = ([200, 0, 0, 255], [0, 0, 200, 255]);
         let (palette, indices) = indexed([red, blue, red].into_iter()).unwrap();
         assert_eq!((palette, indices), (vec![200, 0, 0, 0, 0, 200], vec![0, 1, 0]));

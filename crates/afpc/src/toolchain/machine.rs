@@ -1,8 +1,8 @@
-//! The machines that binaries are built for, and what makes them.
+//! The target machines of binaries, and the tools for them.
 
 use clap::ValueEnum;
 
-/// What a binary runs on.
+/// The machine that runs a binary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Machine {
     /// This machine
@@ -16,21 +16,21 @@ pub enum Machine {
     Mcu,
 }
 
-/// How the tools call another machine that runs Linux.
+/// The names of a Linux machine in the tools.
 #[derive(Debug)]
 pub struct Linux {
-    /// As people call it.
+    /// The name for people.
     pub name: &'static str,
-    /// As Rust does.
+    /// The target triple of Rust.
     pub triple: &'static str,
-    /// As Debian's compilers do, and zig.
+    /// The triple of Debian's compilers and zig.
     pub gnu: &'static str,
-    /// Debian's packages of a compiler and a C library for it.
+    /// Debian's packages of a C compiler and a C library for it.
     pub packages: [&'static str; 2],
 }
 
 impl Machine {
-    /// How the tools call it, if it is another machine that runs Linux.
+    /// The names of another Linux machine; `None` for this machine.
     pub fn linux(self) -> Option<&'static Linux> {
         match self {
             Machine::Pi => Some(&PI),

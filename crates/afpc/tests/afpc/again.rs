@@ -5,28 +5,28 @@ use serde_json::Value;
 
 const QUIET: &str = "--log none --svg none --json";
 
-/// A run in which everything comes from outside that can.
+/// A run with every kind of external input.
 const RUN: &str = "run wall_following.afp --seed 4 --until 12s --set walldist=35cm --set world.robot.charge=0.5 \
                    --start 2m,1m,10deg --press touch@2s --fail wheels.slip=0.3@3s..5s --fail odometry.delayed=100ms@6s \
                    --press escape@50s --measure wall --svg none";
 
 #[test]
-fn a_log_repeats_its_run_to_the_last_byte() {
+fn a_log_repeats_its_run_byte_for_byte() {
     let place = Place::with_plan();
     let first = place.afpc(&format!("{RUN} --json --log a.mcap"));
     first.succeeds();
-    // All that it takes is in the log.
+    // All inputs of the run are in the log.
     place.write("wall_following.afp", "plan Broken {");
     std::fs::remove_file(place.path("wall_following.afp")).unwrap();
     let again = place.afpc(&format!("run --again a.mcap {QUIET}"));
     assert_eq!((again.succeeds().out.as_str(), again.err.as_str()), (first.out.as_str(), ""));
-    // The log of the second run is as good as that of the first.
+    // The log of the second run repeats the run, too.
     place.afpc("run --again a.mcap --log b.mcap --svg none").succeeds();
     assert_eq!(place.afpc(&format!("run --again b.mcap {QUIET}")).out, first.out);
 }
 
 #[test]
-fn timeline_summary_and_log_have_what_came_from_outside() {
+fn timeline_summary_and_log_have_the_external_inputs() {
     let place = Place::with_plan();
     let said = place.afpc(&format!("{RUN} --log a.mcap"));
     said.succeeds();
@@ -57,7 +57,8 @@ fn a_log_has_every_file_that_its_plan_uses() {
     let place = Place::new();
     std::fs::create_dir_all(place.path("toolbox")).unwrap();
     std::fs::create_dir_all(place.path("tests")).unwrap();
-    // A file in a folder that is called as logs call toolboxes, one without a plan, and scenarios elsewhere.
+    // A file in a folder with the name that logs use for toolboxes, a file without a plan, and
+    // scenarios in another folder.
     place.write("toolbox/lib.afp", "enum Side { left right }\n");
     place.write(
         "p.afp",
@@ -100,7 +101,7 @@ fn another_plan_can_be_tried_in_the_run_of_a_log() {
 }
 
 #[test]
-fn what_cannot_be_repeated_is_said() {
+fn runs_that_cannot_be_repeated_are_refused() {
     let place = Place::with_plan();
     place.afpc(&format!("{RUN} --log a.mcap")).succeeds();
     place.afpc("run --again a.mcap --seed 3").fails(2, &["--again", "--seed"]);
@@ -112,7 +113,7 @@ fn what_cannot_be_repeated_is_said() {
 }
 
 #[test]
-fn a_plan_that_is_called_as_another_part_of_its_log_is_in_it() {
+fn a_plan_with_the_name_of_another_part_of_its_log_is_in_it() {
     let place = Place::with_plan();
     for name in ["world", "toolbox/std"] {
         place.write(name, crate::common::WALL_FOLLOWING);
@@ -126,7 +127,7 @@ fn a_plan_that_is_called_as_another_part_of_its_log_is_in_it() {
 }
 
 #[test]
-fn the_log_of_a_scenario_that_failed_while_its_plan_ran_on_repeats() {
+fn the_log_of_a_failed_scenario_repeats_until_its_plan_ends() {
     let place = Place::new();
     place.write(
         "p.afp",

@@ -1,4 +1,4 @@
-//! The commands in the book do what the book shows, and every option is in it.
+//! The commands in the book print the output that the book shows, and the book has every option.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 const AFPC: &str = env!("CARGO_BIN_EXE_afpc");
 
-/// Commands of others that `sh` blocks may have; nothing runs them.
+/// External commands that `sh` blocks may contain; the test does not run them.
 const FOREIGN: &[&str] = &[
     "cargo",
     "git",
@@ -34,7 +34,7 @@ fn docs() -> PathBuf {
 }
 
 #[test]
-fn commands_print_what_the_book_shows() {
+fn commands_print_the_output_in_the_book() {
     let mut wrong = Vec::new();
     let mut page = Page::new("");
     for block in blocks(&docs()).unwrap() {
@@ -48,16 +48,16 @@ fn commands_print_what_the_book_shows() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// How long the plans of the book are tried.
+/// The options for runs of the book's plans.
 const TRIAL: &str = "--until 15s --log none --svg none";
 
-/// A folder with the files that a page has shown so far.
+/// A folder with the files of a page so far.
 struct Page {
     name: String,
     folder: TempDir,
-    /// What the last command ended with.
+    /// The exit code of the last command.
     code: i32,
-    /// Whether a toolbox is declared on the page: its Rust is tried elsewhere.
+    /// Whether the page declares a toolbox: another test checks its Rust code.
     own_toolbox: bool,
 }
 
@@ -81,7 +81,7 @@ impl Page {
         }
     }
 
-    /// A complete plan runs, and no fault ends it unless the block says so.
+    /// Runs a complete plan; a fault is an error unless the block expects it.
     fn plan(&mut self, block: &Block) -> Result<(), String> {
         self.own_toolbox |= block.text.lines().any(|line| line.starts_with("toolbox "));
         if self.own_toolbox || block.has("fragment") || block.value("error").is_some() {
@@ -98,7 +98,7 @@ impl Page {
         }
     }
 
-    /// Commands behind `$ `, each with what it prints.
+    /// Commands after `$ `, each with its expected output.
     fn console(&mut self, text: &str) -> Result<(), String> {
         let text = text.strip_prefix("$ ").ok_or("does not begin with '$ '")?;
         for part in text.split("\n$ ") {
@@ -111,7 +111,7 @@ impl Page {
         Ok(())
     }
 
-    /// A command that shall succeed.
+    /// A command that must succeed.
     fn shell(&mut self, line: &str) -> Result<(), String> {
         let command = line.split(" #").next().unwrap_or_default().trim();
         let mut words = command.split(' ').skip_while(|word| word.contains('='));
@@ -126,7 +126,7 @@ impl Page {
         }
     }
 
-    /// What a command prints, on both outputs in the order of a terminal.
+    /// The output of a command, both streams in the order of a terminal.
     fn run(&mut self, command: &str) -> Result<String, String> {
         if command == "echo $?" {
             return Ok(format!("{}\n", self.code));
@@ -142,13 +142,13 @@ impl Page {
     }
 }
 
-/// The lines of a text without blanks at their ends and empty lines at its end.
+/// The lines of a text without trailing spaces and trailing empty lines.
 fn lines(text: &str) -> Vec<&str> {
     text.trim_end().lines().map(str::trim_end).collect()
 }
 
-/// Whether lines are those wanted; a wanted `...` stands for any number of lines, within a line for
-/// any text.
+/// Whether lines match the expected lines; `...` matches any number of lines, or any text within a
+/// line.
 fn fits(wanted: &[&str], lines: &[&str]) -> bool {
     match wanted.split_first() {
         None => lines.is_empty(),

@@ -1,4 +1,4 @@
-//! `afpc build`: what is written, what is refused, and the binary that comes out.
+//! `afpc build`: the generated files, the errors, and the binary.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use crate::common::{Place, said};
 
 #[test]
-fn without_cargo_the_crate_is_there_and_the_error_clear() {
+fn without_cargo_the_crate_is_written_and_the_error_is_clear() {
     let place = Place::with_plan();
     let mut command = place.command();
     command.args(["build", "wall_following.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
@@ -21,7 +21,7 @@ fn without_cargo_the_crate_is_there_and_the_error_clear() {
 }
 
 #[test]
-fn a_folder_of_somebody_else_is_left_alone() {
+fn a_folder_without_a_generated_crate_is_not_changed() {
     let place = Place::with_plan();
     place.write("mine/Cargo.toml", "[package]\nname = \"mine\"\n");
     let said = place.afpc("build wall_following.afp -o mine");
@@ -30,7 +30,7 @@ fn a_folder_of_somebody_else_is_left_alone() {
 }
 
 #[test]
-fn files_of_somebody_else_are_left_alone_where_there_is_no_crate() {
+fn other_files_are_not_changed_if_there_is_no_crate() {
     let place = Place::with_plan();
     for name in ["src/main.rs", "wall_following.afp"] {
         let path = format!("mine/{name}");
@@ -41,14 +41,14 @@ fn files_of_somebody_else_are_left_alone_where_there_is_no_crate() {
         assert_eq!(place.files(), [&path, "wall_following.afp"]);
         std::fs::remove_file(place.path(&path)).unwrap();
     }
-    // The plan itself lies where its copy would.
+    // The plan itself is in the place of its copy.
     let mut command = place.command();
     command.args(["build", "wall_following.afp", "-o", "."]).env("CARGO", "no-such-cargo");
     said(command.output().unwrap()).fails(1, &["there is no cargo"]);
 }
 
 #[test]
-fn what_an_earlier_release_built_among_the_builds_is_replaced() {
+fn a_build_of_an_earlier_release_is_replaced() {
     let place = Place::with_plan();
     let old = "target/afp/wall_following";
     place.write(&format!("{old}/Cargo.toml"), "# Made by another release.\n");
@@ -70,13 +70,12 @@ fn targets_of_later_releases_and_wrong_project_files_are_refused() {
     place.afpc("build wall_following.afp").fails(1, &["exactly one of", "afp.toml:1:2"]);
 }
 
-/// The folder that builds share over the tests of this file, so that the physics engine is built
-/// once.
+/// The build folder of this file's tests, so that the physics engine is built once.
 fn shared_target() -> &'static Path {
     Path::new(concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans"))
 }
 
-/// A program is watched where it was built for that; another one says how it would be.
+/// A program built with `--live` can be watched; another program explains how to build it.
 fn others_watch(place: &Place, deaf: &str) {
     let options = ["--live=0", "--speed", "max", "--until", "1s", "--log", "none", "--svg", "none"];
     let run = |binary: &str| {
@@ -94,7 +93,7 @@ fn others_watch(place: &Place, deaf: &str) {
 
 #[test]
 #[ignore = "builds the physics engine in release mode; `cargo xtask gate install` runs it"]
-fn the_binary_says_the_same_as_the_interpreter_over_twenty_seeds() {
+fn binary_and_interpreter_agree_over_twenty_seeds() {
     let place = Place::with_plan();
     let mut command = place.command();
     command.args(["build", "wall_following.afp"]).env("CARGO_TARGET_DIR", shared_target());

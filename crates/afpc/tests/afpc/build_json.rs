@@ -1,4 +1,5 @@
-//! `afpc build --json` and `afpc check --json`: what is wrong as objects, whoever has found it, and what was built last.
+//! `afpc build --json` and `afpc check --json`: every diagnostic as an object, and the build result
+//! last.
 
 use std::fs::{self, File, Permissions};
 use std::os::unix::fs::PermissionsExt;
@@ -7,7 +8,7 @@ use std::process::{Command, Stdio};
 use crate::common::{Place, Said, WALL_FOLLOWING, said};
 use serde_json::{Value, json};
 
-/// A plan with a warning: nothing uses an entry.
+/// A plan with a warning: an unused entry.
 const PLAN: &str = "use carbot
 
 plan P {
@@ -26,7 +27,7 @@ fn place() -> Place {
     place
 }
 
-/// A call in which cargo is a script that does this.
+/// A call in which cargo is a script.
 fn with_cargo(place: &Place, arguments: &str, cargo: &str) -> Said {
     said(calling(place, arguments, cargo).output().unwrap())
 }
@@ -55,7 +56,7 @@ fn at(object: &Value) -> (&str, u64, u64) {
 }
 
 #[test]
-fn a_build_tells_of_a_plan_what_check_tells_of_it() {
+fn build_and_check_report_the_same_errors_of_a_plan() {
     let place = place();
     for (text, code) in [
         (WALL_FOLLOWING.replace("walldist:  length = 30 cm", "walldist:  length = 30"), "E0203"),
@@ -74,7 +75,7 @@ fn a_build_tells_of_a_plan_what_check_tells_of_it() {
 }
 
 #[test]
-fn warnings_come_first_and_a_sound_build_says_where_it_is() {
+fn warnings_come_first_and_a_good_build_names_its_files() {
     let place = place();
     let cargo = "echo '{\"executable\":\"/there/p\"}'; echo compiling >&2";
     let warning = place.afpc("check p.afp --json").out;
@@ -90,13 +91,13 @@ fn warnings_come_first_and_a_sound_build_says_where_it_is() {
     assert_eq!(said.err, "generated target/afp/p\ncompiling\n");
     let library = with_cargo(&place, "build p.afp --lib --json", "true");
     assert_eq!(objects(library.succeeds()).1, built(Value::Null));
-    // Without it, as ever.
+    // Without '--json', nothing changes.
     let said = with_cargo(&place, "build p.afp", cargo);
     assert_eq!(said.succeeds().out, "/there/p\n");
     assert!(said.err.contains("warning[E"), "{}", said.err);
 }
 
-/// What a build alone knows, with its exit code and a part of the message, and the place or the help.
+/// Errors that only a build finds: exit code, part of the message, and the place or the help.
 const OF_BUILDS: &[(&str, &str, i32, &str, &str)] = &[
     ("[target.host]\ncapacity = 0.0001\n", "p.afp", 1, "'host'", "p.afp"),
     ("[afp]\npath = \"x\"\nversion = \"1\"\n", "p.afp", 1, "exactly one of", "afp.toml"),
@@ -107,7 +108,7 @@ const OF_BUILDS: &[(&str, &str, i32, &str, &str)] = &[
 ];
 
 #[test]
-fn what_a_build_alone_knows_is_an_object_too() {
+fn errors_of_a_build_are_objects() {
     for &(project, arguments, code, message, place_or_help) in OF_BUILDS {
         let place = place();
         place.write("afp.toml", project);
@@ -127,7 +128,7 @@ fn what_a_build_alone_knows_is_an_object_too() {
 }
 
 #[test]
-fn a_cargo_that_fails_without_a_word_or_is_not_there_is_an_error() {
+fn a_failed_or_missing_cargo_is_an_error() {
     let place = place();
     let said = with_cargo(&place, "build p.afp --json", "echo 'no network' >&2; exit 101");
     said.fails(1, &["no network"]);
@@ -140,14 +141,14 @@ fn a_cargo_that_fails_without_a_word_or_is_not_there_is_an_error() {
     command.args(["build", "p.afp", "--json"]).env("CARGO", "no-such-cargo");
     let (all, _) = objects(crate::common::said(command.output().unwrap()).fails(1, &[]));
     assert!(all[1]["help"].as_str().unwrap().contains("https://rustup.rs"), "{all:?}");
-    // The real one, whose own words are on standard error.
+    // The real cargo, whose own messages are on standard error.
     place.write("afp.toml", "[afp]\npath = \"nowhere\"\n");
     let said = place.afpc("build p.afp --json");
     let (all, _) = objects(said.fails(1, &["nowhere"]));
     assert_eq!(all[1]["help"], "standard error has what cargo says");
 }
 
-/// A line of cargo about a crate.
+/// A message of cargo about a crate.
 fn message(manifest: &str, level: &str, title: &str, spans: &Value) -> String {
     let message = json!({ "level": level, "message": title, "rendered": format!("{level}: {title}"),
         "spans": spans, "children": [] });
@@ -157,7 +158,7 @@ fn message(manifest: &str, level: &str, title: &str, spans: &Value) -> String {
 }
 
 #[test]
-fn errors_of_rust_are_at_the_line_of_the_plan_that_they_come_from() {
+fn errors_of_rust_are_at_their_line_of_the_plan() {
     let place = place();
     with_cargo(&place, "build p.afp", "exit 1").fails(1, &[]);
     let rust = place.read("target/afp/p/src/p.rs");
@@ -188,7 +189,7 @@ fn errors_of_rust_are_at_the_line_of_the_plan_that_they_come_from() {
 }
 
 #[test]
-fn what_a_linker_says_is_told() {
+fn a_message_of_the_linker_is_reported() {
     let place = place();
     let manifest = place.path("target/afp/p/Cargo.toml").display().to_string();
     let cargo = message(&manifest, "error", "linker `cc` not found", &json!([])) + "exit 101";
@@ -203,7 +204,7 @@ fn what_a_linker_says_is_told() {
 }
 
 #[test]
-fn objects_that_cannot_be_written_are_told_and_a_reader_may_go() {
+fn a_full_disk_is_reported_and_a_closed_pipe_is_not() {
     let place = place();
     for (arguments, code) in [("build p.afp --json", 0), ("build missing.afp --json", 1)] {
         let mut command = calling(&place, arguments, "true");
@@ -217,7 +218,7 @@ fn objects_that_cannot_be_written_are_told_and_a_reader_may_go() {
 }
 
 #[test]
-fn check_tells_tools_of_files_and_projects_too() {
+fn check_reports_errors_of_files_and_projects_to_tools() {
     let place = place();
     let said = place.afpc("check missing.afp p.afp --json");
     said.fails(1, &[]);

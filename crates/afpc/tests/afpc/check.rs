@@ -1,4 +1,4 @@
-//! `afpc check`, `explain`, `graph`, `completions`, and commands that are not there yet.
+//! `afpc check`, `explain`, `graph`, `completions`, and commands of later releases.
 
 use crate::common::{Place, WALL_FOLLOWING};
 
@@ -64,7 +64,7 @@ fn a_toolbox_is_checked_by_itself() {
 }
 
 #[test]
-fn diagnostics_are_json_when_asked() {
+fn diagnostics_can_be_json() {
     let place = Place::new();
     place.write("a.afp", &WALL_FOLLOWING.replace("start searchFirstWall", "start searchFirst"));
     let said = place.afpc("check a.afp --json");
@@ -97,7 +97,7 @@ fn codes_are_explained() {
 }
 
 #[test]
-fn a_template_that_is_not_there_is_named_as_it_was_asked_for() {
+fn an_unknown_template_is_reported_by_its_full_name() {
     let place = Place::new();
     for name in ["carbot.Forwrad", "plan.afp", "carbot."] {
         let message = format!("there is no toolbox or template '{name}'");
@@ -106,7 +106,7 @@ fn a_template_that_is_not_there_is_named_as_it_was_asked_for() {
 }
 
 #[test]
-fn plans_are_drawn_in_every_format_there_is() {
+fn plans_are_drawn_in_every_format() {
     let place = Place::with_plan();
     place.afpc("graph wall_following.afp -o plan.svg").succeeds();
     assert!(place.read("plan.svg").starts_with("<svg"));
@@ -161,7 +161,7 @@ fn options_of_other_formats_are_refused() {
 
 #[cfg(feature = "png")]
 #[test]
-fn pictures_have_the_size_and_the_colours_asked_for() {
+fn pictures_have_the_requested_size_and_colours() {
     let place = Place::with_plan();
     let drawn = |options: &str| {
         place.afpc(&format!("graph wall_following.afp -o plan.png {options}")).succeeds();
@@ -179,7 +179,7 @@ fn pictures_have_the_size_and_the_colours_asked_for() {
 }
 
 #[test]
-fn a_wrong_plan_is_neither_charted_nor_run_nor_built() {
+fn a_wrong_plan_is_not_charted_run_or_built() {
     let place = Place::new();
     place.write("a.afp", "plan A { start b }");
     for command in ["graph a.afp -o a.scxml", "run a.afp", "build a.afp"] {
@@ -189,7 +189,7 @@ fn a_wrong_plan_is_neither_charted_nor_run_nor_built() {
 }
 
 #[test]
-fn commands_of_later_releases_and_of_other_builds_say_so() {
+fn commands_of_later_releases_and_other_builds_are_explained() {
     let place = Place::new();
     for name in ["replay", "deploy", "attach"] {
         let said = place.afpc(&format!("{name} some --option"));

@@ -1,4 +1,4 @@
-//! Runs the real binary in a folder of its own.
+//! Runs the real binary in a temporary folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,12 +9,12 @@ use tempfile::TempDir;
 /// The plan of the paper.
 pub const WALL_FOLLOWING: &str = include_str!("../../../../plans/wall_following.afp");
 
-/// A folder and the program in it.
+/// A temporary folder for the program.
 pub struct Place {
     folder: TempDir,
 }
 
-/// What a call came to.
+/// The result of a call.
 #[derive(Debug)]
 pub struct Said {
     pub code: i32,
@@ -67,12 +67,12 @@ impl Place {
     pub fn command(&self) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_afpc"));
         command.current_dir(self.folder.path());
-        // Runners are kept in the place's own cache.
+        // Runners are kept in the folder's own cache.
         command.env_remove("CARGO_TARGET_DIR").env("XDG_CACHE_HOME", self.path("cache"));
         command
     }
 
-    /// Calls `afpc` with arguments that blanks separate.
+    /// Calls `afpc` with arguments separated by spaces.
     pub fn afpc(&self, arguments: &str) -> Said {
         said(self.command().args(arguments.split_whitespace()).output().unwrap())
     }
@@ -98,7 +98,7 @@ fn collect(root: &Path, folder: &Path, names: &mut Vec<String>) {
 }
 
 impl Said {
-    /// Fails unless the call ended with this code and standard error has these texts.
+    /// Asserts this exit code and these texts on standard error.
     #[track_caller]
     pub fn fails(&self, code: i32, texts: &[&str]) -> &Said {
         assert_eq!(self.code, code, "{self:#?}");
@@ -109,7 +109,7 @@ impl Said {
         self
     }
 
-    /// Fails unless the call went well.
+    /// Asserts a successful call.
     #[track_caller]
     pub fn succeeds(&self) -> &Said {
         assert_eq!(self.code, 0, "{self:#?}");
@@ -123,7 +123,7 @@ impl Said {
     }
 }
 
-/// What a command builds goes into the folder that all slow tests share, without long optimisation.
+/// Sets the build folder of all slow tests, with little optimisation.
 pub fn quickly_built(command: &mut Command) -> &mut Command {
     let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/built-plans");
     command

@@ -1,4 +1,4 @@
-//! The scenarios of the plans that are shipped take every edge of each of them.
+//! The scenarios of the shipped plans cover every edge.
 
 use std::collections::BTreeSet;
 
@@ -6,11 +6,12 @@ use serde_json::Value;
 
 use crate::common::Place;
 
-/// The plan whose only scenarios are those of another one that uses it: it takes a path, which no scenario can give.
+/// A plan that is only covered by the scenarios of another plan: it has a path input, and a
+/// scenario cannot set it.
 const INSIDE: (&str, &str) = ("FindInfrared", "elsewhere");
 
-/// The names of the parts that are the plan's own, `inside` of one of its sub-plans or of itself, and that nothing used. What
-/// is deeper inside is the business of the scenarios of what it uses.
+/// The names of the plan's own unused parts, `inside` one of its sub-plans or in the plan itself.
+/// Deeper parts belong to the scenarios of the sub-plan.
 fn unused(parts: &[Value], inside: &str) -> Vec<String> {
     let below =
         |part: &Value| part["name"].as_str().unwrap().strip_prefix(inside).map(str::to_owned);
@@ -19,7 +20,7 @@ fn unused(parts: &[Value], inside: &str) -> Vec<String> {
         elements.filter_map(|name| Some(name.split_once('.')?.0.to_owned())).collect();
     let is_own = |part: &Value, name: &str| {
         let itself = ["elements", "entries"].contains(&part["kind"].as_str().unwrap());
-        // What comes of a component has the component's name in front.
+        // The parts of a component begin with its name.
         let component = if itself { name } else { name.rsplit_once('.').map_or(name, |it| it.0) };
         component.split_once('.').is_none_or(|(first, _)| !itself && !sub_plans.contains(first))
     };

@@ -1,4 +1,5 @@
-//! `afpc dap` over standard input: how it ends; and over a socket: what it says, to one client and to several.
+//! `afpc dap`: its end over standard input, and its messages to one or several clients over a
+//! socket.
 
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -8,7 +9,7 @@ use std::time::Duration;
 
 use crate::common::{Place, Said, said};
 
-/// The adapter is told some bytes and nothing more.
+/// The output of an adapter that gets some bytes.
 fn told(bytes: &[u8]) -> Said {
     told_in(&Place::new(), bytes)
 }
@@ -17,13 +18,13 @@ fn told_in(place: &Place, bytes: &[u8]) -> Said {
     told_at(place, "", &["dap"], bytes)
 }
 
-/// The same, started in a folder of the place with other words.
+/// Like [`told`], in a folder of the place and with other arguments.
 fn told_at(place: &Place, folder: &str, words: &[&str], bytes: &[u8]) -> Said {
     let mut command = place.command();
     command.current_dir(place.path(folder));
     command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
-    // Who is not understood may not be read to the end.
+    // The adapter may not read invalid input to its end.
     child.stdin.take().unwrap().write_all(bytes).ok();
     said(child.wait_with_output().unwrap())
 }
@@ -35,21 +36,21 @@ fn framed(command: &str, arguments: &str) -> String {
 }
 
 #[test]
-fn a_client_that_is_gone_ends_the_adapter() {
+fn the_adapter_ends_when_its_client_is_gone() {
     told(b"").succeeds();
     let said = told(framed("disconnect", "{}").as_bytes());
     assert!(said.succeeds().out.contains(r#""success":true"#), "{said:?}");
 }
 
 #[test]
-fn other_machines_come_through_a_tunnel() {
+fn the_adapter_does_not_listen_for_other_machines() {
     let said = Place::new().afpc("dap --listen 0.0.0.0:4711");
     said.fails(2, &["would not be encrypted", "'ssh -L 4711:localhost:4711 HOST'"]);
     assert!(!Place::new().afpc("dap --help").out.contains("--listen"));
 }
 
 #[test]
-fn bytes_that_are_no_protocol_are_said_to_be_none() {
+fn invalid_bytes_are_reported() {
     let long = format!("Content-Length: {}\r\n\r\n", 1 << 30);
     let babble = vec![b'x'; 1 << 16];
     for (bytes, why) in [
@@ -65,7 +66,7 @@ fn bytes_that_are_no_protocol_are_said_to_be_none() {
 }
 
 #[test]
-fn a_log_is_looked_at_with_the_text_that_ran() {
+fn a_log_is_shown_with_the_text_that_ran() {
     let place = Place::with_plan();
     place.afpc("run wall_following.afp --until 2s --log run.mcap").succeeds();
     let talk = |reference: u32| {
@@ -94,7 +95,7 @@ fn a_log_is_looked_at_with_the_text_that_ran() {
 }
 
 #[test]
-fn breakpoints_bind_in_the_files_of_a_log_wherever_the_adapter_runs() {
+fn breakpoints_bind_in_the_files_of_a_log_in_every_folder() {
     let place = Place::new();
     place.write("afp.toml", "");
     let part = "use std\n\nplan Part {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
@@ -131,7 +132,7 @@ fn breakpoints_bind_in_the_files_of_a_log_wherever_the_adapter_runs() {
 }
 
 #[test]
-fn a_folder_is_the_same_however_it_is_named() {
+fn a_folder_is_found_by_each_of_its_names() {
     let place = Place::new();
     place.write("w/plan.afp", "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n");
     place.write("other.afp", "use std\n");
@@ -154,7 +155,7 @@ fn a_folder_is_the_same_however_it_is_named() {
 }
 
 #[test]
-fn what_is_run_lies_inside_of_the_folder_whatever_it_is_called() {
+fn only_files_inside_of_the_folder_can_run() {
     let place = Place::new();
     place.write("w/sub/plan.afp", "use std\n");
     let plan = "use std\nplan P {\n    start a\n    actor a: Wait(duration = 1 s) { Elapsed -> terminate }\n}\n";
@@ -186,7 +187,7 @@ fn what_is_run_lies_inside_of_the_folder_whatever_it_is_called() {
 }
 
 #[test]
-fn a_strange_start_is_told() {
+fn invalid_arguments_of_a_launch_are_reported() {
     let place = Place::with_plan();
     for (start, strange) in [("[100,100,0]", true), ("[1,1,0]", false)] {
         let launch =
@@ -203,7 +204,7 @@ struct Client<R, W> {
     from: BufReader<R>,
     to: W,
     said: u32,
-    /// All that has arrived.
+    /// All received bytes.
     heard: Vec<u8>,
 }
 
@@ -222,7 +223,7 @@ impl<R: Read, W: Write> Client<R, W> {
         self.to.flush().unwrap();
     }
 
-    /// Reads messages up to one that has this in it.
+    /// Reads messages until one contains this text.
     fn hear(&mut self, wanted: &str) -> String {
         loop {
             let mut header = String::new();
@@ -239,14 +240,14 @@ impl<R: Read, W: Write> Client<R, W> {
         }
     }
 
-    /// Says something and waits for the answer.
+    /// Sends a request and waits for the response.
     fn ask(&mut self, command: &str, arguments: &str) -> String {
         self.say(command, arguments);
         self.hear(r#""type":"response""#)
     }
 }
 
-/// A server with its token, for a while.
+/// A server for the length of a test.
 struct Server(Child);
 
 impl Drop for Server {
@@ -276,7 +277,7 @@ fn connected(port: u16) -> Client<TcpStream, TcpStream> {
     Client::new(stream.try_clone().unwrap(), stream)
 }
 
-/// A whole session: to a breakpoint, a look around, a step, back, to the end.
+/// A whole session: to a breakpoint, variables, a step, a step back, the end.
 fn session<R: Read, W: Write>(client: &mut Client<R, W>, token: &str) {
     client.ask("initialize", r#"{"adapterID":"afp"}"#);
     let launch = format!(r#"{{"program":"wall_following.afp","until":30,"token":"{token}"}}"#);
@@ -302,7 +303,7 @@ fn session<R: Read, W: Write>(client: &mut Client<R, W>, token: &str) {
 }
 
 #[test]
-fn a_session_is_the_same_bytes_over_standard_output_and_over_a_socket() {
+fn a_session_has_the_same_bytes_over_standard_output_and_a_socket() {
     let place = Place::with_plan();
     let mut command = place.command();
     command.arg("dap").stdin(Stdio::piped()).stdout(Stdio::piped());
@@ -319,7 +320,7 @@ fn a_session_is_the_same_bytes_over_standard_output_and_over_a_socket() {
 }
 
 #[test]
-fn several_clients_watch_one_run_and_anybody_may_end_it() {
+fn several_clients_watch_one_run_and_each_can_end_it() {
     let place = Place::with_plan();
     let (_server, port, token) = Server::new(&place);
     let mut one = connected(port);
@@ -351,13 +352,13 @@ fn several_clients_watch_one_run_and_anybody_may_end_it() {
         client.hear("WallFollowing was interrupted after 0.000 s");
         client.hear(r#""event":"terminated""#);
     }
-    // A client that is gone takes nobody with it.
+    // The other clients stay connected.
     drop(other);
     assert!(one.ask("launch", &launch).contains(r#""success":true"#));
 }
 
 #[test]
-fn a_client_that_says_a_lot_does_not_hold_the_run() {
+fn a_busy_client_does_not_stop_the_run() {
     let place = Place::with_plan();
     let (_server, port, token) = Server::new(&place);
     let mut one = connected(port);
@@ -383,7 +384,7 @@ fn a_client_that_says_a_lot_does_not_hold_the_run() {
 }
 
 #[test]
-fn strangers_take_no_place_and_are_sent_away() {
+fn clients_without_a_token_are_sent_away() {
     let place = Place::with_plan();
     let (_server, port, token) = Server::new(&place);
     let mut strangers: Vec<_> = (0..10).map(|_| connected(port)).collect();
@@ -396,14 +397,14 @@ fn strangers_take_no_place_and_are_sent_away() {
     one.ask("configurationDone", "{}");
     for stranger in &mut strangers {
         let mut rest = Vec::new();
-        // One that is cut off reads no more, however that is told.
+        // A disconnected client reads the end or an error.
         let why = stranger.from.read_to_end(&mut rest).map_err(|why| why.kind());
         assert!(!matches!(why, Err(ErrorKind::WouldBlock | ErrorKind::TimedOut)), "{why:?}");
     }
     assert!(one.ask("threads", "{}").contains(r#""success":true"#));
 }
 
-/// What `afp/ended` says.
+/// The content of `afp/ended`.
 fn ended<R: Read, W: Write>(client: &mut Client<R, W>) -> serde_json::Value {
     let message = client.hear(r#""event":"afp/ended""#);
     let message: serde_json::Value = serde_json::from_str(message.trim()).unwrap();
@@ -411,7 +412,7 @@ fn ended<R: Read, W: Write>(client: &mut Client<R, W>) -> serde_json::Value {
 }
 
 #[test]
-fn a_run_that_was_debugged_is_had_once_more_by_its_command() {
+fn a_debugged_run_can_be_repeated_by_its_command() {
     let place = Place::with_plan();
     let (_server, port, token) = Server::new(&place);
     let mut client = connected(port);

@@ -1,4 +1,5 @@
-//! Every output of every command, wherever it may lead: nothing is lost, nothing replaced, and the exit code says it.
+//! Every output of every command, to every kind of file: nothing is lost or replaced, and the exit
+//! code is right.
 
 use std::fs::{self, File, Permissions};
 use std::io::Read;
@@ -27,11 +28,11 @@ const SCENARIO: &str = "use \"p.afp\"\nscenario \"ends\" for P { expect end by O
 
 /// A command that writes a file.
 struct Writer {
-    /// With `OUT` for the file.
+    /// The command, with `OUT` for the file.
     command: &'static str,
     /// A name for the file.
     file: &'static str,
-    /// How the file begins.
+    /// The start of the file.
     begins: &'static [u8],
 }
 
@@ -62,10 +63,10 @@ const WRITERS: &[Writer] = &[
     writer("sweep p.afp --seeds 0..1 --until 1s -o OUT", "table.csv", b"run,"),
 ];
 
-/// What is in a file before: what every writer may write over.
+/// The old content, which every writer may replace.
 const OLD: &str = "// Made by 'afpc test --generate'.\n";
 
-/// Every command that prints, with what there is to print.
+/// Every command that prints results.
 const PRINTERS: &[&str] = &[
     "check p.afp",
     "check p.afp --timing",
@@ -100,7 +101,7 @@ impl Writer {
         said(self.command(place, self.file).output().unwrap())
     }
 
-    /// Its name in a failure.
+    /// The command's name in a failure.
     fn name(&self) -> String {
         self.command.replace("OUT", self.file)
     }
@@ -175,7 +176,7 @@ fn a_device_takes_the_bytes_and_stays_one() {
 }
 
 #[test]
-fn a_full_device_is_told() {
+fn a_full_device_is_reported() {
     for writer in WRITERS {
         let place = place();
         symlink("/dev/full", place.path(writer.file)).unwrap();
@@ -186,7 +187,7 @@ fn a_full_device_is_told() {
 }
 
 #[test]
-fn a_pipe_takes_all_of_it() {
+fn a_pipe_gets_the_whole_output() {
     for writer in WRITERS {
         let place = place();
         let pipe = place.path(writer.file);
@@ -223,7 +224,7 @@ fn a_link_stays_one_and_its_file_gets_the_new_text() {
 }
 
 #[test]
-fn what_is_read_only_stays_as_it_is() {
+fn a_read_only_file_is_not_changed() {
     for writer in WRITERS {
         let place = place();
         place.write(writer.file, OLD);
@@ -242,7 +243,7 @@ fn a_file_in_a_folder_that_takes_no_new_ones_is_written() {
     for writer in WRITERS {
         let place = place();
         place.write(writer.file, OLD);
-        // What a sweep has come to is kept beside its table.
+        // The results of a sweep are kept next to its table.
         let journal = format!("{}.journal", writer.file);
         if writer.command.starts_with("sweep") {
             place.write(&journal, "");
@@ -258,12 +259,12 @@ fn a_file_in_a_folder_that_takes_no_new_ones_is_written() {
 }
 
 #[test]
-fn a_disk_that_takes_no_more_leaves_the_old_file() {
+fn a_full_disk_keeps_the_old_file() {
     for writer in WRITERS {
         let place = place();
         place.write(writer.file, OLD);
         let afpc = writer.command(&place, writer.file);
-        // No file may grow; without the signal, writing fails as on a full disk.
+        // The file size is limited; without the signal, writing fails like on a full disk.
         let mut shell = Command::new("sh");
         shell.args(["-c", "trap '' XFSZ; ulimit -f 0; exec \"$@\"", "sh"]);
         shell.arg(afpc.get_program()).args(afpc.get_args()).current_dir(place.path(""));
@@ -274,7 +275,7 @@ fn a_disk_that_takes_no_more_leaves_the_old_file() {
 }
 
 #[test]
-fn two_at_once_each_leave_a_whole_file() {
+fn two_writers_at_once_leave_a_whole_file() {
     for writer in WRITERS {
         let place = place();
         let both = [(), ()].map(|()| {
@@ -284,11 +285,11 @@ fn two_at_once_each_leave_a_whole_file() {
         let both = both.map(|one| said(one.wait_with_output().unwrap()));
         for one in &both {
             match one.code {
-                // A sweep goes on where another one was, so there is one at a time.
+                // A second sweep would continue the first one, so there is one sweep at a time.
                 2 if writer.command.starts_with("sweep") => {
                     one.fails(2, &["another sweep is writing"])
                 }
-                // A log is written for as long as the run takes.
+                // A log is written during the run.
                 1 if writer.file.ends_with(".mcap") => {
                     one.fails(1, &["another program is writing it", "another name"])
                 }
@@ -302,7 +303,7 @@ fn two_at_once_each_leave_a_whole_file() {
 }
 
 #[test]
-fn what_cannot_be_printed_is_told() {
+fn an_unwritable_standard_output_is_reported() {
     let place = place();
     for command in PRINTERS {
         let full = File::options().write(true).open("/dev/full").unwrap();
@@ -316,7 +317,7 @@ fn what_cannot_be_printed_is_told() {
 }
 
 #[test]
-fn a_reader_that_has_seen_enough_is_no_error() {
+fn a_closed_pipe_is_not_an_error() {
     let place = place();
     for command in PRINTERS {
         let mut child = place.command();
@@ -330,7 +331,7 @@ fn a_reader_that_has_seen_enough_is_no_error() {
 }
 
 #[test]
-fn a_generated_crate_goes_through_a_link_and_stays_out_of_what_is_not_its_own() {
+fn a_generated_crate_goes_through_a_link_and_replaces_no_other_files() {
     let place = place();
     let build = |out: &str| {
         let mut command = place.command();
@@ -342,7 +343,7 @@ fn a_generated_crate_goes_through_a_link_and_stays_out_of_what_is_not_its_own() 
     said(build("near").output().unwrap()).fails(1, &["there is no cargo"]);
     assert!(fs::symlink_metadata(place.path("near")).unwrap().is_symlink());
     assert!(place.exists("far/src/main.rs"));
-    // A file, a device and a folder without rights are not a place for a crate.
+    // A file, a device and a read-only folder are not valid folders for a crate.
     for (name, why) in [("p.mcap", "Not a directory"), ("/dev/null", "Not a directory")] {
         said(build(name).output().unwrap()).fails(1, &[why]);
     }

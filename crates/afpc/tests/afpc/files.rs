@@ -65,12 +65,12 @@ fn a_generated_crate_carries_all_files_and_names_them() {
     let head =
         "// Made by 'afpc build' from patrol.afp.\n\n//! The plan `Avoid` of `lib/avoid.afp`";
     assert!(sub_plan.starts_with(head), "{sub_plan}");
-    // What the crate carries is a plan by itself.
+    // The crate's copy is a valid plan.
     place.afpc(&format!("check {folder}/patrol.afp")).succeeds();
 }
 
 #[test]
-fn errors_stand_at_their_file_and_are_told_once() {
+fn errors_of_a_shared_file_are_reported_once_at_that_file() {
     let place = place();
     place.write("plans/lib/avoid.afp", &AVOID.replace("1 s", "1"));
     place.write("plans/other.afp", &MAIN.replace("20 cm", "20"));
@@ -84,7 +84,7 @@ fn errors_stand_at_their_file_and_are_told_once() {
 }
 
 #[test]
-fn a_file_that_is_not_there_is_an_error_at_its_path() {
+fn a_missing_file_is_an_error_at_its_path() {
     let place = place();
     place.write("plans/lib/avoid.afp", &AVOID.replace("carbot\n", "carbot\nuse \"../wall.afp\"\n"));
     let said = place.afpc("run plans/patrol.afp");
@@ -113,7 +113,7 @@ fn a_drawing_and_the_formatter_work_with_several_files() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_and_what_it_leads_to_are_one_file() {
+fn a_link_and_its_target_are_one_file() {
     use std::os::unix::fs::symlink;
     let place = Place::new();
     let rest = "plan Rest { start w actor w: Wait { Elapsed -> terminate } }";

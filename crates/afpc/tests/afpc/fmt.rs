@@ -1,4 +1,4 @@
-//! `afpc fmt`: files in place, standard input, `--check`, and what the exit codes say.
+//! `afpc fmt`: files in place, standard input, `--check`, and the exit codes.
 
 use std::fs;
 use std::io::Write;
@@ -28,7 +28,7 @@ fn text(bytes: &[u8]) -> &str {
 }
 
 #[test]
-fn files_are_formatted_in_place_and_broken_ones_left_alone() {
+fn files_are_formatted_in_place_and_invalid_files_are_not_changed() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     fs::write(path("ugly.afp"), UGLY).unwrap();
@@ -62,7 +62,7 @@ fn check_shows_the_difference_and_changes_nothing() {
 }
 
 #[test]
-fn line_ends_and_marks_stay() {
+fn line_ends_and_byte_order_marks_stay() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.afp");
     let [ugly, pretty] = [UGLY, PRETTY].map(|text| text.replace('\n', "\r\n"));

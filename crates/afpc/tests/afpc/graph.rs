@@ -3,7 +3,7 @@
 use crate::common::Place;
 
 #[test]
-fn a_plan_with_errors_is_drawn_and_the_errors_are_said() {
+fn a_plan_with_errors_is_drawn_and_its_errors_are_printed() {
     let place = Place::new();
     place.write("p.afp", "use carbot\nplan P {\n    start go\n    actor go: Forwrd {\n    }\n}\n");
     let said = place.afpc("graph p.afp -o p.svg");
@@ -16,7 +16,7 @@ fn a_plan_with_errors_is_drawn_and_the_errors_are_said() {
 }
 
 #[test]
-fn where_there_is_no_plan_nothing_is_drawn() {
+fn a_file_without_a_plan_is_not_drawn() {
     let place = Place::with_plan();
     place.write("tools.afp", "toolbox tools\n");
     for ending in [
@@ -39,7 +39,7 @@ fn where_there_is_no_plan_nothing_is_drawn() {
 }
 
 #[test]
-fn icons_stand_beside_the_toolbox_of_a_project() {
+fn icons_are_next_to_the_toolbox_of_a_project() {
     let place = Place::new();
     place.write("afp.toml", "[toolboxes]\nmine = { path = \"tools/mine.afp\" }\n");
     let toolbox = "toolbox mine\n\nactor Dance {\n    icon \"dance\"\n    state Danced\n}\n";
@@ -58,7 +58,7 @@ fn icons_stand_beside_the_toolbox_of_a_project() {
 #[cfg(feature = "png")]
 fn a_picture_of_too_many_pixels_is_refused_before_it_is_laid_out() {
     let place = Place::new();
-    // Known from the boxes alone; what is laid out is said with its width and height.
+    // The number of boxes is enough for the error. After the layout, it names width and height.
     let actor = |nth: usize| format!("    actor a{nth}: Wait {{ Elapsed -> a{} }}\n", nth + 1);
     let actors: String = (0..4000).map(actor).collect();
     let last = "    actor a4000: Wait { Elapsed -> terminate }\n";

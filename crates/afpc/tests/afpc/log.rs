@@ -11,7 +11,7 @@ fn place() -> Place {
 }
 
 #[test]
-fn a_log_tells_what_the_run_told() {
+fn a_log_has_the_timeline_of_the_run() {
     let place = place();
     let run = place.afpc("run wall_following.afp --until 20s --log none --svg none");
     let said = place.afpc("log a.mcap --svg log.svg");
@@ -57,7 +57,7 @@ fn missed_deadlines_are_counted_alike_in_the_summary_and_the_table() {
 }
 
 #[test]
-fn what_a_plan_writes_to_its_log_is_in_the_timeline() {
+fn log_messages_of_a_plan_are_in_the_timeline() {
     let place = Place::new();
     let text = r#"use std
 plan P {
@@ -85,7 +85,7 @@ enum Side { right, left }
 }
 
 #[test]
-fn what_failed_to_start_is_in_the_tables() {
+fn components_that_failed_to_start_are_in_the_tables() {
     let place = Place::new();
     place.write(
         "p.afp",
@@ -115,7 +115,7 @@ plan P {
 }
 
 #[test]
-fn the_plan_of_a_log_is_drawn_with_what_was_used() {
+fn the_plan_of_a_log_is_drawn_with_its_usage() {
     let place = place();
     place.afpc("log a.mcap --coverage cover.svg --svg path.png").succeeds();
     let drawing = place.read("cover.svg");
@@ -125,7 +125,7 @@ fn the_plan_of_a_log_is_drawn_with_what_was_used() {
 }
 
 #[test]
-fn pictures_show_where_what_was_pushed_began_and_ended() {
+fn pictures_show_the_first_and_the_last_position_of_pushed_objects() {
     let place = Place::new();
     let push = "actor go: Forward(distance = 2 m) { ForwardSuccessful -> terminate }";
     place.write("push.afp", &format!("use carbot\nplan Push {{ start go {push} }}\n"));
@@ -161,7 +161,7 @@ fn echoes_and_camera_pictures_are_drawn() {
     assert!(map.matches("class=\"echo true\"").count() > 10, "{map}");
     assert!(map.contains("echo, from where the robot was") && map.contains("drift"), "{map}");
     let film = place.read("film.svg");
-    // Two a second.
+    // Two pictures a second.
     assert_eq!(film.matches("data:image/png;base64,iVBORw0KGgo").count(), 2);
     assert!(film.contains("searchFirstWall") && film.contains("2 pictures of the camera"));
     place.afpc("log a.mcap --film film.png").succeeds();
@@ -170,7 +170,7 @@ fn echoes_and_camera_pictures_are_drawn() {
 }
 
 #[test]
-fn a_log_without_camera_pictures_says_what_to_do() {
+fn a_log_without_camera_pictures_explains_the_camera_option() {
     let place = place();
     place.afpc("log a.mcap --film film.svg").fails(
         2,
@@ -187,7 +187,7 @@ fn a_log_without_camera_pictures_says_what_to_do() {
 }
 
 #[test]
-fn facts_are_enough_to_run_again() {
+fn facts_are_enough_to_repeat_a_run() {
     let place = place();
     let said = place.afpc("log a.mcap info");
     said.succeeds();
@@ -227,7 +227,7 @@ fn a_log_that_was_cut_short_is_saved() {
 }
 
 #[test]
-fn what_is_no_log_is_refused() {
+fn a_file_that_is_not_a_log_is_refused() {
     let place = Place::with_plan();
     place.afpc("log wall_following.afp").fails(
         1,
@@ -240,7 +240,7 @@ fn what_is_no_log_is_refused() {
 }
 
 #[test]
-fn what_is_the_log_of_something_else_is_told() {
+fn a_log_of_another_program_is_reported() {
     let place = Place::with_plan();
     let magic = b"\x89MCAP0\r\n";
     let record =
@@ -265,7 +265,7 @@ fn what_is_the_log_of_something_else_is_told() {
 }
 
 #[test]
-fn words_that_do_nothing_or_stand_elsewhere_are_told() {
+fn useless_or_misplaced_arguments_are_reported() {
     let place = Place::with_plan();
     place.afpc("run wall_following.afp --until 100ms --log a.mcap --svg none").succeeds();
     for action in ["", "info", "doctor"] {

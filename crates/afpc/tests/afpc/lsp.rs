@@ -1,4 +1,4 @@
-//! `afpc lsp` over standard input and output: spoken to by hand, and by Neovim with its own client.
+//! `afpc lsp` over standard input and output: by hand, and by Neovim with its own client.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
@@ -48,7 +48,7 @@ impl Spoken {
 }
 
 #[test]
-fn a_client_says_hello_opens_a_plan_and_says_goodbye() {
+fn a_client_initializes_opens_a_plan_and_exits() {
     let place = Place::new();
     let mut server = Spoken::new(&place);
     server.say(r#"{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}"#);
@@ -62,7 +62,7 @@ fn a_client_says_hello_opens_a_plan_and_says_goodbye() {
     ));
     let wrong = server.hear();
     assert!(wrong.contains("publishDiagnostics") && wrong.contains("E0203"), "{wrong}");
-    // A definition in a built-in toolbox leads to a file that is there.
+    // A definition in a built-in toolbox leads to an existing file.
     server.say(&format!(
         r#"{{"jsonrpc":"2.0","id":2,"method":"textDocument/definition","params":{{"textDocument":{{"uri":"{uri}"}},"position":{{"line":4,"character":16}}}}}}"#
     ));
@@ -76,14 +76,14 @@ fn a_client_says_hello_opens_a_plan_and_says_goodbye() {
 }
 
 #[test]
-fn a_client_that_is_gone_ends_the_server() {
+fn the_server_ends_when_its_client_is_gone() {
     let place = Place::new();
     let mut server = Spoken::new(&place);
     drop(server.child.stdin.take());
     assert_eq!(server.child.wait().unwrap().code(), Some(0));
 }
 
-/// A folder whose toolbox has a crate: building it would leave a file behind.
+/// A folder whose toolbox has a crate: a build would leave a file.
 fn untrusted() -> Place {
     let place = Place::new();
     place.write("afp.toml", "[toolboxes]\ngripper = { path = \"gripper/gripper.afp\" }\n");
@@ -103,7 +103,7 @@ fn untrusted() -> Place {
 }
 
 #[test]
-fn opening_checking_drawing_and_hovering_run_nothing_of_a_folder() {
+fn opening_checking_drawing_and_hovering_run_no_code_of_a_folder() {
     let place = untrusted();
     place.afpc("check p.afp").succeeds();
     place.afpc("graph p.afp").succeeds();
@@ -130,15 +130,15 @@ fn opening_checking_drawing_and_hovering_run_nothing_of_a_folder() {
         assert!(said.contains("Grip"), "{method}: {said}");
     }
     assert!(!place.exists("marker"));
-    // Building it would have left it.
+    // A build would leave the file.
     let mut build = Command::new(env!("CARGO"));
     let done = build.args(["check", "--offline", "--quiet"]).current_dir(place.path("gripper"));
     assert!(done.status().unwrap().success());
     assert!(place.exists("marker"));
 }
 
-/// What Neovim does with its own client; it writes what it found, one word for each, and ends whatever happens:
-/// without a person at its keyboard it would wait for one after an error.
+/// The script for Neovim and its own client. It writes one word for each result and always exits:
+/// after an error, Neovim would wait for a key.
 const SCRIPT: &str = r#"
 local out = {}
 local function all()
@@ -176,7 +176,7 @@ vim.fn.writefile(vim.split(table.concat(out, "\n"), "\n"), "found.txt")
 vim.cmd("quitall!")
 "#;
 
-/// What the page on editors says to write into the configuration of Neovim, the first or second block.
+/// The configuration of Neovim on the page about editors, first or second block.
 fn lua(nth: usize) -> String {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
     let blocks = afp_book::blocks(&docs).unwrap().into_iter();
@@ -185,7 +185,7 @@ fn lua(nth: usize) -> String {
 }
 
 #[test]
-fn neovim_mends_and_renames_with_its_own_client() {
+fn neovim_fixes_and_renames_with_its_own_client() {
     let Ok(version) = Command::new("nvim").arg("--version").output() else {
         eprintln!(
             "skipped: there is no 'nvim' on this machine; 'apt-get install neovim' brings it"

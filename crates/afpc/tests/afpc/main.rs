@@ -1,4 +1,4 @@
-//! The command line as people call it: the real binary, in folders of their own.
+//! The command line: the real binary, in temporary folders.
 
 mod again;
 mod book;

@@ -1,4 +1,4 @@
-//! `afpc new`: what it makes works at once; `afpc templates`: what there is.
+//! `afpc new`: new projects work without changes. `afpc templates`: the list.
 
 use std::process::Command;
 
@@ -10,7 +10,7 @@ fn a_plan_can_be_run_and_tested_at_once() {
     let made = place.afpc("new patrol");
     made.succeeds();
     assert!(made.out.contains("patrol/plans/patrol.afp\n"), "{}", made.out);
-    // The commands that it names.
+    // The printed next commands.
     let next = made.out.split_once("Next:\n").map_or("", |(_, next)| next);
     assert_eq!(next, "  cd patrol\n  afpc run plans/patrol.afp\n  afpc test\n");
     let inside = |arguments: &str| in_folder(&place, "patrol", arguments);
@@ -31,7 +31,7 @@ fn in_folder(place: &Place, folder: &str, arguments: &str) -> Said {
 }
 
 #[test]
-fn projects_with_rust_are_sound_and_say_what_a_run_needs() {
+fn projects_with_rust_are_valid_and_name_the_needs_of_a_run() {
     let place = Place::new();
     for (name, option, needs) in [
         ("greeter", "--toolbox", "the toolbox 'greeter'"),
@@ -74,7 +74,7 @@ fn projects_with_rust_run_and_pass_their_tests_unchanged() {
 }
 
 #[test]
-fn what_is_there_is_not_written_over_and_names_are_looked_at() {
+fn existing_files_are_kept_and_names_are_checked() {
     let place = Place::new();
     place.afpc("new patrol").succeeds();
     place.afpc("new patrol").fails(2, &["'patrol' is there already"]);
@@ -86,10 +86,10 @@ fn what_is_there_is_not_written_over_and_names_are_looked_at() {
 
 #[cfg(unix)]
 #[test]
-fn what_cannot_be_made_whole_leaves_nothing() {
+fn an_incomplete_project_leaves_no_files() {
     let place = Place::new();
     let mut shell = Command::new("sh");
-    // No file may grow; without the signal, writing fails as on a full disk.
+    // The file size is limited; without the signal, writing fails like on a full disk.
     shell.args(["-c", "trap '' XFSZ; ulimit -f 0; exec \"$AFPC\" new patrol"]);
     let full = shell.env("AFPC", env!("CARGO_BIN_EXE_afpc")).current_dir(place.path(""));
     said(full.output().unwrap()).fails(1, &["cannot write 'patrol/", "File too large"]);
@@ -100,7 +100,7 @@ fn what_cannot_be_made_whole_leaves_nothing() {
 }
 
 #[test]
-fn a_plan_without_a_command_is_told_of_run() {
+fn a_plan_without_a_command_is_explained() {
     let place = Place::with_plan();
     for name in ["wall_following.afp", "./wall_following.afp", "wall_following.afp:WallFollowing"] {
         let said = place.afpc(name);

@@ -1,4 +1,4 @@
-//! What names of outputs say, and files that are written again.
+//! Names of output files, and files that are written again.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
@@ -32,7 +32,7 @@ fn a_formatted_file_keeps_its_names_and_permissions() {
 }
 
 #[test]
-fn a_picture_is_what_its_name_says() {
+fn the_extension_selects_the_format_of_a_picture() {
     let place = place();
     for writer in ["run p.afp --log none --svg", "log p.mcap --svg", "graph p.afp -o"] {
         place.afpc(&format!("{writer} a.svg")).succeeds();
@@ -47,7 +47,7 @@ fn a_picture_is_what_its_name_says() {
 }
 
 #[test]
-fn nothing_to_do_takes_no_time() {
+fn an_empty_task_takes_no_time() {
     let place = Place::new();
     place.write("tests.afp", "use \"p.afp\"\nscenario \"s\" for P { until 1 s }\n");
     let said = place.afpc("test tests.afp");
@@ -56,7 +56,7 @@ fn nothing_to_do_takes_no_time() {
 }
 
 #[test]
-fn no_output_takes_the_place_of_what_is_read_or_of_another_output() {
+fn no_output_replaces_an_input_or_another_output() {
     let place = place();
     place.write("part.afp", &place.read("p.afp"));
     let uses = "use \"part.afp\"\nplan Uses { start all subplan all: P { OK -> terminate } }\n";
@@ -81,7 +81,7 @@ fn no_output_takes_the_place_of_what_is_read_or_of_another_output() {
 }
 
 #[test]
-fn a_repeated_log_stays_where_logs_go() {
+fn a_repeated_log_is_kept_in_the_folder_of_logs() {
     let place = place();
     place.afpc("run p.afp --svg none").succeeds();
     let (log, again) = ("target/afp/runs/p.mcap", "target/afp/runs/p.again.mcap");

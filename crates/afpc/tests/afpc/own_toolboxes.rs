@@ -1,5 +1,5 @@
-//! Toolboxes of one's own, with crates outside of this workspace: checked, built, compiled in, run
-//! through a runner; and errors of their Rust at the lines of the toolbox and the plan.
+//! Toolboxes of projects, with crates outside of this workspace: checked, built, compiled in, run
+//! through a runner; and errors in their Rust code at the lines of the toolbox and the plan.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -24,7 +24,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// A manifest of a crate that is in no workspace.
+/// A manifest of a crate outside of any workspace.
 fn manifest(name: &str, ours: &[&str], others: &str) -> String {
     let line = |name: &&str| {
         let path = root().join("crates").join(name);
@@ -52,7 +52,7 @@ fn project() -> Place {
 }
 
 #[test]
-fn what_is_not_there_is_told_before_anything_is_built() {
+fn unknown_names_are_reported_before_a_build() {
     let place = project();
     place.write("plans/tests/dance.afp", SCENARIO);
     for (arguments, why) in [
@@ -65,7 +65,7 @@ fn what_is_not_there_is_told_before_anything_is_built() {
         ("test nothing", "no scenario has 'nothing' in its name"),
     ] {
         let mut command = place.command();
-        // Whoever builds needs it.
+        // A build needs it.
         command.args(arguments.split(' ')).env("CARGO", "/no/such/cargo");
         said(command.output().unwrap()).fails(2, &[why]);
     }
@@ -87,7 +87,7 @@ fn a_plan_is_checked_against_the_toolbox_of_the_project() {
 }
 
 #[test]
-fn a_wrong_toolbox_is_shown_where_it_stands() {
+fn errors_of_a_toolbox_are_at_their_place() {
     let place = project();
     place.write("gestures/gestures.afp", &TOOLBOX.replace("duration      =", "distance ="));
     place.afpc("check plans/dance.afp").fails(1, &["error[E0232]", "gestures/gestures.afp:8:16"]);
@@ -114,7 +114,7 @@ fn a_toolbox_without_a_crate_can_be_checked_but_not_run() {
 }
 
 #[test]
-fn without_cargo_a_run_says_how_to_get_it() {
+fn without_cargo_a_run_explains_how_to_install_it() {
     let place = project();
     let mut command = place.command();
     command.args(["run", "plans/dance.afp"]).env("PATH", "").env("CARGO", "no-such-cargo");
@@ -124,7 +124,7 @@ fn without_cargo_a_run_says_how_to_get_it() {
     assert!(said.out.is_empty());
 }
 
-/// A second toolbox beside the first, with a crate of its own.
+/// A second toolbox, with its own crate.
 fn with_waves(place: &Place) {
     let named = |text: &str| text.replace("gestures", "waves").replace("Dance", "Wave");
     place.write("waves/waves.afp", &named(TOOLBOX));
@@ -178,7 +178,7 @@ fn two_toolboxes_of_one_name_do_not_go_into_one_runner() {
     said.fails(2, &["are two toolboxes called 'gestures'", "run what uses them apart"]);
 }
 
-/// A call in the project, built in the folder that all slow tests share, without long optimisation.
+/// A call in the project, with the build folder of all slow tests and little optimisation.
 fn build_with(mut command: Command, arguments: &str) -> Said {
     command.args(arguments.split_whitespace());
     said(crate::common::quickly_built(&mut command).output().unwrap())
@@ -190,7 +190,7 @@ fn afpc(place: &Place, arguments: &str) -> Said {
 
 #[test]
 #[ignore = "builds the simulator and the command line; `cargo xtask nightly` runs it"]
-fn own_toolboxes_run_everywhere_and_their_errors_are_shown_at_home() {
+fn project_toolboxes_run_everywhere_and_their_errors_have_places() {
     let place = project();
     let interpreted = through_a_runner(&place);
     let binary = built(&place, &interpreted);
@@ -206,7 +206,7 @@ fn own_toolboxes_run_everywhere_and_their_errors_are_shown_at_home() {
     assert!(tested.out.contains("3 passed, 0 failed"), "{}", tested.out);
 }
 
-/// The runner is built once, reused, without cargo too, and renewed when its source changes.
+/// The runner is built once and reused, even without cargo. A changed source rebuilds it.
 fn through_a_runner(place: &Place) -> String {
     let run = format!("run plans/dance.afp --json {QUIET}");
     let first = afpc(place, &run);
@@ -230,7 +230,7 @@ fn through_a_runner(place: &Place) -> String {
     let trace = first.last_json()["summary"]["trace"].to_string();
     assert!(swept.out.lines().next().unwrap().contains(&trace), "{}", swept.out);
 
-    // Exit codes and messages are those of the runner.
+    // Exit codes and messages come from the runner.
     afpc(place, &format!("{run} --set spent=1s")).fails(2, &["cannot be set from outside"]);
     let quick = RUST.replace("Speed::from_si(0.0), self.speed", "Speed::from_si(0.1), self.speed");
     place.write("gestures/src/lib.rs", &quick);
@@ -251,7 +251,7 @@ fn built(place: &Place, interpreted: &str) -> PathBuf {
     binary
 }
 
-/// What a program says that takes the options of a run.
+/// The output of a program with the options of a run.
 fn program(place: &Place, binary: &Path) -> String {
     let mut command = Command::new(binary);
     command.arg("--json").args(QUIET.split(' ')).current_dir(place.path(""));
@@ -274,14 +274,14 @@ fn compiled_in(place: &Place, interpreted: &str) {
     assert_eq!(program(place, Path::new(binary)), interpreted);
 }
 
-/// Each way in which the Rust of a toolbox can cease to fit it leads to the line of the toolbox.
+/// Each mismatch between a toolbox and its Rust code is reported at the line of the toolbox.
 fn errors_of_the_toolbox_crate(place: &Place) {
     let ways = [
-        // No implementation at all.
+        // A missing implementation.
         ("pub struct CheckTurned", "pub struct CheckTurnedAround", "supervisor CheckTurned"),
-        // An output of another type.
+        // An output with a different type.
         ("Time::from_si(spent.as_secs_f64())", "spent.as_secs_f64()", "    out spent: duration"),
-        // A state that is not declared.
+        // An undeclared state.
         ("State::Spun {", "State::Dizzy {", "actor Spin {"),
     ];
     for (from, to, line) in ways {
@@ -298,7 +298,7 @@ fn errors_of_the_toolbox_crate(place: &Place) {
     place.write("gestures/src/lib.rs", RUST);
 }
 
-/// A crate that is compiled with another toolbox file than the plan was checked against.
+/// A crate that was compiled with a different toolbox file.
 fn errors_of_the_generated_crate(place: &Place) {
     place.write(
         "newer.afp",

@@ -52,7 +52,7 @@ fn json_is_the_same_every_time() {
     assert_ne!(said.out, other.out);
 }
 
-/// Two elements of a plan that one button has different meanings for.
+/// Two elements of a plan that handle one button in different ways.
 const REACTIONS: &str = "use carbot
 plan Keys {
     start wait
@@ -63,7 +63,7 @@ plan Keys {
 ";
 
 #[test]
-fn an_event_says_which_element_was_active_and_whether_it_answered() {
+fn an_event_names_the_active_element_and_its_answer() {
     let place = Place::new();
     place.write("keys.afp", REACTIONS);
     let run = format!("run keys.afp --press escape@1s --press escape@2s {QUIET}");
@@ -88,7 +88,7 @@ fn an_event_says_which_element_was_active_and_whether_it_answered() {
 }
 
 #[test]
-fn a_run_in_real_time_is_that_at_full_speed() {
+fn a_run_in_real_time_equals_a_run_at_full_speed() {
     let place = Place::with_plan();
     let run = format!("run wall_following.afp --json --until 3500ms --world random:5 {QUIET}");
     let fast = place.afpc(&run);
@@ -120,7 +120,7 @@ fn the_escape_button_ends_the_plan() {
 }
 
 #[test]
-fn what_fails_and_bumps_is_asked_for() {
+fn faults_and_bumps_are_options() {
     let place = Place::with_plan();
     let said =
         place.afpc(&format!("run wall_following.afp --fail odometry.lost@1s --json {QUIET}"));
@@ -159,7 +159,7 @@ fn entries_are_set_with_their_units() {
 }
 
 #[test]
-fn an_entry_without_a_value_is_asked_for() {
+fn an_entry_without_a_value_is_requested() {
     let place = Place::new();
     place.write("a.afp", &WALL_FOLLOWING.replace("length = 30 cm", "length"));
     let said = place.afpc("run a.afp --log a.mcap --svg none");
@@ -169,7 +169,7 @@ fn an_entry_without_a_value_is_asked_for() {
 }
 
 #[test]
-fn help_lists_what_this_program_can_do() {
+fn help_lists_the_words_of_this_program() {
     let help = Place::with_plan().afpc("run --help");
     assert_eq!(help.out.contains("--live"), cfg!(feature = "live"), "{}", help.out);
     for later in ["--rt-report", "--debug"] {
@@ -201,7 +201,7 @@ fn worlds_are_found_in_their_order() {
 }
 
 #[test]
-fn a_world_without_a_name_is_called_by_its_file() {
+fn a_world_without_a_name_has_the_name_of_its_file() {
     let place = Place::with_plan();
     place.write("hall.toml", "version = 1\n[robot]\npose_m_deg = [1.0, 1.0, 0.0]\n");
     let run = "run wall_following.afp --world hall.toml --start 2m,2m,0deg --until 100ms";
@@ -237,7 +237,7 @@ plan Fails {
 }
 
 #[test]
-fn a_fault_says_whose_value_it_is_and_where_it_comes_from() {
+fn a_fault_names_its_value_and_its_source() {
     let place = Place::new();
     let plan = "use carbot use std
 plan Fast {
@@ -269,7 +269,7 @@ plan Fast {
 }
 
 #[test]
-fn the_help_of_a_plan_says_what_it_takes() {
+fn the_help_of_a_plan_lists_its_inputs() {
     let place = Place::new();
     let plan = "use carbot
 plan Fast {
@@ -289,7 +289,7 @@ plan Fast {
 }
 
 #[test]
-fn one_times_real_time_takes_its_time() {
+fn a_run_at_the_speed_of_one_is_in_real_time() {
     let place = Place::with_plan();
     let begun = std::time::Instant::now();
     let paced = "run wall_following.afp --speed 1x --until 700ms --json --log none --svg none";
@@ -301,7 +301,7 @@ fn one_times_real_time_takes_its_time() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_is_no_success_and_a_closed_pipe_no_failure() {
+fn a_full_disk_is_a_failure_and_a_closed_pipe_is_not() {
     use std::fs::OpenOptions;
     use std::process::Stdio;
     let place = Place::with_plan();
@@ -310,7 +310,7 @@ fn a_full_disk_is_no_success_and_a_closed_pipe_no_failure() {
     command.args(run.split(' ')).stdout(OpenOptions::new().write(true).open("/dev/full").unwrap());
     let full = crate::common::said(command.output().unwrap());
     full.fails(1, &["error: cannot write to 'standard output'"]);
-    // Who looks at a run sees what it came to, though not all of it can be written.
+    // A watched run prints its result although the output is incomplete.
     for json in ["", "--json"] {
         let run = format!("run wall_following.afp --until 1s {json} --log none --svg /dev/full");
         let said = place.afpc(&run);

@@ -1,4 +1,4 @@
-//! `afpc sweep`: rows that can be done again, tables, sweeps that are killed and go on.
+//! `afpc sweep`: repeatable rows, tables, and sweeps that are killed and continued.
 
 use std::process::Stdio;
 use std::thread;
@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::common::{Place, Said};
 use serde_json::Value;
 
-/// The columns of a table, without how long each run took.
+/// The columns of a table, without the durations of the runs.
 fn rows(place: &Place, name: &str) -> Vec<String> {
     let text = place.read(name);
     text.lines().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect()
@@ -18,7 +18,7 @@ fn objects(said: &Said) -> Vec<Value> {
 }
 
 #[test]
-fn every_row_can_be_done_again() {
+fn every_row_can_be_repeated() {
     let place = Place::with_plan();
     let grid = "--seeds 3..5 --vary walldist=20cm..40cm:20cm --vary world.robot.charge=0.5,1";
     let sweep = format!("sweep wall_following.afp {grid} --world random:4..6 --until 8s");
@@ -46,7 +46,7 @@ fn every_row_can_be_done_again() {
 }
 
 #[test]
-fn a_plan_that_looks_like_an_option_can_be_run_again() {
+fn a_plan_that_looks_like_an_option_can_run_again() {
     let place = Place::new();
     place.write("-n.afp", crate::common::WALL_FOLLOWING);
     let said = place.afpc("sweep --until 100ms --json -- -n.afp");
@@ -57,7 +57,7 @@ fn a_plan_that_looks_like_an_option_can_be_run_again() {
 }
 
 #[test]
-fn texts_may_stand_in_quotes() {
+fn strings_may_be_quoted() {
     let place = Place::new();
     let text = r#"use std
 plan P {
@@ -72,7 +72,7 @@ plan P {
     assert_eq!(runs.len(), 4, "{}", said.out);
     for (run, text) in ["x,y", "", "z"].into_iter().enumerate() {
         assert_eq!(runs[run]["values"]["mode"]["text"], text);
-        // As a shell takes it.
+        // Parsed like in a shell.
         let command = runs[run]["command"].as_str().unwrap().replace('\'', "");
         let command = command.strip_prefix("afpc ").unwrap();
         let again = place.afpc(&format!("{command} --log none --svg none"));
@@ -82,7 +82,7 @@ plan P {
 }
 
 #[test]
-fn the_same_values_written_otherwise_are_the_same_sweep() {
+fn equal_values_in_a_different_notation_are_the_same_sweep() {
     let place = Place::with_plan();
     let sweep = |values: &str| {
         place
@@ -95,7 +95,7 @@ fn the_same_values_written_otherwise_are_the_same_sweep() {
 }
 
 #[test]
-fn what_never_started_has_no_measures() {
+fn runs_that_never_started_have_no_measures() {
     let place = Place::with_plan();
     let axis = "--vary world.robot.pose_m_deg.0=2.1m,3m --until 1s";
     let said = place.afpc(&format!("sweep wall_following.afp {axis} --json -o a.csv"));
@@ -112,7 +112,7 @@ fn what_never_started_has_no_measures() {
 }
 
 #[test]
-fn a_sweep_presses_and_breaks_as_a_run_does() {
+fn a_sweep_presses_and_breaks_like_a_run() {
     let place = Place::with_plan();
     let asked = "--press touch@2s --fail wheels.slip=0.3@3s..5s";
     let said =
@@ -130,7 +130,7 @@ fn a_sweep_presses_and_breaks_as_a_run_does() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_table_that_cannot_be_written_costs_no_summary() {
+fn an_unwritable_table_does_not_hide_the_summary() {
     let place = Place::with_plan();
     std::os::unix::fs::symlink("/dev/full", place.path("t.csv")).unwrap();
     let sweep = "sweep wall_following.afp --until 100ms -o t.csv";
@@ -144,7 +144,7 @@ fn a_table_that_cannot_be_written_costs_no_summary() {
 }
 
 #[test]
-fn what_is_there_twice_is_refused() {
+fn duplicate_values_are_refused() {
     let place = Place::with_plan();
     place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [1, 1, 0]\n");
     for (twice, what) in [
@@ -157,7 +157,7 @@ fn what_is_there_twice_is_refused() {
     ] {
         place.afpc(&format!("sweep wall_following.afp --until 1s {twice}")).fails(2, &[what]);
     }
-    // Numbers that only whole numbers can tell apart.
+    // Numbers that differ only as integers.
     place.write("count.afp", "use std\nplan Count {\n    in n: int = 1\n    in seed: int = 1\n    start a\n    actor a: Wait(duration = 1 ms) { Elapsed -> terminate }\n}\n");
     let large = "--vary n=9007199254740992,9007199254740993 --vary seed=5";
     place.afpc(&format!("sweep count.afp {large} --output all.csv")).succeeds();
@@ -169,7 +169,7 @@ fn what_is_there_twice_is_refused() {
 #[test]
 fn values_of_the_world_count_together() {
     let place = Place::with_plan();
-    // The second alone puts the robot into the sofa.
+    // Only the second value puts the robot into the sofa.
     let vary = "--vary world.robot.pose_m_deg.1=4.5m --vary world.robot.pose_m_deg.0=5m";
     place.afpc(&format!("sweep wall_following.afp {vary} --until 1s")).succeeds();
     let alone = "--vary world.robot.pose_m_deg.1=4.5m";
@@ -178,7 +178,7 @@ fn values_of_the_world_count_together() {
 }
 
 #[test]
-fn a_sweep_that_is_killed_goes_on() {
+fn a_killed_sweep_continues() {
     let place = Place::with_plan();
     let sweep = "sweep wall_following.afp --seeds 0..40 --vary walldist=20cm,30cm --until 10s -o";
     place.afpc(&format!("{sweep} whole.csv")).succeeds();
@@ -198,7 +198,7 @@ fn a_sweep_that_is_killed_goes_on() {
         child.wait().unwrap();
     }
     assert!(kills > 0, "the machine is too fast for this test");
-    // As if the last line had not reached the file.
+    // The last line did not reach the file.
     let text = place.read(journal);
     place.write(journal, &text[..text.len() - 5]);
     let said = place.afpc(&format!("{sweep} killed.csv"));
@@ -213,7 +213,7 @@ fn a_sweep_that_is_killed_goes_on() {
 
 #[test]
 #[cfg(unix)]
-fn a_sweep_that_is_stopped_keeps_what_is_done() {
+fn a_stopped_sweep_keeps_its_results() {
     let place = Place::with_plan();
     let sweep = "sweep wall_following.afp --seeds 0..60 --until 10s --jobs 1 -o stopped.csv";
     let mut command = place.command();
@@ -236,7 +236,7 @@ fn a_sweep_that_is_stopped_keeps_what_is_done() {
 }
 
 #[test]
-fn a_journal_of_another_sweep_is_left_alone() {
+fn a_journal_of_another_sweep_is_not_changed() {
     let place = Place::with_plan();
     let sweep = "sweep wall_following.afp --until 1s -o a.csv";
     place.afpc(&format!("{sweep} --seeds 0..2")).succeeds();
@@ -250,7 +250,7 @@ fn a_journal_of_another_sweep_is_left_alone() {
 }
 
 #[test]
-fn failures_are_told_with_a_command_each() {
+fn each_failure_has_a_command() {
     let place = Place::with_plan();
     let said = place.afpc(
         "sweep wall_following.afp --until 1s --vary world.robot.pose_m_deg.0=2.1m,2.9m,3m -o a.csv",
@@ -268,7 +268,7 @@ fn failures_are_told_with_a_command_each() {
 }
 
 #[test]
-fn what_cannot_be_varied_is_said_before_anything_runs() {
+fn unknown_names_to_vary_are_reported_before_the_runs() {
     let place = Place::with_plan();
     for (arguments, texts) in [
         ("--vary nope=1", ["no entry 'nope'", "'walldist' (length)"]),

@@ -1,5 +1,4 @@
-//! A run in a terminal: it reads Escape, and however it ends or is suspended, the terminal is as
-//! it was.
+//! A run in a terminal: it reads Escape, and it restores the terminal when it ends or is suspended.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -13,7 +12,7 @@ use crate::common::Place;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{LocalModes, tcgetattr};
 
-/// A plan that says something every millisecond.
+/// A plan that logs every millisecond.
 const PLAN: &str = "use std\nplan P {\n  start w\n  actor w: Wait(duration=1ms) {Elapsed->w}\n}\n";
 const RUN: &str = "run p.afp --log none --svg none --until 1h --speed";
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -35,7 +34,7 @@ impl Terminal {
         Terminal { keyboard: keyboard.into(), screen: screen.unwrap() }
     }
 
-    /// Starts a command in a session of its own whose terminal this is. Its output is a pipe.
+    /// Starts a command in a new session on this terminal. Its output is a pipe.
     fn start(&self, place: &Place, command: &[&str]) -> Child {
         Command::new("setsid")
             .args(["--ctty", "--wait"])
@@ -53,7 +52,7 @@ impl Terminal {
         self.keyboard.write_all(keys.as_bytes()).unwrap();
     }
 
-    /// Whether what is typed is shown and edited: false while a run reads keys.
+    /// Whether the terminal echoes and edits input: false while a run reads keys.
     fn is_free(&self) -> bool {
         let modes = tcgetattr(&self.screen).unwrap().local_modes;
         modes.contains(LocalModes::ECHO | LocalModes::ICANON)
@@ -65,7 +64,7 @@ impl Terminal {
     }
 }
 
-/// Waits for something that is to happen.
+/// Waits for an event.
 #[track_caller]
 fn until<T>(mut happens: impl FnMut() -> Option<T>) -> T {
     let begun = Instant::now();
@@ -90,7 +89,7 @@ fn place() -> Place {
 }
 
 #[test]
-fn ctrl_c_gives_the_terminal_back() {
+fn ctrl_c_restores_the_terminal() {
     let (place, mut terminal) = (place(), Terminal::open());
     let run = format!("exec $AFPC {RUN} 1x > out");
     let mut child = terminal.start(&place, &["sh", "-c", &run]);
@@ -101,9 +100,9 @@ fn ctrl_c_gives_the_terminal_back() {
 }
 
 #[test]
-fn a_second_ctrl_c_ends_a_run_that_hangs_and_gives_the_terminal_back() {
+fn a_second_ctrl_c_ends_a_hanging_run_and_restores_the_terminal() {
     let (place, mut terminal) = (place(), Terminal::open());
-    // Nobody reads the pipe that it writes into, so that the first one is never noticed.
+    // The run blocks on its full pipe and never notices the first Ctrl-C.
     let run = format!("exec $AFPC {RUN} 100x");
     let mut child = terminal.start(&place, &["sh", "-c", &run]);
     terminal.becomes(false);
@@ -119,9 +118,9 @@ fn a_second_ctrl_c_ends_a_run_that_hangs_and_gives_the_terminal_back() {
 }
 
 #[test]
-fn a_suspended_run_lends_the_terminal_until_it_goes_on() {
+fn a_suspended_run_lends_the_terminal_until_it_continues() {
     let (place, mut terminal) = (place(), Terminal::open());
-    // A shell with job control, which waits for a line between.
+    // A shell with job control that waits for a line in between.
     let script = format!("set -m; $AFPC {RUN} 1x > out; read line; fg; exit");
     let mut child = terminal.start(&place, &["sh", "-c", &script]);
     terminal.becomes(false);
@@ -138,7 +137,7 @@ fn a_suspended_run_lends_the_terminal_until_it_goes_on() {
 }
 
 #[test]
-fn a_run_that_others_suspend_lends_the_terminal_and_goes_on() {
+fn a_run_suspended_by_another_process_lends_the_terminal_and_continues() {
     let (place, mut terminal) = (place(), Terminal::open());
     let run = format!("echo $$ > pid; exec $AFPC {RUN} 1x > out");
     let script = format!("set -m; sh -c '{run}'; read line; fg; exit");
@@ -163,7 +162,7 @@ fn a_run_that_others_suspend_lends_the_terminal_and_goes_on() {
 }
 
 #[test]
-fn a_run_in_the_background_leaves_the_terminal_alone() {
+fn a_background_run_does_not_change_the_terminal() {
     let (place, mut terminal) = (place(), Terminal::open());
     let script = format!("set -m; $AFPC {RUN} 1x > out & read line; fg; exit");
     let mut child = terminal.start(&place, &["sh", "-c", &script]);

@@ -1,4 +1,4 @@
-//! `afpc test`: finds scenarios, runs them, says what broke.
+//! `afpc test`: finds scenarios, runs them, reports failures.
 
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
@@ -51,7 +51,7 @@ fn scenarios_are_found_run_and_judged() {
 }
 
 #[test]
-fn words_and_files_choose() {
+fn words_and_files_select_scenarios() {
     let place = place();
     let said = place.afpc("test bump --json --coverage");
     said.succeeds();
@@ -92,7 +92,7 @@ fn scenarios_are_generated_and_pass() {
 }
 
 #[test]
-fn scenarios_of_a_plan_that_fails_by_itself_pass_and_of_one_without_events_there_are_none() {
+fn a_plan_that_fails_alone_has_passing_scenarios_and_a_plan_without_events_has_none() {
     let place = Place::new();
     let parts = "actor go: Forward(distance = 50 cm) { ForwardSuccessful -> terminate }";
     let fails = "supervise battery: CheckBattery { BatteryLow -> rest }
@@ -110,7 +110,7 @@ fn scenarios_of_a_plan_that_fails_by_itself_pass_and_of_one_without_events_there
 }
 
 #[test]
-fn generated_scenarios_find_their_plan_from_where_they_are_written() {
+fn generated_scenarios_find_their_plan_from_their_folder() {
     let place = Place::with_plan();
     let said = place.afpc("test --generate wall_following.afp -o checks/deep/walls.afp");
     said.succeeds();
@@ -120,7 +120,7 @@ fn generated_scenarios_find_their_plan_from_where_they_are_written() {
 }
 
 #[test]
-fn scenarios_that_somebody_wrote_are_not_written_over() {
+fn other_scenarios_are_not_replaced() {
     let place = place();
     let said = place.afpc("test --generate wall_following.afp -o tests/room.afp");
     said.fails(2, &["'tests/room.afp' was not made by 'afpc test --generate'", "with '-o FILE'"]);
@@ -135,7 +135,7 @@ fn scenarios_that_somebody_wrote_are_not_written_over() {
 }
 
 #[test]
-fn a_file_that_is_named_twice_is_run_once() {
+fn a_file_that_is_given_twice_runs_once() {
     let said = place().afpc("test tests tests/room.afp ./tests/room.afp bump");
     assert!(said.succeeds().out.contains("1 passed"), "{}", said.out);
 }
@@ -150,13 +150,13 @@ fn a_wrong_scenario_does_not_hide_the_others() {
     assert!(said.out.contains("FAILED    0.000 s  x  tests/wrong.afp:3"), "{}", said.out);
     assert!(said.out.contains("error[E0602]: 'WallFollowing' has no element"), "{}", said.out);
     place.afpc("test bump").succeeds();
-    // What is wrong beside the scenarios hides them.
+    // An error outside of the scenarios hides them.
     place.write("tests/wrong.afp", "use \"../wall_following.afp\"\nuse nothing\n\nscenario \"x\" for WallFollowing { expect running }\n");
     place.afpc("test bump").fails(1, &["E0238", "tests/wrong.afp:2"]);
 }
 
 #[test]
-fn what_an_error_hides_is_not_passed_over() {
+fn scenarios_hidden_by_an_error_are_reported() {
     let place = place();
     place.write(
         "tests/open.afp",
@@ -166,7 +166,7 @@ fn what_an_error_hides_is_not_passed_over() {
     said.fails(1, &["E0105", "tests/open.afp:1"]);
     assert!(said.out.contains("1 passed"), "{said:#?}");
     std::fs::remove_file(place.path("tests/open.afp")).unwrap();
-    // A file has no place where a folder is expected.
+    // A file in the place of a folder.
     place.write("scenarios", "");
     place.afpc("test bump").fails(1, &["cannot read the folder 'scenarios'"]);
 }
@@ -182,7 +182,7 @@ plan Short {
 "#;
 
 #[test]
-fn a_file_that_is_no_text_does_not_hide_the_others() {
+fn a_file_that_is_not_utf8_does_not_hide_the_others() {
     let place = place();
     std::fs::write(place.path("tests/bytes.afp"), [0xff, 0xfe]).unwrap();
     let said = place.afpc("test bump");
@@ -192,7 +192,7 @@ fn a_file_that_is_no_text_does_not_hide_the_others() {
 }
 
 #[test]
-fn mutants_are_made_and_those_that_nobody_notices_are_told() {
+fn unnoticed_mutants_are_reported() {
     let place = Place::new();
     place.write("short.afp", SHORT);
     let scenarios = "use \"../short.afp\"\n\nscenario \"ends\" for Short { expect go -> back  expect end by back before 20 s }\n";
@@ -224,7 +224,7 @@ fn mutants_are_made_and_those_that_nobody_notices_are_told() {
     assert_eq!(json["mutated"], "short.afp");
     let share = json["share"].as_f64().unwrap();
     assert!(share > 0.2 && share < 0.99, "{json}");
-    // Who says where it comes to stand notices the signs, too.
+    // A scenario that checks the final position notices the signs, too.
     let told = scenarios.replace(
         "before 20 s",
         "before 20 s  never robot.pose.x < 2.39 m  expect robot.pose.x > 2.55 m",
@@ -239,7 +239,7 @@ fn mutants_are_made_and_those_that_nobody_notices_are_told() {
 }
 
 #[test]
-fn what_is_wrong_is_told_beside_mutants() {
+fn errors_are_reported_in_addition_to_mutants() {
     let place = Place::new();
     place.write("short.afp", SHORT);
     let scenarios = "use \"../short.afp\"\n\nscenario \"ends\" for Short { expect go -> back }\n";
@@ -252,7 +252,7 @@ fn what_is_wrong_is_told_beside_mutants() {
     let said = place.afpc("test --mutate");
     assert_eq!(said.code, 3, "{}", said.out);
     assert!(said.err.contains("E0602") || said.out.contains("E0602"), "{said:?}");
-    // The only one.
+    // The only scenario.
     place.write(
         "tests/short.afp",
         "use \"../short.afp\"\nscenario \"x\" for Short { expect nobody active }\n",
@@ -273,7 +273,7 @@ fn scenarios_that_all_fail_judge_no_mutant() {
 }
 
 #[test]
-fn what_broke_before_it_was_stopped_is_told() {
+fn failures_before_a_stop_are_reported() {
     let place = Place::new();
     place.write(
         "p.afp",
@@ -288,7 +288,7 @@ scenario "lasts" for P { never end  until 1 h }
     );
     let mut command = place.command();
     command.args(["test", "p.afp"]).stdout(Stdio::piped()).stderr(Stdio::piped());
-    // Both run at once, on however few cores.
+    // Both run at once, even on one core.
     let mut child = command.env("RAYON_NUM_THREADS", "2").spawn().unwrap();
     let mut out = BufReader::new(child.stdout.take().unwrap());
     let mut text = String::new();

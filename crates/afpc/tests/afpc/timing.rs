@@ -1,4 +1,4 @@
-//! `afpc check --timing`: the table, targets of `afp.toml`, and what the exit codes say.
+//! `afpc check --timing`: the table, targets of `afp.toml`, and the exit codes.
 
 use crate::common::Place;
 
@@ -24,7 +24,7 @@ fn project(toml: &str) -> Place {
 }
 
 #[test]
-fn the_table_says_what_a_bound_is_made_of() {
+fn the_table_shows_the_parts_of_a_bound() {
     let said = project("").afpc("check p.afp --timing");
     let table = &said.succeeds().out;
     assert!(table.contains("no target: ticks and capacity are not checked"), "{table}");
@@ -33,7 +33,7 @@ fn the_table_says_what_a_bound_is_made_of() {
 }
 
 #[test]
-fn json_has_the_same_for_tools() {
+fn json_has_the_contents_of_the_table() {
     let line = project("").afpc("check p.afp --timing --json --target pi").last_json();
     assert_eq!(line["target"], "pi");
     let row = &line["timing"]["supervisors"][0];
@@ -44,21 +44,21 @@ fn json_has_the_same_for_tools() {
 }
 
 #[test]
-fn targets_of_the_project_are_checked_without_being_named() {
+fn targets_of_the_project_are_checked_by_default() {
     let place = project("[target.slow]\ntick = \"2 ms\"\ncapacity = 0.01\n");
     place.afpc("check p.afp").fails(1, &["error[E0403]", "error[E0404]"]);
     place.afpc("check p.afp --target mcu").succeeds();
 }
 
 #[test]
-fn what_is_wrong_with_a_target_is_said_at_its_place() {
+fn errors_of_a_target_are_at_their_place() {
     let place = project("[target.slow]\ntock = 3\n");
     place.afpc("check p.afp").fails(1, &["afp.toml:2:1", "tock"]);
     project("").afpc("check p.afp --target moon").fails(2, &["there is no target 'moon'"]);
 }
 
 #[test]
-fn a_budget_is_for_a_template_that_there_is() {
+fn a_budget_needs_a_known_template() {
     let budget = |of: &str| project(&format!("[target.slow]\nbudgets.{of} = \"30 us\"\n"));
     let wrong = |of: &str, said: &[&str]| _ = budget(of).afpc("check p.afp").fails(2, said);
     wrong("carbt.Forward", &["there is no toolbox 'carbt'", "write 'budgets.carbot.Forward'"]);

@@ -1,6 +1,6 @@
-//! `afpc build --target pi`: with which tools cargo is called, or what is missing and how to get it.
+//! `afpc build --target pi`: the tools for cargo, or the missing tools and how to install them.
 //!
-//! All tools are scripts that say what a real one would, in a folder that is all that there is to find.
+//! All tools are scripts that imitate the real tools, in the only folder of the path.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::common::{Place, Said, said};
 
-/// What a tool does, as lines of the shell.
+/// The tools, as shell scripts.
 const TOOLS: &[(&str, &str)] = &[
     (
         "cargo",
@@ -41,7 +41,7 @@ const TOOLS: &[(&str, &str)] = &[
     ("python3", "echo 0.15.2"),
 ];
 
-/// What must be there beside cargo, and what must come of it.
+/// The available tools in addition to cargo, and the expected message.
 const MISSING: &[(&[&str], &[&str])] = &[
     (
         &["rustc", "rustup", "apt-get", "sudo"],
@@ -80,12 +80,12 @@ const MISSING: &[(&[&str], &[&str])] = &[
         &["rustc with library", "python3 without zig"],
         &["run 'python3 -m pip install ziglang', then"],
     ),
-    // That of another machine does not help.
+    // The compiler of another machine does not help.
     (&["rustc with library", "arm-linux-gnueabihf-gcc"], &["links for it is missing"]),
 ];
 
 #[test]
-fn what_is_missing_is_one_message_with_the_command_that_gets_it() {
+fn missing_tools_are_one_message_with_the_command_that_installs_them() {
     let _turn = turn();
     for (tools, texts) in MISSING {
         let place = Place::with_plan();
@@ -97,7 +97,7 @@ fn what_is_missing_is_one_message_with_the_command_that_gets_it() {
 }
 
 #[test]
-fn cargo_is_called_with_the_tools_that_are_there() {
+fn cargo_is_called_with_the_available_tools() {
     let _turn = turn();
     let cases: &[(&[&str], &str, &str)] = &[
         (
@@ -110,7 +110,7 @@ fn cargo_is_called_with_the_tools_that_are_there() {
             "pi32",
             "linker32=arm-linux-gnueabihf-gcc",
         ),
-        // No linker is chosen where the machine's own is right.
+        // No linker is set if the machine's own linker fits.
         (&["rustc on a pi"], "pi", "linker="),
         (
             &["rustc with library", "zig"],
@@ -140,7 +140,7 @@ fn cargo_is_called_with_the_tools_that_are_there() {
 }
 
 #[test]
-fn zig_is_called_without_words_that_it_does_not_understand() {
+fn zig_is_called_without_arguments_that_it_does_not_understand() {
     let _turn = turn();
     let place = Place::with_plan();
     build(&place, &["rustc with library", "zig"], "pi").succeeds();
@@ -156,7 +156,7 @@ fn zig_is_called_without_words_that_it_does_not_understand() {
 }
 
 #[test]
-fn a_linker_that_the_environment_names_is_left_as_it_is() {
+fn a_linker_from_the_environment_is_not_changed() {
     let _turn = turn();
     let place = Place::with_plan();
     equip(&place, &["rustc with library", "aarch64-linux-gnu-gcc"]);
@@ -169,7 +169,7 @@ fn a_linker_that_the_environment_names_is_left_as_it_is() {
 }
 
 #[test]
-fn a_plan_that_asks_for_more_time_than_the_machine_has_is_not_built() {
+fn a_plan_that_needs_a_faster_machine_is_not_built() {
     let _turn = turn();
     let place = Place::with_plan();
     place.write("afp.toml", "[target.pi]\ncapacity = 0.0001\n");
@@ -178,13 +178,14 @@ fn a_plan_that_asks_for_more_time_than_the_machine_has_is_not_built() {
     assert!(!place.exists("called"));
 }
 
-/// One test at a time: a script that is still open for writing in a process that was just forked cannot be called.
+/// One test at a time: a script cannot be executed while a forked process still has it open for
+/// writing.
 fn turn() -> MutexGuard<'static, ()> {
     static TURN: Mutex<()> = Mutex::new(());
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Builds with these tools and no others.
+/// Builds with only these tools.
 fn build(place: &Place, tools: &[&str], target: &str) -> Said {
     equip(place, tools);
     let mut command = place.command();

@@ -1,11 +1,12 @@
-//! Edges can be seen from their exit to their tip: none is behind a box, and none goes in through an exit.
+//! Edges are visible from their exit to their tip: none is behind a box, and none goes in through
+//! an exit.
 
 use super::{boxes, placed, scene, shipped, whatever};
 use crate::layout_file::Layout;
 use crate::sample::generated;
 use crate::{PlanScene, Point, Rect};
 
-/// The random plans of a day; at night they are as many as the issue of the studio asks for.
+/// The random plans of a normal run; nightly runs have more of them.
 fn plans() -> impl Iterator<Item = String> {
     let count = if std::env::var_os("AFP_BY_NIGHT").is_some() { 500 } else { 12 };
     (1..=count).map(|seed| generated(10 + seed * 7 % 51, seed))
@@ -36,7 +37,7 @@ fn length(pair: &[Point]) -> f64 {
     (pair[0].0 - pair[1].0).abs() + (pair[0].1 - pair[1].1).abs()
 }
 
-/// Whether a straight part runs through a box; an end may lie on its border.
+/// Whether a straight part runs through a box; an end may be on its border.
 fn crosses(pair: &[Point], rect: &Rect) -> bool {
     let ((a, b), (c, d)) = (pair[0], pair[1]);
     a.min(c) < rect.right() - 1.0
@@ -46,13 +47,13 @@ fn crosses(pair: &[Point], rect: &Rect) -> bool {
 }
 
 #[test]
-fn edges_can_be_seen_in_the_plans_that_are_shipped_and_in_random_ones() {
+fn edges_are_visible_in_the_shipped_plans_and_in_random_plans() {
     for text in shipped().into_iter().chain(plans()) {
         scene(&text, None).plans.iter().for_each(|plan| check(plan, &text));
     }
 }
 
-/// It ran behind its own box.
+/// It once ran behind its own box.
 #[test]
 fn a_loop_goes_around_its_box() {
     let text = "use carbot\nplan P {\n    start a\n    actor a: Forward {\n        supervise touch: CheckTouchSensor \

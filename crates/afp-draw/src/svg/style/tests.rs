@@ -2,11 +2,11 @@ use std::collections::BTreeMap;
 
 use super::{RULES, Rule, USAGE_RULES};
 
-/// What the guidelines for accessible pages ask of texts, and of lines and signs.
+/// The contrast in the guidelines for accessible pages, for texts, and for lines and signs.
 const TEXT: f64 = 4.5;
 const LINE: f64 = 3.0;
 
-/// Boxes that hold texts of no class of their own.
+/// Boxes with texts without their own class.
 const HOLDERS: &[&str] = &["actor", "computation", "subplan", "supervisor", "configuration"];
 
 /// The relative luminance of a colour such as `#5b6675`.
@@ -30,7 +30,7 @@ fn property<'r>(declarations: &'r str, name: &str) -> Option<&'r str> {
     (value != "none").then_some(value)
 }
 
-/// The colours of a theme, later tables over earlier ones.
+/// The colours of a theme, with later tables over earlier ones.
 fn colours<'r>(tables: &[&[Rule]], of: impl Fn(&Rule) -> &'r str) -> BTreeMap<String, &'r str> {
     let rules = tables.iter().copied().flatten();
     let each = |rule: &Rule| {
@@ -78,7 +78,7 @@ fn check(theme: &BTreeMap<String, &str>) {
 }
 
 #[test]
-fn texts_lines_and_signs_can_be_told_from_what_is_behind_them() {
+fn texts_lines_and_signs_have_enough_contrast() {
     for tables in [&[RULES][..], &[RULES, USAGE_RULES]] {
         check(&colours(tables, |rule| rule.1));
         check(&colours(tables, |rule| rule.2));

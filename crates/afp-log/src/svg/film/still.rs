@@ -1,16 +1,16 @@
-//! Pictures of the camera with fewer colours.
+//! Camera pictures with fewer colours.
 //!
-//! A camera's grain changes every pixel a little, so that a strip of forty pictures has megabytes of it. With
-//! fewer levels most of the grain is gone, and nobody who looks at a strip sees a difference.
+//! A camera's grain changes every pixel a little, so a strip of forty pictures would have megabytes
+//! of grain. With fewer levels most of the grain is gone, and the strip looks the same.
 
 use png::{ColorType, Compression, Encoder, EncodingError};
 
 use crate::picture::pixels;
 
-/// From one level that is left to the next, of 256.
+/// The distance between two remaining levels, of 256.
 const STEP: u8 = 8;
 
-/// A PNG of a log with fewer levels of each colour, as a PNG; none if it cannot be read.
+/// A PNG of a log with fewer levels of each colour; `None` if it cannot be read.
 pub(super) fn fewer_colors(png: &[u8]) -> Option<Vec<u8>> {
     let (width, height, mut levels) = pixels(png)?;
     for level in &mut levels {
@@ -19,7 +19,7 @@ pub(super) fn fewer_colors(png: &[u8]) -> Option<Vec<u8>> {
     write(width, height, &levels).ok()
 }
 
-/// The nearest level that is left; black and white are.
+/// The nearest remaining level; black and white remain.
 fn nearest(level: u8) -> u8 {
     let steps = (u16::from(level) + u16::from(STEP / 2)) / u16::from(STEP);
     u8::try_from(steps * u16::from(STEP)).unwrap_or(u8::MAX)
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_picture_keeps_its_looks_and_loses_its_grain() {
+    fn a_picture_keeps_its_look_and_loses_its_grain() {
         let grain = |n: u32| (n.wrapping_mul(2_654_435_769) >> 16) % 7;
         let levels: Vec<u8> = (0..160 * 120 * 3).map(|n| 117 + grain(n * n) as u8).collect();
         let png = write(160, 120, &levels).unwrap();
@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_picture_is_none() {
+    fn an_invalid_picture_is_none() {
         assert_eq!(fewer_colors(b"no picture"), None);
         assert_eq!([0, 3, 4, 255].map(nearest), [0, 0, 8, 255]);
     }

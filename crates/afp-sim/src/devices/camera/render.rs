@@ -1,8 +1,8 @@
-//! Draws what the camera sees, column by column.
+//! Draws the camera's picture, column by column.
 //!
-//! The camera is level, so a column of pixels sees one upright plane: every solid that the plane
-//! crosses shows a piece of one side and, if it is lower than the camera, of its top. What is far
-//! is drawn first and what is near over it.
+//! The camera is level, so a column of pixels shows one vertical plane. Every solid that crosses
+//! the plane shows a piece of one side and, if it is lower than the camera, of its top. Far solids
+//! are drawn first and near solids over them.
 
 use super::{COLUMNS, FORWARD, HEIGHT, ROWS, lens};
 use crate::noise::{Noise, Source};
@@ -10,14 +10,14 @@ use crate::scene::{Crossing, Scene, Solid};
 use crate::vehicle::Place;
 use crate::world::Rgb;
 
-/// Above everything, where there is no ceiling.
+/// The colour above everything if there is no ceiling.
 const SKY: Rgb = [205, 216, 228];
-/// What is nearer than this is not seen, metres.
+/// Nearer objects are not visible, in metres.
 pub(super) const NEAR: f64 = 0.02;
-/// Where the light comes from, seen from above, and how much the sides that it misses are darker.
+/// The direction of the light, seen from above, and the darkening of sides away from it.
 const SUN: [f64; 2] = [0.6, 0.8];
 const SHADE: f64 = 0.25;
-/// A pixel is off by up to this much.
+/// The maximum noise of a pixel.
 const GRAIN: u32 = 3;
 
 /// The picture seen from a robot at this place, with its own grain.
@@ -28,7 +28,7 @@ pub(super) fn render(scene: &Scene, robot: Place, seed: u64) -> Vec<u8> {
     let mut met: Vec<(&Solid, Crossing)> = Vec::new();
     for x in 0..COLUMNS {
         let left = (COLUMNS as f64 / 2.0 - x as f64 - 0.5) / focus;
-        // As long as it goes one metre ahead: lengths along it are depths.
+        // The direction is one metre long ahead, so that lengths along it are depths.
         let direction = robot.turned([1.0, left]);
         met.clear();
         met.extend(scene.cross(eye, direction).filter(|(_, crossing)| crossing.enter > NEAR));
@@ -51,7 +51,7 @@ struct Picture {
 impl Picture {
     fn put(&mut self, x: usize, y: usize, color: Rgb) {
         let first = (y * COLUMNS + x) * 3;
-        // As an array: a copy of three bytes between slices is a call, and took a quarter of the time.
+        // An array: a copy of three bytes between slices is a call, and took a quarter of the time.
         let pixel = self.rgb.get_mut(first..).and_then(<[u8]>::first_chunk_mut);
         if let Some(pixel) = pixel {
             *pixel = color;
@@ -74,12 +74,12 @@ struct Column<'a> {
 }
 
 impl Column<'_> {
-    /// The slope at which a row looks up.
+    /// The upward slope of a row.
     fn slope(&self, y: usize) -> f64 {
         (ROWS as f64 / 2.0 - y as f64 - 0.5) / self.focus
     }
 
-    /// The rows whose slopes lie between two.
+    /// The rows with slopes between two limits.
     fn rows(&self, low: f64, high: f64) -> std::ops::Range<usize> {
         let row = |slope: f64| {
             let y = libm::ceil(ROWS as f64 / 2.0 - 0.5 - slope * self.focus);

@@ -1,22 +1,22 @@
-//! Where what a pixel shows is in the next picture: the truth by which optical flow is judged.
+//! The position of a pixel's object in the next picture: the ground truth for optical flow.
 
 use super::{COLUMNS, Exposure, FORWARD, HEIGHT, ROWS, lens, render};
 use crate::scene::Scene;
 use crate::vehicle::Place;
 
-/// What is nearer than this share of its distance to what hides it is not hidden.
+/// An object is not hidden if it is nearer to the hiding object than this share of its distance.
 const SLACK: f64 = 0.02;
 
-/// What a pixel shows.
+/// The object in a pixel.
 struct Spot {
-    /// The solid, by its place in the scene; none for the floor.
+    /// The solid's index in the scene; `None` for the floor.
     solid: Option<usize>,
-    /// How far ahead it is, metres.
+    /// The distance ahead, in metres.
     depth: f64,
 }
 
-/// Where what the pixel in column `x` of row `y` shows is in a later picture, as column and row; none for
-/// the sky and for what is hidden or out of the picture by then.
+/// The column and row of a pixel's object in a later picture. `None` for the sky, and for an object
+/// that is hidden or outside of the later picture.
 pub(crate) fn track(before: &Exposure, after: &Exposure, x: f64, y: f64) -> Option<[f64; 2]> {
     let spot = look(before, x, y)?;
     let (left, up) = slopes(x, y);
@@ -38,7 +38,7 @@ pub(crate) fn track(before: &Exposure, after: &Exposure, x: f64, y: f64) -> Opti
     (nearest > depth * (1.0 - SLACK)).then_some([column, row])
 }
 
-/// How far to the left and up a pixel looks, for each metre ahead.
+/// The direction of a pixel to the left and up, per metre ahead.
 fn slopes(x: f64, y: f64) -> (f64, f64) {
     let focus = lens().focus();
     ((middle(COLUMNS) - x) / focus, (middle(ROWS) - y) / focus)
@@ -48,7 +48,7 @@ fn middle(size: usize) -> f64 {
     size as f64 / 2.0 - 0.5
 }
 
-/// The nearest thing that a pixel shows.
+/// The nearest object in a pixel.
 fn look(exposure: &Exposure, x: f64, y: f64) -> Option<Spot> {
     let Exposure { scene, robot, .. } = exposure;
     let (left, up) = slopes(x, y);
@@ -57,7 +57,7 @@ fn look(exposure: &Exposure, x: f64, y: f64) -> Option<Spot> {
     solids.chain(floor).min_by(|a, b| a.depth.total_cmp(&b.depth))
 }
 
-/// Where the line of sight meets the sides and tops of solids.
+/// The intersection of the line of sight with the sides and tops of solids.
 fn on_solids(scene: &Scene, robot: &Place, left: f64, up: f64) -> impl Iterator<Item = Spot> {
     let eye = robot.beyond(FORWARD, 0.0);
     let direction = robot.turned([1.0, left]);

@@ -1,4 +1,4 @@
-//! What a hand does to a world: things stand where they were put, and nowhere where something stands.
+//! A hand in a world: objects are at their new places, and occupied places are refused.
 
 use super::*;
 use crate::world::World;
@@ -23,7 +23,7 @@ fn middle(corners: &[[f64; 2]]) -> [i64; 2] {
 }
 
 #[test]
-fn the_robot_stands_where_it_was_put_and_believes_that_it_has_not_moved() {
+fn a_moved_robot_is_at_its_place_and_its_odometry_does_not_change() {
     let mut room = room();
     room.put(&Put::Robot, Pose { heading: 1.0, ..at(-1.0, 0.5) }).unwrap();
     room.advance_to(Instant::from_nanos(500_000_000));
@@ -33,7 +33,7 @@ fn the_robot_stands_where_it_was_put_and_believes_that_it_has_not_moved() {
 }
 
 #[test]
-fn what_can_be_pushed_is_carried_and_what_stands_is_not() {
+fn movable_objects_are_moved_and_fixed_objects_are_not() {
     let mut room = room();
     room.put(&Put::Thing("bin".to_owned()), at(-0.5, -0.5)).unwrap();
     assert_eq!(middle(&room.outline(0)), [-500, -500]);
@@ -46,12 +46,12 @@ fn what_can_be_pushed_is_carried_and_what_stands_is_not() {
 }
 
 #[test]
-fn what_has_come_to_rest_is_carried_again() {
+fn an_object_at_rest_can_be_moved_again() {
     let mut room = room();
     room.put(&Put::New("crate".to_owned()), at(1.0, 0.4)).unwrap();
     for round in 1..=6_u64 {
         room.advance_to(Instant::from_nanos(round * 5_000_000_000));
-        // Beside each other, and apart.
+        // Next to each other, and apart.
         let y = if round % 2 == 0 { 0.4 } else { -0.8 };
         room.put(&Put::Thing("crate 1".to_owned()), at(1.0, y)).unwrap();
         room.put(&Put::Thing("bin".to_owned()), at(1.0, y - 0.35)).unwrap();
@@ -61,7 +61,7 @@ fn what_has_come_to_rest_is_carried_again() {
 }
 
 #[test]
-fn nothing_is_put_into_something() {
+fn no_object_is_put_into_an_obstacle() {
     let mut room = room();
     let occupied = |by: &str| Err(RequestError::Occupied(by.to_owned()));
     assert_eq!(room.put(&Put::Robot, at(1.0, 0.1)), occupied("bin"));
@@ -71,7 +71,7 @@ fn nothing_is_put_into_something() {
 }
 
 #[test]
-fn so_many_things_are_dropped_and_no_more_whatever_their_shape_and_what_the_file_has() {
+fn the_number_of_dropped_objects_is_limited() {
     let named = ROOM.replace("\"post\"", "\"can 1\"");
     let mut room = Simulation::new(&World::parse(&named).unwrap(), 1).unwrap();
     let put = |room: &mut Simulation, n: usize| {
@@ -90,7 +90,7 @@ fn so_many_things_are_dropped_and_no_more_whatever_their_shape_and_what_the_file
 }
 
 #[test]
-fn what_is_dropped_is_felt_heard_and_copied() {
+fn dropped_objects_are_felt_heard_and_copied() {
     let mut room = room();
     room.put(&Put::New("crate".to_owned()), at(0.6, 0.0)).unwrap();
     room.put(&Put::New("crate".to_owned()), at(-1.0, -1.0)).unwrap();

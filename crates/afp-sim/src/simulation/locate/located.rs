@@ -4,7 +4,7 @@ use crate::truth::Pose;
 use afp_session::{Figure, FigureValue};
 use std::f64::consts::TAU;
 
-/// Errors are counted by half a centimetre up to 2 m, and by half a degree up to 180.
+/// The bins of the errors: half a centimetre up to 2 m, and half a degree up to 180.
 const METRES: f64 = 0.005;
 const DEGREES: f64 = 0.5;
 const BINS: usize = 400;
@@ -15,7 +15,7 @@ pub(crate) struct Located {
     off: [u32; BINS],
     turned: [u32; BINS],
     count: u32,
-    /// The latest: metres and radians.
+    /// The latest error, in metres and radians.
     last: [f64; 2],
     worst: f64,
 }
@@ -42,12 +42,12 @@ impl Located {
         self.last = [off, turned];
     }
 
-    /// The latest error: metres and radians; none where nobody has asked where the robot is.
+    /// The latest error, in metres and radians; `None` while the localisation is unused.
     pub(crate) fn last(&self) -> Option<[f64; 2]> {
         (self.count > 0).then_some(self.last)
     }
 
-    /// What it came to; none where nobody has asked.
+    /// The figures of the run; `None` if the localisation was unused.
     pub(crate) fn figure(&self) -> Option<Figure> {
         self.last()?;
         let (metres, degrees) = (self.p95(&self.off) * METRES, self.p95(&self.turned) * DEGREES);
@@ -69,7 +69,7 @@ impl Located {
         Some(Figure { name: "localisation_error", value, text })
     }
 
-    /// The upper end of the bin below which 95 of 100 errors are.
+    /// The upper end of the bin with the 95th percentile.
     fn p95(&self, bins: &[u32]) -> f64 {
         let mut below = 0;
         let most = bins.iter().position(|bin| {

@@ -5,11 +5,12 @@ use crate::world::error::at_key;
 use crate::world::limits::{FARTHEST, SMALLEST};
 use afp_session::WorldError;
 
-/// Corners nearer to each other than this are one, metres; and the edges of one turn by so much at least, square metres.
+/// Nearer corners count as one, in metres; the edges of a corner turn by at least this, in square
+/// metres.
 const SAME: f64 = 1e-6;
 const FLAT: f64 = 1e-9;
 
-/// The way to a key of the file.
+/// The path to a key of the file.
 #[derive(Clone)]
 pub(super) struct Key(Vec<String>);
 
@@ -25,7 +26,7 @@ impl Key {
         Key(path)
     }
 
-    /// The `i`-th of an array of tables in this table.
+    /// The `i`-th table of an array in this table.
     pub(super) fn nth(&self, name: &str, i: usize) -> Self {
         self.at(name).at(&i.to_string())
     }
@@ -47,7 +48,7 @@ impl<'a> Check<'a> {
         Ok(Pose { x, y, heading: degrees * (std::f64::consts::PI / 180.0) })
     }
 
-    /// A share above 0 up to 1; 1 where none is given.
+    /// A share above 0 up to 1; 1 if absent.
     pub(super) fn share(&self, key: &Key, share: Option<f64>) -> Result<f64, WorldError> {
         let share = share.unwrap_or(1.0);
         if share > 0.0 && share <= 1.0 {
@@ -60,7 +61,8 @@ impl<'a> Check<'a> {
         ))
     }
 
-    /// The corners of a convex polygon, counter-clockwise; they make one in single precision, too.
+    /// The corners of a convex polygon, counter-clockwise. They are also convex in single
+    /// precision.
     pub(super) fn convex(
         &self,
         key: &Key,
@@ -90,7 +92,7 @@ impl<'a> Check<'a> {
         Ok(points)
     }
 
-    /// Sizes, masses and the like, which are no less than [`SMALLEST`].
+    /// Sizes, masses and similar values, at least [`SMALLEST`].
     pub(super) fn positive(&self, key: &Key, values: &[f64]) -> Result<(), WorldError> {
         self.near(key, values)?;
         match values.iter().find(|value| **value < SMALLEST) {
@@ -123,7 +125,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// What is wrong at a key, and what to write instead.
+    /// The error at a key, with a fix.
     pub(super) fn error(&self, key: &Key, message: &str, help: impl Into<String>) -> WorldError {
         let keys: Vec<&str> = key.0.iter().map(String::as_str).collect();
         let name = keys.last().copied().unwrap_or_default();
@@ -131,13 +133,13 @@ impl<'a> Check<'a> {
     }
 }
 
-/// A number as people write it, also where it is very small or large.
+/// A readable number, even if it is very small or large.
 pub(super) fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// Each corner by its place, with the edges to it and from it.
+/// Each corner's index, with the edges to it and from it.
 fn corners(points: &[[f64; 2]]) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
     let n = points.len();
     (1..=n).map(move |i| {
@@ -150,7 +152,7 @@ fn cross([ux, uy]: [f64; 2], [vx, vy]: [f64; 2]) -> f64 {
     ux * vy - uy * vx
 }
 
-/// A corner that is none: the edges there go on in one line, or back, or it is that before.
+/// A corner without a turn: its edges are in one line or go back, or it equals the previous corner.
 fn straight(points: &[[f64; 2]]) -> Option<usize> {
     let none = |edge: [f64; 2], next| {
         cross(edge, next).abs() < FLAT || libm::hypot(edge[0], edge[1]) < SAME
@@ -158,10 +160,10 @@ fn straight(points: &[[f64; 2]]) -> Option<usize> {
     corners(points).find(|(_, edge, next)| none(*edge, *next)).map(|(corner, ..)| corner)
 }
 
-/// Whether a convex polygon's corners go counter-clockwise; none if it is not convex.
+/// Whether a convex polygon's corners are counter-clockwise; `None` if it is not convex.
 fn turning(points: &[[f64; 2]]) -> Option<bool> {
     let mut left = None;
-    // The edges of a convex polygon turn by one full turn in all; a star by more.
+    // The edges of a convex polygon make one full turn; the edges of a star make more.
     let mut turned = 0.0;
     for (_, edge, next) in corners(points) {
         let (across, along) = (cross(edge, next), edge[0] * next[0] + edge[1] * next[1]);

@@ -1,4 +1,4 @@
-//! What can stand in a world file, table by table, and what is said where something else does.
+//! The keys of a world file, table by table, and the errors for others.
 
 use std::ops::Range;
 
@@ -11,22 +11,22 @@ use crate::world::WorldError;
 pub(super) struct Key {
     pub(super) name: &'static str,
     kind: Kind,
-    /// Whether a table makes no sense without it.
+    /// Whether the key is required.
     needed: bool,
-    /// How it may be written.
+    /// An example of its value.
     example: &'static str,
 }
 
-/// What a key has.
+/// The kind of a key's value.
 enum Kind {
     Text,
     Truth,
     /// A number without a fraction.
     Whole,
     Number,
-    /// So many numbers.
+    /// A fixed number of numbers.
     Numbers(usize),
-    /// Places, each of two numbers.
+    /// Positions of two numbers.
     Places,
     /// A table.
     One(&'static [Key]),
@@ -55,7 +55,7 @@ const CORNERS: Key = needed("points_m", Places, "points_m = [[0, 0], [2, 0], [1,
 const MASS: Key = maybe("mass_kg", Number, "mass_kg = 2");
 const WAY: Key = maybe("path", One(PATH), "path = { by_m = [[1, 0]], speed_m_s = 0.3 }");
 
-/// A whole file; those of [`super::tables::File`].
+/// The keys of a whole file, as in [`super::tables::File`].
 pub(super) const WORLD: &[Key] = &[
     needed("version", Whole, "version = 1"),
     maybe("name", Text, "name = \"hall\""),
@@ -117,16 +117,16 @@ const INFRARED: &[Key] = &[
 
 const MAP: &[Key] = &[needed("corners_m", Places, "corners_m = [[0, 0], [4, 0], [4, 3], [0, 3]]")];
 
-/// Looks for the first thing of a file that cannot stand there; `own` are keys at its top that are read elsewhere.
+/// Finds the first error in a file; `own` are top-level keys that other code reads.
 ///
 /// # Errors
-/// What it is, with its place.
+/// The error with its place.
 pub(super) fn check(file: &dyn TableLike, own: &[&str]) -> Result<(), WorldError> {
     let head = Head { name: "a world", span: None };
     head.check(file, WORLD, own)
 }
 
-/// How a table is called, and where it is.
+/// A table's name and place.
 struct Head<'a> {
     name: &'a str,
     span: Option<Range<usize>>,
@@ -165,7 +165,7 @@ impl Head<'_> {
 }
 
 impl Key {
-    /// Looks at what a key has; `at` is where the key is.
+    /// Checks the value of a key; `at` is the key's place.
     fn check(&self, item: &Item, at: Option<&Range<usize>>) -> Result<(), WorldError> {
         let Key { name, example, .. } = self;
         match self.kind {
@@ -198,7 +198,7 @@ impl Key {
     }
 
     fn wrong(&self, item: &Item, at: Option<&Range<usize>>, why: &str, help: String) -> WorldError {
-        // Of a table the heading is what is wrong.
+        // For a table, the place of the error is its heading.
         let value = item.as_value().and_then(Value::span);
         let span = value.or_else(|| at.cloned()).or_else(|| item.span());
         WorldError::new(span, format!("'{}' {why}", self.name)).with_help(help)
@@ -240,7 +240,7 @@ impl Kind {
 /// A table of a list, and its place.
 type Placed<'a> = (&'a dyn TableLike, Option<Range<usize>>);
 
-/// The tables of a list, however it is written.
+/// The tables of a list, in both notations.
 fn tables(item: &Item) -> Option<Vec<Placed<'_>>> {
     if let Some(tables) = item.as_array_of_tables() {
         return Some(tables.iter().map(|table| (table as &dyn TableLike, table.span())).collect());

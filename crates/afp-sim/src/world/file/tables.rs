@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-/// A whole file. Which other keys it may have depends on the robot.
+/// A whole file. The other allowed keys depend on the robot.
 #[derive(Deserialize)]
 pub(super) struct File {
     pub(super) version: u32,
@@ -128,7 +128,7 @@ mod tests {
         let whole = "version = 1\nrobot = { pose_m_deg = [0, 0, 0] }\n";
         assert!(toml_edit::de::from_str::<File>(whole).is_ok());
         for key in WORLD.iter().map(|key| key.name) {
-            // Nothing is a moment of time.
+            // No key has the type of a moment of time.
             let others: String =
                 whole.lines().filter(|line| !line.starts_with(key)).collect::<Vec<_>>().join("\n");
             let text = format!("{others}\n{key} = 2026-01-01\n");

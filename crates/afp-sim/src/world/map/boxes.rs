@@ -1,14 +1,14 @@
-//! Occupied cells gathered into boxes.
+//! Combines occupied cells into boxes.
 
 use super::picture::Grid;
 use std::ops::Range;
 
-/// Which cells are occupied; row 0 is the uppermost.
+/// The occupied cells; row 0 is at the top.
 pub(super) struct Cells {
     pub(super) width: usize,
     pub(super) height: usize,
     occupied: Vec<bool>,
-    /// For each corner of cells, how many occupied ones lie above and to the left.
+    /// For each corner of cells, the number of occupied cells above and to the left.
     sums: Vec<u32>,
 }
 
@@ -37,7 +37,7 @@ impl Cells {
         Cells { width, height, occupied, sums }
     }
 
-    /// Whether no cell within `reach` is occupied, and none of them lies beyond the map.
+    /// Whether all cells within `reach` are free and on the map.
     pub(super) fn free_around(&self, row: usize, column: usize, reach: usize) -> bool {
         let (Some(top), Some(left)) = (row.checked_sub(reach), column.checked_sub(reach)) else {
             return false;
@@ -49,12 +49,12 @@ impl Cells {
             && sum(bottom, right) + sum(top, left) == sum(top, right) + sum(bottom, left)
     }
 
-    /// Whether nothing is occupied.
+    /// Whether no cell is occupied.
     pub(super) fn is_empty(&self) -> bool {
         self.sums.last() == Some(&0)
     }
 
-    /// Which cells can be reached from beyond the map, row by row.
+    /// The cells that can be reached from beyond the map, row by row.
     pub(super) fn outside(&self) -> Vec<bool> {
         self.flood().reached
     }
@@ -86,7 +86,7 @@ impl Cells {
         self.occupied.get(at) == Some(&false)
     }
 
-    /// The run of free cells of a row that a free cell belongs to.
+    /// The run of free cells in a row around a free cell.
     fn free_run(&self, at: usize) -> Range<usize> {
         let first = at / self.width * self.width;
         let start = (first..at).rev().take_while(|at| self.is_free(*at)).last().unwrap_or(at);
@@ -94,7 +94,7 @@ impl Cells {
         start..end.unwrap_or(first + self.width)
     }
 
-    /// The occupied cells as boxes: each as wide as can be, then as high.
+    /// The occupied cells as boxes: each as wide as possible, then as high as possible.
     pub(super) fn boxes(&self) -> Vec<Rectangle> {
         let mut left_over = self.occupied.clone();
         let mut boxes = Vec::new();
@@ -127,16 +127,17 @@ impl Cells {
     }
 }
 
-/// Cells that are reached, run by run: each waits once, so that an open map takes no more memory than a narrow one.
+/// Reached cells, run by run: each run waits once, so that an open map takes no more memory than a
+/// narrow one.
 struct Flood<'a> {
     cells: &'a Cells,
     reached: Vec<bool>,
-    /// Runs whose neighbours have not been looked at.
+    /// Runs with unchecked neighbours.
     waiting: Vec<Range<usize>>,
 }
 
 impl Flood<'_> {
-    /// Reaches the runs that have free cells among these, all of one row.
+    /// Reaches the runs with free cells in this range of one row.
     fn reach(&mut self, among: Range<usize>) {
         let mut at = among.start;
         while at < among.end {
@@ -189,7 +190,7 @@ mod tests {
         assert!(cells.free_around(3, 4, 0) && !cells.free_around(2, 4, 0));
     }
 
-    /// A picture of which a share, in tenths, is occupied.
+    /// A picture with a share of occupied cells, in tenths.
     fn sprinkled(tenths: u64, seed: u64) -> Cells {
         let mut state = seed;
         let mut occupied = || {

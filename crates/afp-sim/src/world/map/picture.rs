@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-/// A map has at most this many cells.
+/// The maximum number of cells in a map.
 const MOST: usize = 1 << 26;
 
 /// A value for each cell, row by row from the top.
@@ -17,11 +17,11 @@ pub(super) struct Grid<T> {
 pub(super) struct Pixel {
     /// Red, green and blue.
     pub(super) colors: [u16; 3],
-    /// How opaque it is, in a picture that says so.
+    /// The opacity, if the picture has it.
     pub(super) alpha: Option<u16>,
 }
 
-/// Reads a picture, each of its pixels with `read`; the message says what is wrong with it.
+/// Reads a picture and converts each pixel with `read`; returns a message for an invalid picture.
 pub(super) fn read<T>(bytes: &[u8], read: impl Fn(Pixel) -> T) -> Result<Grid<T>, String> {
     match bytes {
         [b'P', b'5', ..] => pgm(bytes, true, read),
@@ -45,7 +45,7 @@ fn pgm<T>(bytes: &[u8], binary: bool, read: impl Fn(Pixel) -> T) -> Result<Grid<
     };
     let values: Vec<T> = if binary {
         let data = bytes.get(numbers.at + 1..).unwrap_or_default();
-        // Above 255 a value has two bytes, the higher one first.
+        // Values above 255 have two bytes, the higher one first.
         let size = if most > 255 { 2 } else { 1 };
         let value = |bytes: &[u8]| bytes.iter().fold(0, |sum, byte| sum << 8 | usize::from(*byte));
         data.chunks_exact(size).take(cells).map(|bytes| scale(value(bytes))).collect()
@@ -58,7 +58,7 @@ fn pgm<T>(bytes: &[u8], binary: bool, read: impl Fn(Pixel) -> T) -> Result<Grid<
     Ok(Grid { width, height, values })
 }
 
-/// How many cells a map of that size has, unless those are too many.
+/// The number of cells of a map of this size; `None` if there are too many.
 fn cells(width: usize, height: usize) -> Option<usize> {
     width.checked_mul(height).filter(|cells| *cells <= MOST)
 }
@@ -120,7 +120,7 @@ fn png<T>(bytes: &[u8], read: impl Fn(Pixel) -> T) -> Result<Grid<T>, String> {
 mod tests {
     use super::*;
 
-    /// The greys of a picture, and how opaque each is.
+    /// The greys of a picture, and the opacity of each.
     fn read(bytes: &[u8]) -> Result<Grid<(u16, Option<u16>)>, String> {
         super::read(bytes, |pixel| (pixel.colors[0], pixel.alpha))
     }
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_of_more_cells_than_a_map_has_are_refused_before_they_take_memory() {
+    fn pictures_with_too_many_cells_are_refused_before_they_take_memory() {
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, 1 << 14, (1 << 12) + 1);
         encoder.set_color(png::ColorType::Grayscale);

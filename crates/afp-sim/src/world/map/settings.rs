@@ -1,4 +1,4 @@
-//! What a map's `.yaml` file says, and how it reads the cells of the picture: both as nav2's `map_server` does.
+//! A map's `.yaml` file and its rules for the cells of the picture, both as in nav2's `map_server`.
 
 use std::ops::Range;
 
@@ -6,46 +6,46 @@ use super::picture::Pixel;
 use crate::world::WorldError;
 use saphyr::{LoadableYamlNode, Yaml};
 
-/// Where and how large the cells are, and which of them are occupied.
+/// Place and size of the cells, and the rules for occupied cells.
 #[derive(Debug, PartialEq)]
 pub(super) struct Settings {
     pub(super) image: String,
-    /// The side of a cell, metres.
+    /// The side of a cell, in metres.
     pub(super) resolution: f64,
-    /// The lower left corner of the picture, metres.
+    /// The lower left corner of the picture, in metres.
     origin: [f64; 2],
-    /// How the picture is turned, radians.
+    /// The picture's rotation, in radians.
     pub(super) yaw: f64,
-    /// How greys are read.
+    /// The interpretation of greys.
     mode: Mode,
     /// White is occupied.
     negate: bool,
-    /// More than this is occupied: 0 white, 1 black.
+    /// Darker cells are occupied: 0 white, 1 black.
     threshold: f64,
-    /// Less than this is known to be free.
+    /// Lighter cells are free.
     free: f64,
-    /// What nobody knows is a wall.
+    /// Unknown cells are walls.
     unknown_is_wall: bool,
 }
 
-/// What is known of a cell.
+/// The state of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cell {
     Occupied,
     Free,
-    /// Between the two thresholds in mode `scale`: a share that makes no wall.
+    /// Between the two thresholds in mode `scale`: a share, and not a wall.
     Partly,
     Unknown,
 }
 
-/// How greys are read.
+/// The interpretation of greys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mode {
-    /// By how dark they are, with how opaque they are as a fourth colour; between the thresholds a cell is unknown.
+    /// By darkness, with the opacity as a fourth colour; between the thresholds a cell is unknown.
     Trinary,
-    /// By how dark they are; a cell that is not opaque is unknown.
+    /// By darkness; a cell that is not opaque is unknown.
     Scale,
-    /// A value up to 100 says how occupied the cell is in percent, a larger one that nobody knows.
+    /// A value up to 100 is the occupancy in percent; a larger value is unknown.
     Raw,
 }
 
@@ -66,7 +66,7 @@ impl Settings {
             return Err(keys.error("resolution", "is not within 0.001 and 10 metres"));
         }
         let [x, y, yaw] = keys.origin()?;
-        // Once for all who ask: of many turns each would find another rest.
+        // Reduced once, because each use would round a large angle differently.
         let yaw = yaw % core::f64::consts::TAU;
         let negate = keys.get("negate").and_then(truth);
         let negate = negate.ok_or_else(|| keys.error("negate", "is to be 0 or 1"))?;
@@ -88,7 +88,7 @@ impl Settings {
         })
     }
 
-    /// What is known of a cell that looks so: as nav2's `map_io.cpp` has it.
+    /// The state of a cell with this pixel, as in nav2's `map_io.cpp`.
     pub(super) fn cell(&self, Pixel { colors, alpha }: Pixel) -> Cell {
         let counted = alpha.filter(|_| self.mode == Mode::Trinary);
         let sum = colors.into_iter().chain(counted).map(f64::from).sum::<f64>();
@@ -113,7 +113,7 @@ impl Settings {
         }
     }
 
-    /// Whether such a cell is a wall.
+    /// Whether a cell is a wall.
     pub(super) fn is_wall(&self, cell: Cell) -> bool {
         match cell {
             Cell::Occupied => true,
@@ -122,7 +122,7 @@ impl Settings {
         }
     }
 
-    /// A place of the picture, counted in cells from its lower left corner, in metres.
+    /// A place of the picture, in cells from its lower left corner, converted to metres.
     pub(super) fn place(&self, across: f64, up: f64) -> [f64; 2] {
         let (sin, cos) = libm::sincos(self.yaw);
         let [x, y] = [across, up].map(|cells| cells * self.resolution);
@@ -145,7 +145,7 @@ impl<'a, 'b> Keys<'a, 'b> {
         self.get(key).and_then(number).ok_or_else(|| self.error(key, "is to be a number"))
     }
 
-    /// What a word stands for; none where the key is not there.
+    /// The meaning of a word; `None` if the key is absent.
     fn one_of<T: Copy>(&self, key: &str, known: &[(&str, T)]) -> Result<Option<T>, WorldError> {
         let Some(value) = self.get(key) else { return Ok(None) };
         let word = value.as_str();
@@ -155,7 +155,7 @@ impl<'a, 'b> Keys<'a, 'b> {
         }
         let names: Vec<_> = known.iter().map(|(name, _)| format!("'{name}'")).collect();
         let names = names.join(" or ");
-        // A number, a list or nothing is no word that could be repeated.
+        // A message can only repeat words, and not a number or a list.
         let what = match word {
             Some(word) => format!("'{word}' is not known; it is to be {names}"),
             None => format!("is to be {names}"),
@@ -199,7 +199,7 @@ impl<'a, 'b> Keys<'a, 'b> {
     }
 }
 
-/// The byte at which a character begins, or the end of the text.
+/// The byte index of a character, or the end of the text.
 fn byte(text: &str, index: usize) -> usize {
     text.char_indices().nth(index).map_or(text.len(), |(byte, _)| byte)
 }
@@ -208,7 +208,7 @@ fn empty(at: usize) -> Range<usize> {
     at..at
 }
 
-/// A number, in quotes too.
+/// A number, with or without quotes.
 fn number(value: &Yaml<'_>) -> Option<f64> {
     let whole = value.as_integer().map(|n| n as f64);
     let quoted = || value.as_str().and_then(|text| text.parse().ok());
@@ -216,7 +216,7 @@ fn number(value: &Yaml<'_>) -> Option<f64> {
     number.filter(|number| number.is_finite())
 }
 
-/// A whole number other than 0 is true, and so are the words that YAML has for it.
+/// A whole number other than 0 is true, and so are YAML's words for it.
 fn truth(value: &Yaml<'_>) -> Option<bool> {
     let word = |text: &str| match text.to_ascii_lowercase().as_str() {
         "true" | "yes" | "on" | "y" => Some(true),
@@ -232,8 +232,9 @@ mod tests {
     use super::Cell::{Free, Occupied, Partly, Unknown};
     use super::*;
 
-    /// The cells of nav2's `map_io.cpp`: `OCC_GRID_OCCUPIED`, `OCC_GRID_FREE`, shares and `OCC_GRID_UNKNOWN`.
-    /// Mode and 'negate'; greys of 8 bits with their opacity, and the cells that they are.
+    /// The cells of nav2's `map_io.cpp`: `OCC_GRID_OCCUPIED`, `OCC_GRID_FREE`, shares and
+    /// `OCC_GRID_UNKNOWN`. Mode and 'negate'; 8-bit greys with their opacity, and the expected
+    /// cells.
     type Case = (&'static str, u8, &'static [(u8, Option<u16>, Cell)]);
 
     const CLEAR: Option<u16> = Some(0);
@@ -263,7 +264,7 @@ mod tests {
                 (0, None, Free),
             ],
         ),
-        // How opaque it is counts as a fourth colour.
+        // The opacity counts as a fourth colour.
         (
             "trinary",
             0,
@@ -298,7 +299,7 @@ mod tests {
             ],
         ),
         ("scale", 1, &[(255, OPAQUE, Occupied), (0, OPAQUE, Free), (255, Some(1), Unknown)]),
-        // A percentage, whatever 'negate' and how opaque it is.
+        // A percentage, independent of 'negate' and opacity.
         (
             "raw",
             0,

@@ -9,14 +9,14 @@ use afp_syntax::source::Source;
 
 use crate::plan_file::PlanText;
 
-/// A toolbox file that has been read, with all that is wrong with it.
+/// A toolbox file and its diagnostics.
 pub(super) struct ToolboxFile {
     pub path: PathBuf,
     pub toolboxes: Toolboxes,
 }
 
 impl ToolboxFile {
-    /// Checks a file that declares a toolbox and has no plan; none of another file.
+    /// Checks a file that declares a toolbox and has no plan; returns `None` for other files.
     pub fn of(PlanText { path, text, plan }: &PlanText<'_>) -> Option<ToolboxFile> {
         let items = afp_syntax::parse(text, 0, &mut Diagnostics::default()).file().items();
         let declares = items.iter().any(|item| matches!(item, Item::Toolbox(_)));
@@ -25,7 +25,7 @@ impl ToolboxFile {
             return None;
         }
         let mut toolboxes = Toolboxes::default();
-        // The crate that implements it says nothing of the file.
+        // The implementing crate does not matter for the file's check.
         toolboxes.add(Source::new(path.display().to_string(), text), "crate");
         Some(ToolboxFile { path: path.clone(), toolboxes })
     }

@@ -1,4 +1,4 @@
-//! Clients that connect: all share one adapter, so that one launches and others join it.
+//! Clients on a socket. All clients share one adapter: one client launches a run and others join.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -16,39 +16,41 @@ use super::Simulator;
 use super::talk::{Clock, read, wait};
 use crate::Linked;
 
-/// So many clients at most.
+/// The maximum number of clients.
 const CLIENTS: usize = 8;
-/// So many at most who have not shown the token; then the one that has waited longest is sent away.
+/// The maximum number of clients without a token. If there are more, the oldest one is
+/// disconnected.
 const STRANGERS: usize = 16;
-/// How long one may take to show it.
+/// The time in which a client must present the token.
 const ADMISSION: Duration = Duration::from_secs(5);
-/// So much that has arrived waits to be read at most.
+/// The maximum number of unread arrivals.
 const ARRIVALS: usize = 64;
-/// So many messages wait for a client at most.
+/// The maximum number of messages that wait for a client.
 const WAITING: usize = 1024;
-/// How long the run waits for a client that does not read; then it loses its connection. Nobody waits for a stranger.
+/// The time that the run waits for a client that does not read. After it, the client is
+/// disconnected. The run does not wait for clients without a token.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// How often such a client is looked at.
+/// The interval between two checks of such a client.
 const LOOK: Duration = Duration::from_millis(1);
 
-/// What comes from outside.
+/// An event from outside.
 enum Arrival {
     Client(TcpStream),
     Bytes(usize, Vec<u8>),
     Gone(usize),
 }
 
-/// A client that is connected.
+/// A connected client.
 struct Peer {
     id: ClientId,
     since: Instant,
     stream: TcpStream,
     frames: Frames,
-    /// To the thread that writes.
+    /// The channel to the writer thread.
     to: SyncSender<Vec<u8>>,
 }
 
-/// All of them, by the number of their connection.
+/// All clients, by connection number.
 struct Peers<'a> {
     adapter: Adapter<'a>,
     clock: Clock,
@@ -57,10 +59,10 @@ struct Peers<'a> {
     sender: SyncSender<Arrival>,
 }
 
-/// Serves clients on a port of this machine, for ever.
+/// Serves clients on a port of this machine, without end.
 ///
 /// # Errors
-/// The port is taken; there is no token to be had.
+/// The port is taken; no token can be generated.
 pub(super) fn listen(port: u16, linked: &Linked<'_>) -> Result<(), RunError> {
     let wanted = format!("127.0.0.1:{port}");
     let failed = RunError::file("cannot listen on", wanted.as_ref());
@@ -98,7 +100,7 @@ impl Peers<'_> {
             }
             let outgoing = self.clock.tick(&mut self.adapter, has_arrived);
             self.send(outgoing);
-            // What has arrived meanwhile may have the token.
+            // The queued messages may contain the token.
             let patience = if has_arrived { 2 * ADMISSION } else { ADMISSION };
             let late = self.strangers().find(|(_, peer)| peer.since.elapsed() >= patience);
             let late = late.map(|(number, _)| number);
@@ -108,13 +110,13 @@ impl Peers<'_> {
         }
     }
 
-    /// Those who have not shown the token, in the order in which they came.
+    /// The clients without a token, in order of arrival.
     fn strangers(&self) -> impl Iterator<Item = (usize, &Peer)> {
         let all = self.all.iter().map(|(number, peer)| (*number, peer));
         all.filter(|(_, peer)| !self.adapter.is_admitted(peer.id))
     }
 
-    /// How long the first of them may still take.
+    /// The time left for the oldest of them.
     fn admission_due(&self) -> Option<Duration> {
         let (_, first) = self.strangers().next()?;
         Some(ADMISSION.saturating_sub(first.since.elapsed()))
@@ -131,7 +133,7 @@ impl Peers<'_> {
         let (number, sender) = (self.connected, self.sender.clone());
         thread::spawn(move || {
             read(from, |bytes| sender.send(Arrival::Bytes(number, bytes)).is_ok());
-            // Without a server nobody is told.
+            // If the server is gone, nobody needs the message.
             let _ = sender.send(Arrival::Gone(number));
         });
         let (to, messages) = sync_channel(WAITING);
@@ -146,7 +148,7 @@ impl Peers<'_> {
         let id = peer.id;
         peer.frames.push(bytes);
         loop {
-            // A client may be sent away over what others are told.
+            // A client can be disconnected while other clients receive messages.
             let Some(peer) = self.all.get_mut(&from) else { return };
             match peer.frames.next_message() {
                 Ok(Some(message)) => {
@@ -165,7 +167,7 @@ impl Peers<'_> {
         }
     }
 
-    /// A client has gone.
+    /// Removes a client that is gone.
     fn forget(&mut self, from: usize) {
         if let Some(peer) = self.all.get_mut(&from)
             && let Err(why) = std::mem::take(&mut peer.frames).finish()
@@ -175,7 +177,7 @@ impl Peers<'_> {
         self.drop_client(from);
     }
 
-    /// Ends a connection at once.
+    /// Ends a connection immediately.
     fn send_away(&mut self, number: usize, why: &str) {
         say(format_args!("warning: a client was sent away: {why}"));
         if let Some(peer) = self.all.get(&number) {
@@ -184,17 +186,17 @@ impl Peers<'_> {
         self.drop_client(number);
     }
 
-    /// Ends a connection; what it was told last still arrives.
+    /// Ends a connection after its last messages have arrived.
     fn drop_client(&mut self, number: usize) {
         let Some(Peer { id, stream, to, .. }) = self.all.remove(&number) else { return };
         drop(to);
-        // Its reader ends, its writer once all is written.
+        // The reader ends now, and the writer ends after the last message.
         let _ = stream.shutdown(Shutdown::Read);
         let outgoing = self.adapter.leave(id);
         self.send(outgoing);
     }
 
-    /// Sends messages; a client that does not read is waited for, then it loses its connection.
+    /// Sends messages. Waits for a client that does not read, then disconnects the client.
     fn send(&mut self, outgoing: Vec<Outgoing>) {
         for Outgoing { to, message } in outgoing {
             let found = self.all.iter().find(|(_, peer)| peer.id == to);
@@ -208,7 +210,7 @@ impl Peers<'_> {
     }
 }
 
-/// Whether somebody has taken some bytes in time.
+/// Whether the client accepted some bytes in time.
 fn is_sent(to: &SyncSender<Vec<u8>>, mut bytes: Vec<u8>, patience: Duration) -> bool {
     let since = Instant::now();
     loop {

@@ -1,4 +1,4 @@
-//! What the robot's signals said in a run that is over, at any time of it.
+//! The values of the robot's signals in a finished run, at any time.
 
 use afp_core::Instant;
 use afp_core::devices::{DeviceRow, SignalRow, SignalType, signals};
@@ -6,17 +6,17 @@ use afp_debug::{Cone, Sensed};
 use afp_log::{Heard, LogData};
 use afp_session::{Datum, Pose2};
 
-/// What a signal said, by time.
+/// The values of a signal, by time.
 enum Said {
     Values(Vec<(Instant, Datum)>),
     Ranges(Vec<Heard>),
 }
 
-/// What a log tells of the signals of a robot.
+/// The signals of a robot in a log.
 pub struct Senses(Vec<(&'static DeviceRow, &'static SignalRow, Said)>);
 
 impl Senses {
-    /// Takes what a log has of the signals that a plan may know.
+    /// Takes the values of the signals that a plan can read from a log.
     pub fn take(log: &mut LogData, devices: &'static [DeviceRow]) -> Self {
         let all = signals(devices).filter(|(.., row)| !row.truth).filter_map(|(_, device, row)| {
             let said = match row.ty {
@@ -31,7 +31,7 @@ impl Senses {
         Senses(all.collect())
     }
 
-    /// What they said at a time, when the robot stood somewhere.
+    /// The values at a time, for a robot at this position.
     pub fn at(&self, at: Instant, robot: Option<Pose2>) -> Vec<Sensed> {
         let one = |(device, row, said): &(&DeviceRow, &SignalRow, Said)| match said {
             Said::Values(all) => {
@@ -73,7 +73,7 @@ mod tests {
     static TABLE: [DeviceRow; 2] = [range("front"), range("back")];
 
     #[test]
-    fn each_of_several_range_sensors_says_what_it_heard_last() {
+    fn each_of_several_range_sensors_has_its_last_reading() {
         let heard = |second: u64, device: &str, range| Heard {
             device: device.into(),
             at: Instant::from_nanos(second * 1_000_000_000),
@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(said(9), ["front.echo 1.5 m", "back.echo 2 m"]);
     }
     #[test]
-    fn what_is_silent_says_nothing() {
+    fn a_silent_sensor_has_no_value() {
         let second = |second: u64| Instant::from_nanos(second * 1_000_000_000);
         let said = vec![(second(1), Datum::Float(880.0)), (second(2), Datum::Unset)];
         let samples = [("signals/tone".to_owned(), said)].into();

@@ -1,4 +1,4 @@
-//! What is debugged: plans of files on the robot that is linked in, simulated, and logs.
+//! Debug targets: plans on the linked, simulated robot, and logs.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,10 +15,10 @@ use crate::{Linked, runner};
 
 use super::senses::Senses;
 
-/// Runs plans of files on the robot that is linked in, simulated.
+/// Runs plans on the linked robot in simulation.
 pub struct Simulator<'a> {
     linked: Linked<'a>,
-    /// Where what is run must lie; anywhere without one.
+    /// The folder that restricts all files; `None` allows any file.
     folder: Option<PathBuf>,
 }
 
@@ -28,15 +28,15 @@ impl<'a> Simulator<'a> {
         Simulator { linked: *linked, folder: None }
     }
 
-    /// Runs plans and shows logs that lie in a folder, and no others; its path is one from the root, without links.
+    /// Runs plans and shows logs only in a folder; `folder` is a canonical absolute path.
     pub fn inside(linked: &Linked<'a>, folder: &Path) -> Self {
         Simulator { linked: *linked, folder: Some(folder.to_owned()) }
     }
 
-    /// The files that a launch comes to, which may be read.
+    /// The files of a launch, all of them readable.
     ///
     /// # Errors
-    /// A path leads out of the folder, or nowhere.
+    /// A path leads out of the folder, or does not exist.
     pub fn files(&self, launch: &Launch) -> Result<LaunchFiles, String> {
         let named = launch.program.strip_prefix("file://").unwrap_or(&launch.program);
         let (path, plan) = plan_file::split(named);
@@ -45,7 +45,7 @@ impl<'a> Simulator<'a> {
             Some(world) if !world.starts_with(world::RANDOM) => Some(inside(world)?),
             world => world.map(PathBuf::from),
         };
-        // What a log holds is read from there alone.
+        // The plan of a log comes only from the log.
         let program = match launch.log {
             Some(_) => self.inside_of_folder(&path).unwrap_or_default(),
             None => self.inside_of_folder(&path)?,
@@ -58,7 +58,7 @@ impl<'a> Simulator<'a> {
         })
     }
 
-    /// The world that a log was recorded in.
+    /// The world of the recorded run.
     fn world_of_log(&self, log: &Path) -> Result<Surroundings, String> {
         let log = afp_log::read(log).map_err(|why| why.to_string())?;
         let Recipe { world, start, seed, .. } = log.recipe();
@@ -78,7 +78,8 @@ impl<'a> Simulator<'a> {
         })
     }
 
-    /// The path itself; where only a folder is open, from the root and without links: what is read is what was checked.
+    /// The given path. With a restricting folder, the canonical path, so that the checked file is
+    /// also the file that is read.
     fn inside_of_folder(&self, path: &Path) -> Result<PathBuf, String> {
         let Some(folder) = self.folder.as_ref().filter(|_| !path.as_os_str().is_empty()) else {
             return Ok(path.to_owned());
@@ -92,8 +93,8 @@ impl<'a> Simulator<'a> {
     }
 }
 
-/// A path from the root, without links. Of a file that is not there its folder is looked at: another program may have it away
-/// for a moment.
+/// A canonical absolute path. For a missing file, only the folder is resolved: another program may
+/// replace the file at this moment.
 fn whole(path: &Path) -> io::Result<PathBuf> {
     match (path.canonicalize(), path.parent(), path.file_name()) {
         (Err(_), Some(folder), Some(name)) if path.symlink_metadata().is_err() => {
@@ -103,13 +104,13 @@ fn whole(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// The files that a launch comes to.
+/// The files of a launch.
 pub struct LaunchFiles {
-    /// That of the plan; empty where none is named.
+    /// The plan's file; empty if the launch names none.
     program: PathBuf,
     plan: Option<String>,
     log: Option<PathBuf>,
-    /// That of the world, or how one is made up.
+    /// The world's file, or the seed of a random world.
     world: Option<PathBuf>,
 }
 
@@ -167,7 +168,7 @@ impl<'a> Host<'a> for Simulator<'a> {
         if let Some(log) = &files.log {
             return self.world_of_log(log);
         }
-        // Before there is a plan, the world is the one that a new plan of the folder would have.
+        // Without a plan, the world is the default world of a new plan in the folder.
         let path = match &self.folder {
             Some(folder) if files.program.as_os_str().is_empty() => folder.join("plan.afp"),
             _ => PathBuf::from(absolute(&files.program.display().to_string())),
@@ -176,7 +177,7 @@ impl<'a> Host<'a> for Simulator<'a> {
         let found = world::find(files.world.as_deref(), &path, kind);
         let found = found.map_err(|why| why.to_string())?;
         let mut worlds = world::all(&path, kind).map_err(|why| why.to_string())?;
-        // What would be refused is not offered; the first one is taken without being named.
+        // Files that would be refused are not offered. The first file is the default.
         let open = |name: &str| {
             name.is_empty()
                 || name.starts_with(world::RANDOM)
@@ -202,13 +203,13 @@ impl<'a> Host<'a> for Simulator<'a> {
     }
 }
 
-/// A run that is over.
+/// A finished run.
 fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, String> {
     let mut log = afp_log::read(path).map_err(|why| why.to_string())?;
     let file = PlanFile::of_log(&log, path).map_err(|why| why.to_string())?;
     let shown = file.compiled.render(false);
     let graph = file.compiled.graph.clone().ok_or(shown)?;
-    // The texts of a log are named as seen from the folder of the plan.
+    // Source names in a log are relative to the plan's folder.
     let folder = file.path.parent().unwrap_or(Path::new(""));
     let folder = std::path::absolute(folder).unwrap_or_default();
     let named = |name: &str| match log.attachments.contains_key(name) {
@@ -224,7 +225,7 @@ fn recorded(path: &Path, devices: &'static [DeviceRow]) -> Result<LogTarget, Str
     Ok(target.with_pictures(move |at| log.picture(at)))
 }
 
-/// A plan with its places; texts that are not those of files go along.
+/// A plan with its places and its sources, including sources that are not files.
 fn program(graph: &Graph, file: &PlanFile, path: &dyn Fn(&str) -> String) -> Program {
     let mut program = Program::new(graph, &file.compiled.sources, path);
     program.keep_texts(&file.compiled.sources, &|path, text| {
@@ -233,7 +234,7 @@ fn program(graph: &Graph, file: &PlanFile, path: &dyn Fn(&str) -> String) -> Pro
     program
 }
 
-/// A path from the root, without links, where the file is there.
+/// A canonical absolute path if the file exists.
 fn absolute(path: &str) -> String {
     let path = path.strip_prefix("file://").unwrap_or(path);
     fs::canonicalize(path).map_or_else(|_| path.to_owned(), |path| path.display().to_string())

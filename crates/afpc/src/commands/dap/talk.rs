@@ -1,4 +1,4 @@
-//! The conversation with a client, whatever carries it.
+//! The conversation with a client, over any transport.
 
 use std::io::{Read, Write};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -10,9 +10,9 @@ use afp_output::frames::{Frames, WireError, frame};
 
 pub use crate::commands::stream::read;
 
-/// What there is to do next.
+/// The next thing to handle.
 pub enum Arrived {
-    /// Messages of the client are there, perhaps none that is whole.
+    /// Messages of the client; an empty list if no message is complete yet.
     Messages(Vec<String>),
     /// Time has passed.
     Nothing,
@@ -20,15 +20,15 @@ pub enum Arrived {
     End,
 }
 
-/// How long clients may be listened to beyond the time at which the run goes on.
+/// The maximum delay of the run while clients send messages.
 const LATE: Duration = Duration::from_millis(10);
 
-/// When a run goes on, whatever clients say meanwhile.
+/// The run's clock, independent of the clients' messages.
 pub(super) struct Clock {
     begin: Instant,
-    /// When it went on last, or began to.
+    /// The time of the last step, or of the start.
     ticked: Instant,
-    /// Whether it waits for clients.
+    /// Whether the run waits for clients.
     held: bool,
 }
 
@@ -38,20 +38,20 @@ impl Clock {
         Clock { begin, ticked: begin, held: true }
     }
 
-    /// The time that the adapter is told.
+    /// The adapter's current time.
     pub(super) fn now(&self) -> Duration {
         self.begin.elapsed()
     }
 
-    /// How long clients can be waited for; none where the run waits for them.
+    /// The time to wait for clients; `None` if the run itself waits for them.
     pub(super) fn rest(&mut self, adapter: &Adapter<'_>) -> Option<Duration> {
         let due = adapter.due();
         self.held = due.is_none();
         due.map(|due| due.saturating_sub(self.ticked.elapsed()))
     }
 
-    /// Lets the run go on if it is time, after something has `arrived` only where it is late: what has been said is heard first,
-    /// but nobody who says much holds the run.
+    /// Continues the run if its time has come. After an arrival, the run continues only if it is
+    /// late. Messages are handled first, but a busy client cannot hold the run.
     pub(super) fn tick(&mut self, adapter: &mut Adapter<'_>, arrived: bool) -> Vec<Outgoing> {
         if std::mem::take(&mut self.held) {
             self.ticked = Instant::now();
@@ -67,11 +67,13 @@ impl Clock {
     }
 }
 
-/// Talks with a client until it says goodbye or goes away; then the robot has stopped. `next` waits for the client, at
-/// most as long as it is told; `send` says whether somebody still listens.
+/// Talks with a client until it disconnects; then the robot has stopped.
+///
+/// `next` waits for the client for at most the given time. `send` returns whether the client still
+/// listens.
 ///
 /// # Errors
-/// Those of `next`.
+/// The errors of `next`.
 pub fn converse(
     mut adapter: Adapter<'_>,
     mut next: impl FnMut(Option<Duration>) -> Result<Arrived, WireError>,
@@ -92,7 +94,7 @@ pub fn converse(
             Arrived::End => return Ok(()),
         }
         out.extend(clock.tick(&mut adapter, arrived));
-        // There is no other client.
+        // This is the only client.
         let out: Vec<_> = out.into_iter().map(|told| told.message).collect();
         if !out.is_empty() && !send(&out) {
             return Ok(());
@@ -104,14 +106,14 @@ pub fn converse(
 /// Talks with a client over a stream of bytes.
 ///
 /// # Errors
-/// What arrives are no messages.
+/// The input is not a sequence of messages.
 pub(super) fn serve(
     adapter: Adapter<'_>,
     from: impl Read + Send + 'static,
     mut to: impl Write,
 ) -> Result<(), WireError> {
     let (sender, arrived) = channel();
-    // It ends with the stream, or with the program.
+    // The thread ends with the stream or with the program.
     thread::spawn(move || read(from, |bytes| sender.send(bytes).is_ok()));
     let mut frames = Frames::default();
     let next = |due: Option<Duration>| match wait(&arrived, due) {
@@ -135,7 +137,7 @@ pub(super) fn serve(
     converse(adapter, next, send)
 }
 
-/// Waits, at most as long as the run can.
+/// Waits for an arrival until the next step of the run.
 pub fn wait<T>(arrived: &Receiver<T>, due: Option<Duration>) -> Result<T, RecvTimeoutError> {
     match due {
         None => arrived.recv().map_err(|_| RecvTimeoutError::Disconnected),

@@ -1,4 +1,4 @@
-//! `afpc log FILE info`: what the file is and holds.
+//! `afpc log FILE info`: the contents of the file.
 
 use std::fmt::Write;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The pictures that a log is good for.
+//! The pictures of a log.
 
 use std::path::{Path, PathBuf};
 
@@ -13,10 +13,10 @@ use crate::no_plan::NoPlan;
 use crate::plan_file::{PlanFile, path_of_log};
 use crate::{Linked, picture, runner};
 
-/// Draws the pictures that are asked for, each into its file.
+/// Draws the requested pictures, each into its file.
 ///
 /// # Errors
-/// The log cannot be read or does not hold what a picture shows; a file cannot be written.
+/// The log cannot be read or lacks the data for a picture; a file cannot be written.
 pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoPlan> {
     let Arguments { svg, sonar, film, coverage, .. } = arguments;
     if [svg, sonar, film, coverage].iter().all(|picture| picture.is_none()) {
@@ -26,7 +26,7 @@ pub(super) fn draw(arguments: &Arguments, linked: &Linked<'_>) -> Result<(), NoP
     check_apart(all, [&*arguments.file])?;
     let log = read(&arguments.file).map_err(RunError::from)?;
     if (svg.is_some() || sonar.is_some()) && !is_of_hardware(&log) {
-        // Only the robot of the project that the run was of can read its world.
+        // Only the robot of the run's project can read its world.
         let plan = path_of_log(&log, &arguments.file);
         runner::become_one_of(&ProjectFile::of_plan(&plan)?, linked)?;
     }

@@ -19,7 +19,8 @@ pub(super) fn text(log: &LogData) -> String {
     text
 }
 
-/// What ran; what failed to start was never active. And how wide a column of their paths is under a heading.
+/// The components that ran, and the width of their path column under a heading. Components that
+/// failed to start were never active and are left out.
 fn ran<'a>(all: &'a [(String, Usage)], heading: &str) -> (Vec<&'a (String, Usage)>, usize) {
     let ran: Vec<_> = all.iter().filter(|(_, usage)| usage.starts + usage.faults > 0).collect();
     let width = ran.iter().map(|(path, _)| path.len()).max().unwrap_or(0);

@@ -1,6 +1,7 @@
-//! New projects as texts: a plan for the Carbot, a toolbox of one's own, a robot of one's own.
+//! New projects as texts: a plan for the Carbot, a toolbox, or a robot.
 //!
-//! Each works as it is: it can be checked, run and tested. Nothing here writes a file: the command line and editors do.
+//! Each project can be checked, run and tested without changes. Nothing here writes a file: the
+//! command line and editors do.
 
 mod manifest;
 mod name;
@@ -10,12 +11,12 @@ use afp_run::RunError;
 
 use name::Names;
 
-/// What a project begins with.
+/// The kinds of projects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A plan for the Carbot, with a world and scenarios.
     Plan,
-    /// A toolbox with a crate of its own, for the Carbot, and a plan that uses it.
+    /// A toolbox with its own crate, for the Carbot, and a plan that uses it.
     Toolbox,
     /// A simulated robot with its toolbox, and a plan for it.
     Robot,
@@ -66,11 +67,11 @@ const ROBOT: &[Draft] = drafts! { "robot":
     "tests/scenarios.rs" from "scenarios.rs",
 };
 
-/// The files of a new project of that name. `afp` says where its manifest takes the afp crates from; a path is that of
-/// the checkout.
+/// The files of a new project with that name. `afp` is the source of the afp crates in its
+/// manifest; a path is that of the checkout.
 ///
 /// # Errors
-/// A name that cannot be that of files, of a crate and of a plan.
+/// The name is not valid for files, a crate and a plan.
 pub fn files(name: &str, kind: Kind, afp: &Origin) -> Result<Vec<File>, RunError> {
     let names = Names::new(name)?;
     let drafts = match kind {

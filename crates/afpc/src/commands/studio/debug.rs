@@ -1,4 +1,5 @@
-//! Where a client runs and debugs: in this program, or in one that has the robot of its project.
+//! Runs and debugs plans for a client: in this program, or in a program with the robot of the
+//! project.
 
 mod relay;
 
@@ -18,30 +19,30 @@ use crate::no_plan::NoPlan;
 use crate::{Linked, runner};
 use relay::{Conversation, relay};
 
-/// What takes longer is explained.
+/// The client gets a notice for longer operations.
 const SOON: Duration = Duration::from_millis(500);
 
-/// What the clients of one studio share.
+/// The state that the clients of one studio share.
 pub(super) struct DebugService<'a> {
     pub(super) linked: &'a Linked<'a>,
-    /// Nothing outside of it is run.
+    /// Only plans in this folder run.
     pub(super) folder: &'a Path,
-    /// Whether what lies in it may be built and run.
+    /// Whether the folder's code may be built and run.
     pub(super) trusted: Trusted,
 }
 
-/// What another program has to go on with.
+/// The state that another program needs to continue the conversation.
 struct Elsewhere {
     program: PathBuf,
-    /// What it has missed.
+    /// The earlier messages.
     said: Conversation,
 }
 
 impl DebugService<'_> {
-    /// Runs and debugs plans for a client until it is gone.
+    /// Runs and debugs plans for a client until it disconnects.
     pub(super) fn serve(&self, client: Debugging) {
         let Debugging { said, told } = client;
-        // A run goes no faster than its client reads; who reads nothing loses the connection.
+        // The run waits for its client. A client that does not read loses the connection.
         let tell = |message: String| told.blocking_send(message).is_ok();
         let mut before = Conversation::default();
         let mut elsewhere = None;
@@ -72,20 +73,21 @@ impl DebugService<'_> {
         };
         let send = |out: &[String]| out.iter().all(|message| tell(message.clone()));
         let simulator = Simulator::inside(self.linked, self.folder);
-        // It cannot say what is no message: frames are whole.
+        // An invalid message is impossible: frames are complete.
         let _ = converse(Adapter::new(Box::new(simulator)), next, send);
         if let Some(Elsewhere { program, said: missed }) = elsewhere {
             relay(&program, self.folder, missed, &said, &tell);
         }
     }
 
-    /// The program that has what a request needs; none where this one has. Built if need be, so that it may take minutes.
+    /// The program that a request needs; `None` if this program is enough. Building the program can
+    /// take minutes.
     fn other(
         &self,
         request: &Value,
         tell: &(impl Fn(String) -> bool + Sync),
     ) -> Result<Option<PathBuf>, String> {
-        // What makes no sense is refused by the debugger.
+        // The debugger reports invalid requests.
         let launch: Launch =
             serde_json::from_value(request["arguments"].clone()).unwrap_or_default();
         let file = Simulator::inside(self.linked, self.folder).files(&launch)?.plan().ok();
@@ -95,10 +97,11 @@ impl DebugService<'_> {
         let graph = file.as_ref().and_then(|file| file.compiled.graph.as_ref());
         let has_robot = own.project.robot().map_err(|why| why.to_string())?.is_some();
         let parts = match graph {
-            // Toolboxes make no difference to a world.
+            // Toolboxes do not change a world.
             _ if !has_robot && request["command"] == "afp/world" => return Ok(None),
             Some(graph) => Parts::of_plans([(own, graph)]),
-            // Before there is a plan, or while it has mistakes, its robot has a world already: of what plans will need.
+            // If there is no valid plan yet, the robot already has a world: the default world of
+            // new plans.
             None if has_robot => {
                 Parts::of_project(own).or_else(|_| Parts::of_robot(&own.project)).map(Some)
             }
@@ -125,7 +128,7 @@ impl DebugService<'_> {
     }
 }
 
-/// Whether there is a robot after a request.
+/// Whether a request starts a robot.
 fn begins(request: &Value) -> bool {
     request["command"] == "launch" || request["command"] == "afp/world"
 }
@@ -139,7 +142,7 @@ fn refused(request: &Value, why: &str) -> String {
     .to_string()
 }
 
-/// Does what may take long; then the client is told what it waits for.
+/// Does a long operation and notifies the client about the wait.
 fn with_notice<T>(
     what: &str,
     tell: &(impl Fn(String) -> bool + Sync),

@@ -1,4 +1,4 @@
-//! What `afpc sweep` prints: how far it is, what the runs came to, where and why they failed.
+//! The output of `afpc sweep`: progress, results, and failures with their causes.
 
 use std::cell::Cell;
 use std::fmt::Write;
@@ -11,18 +11,18 @@ use serde_json::{Value, json};
 use crate::commands::{BAD, GOOD, QUIET, print};
 use crate::no_plan::NoPlan;
 
-/// So many ways to end are told; the table has all of them.
+/// The maximum number of printed groups; the table has all of them.
 const GROUPS: usize = 12;
 /// The bar with its estimate.
 const BAR: &str = "{bar:32} {pos} of {len} runs, {rate}, {eta} left{msg}";
 
-/// Tells how it goes.
+/// Reports the progress.
 pub(super) struct Reporter<'a> {
     sweep: &'a Sweep,
     json: bool,
 }
 
-/// How far it is, on standard error, in a terminal alone.
+/// The progress bar on standard error, only in a terminal.
 pub(super) struct Bar {
     bar: ProgressBar,
     failed: Cell<u64>,
@@ -33,7 +33,7 @@ impl<'a> Reporter<'a> {
         Reporter { sweep, json }
     }
 
-    /// Says that a sweep goes on, and how to begin anew.
+    /// Prints that a sweep continues, and how to restart it.
     pub fn head(&self, output: &OutputFiles, done: usize) {
         let (all, journal) = (self.sweep.len(), output.journal.display());
         if done as u64 == all {
@@ -45,10 +45,10 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    /// A bar for the runs that are left.
+    /// A bar for the remaining runs.
     pub fn bar(&self, left: u64) -> Bar {
         let bar = ProgressBar::new(left);
-        // A wrong template would leave the bar as it comes.
+        // With an invalid template, the bar keeps its default style.
         if let Ok(style) = ProgressStyle::with_template(BAR) {
             let rate = |state: &ProgressState, to: &mut dyn Write| {
                 let _ = write!(to, "{:.1} a second", state.per_sec());
@@ -58,7 +58,7 @@ impl<'a> Reporter<'a> {
         Bar { bar, failed: Cell::new(0) }
     }
 
-    /// All there is to tell, or what there is of a sweep that was stopped.
+    /// Prints the results, or the partial results of a stopped sweep.
     pub fn end(
         &self,
         outcomes: &[Outcome],
@@ -92,13 +92,13 @@ impl<'a> Reporter<'a> {
         text
     }
 
-    /// A run, without what differs from machine to machine.
+    /// A run, without machine-dependent values.
     fn object(&self, outcome: &Outcome) -> Value {
         let row = self.sweep.row(outcome.run);
         let mut object = json!(outcome);
         if let Some(map) = object.as_object_mut() {
             map.remove("took_s");
-            // What never started has come to nothing.
+            // A run that never started has no measures.
             let nothing = Measure::ALL.into_iter().filter(|it| it.of(outcome).is_none());
             map.extend(nothing.map(|measure| (measure.name().to_owned(), Value::Null)));
             map.insert("world".to_owned(), json!(row.world.name()));
@@ -159,7 +159,7 @@ impl<'a> Reporter<'a> {
         text
     }
 
-    /// What was touched, for how long, in how many runs.
+    /// The touched objects, with durations and numbers of runs.
     fn touched(&self, touched: &[Touched]) -> String {
         let mut text = String::new();
         if !touched.is_empty() {
@@ -169,7 +169,7 @@ impl<'a> Reporter<'a> {
             let name = format!("touched {name}");
             text += &format!("{name:>20} {runs:>10} {lasted_s:>10.1}\n");
         }
-        // The worst of it, to be looked at.
+        // The worst run, for a closer look.
         if let Some(first) = touched.first() {
             let command = self.sweep.command(&self.sweep.row(first.longest));
             text += &format!("        {QUIET}longest:{QUIET:#} {command}\n");
@@ -210,7 +210,7 @@ impl Drop for Bar {
     }
 }
 
-/// Runs that ended alike.
+/// A line for runs that ended alike.
 fn line(group: &Group) -> String {
     let Group { ending, place, why, count, .. } = group;
     let style = if ending.is_failure() { BAD } else { GOOD };
@@ -227,7 +227,7 @@ fn line(group: &Group) -> String {
     format!("{count:>7} {style}{how}{style:#}{place}{why}")
 }
 
-/// How a measure is shown: its name, and how many digits.
+/// The printed form of a measure: its name and its number of digits.
 fn shown(measure: &Measure) -> (String, usize) {
     match measure {
         Measure::Time => ("time, s".to_owned(), 2),

@@ -1,4 +1,4 @@
-//! Drawings of plans with what was used of them.
+//! Drawings of plans with their usage.
 
 use std::fs;
 use std::path::Path;
@@ -11,10 +11,10 @@ use crate::commands::graph;
 use crate::no_plan::NoPlan;
 use crate::picture;
 
-/// Draws one plan into a file, or each into a folder.
+/// Draws one plan into a file, or each plan into a folder.
 ///
 /// # Errors
-/// Several plans and one file; a file that cannot be written.
+/// There are several plans and one file; a file cannot be written.
 pub(super) fn draw_all(plans: &[Used<'_>], output: &Path) -> Result<(), NoPlan> {
     if output.extension().is_some() && !output.is_dir() {
         let [used] = plans else {

@@ -1,4 +1,4 @@
-//! Which scenarios are meant.
+//! The selection of scenarios.
 
 use std::collections::HashSet;
 use std::fs;
@@ -10,12 +10,12 @@ use afp_run::RunError;
 use afp_syntax::may_have_scenario;
 use afp_types::TextHash;
 
-/// Where the logs of failed ones go.
+/// The folder for the logs of failed scenarios.
 const LOGS: &str = "target/afp/tests";
-/// As many letters of a file's and a scenario's name stand in that of a log, which file systems bound.
+/// The maximum length of file and scenario names in a log's name; file systems limit names.
 const LONGEST_NAME: usize = 40;
 
-/// Files to look into and words that names contain.
+/// Files to search, and words that names must contain.
 pub(super) struct Wanted {
     pub files: Vec<PathBuf>,
     pub filters: Vec<String>,
@@ -45,25 +45,25 @@ pub(super) fn wanted(arguments: &[String]) -> Result<Wanted, RunError> {
     Ok(wanted)
 }
 
-/// Of a folder in which there may be scenarios.
+/// The error for a folder that may contain scenarios.
 fn unread((folder, error): Unread) -> RunError {
     let folder = folder.strip_prefix(".").unwrap_or(&folder);
     RunError::file("cannot read the folder", folder)(error)
 }
 
-/// Those of some files that have scenarios.
+/// The files that have scenarios.
 fn with_scenarios(files: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
     let plans = files.into_iter().filter(|path| path.extension().is_some_and(|it| it == "afp"));
     let having = plans.filter(|path| has_scenarios(path));
     having.map(|path| path.strip_prefix(".").map_or(path.clone(), Path::to_owned))
 }
 
-/// Whether a file may have a scenario; the compiler will know why one cannot be read.
+/// Whether a file may have a scenario; the compiler reports unreadable files.
 fn has_scenarios(path: &Path) -> bool {
     read_text_file(path).map_or(true, |text| may_have_scenario(&text))
 }
 
-/// Why there is nothing to run.
+/// The error if there is nothing to run.
 pub(super) fn nothing(filters: &[String], files: &[PathBuf]) -> RunError {
     match (filters, files) {
         ([], []) => RunError::usage(
@@ -81,13 +81,13 @@ pub(super) fn nothing(filters: &[String], files: &[PathBuf]) -> RunError {
     }
 }
 
-/// Where the log of a failed scenario goes; `None` where there can be none.
+/// The log of a failed scenario; `None` if no log is possible.
 pub(super) fn log_of(file: &Path, name: &str) -> Option<PathBuf> {
     fs::create_dir_all(LOGS).ok()?;
     Some(Path::new(LOGS).join(log_name(file, name)))
 }
 
-/// What the log of a scenario is called: what people read of it, and behind that what tells it from all others.
+/// The name of a scenario's log: readable names, then a hash that makes the name unique.
 fn log_name(file: &Path, name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
     let shown = |name: &str| name.chars().map(plain).take(LONGEST_NAME).collect::<String>();
@@ -96,7 +96,7 @@ fn log_name(file: &Path, name: &str) -> String {
     let mut hash = TextHash::of(&file.to_string_lossy());
     hash.add("\0");
     hash.add(name);
-    // Half of it: there are few scenarios.
+    // Half of the hash is enough for few scenarios.
     format!("{stem}.{shown}.{:08x}.mcap", hash.get() as u32)
 }
 
@@ -108,7 +108,7 @@ mod tests {
     use super::log_name;
 
     #[test]
-    fn no_two_scenarios_have_one_log() {
+    fn two_scenarios_have_different_logs() {
         let long = "a".repeat(300);
         let longer = format!("{long}b");
         let names = ["ä", "ö", "Ä", "a b", "a_b", "A b", "", "..", "a/b", "a\\b", &long, &longer];
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_of_all_languages_are_read_in_the_name_of_a_log() {
+    fn letters_of_all_languages_are_kept_in_the_name_of_a_log() {
         let log = log_name(Path::new("tests/room.afp"), "Übt, 3 mal");
         assert!(log.starts_with("room.übt__3_mal."), "{log}");
     }

@@ -17,13 +17,13 @@ use crate::no_plan::NoPlan;
 use crate::plan_file::{PlanFile, PlanText};
 use crate::{Linked, runner};
 
-/// How long the run lasts that says when actors are active, nanoseconds.
+/// The duration of the run that finds when actors are active, in nanoseconds.
 const RUN: u64 = 60_000_000_000;
 
-/// Writes a file of scenarios for the first plan of each file, and says where.
+/// Writes a file of scenarios for the first plan of each file, and prints its path.
 ///
 /// # Errors
-/// No file is named, a plan is wrong or cannot run without values, a file cannot be written.
+/// No file is given, a plan is invalid or needs values, a file cannot be written.
 pub(super) fn run(
     files: &[PathBuf],
     output: Option<&Path>,
@@ -62,7 +62,8 @@ pub(super) fn run(
     Ok(EXIT_OK)
 }
 
-/// Refuses a file of scenarios that uses the plan of another file: what is made would look for it in the first.
+/// Rejects a file of scenarios for a plan in another file: the generated scenarios would look for
+/// the plan in the first file.
 fn has_own_plan(file: &Path, graph: &Graph) -> Result<(), RunError> {
     let Some(other) = &graph.main().file else { return Ok(()) };
     let other = normalised(&file.with_file_name(other).display().to_string());
@@ -72,7 +73,7 @@ fn has_own_plan(file: &Path, graph: &Graph) -> Result<(), RunError> {
     ))
 }
 
-/// Refuses to write over scenarios that somebody has written.
+/// Refuses to replace scenarios that somebody has written.
 fn may_be_made_anew(path: &Path) -> Result<(), RunError> {
     if !path.is_file() {
         return Ok(());
@@ -88,7 +89,7 @@ fn may_be_made_anew(path: &Path) -> Result<(), RunError> {
     ))
 }
 
-/// Runs the scenarios that were made for a plan on all cores, as if they stood beside it.
+/// Runs the generated scenarios of a plan on all cores, as if they were in its folder.
 fn prove(file: &Path, made: &mut Generated, robot: &dyn Loader) -> Result<(), RunError> {
     let from = file.file_name().unwrap_or_default().to_string_lossy();
     let read = |made: &Generated| {
@@ -103,7 +104,7 @@ fn prove(file: &Path, made: &mut Generated, robot: &dyn Loader) -> Result<(), Ru
     made.prove(read, |scenarios| scenarios.par_iter().with_max_len(1).map(run_one).collect())
 }
 
-/// Writes scenarios into the file `to`, whose folder is made.
+/// Writes scenarios into the file `to`, and creates its folder.
 fn write(file: &Path, to: &Path, made: &Generated) -> Result<(), RunError> {
     let folder = to.parent().unwrap_or(Path::new(""));
     fs::create_dir_all(folder).map_err(RunError::file("cannot make the folder", folder))?;
@@ -127,8 +128,8 @@ fn generate(file: &Path, graph: Graph, robot: &dyn Loader) -> Result<Generated, 
     })
 }
 
-/// Where the scenarios of a plan go: into `output`, a folder if there are several, or else into
-/// `tests/patrol_generated.afp` beside `patrol.afp`.
+/// The file for a plan's scenarios: in `output`, a folder if there are several, or else
+/// `tests/patrol_generated.afp` next to `patrol.afp`.
 fn place(file: &Path, output: Option<&Path>, several: bool) -> PathBuf {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     let name = format!("{stem}_generated.afp");
@@ -139,7 +140,7 @@ fn place(file: &Path, output: Option<&Path>, several: bool) -> PathBuf {
     }
 }
 
-/// The relative path from the file `to` to a plan, as `use` takes it.
+/// The relative path from the file `to` to a plan, in the form for `use`.
 fn relative_path(file: &Path, to: &Path) -> Result<String, RunError> {
     let folder = to.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let whole = |path: &Path| path.canonicalize().map_err(RunError::file("cannot find", path));

@@ -1,4 +1,4 @@
-//! `afpc test --mutate`: changes plans a little and says which scenarios notice it.
+//! `afpc test --mutate`: changes plans a little and reports which scenarios notice it.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -17,23 +17,24 @@ use crate::commands::{EXIT_STOPPED, print};
 use crate::no_plan::NoPlan;
 use crate::plan_file::PlanFile;
 
-/// So many scenarios are named in a line of the table.
+/// The maximum number of scenarios in a line of the table.
 const NAMED: usize = 3;
 
-/// What mutants of a plan came to.
+/// The result for a plan's mutants.
 enum Came {
-    /// This share is noticed.
+    /// The share of noticed mutants.
     Share(f64),
-    /// No scenario passes on the plan as it is.
+    /// No scenario passes on the unchanged plan.
     NoJudge,
-    /// It was stopped before all were judged.
+    /// The command was stopped before all mutants were judged.
     Stopped,
 }
 
-/// Mutates the plans that the scenarios of some files are for; gives the exit code, `code` where all is well.
+/// Mutates the plans of some files' scenarios. Returns the exit code, `code` if all is well.
 ///
 /// # Errors
-/// No scenarios though no file is wrong, a scenario that cannot be run, a table that cannot be printed.
+/// There are no scenarios although all files are valid, a scenario cannot run, a table cannot be
+/// printed.
 pub(super) fn run(
     files: &[PlanFile],
     code: u8,
@@ -74,7 +75,7 @@ pub(super) fn run(
     Ok(code)
 }
 
-/// Tells what is wrong with scenarios; whether anything is.
+/// Reports invalid scenarios and returns whether there are any.
 fn tell_invalid(files: &[PlanFile]) -> bool {
     let mut any = false;
     for file in files {
@@ -86,7 +87,7 @@ fn tell_invalid(files: &[PlanFile]) -> bool {
     any
 }
 
-/// Says that less is noticed than is wanted, with as many digits as tell the two apart.
+/// The message for too few noticed mutants, with enough digits to distinguish both percentages.
 fn too_few(plan: &str, percent: f64, least: f64) -> String {
     let digits = (2..17).find(|digits| {
         let shown = format!("{percent:.digits$}");
@@ -142,7 +143,7 @@ fn one_plan(
     Ok(Came::Share(tally.share()))
 }
 
-/// Judges mutants on all cores, as many as there is time for until somebody stops it.
+/// Judges mutants on all cores, until the time is over or somebody stops the command.
 fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Vec<Judged> {
     let (all, done) = (mutants.len(), AtomicUsize::new(0));
     let shown = std::io::stderr().is_terminal();
@@ -153,7 +154,7 @@ fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Vec<Ju
         let judged = bench.judge(mutant, &mut || !stop.is_raised());
         let number = done.fetch_add(1, Ordering::Relaxed) + 1;
         if shown {
-            // Nothing is lost where nobody sees it.
+            // Progress is optional: without a terminal, nothing is lost.
             let _ = write!(std::io::stderr(), "\r\x1b[K{number} of {all} mutants");
         }
         judged
@@ -165,7 +166,7 @@ fn judge_all(bench: &Bench<'_>, mutants: Vec<Mutant>, stop: &StopFlag) -> Vec<Ju
     judged
 }
 
-/// What became of each mutant, those that nobody noticed first.
+/// The result of each mutant; unnoticed mutants come first.
 fn table(plan: &str, bench: &Bench<'_>, judged: &[Judged]) -> String {
     let mut text = format!("{plan}: {} mutants, {} scenarios\n", judged.len(), bench.judges());
     for name in &bench.failing {

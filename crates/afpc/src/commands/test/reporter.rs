@@ -1,4 +1,4 @@
-//! What `afpc test` prints: a line for each scenario, what broke, a sum.
+//! The output of `afpc test`: a line for each scenario, the failures, a sum.
 
 use std::fmt::Write;
 use std::io::{IsTerminal, Write as _};
@@ -15,17 +15,17 @@ use super::{Case, Done, Failure, Used};
 use crate::commands::{BAD, GOOD, QUIET, print};
 use crate::no_plan::NoPlan;
 
-/// Tells how it goes.
+/// Reports the progress.
 pub(super) struct Reporter {
     all: usize,
     done: AtomicUsize,
     json: bool,
     progress: bool,
-    /// Why a line could not be printed.
+    /// The reason why a line could not be printed.
     failure: Mutex<Option<NoPlan>>,
 }
 
-/// Shows how far it is; nothing is lost where nobody sees it.
+/// Shows the progress; without a terminal, nothing is lost.
 fn show(text: &str) {
     let _ = anstream::stderr().write_all(text.as_bytes());
 }
@@ -36,7 +36,7 @@ impl Reporter {
         Reporter { all, done: AtomicUsize::new(0), json, progress, failure: Mutex::default() }
     }
 
-    /// A scenario is done; called from all threads.
+    /// Reports a finished scenario; all threads call it.
     pub fn done(&self, case: &Case<'_>, done: &Done) {
         let number = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if self.progress {
@@ -53,7 +53,7 @@ impl Reporter {
         }
     }
 
-    /// All are done that could be until somebody stopped it: in the order of the files, what broke.
+    /// Reports the failures in the order of the files, after the last case or after a stop.
     ///
     /// # Errors
     /// Something could not be printed, now or earlier.
@@ -99,7 +99,7 @@ impl Reporter {
     }
 }
 
-/// What the runs of each plan used.
+/// The usage of each plan.
 pub(super) fn coverage(plans: &[Used<'_>], json: bool) -> Result<(), NoPlan> {
     for plan in plans.iter().map(|used| &used.coverage) {
         if !json {

@@ -1,10 +1,10 @@
-//! What a run refuses, and what it says then.
+//! Options that a run rejects, and the messages.
 
 use super::QUIET;
 use crate::common::{self, Place};
 
 #[test]
-fn options_that_wait_for_something_say_for_what() {
+fn options_that_need_another_option_name_it() {
     let place = Place::with_plan();
     let why = "'--rt-report' waits for the real-time driver";
     place.afpc("run wall_following.afp --rt-report").fails(2, &[why, "help: "]);
@@ -23,7 +23,7 @@ fn options_that_wait_for_something_say_for_what() {
 }
 
 #[test]
-fn numbers_out_of_place_and_empty_names_are_told_what_is_expected() {
+fn invalid_numbers_and_empty_names_get_a_message_with_the_valid_form() {
     let place = Place::with_plan();
     for (words, why) in [
         ("run wall_following.afp --until -1s", "a time cannot be negative"),
@@ -48,7 +48,7 @@ fn numbers_out_of_place_and_empty_names_are_told_what_is_expected() {
 
 #[test]
 #[cfg(unix)]
-fn a_name_that_is_no_text_is_told() {
+fn a_name_that_is_not_utf8_is_reported() {
     use std::ffi::OsStr;
     use std::os::unix::ffi::OsStrExt;
     let place = Place::with_plan();
@@ -61,7 +61,7 @@ fn a_name_that_is_no_text_is_told() {
 }
 
 #[test]
-fn files_that_do_not_work_are_named() {
+fn unusable_files_are_named() {
     let place = Place::with_plan();
     let said = place.afpc("run missing.afp");
     said.fails(
@@ -79,7 +79,7 @@ fn files_that_do_not_work_are_named() {
 }
 
 #[test]
-fn a_start_far_away_is_refused_and_one_outside_of_everything_told() {
+fn a_start_far_away_is_refused_and_a_start_outside_is_reported() {
     let place = Place::with_plan();
     let start = |start: &str| {
         place.afpc(&format!("run wall_following.afp --until 100ms --log none --svg a.svg {start}"))
@@ -97,7 +97,7 @@ fn a_start_far_away_is_refused_and_one_outside_of_everything_told() {
 }
 
 #[test]
-fn a_value_that_does_not_fit_is_told_how_it_is_written() {
+fn a_value_of_the_wrong_type_gets_a_message_with_the_valid_form() {
     let place = Place::new();
     let plan = "use std
 enum Side { left right }
@@ -130,7 +130,7 @@ plan Takes {
 
 #[test]
 #[cfg(unix)]
-fn a_world_without_an_end_is_not_read_for_ever() {
+fn reading_a_world_without_an_end_stops() {
     let place = Place::with_plan();
     let said = place.afpc("run wall_following.afp --world /dev/zero");
     let endless = "it is longer than 64 MiB";
@@ -146,7 +146,7 @@ fn a_world_without_an_end_is_not_read_for_ever() {
 }
 
 #[test]
-fn helps_lead_to_what_can_be_said() {
+fn helps_name_valid_options() {
     let place = Place::with_plan();
     place.write(
         "look.afp",
@@ -164,7 +164,7 @@ fn helps_lead_to_what_can_be_said() {
 }
 
 #[test]
-fn a_wrong_world_is_shown_at_its_line() {
+fn errors_of_a_world_are_at_their_line() {
     let place = Place::with_plan();
     let run = "run wall_following.afp --world w.toml --log a.mcap --svg a.svg";
     place.write("w.toml", "version = 1\n[robot]\npose_m_deg = [0.0, 0.0, 0.0]\ncolour = 1\n");

@@ -5,8 +5,7 @@ use std::process::{Command, Stdio};
 
 use crate::common::Place;
 
-/// Starts a run in real time, does something to it once it lives, and gives its exit code and
-/// the rest of its output.
+/// Starts a run in real time, acts on it, and returns its exit code and the rest of its output.
 fn interrupted(place: &Place, act: impl FnOnce(u32)) -> (Option<i32>, String) {
     let run = ["run", "wall_following.afp", "--speed", "1x", "--json"];
     let outputs = ["--log", "a.mcap", "--svg", "a.svg"];
@@ -16,7 +15,7 @@ fn interrupted(place: &Place, act: impl FnOnce(u32)) -> (Option<i32>, String) {
     let mut out = BufReader::new(child.stdout.take().unwrap());
     let mut text = String::new();
     out.read_line(&mut text).unwrap();
-    // For something to be in its log.
+    // The log needs some content.
     std::thread::sleep(std::time::Duration::from_millis(800));
     act(child.id());
     out.read_to_string(&mut text).unwrap();
@@ -29,7 +28,7 @@ fn signal(name: &str, process: u32) {
 }
 
 #[test]
-fn what_a_killed_run_has_left_is_kept() {
+fn the_log_of_a_killed_run_is_kept() {
     let place = Place::with_plan();
     interrupted(&place, |process| signal("KILL", process));
     place.afpc("log a.mcap").fails(1, &["name what there is of it, 'a.mcap.part'"]);
@@ -53,7 +52,7 @@ fn signals_end_a_run_cleanly() {
         assert_eq!(last["summary"]["stopped_by"], "signal");
         assert_eq!(place.files(), ["a.mcap", "a.svg", "wall_following.afp"]);
         assert_eq!(place.afpc("log a.mcap doctor").succeeds().out, "sound\n");
-        // Where it was stopped it stops again.
+        // The repeated run stops at the same time.
         let again = place.afpc("run --again a.mcap --json --log none --svg none");
         assert_eq!(again.succeeds().last_json()["summary"]["trace"], last["summary"]["trace"]);
     }

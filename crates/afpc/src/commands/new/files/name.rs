@@ -2,7 +2,7 @@
 
 use afp_run::RunError;
 
-/// Words of the language, names of what comes with AFP, and modules that new projects declare themselves.
+/// Words of the language, names of AFP's packages, and modules that new projects declare.
 const TAKEN: &[&str] = &[
     "actor",
     "carbot",
@@ -34,7 +34,7 @@ const TAKEN: &[&str] = &[
     "wag",
     "work",
 ];
-/// Words of Rust: those that it uses, and those that it keeps for itself.
+/// Rust's keywords and reserved words.
 const OF_RUST: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
     "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
@@ -42,14 +42,13 @@ const OF_RUST: &[&str] = &[
     "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
-/// Types that Rust has everywhere and that new projects use.
+/// Types of Rust's prelude and of new projects.
 const TYPES: &[&str] = &[
     "Box", "Clone", "Copy", "Default", "Drop", "Eq", "Err", "Fn", "From", "Into", "Iterator",
     "None", "Ok", "Option", "Ord", "Result", "Self", "Send", "Some", "String", "Sync", "Vec",
 ];
 
-/// Whether a project that is called so would be no other than something that it uses: a package, a word, or a type of
-/// its own files.
+/// Whether a project's name clashes with a name that its files use: a package, a word, or a type.
 fn is_taken(snake: &str, camel: &str) -> bool {
     let is_afp = ["afp", "afpc"].contains(&snake) || snake.starts_with("afp_");
     let is_word = TAKEN.contains(&snake) || OF_RUST.contains(&snake);
@@ -69,11 +68,11 @@ fn is_used(camel: &str) -> bool {
 /// A project's name.
 #[derive(Debug)]
 pub(crate) struct Names {
-    /// As it was given, of files and the package: `my-rover`.
+    /// The given name, for files and the package: `my-rover`.
     pub(crate) name: String,
-    /// Of the toolbox and the crate in Rust: `my_rover`.
+    /// The name of the toolbox and the crate in Rust: `my_rover`.
     snake: String,
-    /// Of the plan and the robot's type: `MyRover`.
+    /// The name of the plan and the robot's type: `MyRover`.
     camel: String,
 }
 
@@ -101,7 +100,7 @@ impl Names {
         Ok(Names { name: name.to_owned(), camel, snake })
     }
 
-    /// A text with the names in it.
+    /// Fills the names into a text.
     pub(crate) fn fill(&self, text: &str) -> String {
         let text = text.replace("{{name}}", &self.name).replace("{{snake}}", &self.snake);
         text.replace("{{Name}}", &self.camel)

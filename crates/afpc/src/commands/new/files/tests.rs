@@ -1,4 +1,4 @@
-//! The texts of new projects are sound, whatever the name.
+//! The texts of new projects are sound with every name.
 
 use afp_dsl::Toolboxes;
 use afp_project::Origin;
@@ -18,7 +18,7 @@ fn text<'a>(files: &'a [File], path: &str) -> &'a str {
 }
 
 #[test]
-fn plans_scenarios_and_toolboxes_are_without_a_mistake_and_canonical() {
+fn plans_scenarios_and_toolboxes_are_valid_and_canonical() {
     for (name, kind) in KINDS.into_iter().flat_map(|kind| [("rover", kind), ("my-2nd_rover", kind)])
     {
         let files = made(name, kind);
@@ -50,7 +50,7 @@ fn nothing_is_left_to_fill_in() {
 }
 
 #[test]
-fn a_manifest_takes_the_crates_from_where_it_is_told() {
+fn a_manifest_takes_the_crates_from_the_given_place() {
     let manifest = |origin: Origin| {
         let files = files("rover", Kind::Robot, &origin).unwrap();
         text(&files, "Cargo.toml").to_owned()
@@ -63,7 +63,7 @@ fn a_manifest_takes_the_crates_from_where_it_is_told() {
 }
 
 #[test]
-fn no_word_of_rust_names_a_project() {
+fn keywords_of_rust_are_not_valid_names() {
     // The keywords of the 2024 edition, strict ones and reserved ones.
     let strict = "as async await break const continue crate dyn else enum extern false fn for if impl in let loop match mod move \
                   mut pub ref return self static struct super trait true type unsafe use where while";
@@ -77,12 +77,13 @@ fn no_word_of_rust_names_a_project() {
 }
 
 #[test]
-fn names_that_cannot_be_are_refused_with_another() {
+fn invalid_names_are_refused_with_a_suggestion() {
     for name in ["", "Rover", "2nd", "a b", "a--b", "rover-", "r\u{e4}der", "../x", "a/b"] {
         let error = files(name, Kind::Plan, &Origin::Version(String::new())).unwrap_err();
         assert!(error.to_string().contains("'my-rover'"), "{name:?}: {error}");
     }
-    // Words of Rust; packages, traits and types of the project's own files; what Rust has everywhere.
+    // Words of Rust; packages, traits and types of the project's own files; types of Rust's
+    // prelude.
     let taken = [
         "std",
         "turn",

@@ -1,4 +1,4 @@
-//! A conversation that goes on with another program.
+//! A conversation that continues with another program.
 
 use std::io::Write;
 use std::path::Path;
@@ -14,36 +14,36 @@ use serde_json::{Value, json};
 use super::super::super::dap::read;
 use super::output;
 
-/// What a program may take to end by itself once its client is gone: it stops the robot first.
+/// The time in which a program must end after its client has gone: it stops the robot first.
 const GRACE_PERIOD: Duration = Duration::from_secs(2);
 
-/// How often it is looked whether the program is still there, while the client says nothing.
+/// The interval of the checks that the program still runs, while the client is silent.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// What a client has said up to now.
+/// The client's messages so far.
 #[derive(Default)]
 pub(super) struct Conversation {
-    /// Its greeting, which was answered.
+    /// The initialize request, already answered.
     greeting: Option<String>,
     rest: Vec<String>,
 }
 
 impl Conversation {
-    /// Keeps what has been answered, as far as whoever goes on must know it.
+    /// Keeps an answered request if the next program must know it.
     pub(super) fn note(&mut self, request: &Value, message: &str) {
         if request["command"] == "initialize" {
             self.greeting = Some(message.to_owned());
         }
     }
 
-    /// Adds what nobody has answered.
+    /// Adds an unanswered request.
     pub(super) fn then(&mut self, message: String) {
         self.rest.push(message);
     }
 }
 
-/// Lets a client talk with the debug adapter of another program until one of them is gone; then that program has ended. A
-/// client that is still there is told so, unless the program has said it.
+/// Connects a client with the debug adapter of another program until one of them is gone. Then the
+/// program has ended. A remaining client is notified, unless the program did it.
 pub(super) fn relay(
     program: &Path,
     folder: &Path,
@@ -80,7 +80,7 @@ pub(super) fn relay(
     });
 }
 
-/// What a client is told of a program that has ended by itself.
+/// The message for a client after its program has ended unexpectedly.
 fn died(status: Option<ExitStatus>) -> String {
     let how = status.map_or_else(String::new, |status| format!(" ({status})"));
     format!(
@@ -88,7 +88,8 @@ fn died(status: Option<ExitStatus>) -> String {
     )
 }
 
-/// Hands on what the program says; its answer to the greeting is the second one. Whether it has said that the run is over.
+/// Forwards the program's messages except its second answer to `initialize`. Returns whether the
+/// program has reported the end of the run.
 fn forward_answers(
     from: ChildStdout,
     greeted: bool,
@@ -111,7 +112,7 @@ fn forward_answers(
     said_goodbye
 }
 
-/// Whether a program says that the run is over, or that it lets the client go.
+/// Whether a message reports the end of the run or disconnects the client.
 fn is_goodbye(message: &str) -> bool {
     if !message.contains("terminated") && !message.contains("disconnect") {
         return false;
@@ -126,7 +127,8 @@ fn is_greeting(message: &str) -> bool {
     value["type"] == "response" && value["command"] == "initialize"
 }
 
-/// Hands on what the client says until it is gone, or the program takes or says nothing more; whether the client is gone.
+/// Forwards the client's messages until the client is gone or the program stops reading or writing.
+/// Returns whether the client is gone.
 fn forward_requests(
     mut to: ChildStdin,
     before: Conversation,
@@ -152,7 +154,8 @@ fn forward_requests(
     false
 }
 
-/// Waits for a program whose input has ended, and gives how it ended; one that goes on is killed.
+/// Waits for a program whose input has ended and returns its exit status; kills the program after
+/// the grace period.
 fn end(child: &mut Child) -> Option<ExitStatus> {
     let begin = Instant::now();
     while begin.elapsed() < GRACE_PERIOD {

@@ -1,4 +1,4 @@
-//! Small movements of the Carbot: a toolbox of one's own.
+//! Small movements of the Carbot: a toolbox of a project.
 
 use afp::quantity::{Angle, AngularSpeed, Speed, Time};
 use afp::{Actor, Duration, Events, Fault, Instant, Poll, Supervisor};
@@ -6,7 +6,7 @@ use afp_carbot::devices::{Navigator, Odometry};
 use templates::{check_turned, spin};
 
 pub mod templates {
-    //! What `gestures.afp` declares.
+    //! The declarations of `gestures.afp`.
     afp::toolbox!("gestures.afp", robot: super::Navigator + super::Odometry);
 }
 

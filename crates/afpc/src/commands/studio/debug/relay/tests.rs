@@ -1,4 +1,5 @@
-//! Programs that stand in for one with the robot of a project: one that echoes, one that hangs, one that is not there.
+//! Programs that replace a program with the robot of a project: an echo, a hanging program, a
+//! missing program.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -8,12 +9,12 @@ use std::sync::mpsc::channel;
 
 use super::*;
 
-/// A program that is written while another one is started could be busy.
+/// A program file that is written during another process start could be busy.
 static ALONE: Mutex<()> = Mutex::new(());
 
 const GREETING: &str = r#"{"type":"request","command":"initialize"}"#;
 
-/// A program that does what `script` says.
+/// A program that runs `script`.
 fn stand_in(folder: &Path, script: &str) -> PathBuf {
     let path = folder.join("program");
     fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
@@ -21,12 +22,12 @@ fn stand_in(folder: &Path, script: &str) -> PathBuf {
     path
 }
 
-/// What a client is told that asks for something and leaves.
+/// The messages to a client that sends a request and leaves.
 fn met(script: &str) -> Vec<String> {
     talked(script, false)
 }
 
-/// What a client is told that asks for something, and leaves or stays.
+/// The messages to a client that sends a request, and leaves or stays.
 fn talked(script: &str, stays: bool) -> Vec<String> {
     let _alone = ALONE.lock();
     let place = tempfile::tempdir().unwrap();
@@ -48,7 +49,7 @@ fn talked(script: &str, stays: bool) -> Vec<String> {
 }
 
 #[test]
-fn a_client_that_is_there_is_told_that_a_program_has_ended_by_itself() {
+fn a_connected_client_is_notified_when_a_program_ends_unexpectedly() {
     let told = talked("exit 3", true);
     assert!(told[0].contains("ended by itself (exit status: 3)"), "{told:?}");
     assert!(told[1].contains("\"terminated\""), "{told:?}");
@@ -59,7 +60,7 @@ fn a_client_that_is_there_is_told_that_a_program_has_ended_by_itself() {
 }
 
 #[test]
-fn another_program_hears_everything_and_greets_nobody_twice() {
+fn another_program_gets_all_requests_and_its_greeting_is_hidden() {
     let greets = r#"{"type":"response","command":"initialize"}"#;
     let script =
         format!("printf 'Content-Length: {}\\r\\n\\r\\n%s' '{greets}'; exec cat", greets.len());
@@ -68,7 +69,7 @@ fn another_program_hears_everything_and_greets_nobody_twice() {
 }
 
 #[test]
-fn a_program_that_goes_on_without_its_client_is_ended() {
+fn a_program_that_continues_without_its_client_is_ended() {
     let begin = Instant::now();
     assert!(met("exec sleep 600").is_empty());
     assert!(begin.elapsed() >= GRACE_PERIOD);
