@@ -1,4 +1,4 @@
-//! Calls cargo, finds what it made, and shows its errors where people can mend them.
+//! Calls cargo, finds its artifacts, and shows its errors at useful places.
 
 mod blame;
 mod message;
@@ -18,65 +18,65 @@ use crate::NotBuilt;
 pub use blame::{Blame, Generated};
 use message::Message;
 
-/// What cargo shall build.
+/// A job for cargo.
 pub struct Job<'a> {
     /// The folder of the crate.
     pub folder: &'a Path,
-    /// The folder whose settings and toolchain cargo follows, with absolute paths in everything else; without it, that of
-    /// this process.
+    /// The folder for cargo's settings and toolchain, with absolute paths in everything else; the
+    /// current folder if `None`.
     pub caller: Option<&'a Path>,
-    /// Where cargo puts what it makes, unless the environment says otherwise; else below the folder.
+    /// Cargo's target folder unless the environment sets it; below the crate's folder if `None`.
     pub target: Option<&'a Path>,
-    /// What builds for another machine.
+    /// The toolchain for another machine.
     pub toolchain: Option<&'a Toolchain>,
-    /// What is wanted of it.
+    /// The wanted artifact.
     pub artifact: Artifact,
-    /// Where errors come from.
+    /// The source of errors.
     pub blame: Blame<'a>,
-    /// What to say when there is no cargo.
+    /// The error if cargo is missing.
     pub no_cargo: RunError,
-    /// Takes what is wrong as objects; without it, it goes to standard error as people read it.
+    /// The receiver of diagnostics as objects; standard error, as readable text, if `None`.
     pub tools: Option<Tools<'a>>,
 }
 
-/// Takes an object.
+/// A receiver of objects.
 pub type Tools<'a> = &'a dyn Fn(&Value) -> Result<(), RunError>;
 
-/// How cargo builds for another machine.
+/// The toolchain for another machine.
 #[derive(Debug)]
 pub struct Toolchain {
-    /// The machine, as Rust calls it.
+    /// The target triple.
     pub triple: &'static str,
-    /// What cargo and the compilers that it calls find in their environment.
+    /// Environment variables for cargo and the compilers.
     pub environment: Vec<(String, OsString)>,
 }
 
-/// What is wanted of a crate.
+/// The wanted artifact of a crate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Artifact {
     /// Its binary, if it has one.
     Program,
-    /// Its library as Python loads it.
+    /// Its library as a Python extension.
     Extension,
 }
 
-/// What cargo has built.
+/// The result of cargo.
 #[derive(Debug, Default)]
 pub struct Built {
-    /// The artifact that was wanted, if the crate has one.
+    /// The wanted artifact, if the crate has one.
     pub artifact: Option<PathBuf>,
-    /// The manifests of all packages of this machine that it was made from.
+    /// The manifests of all its packages on this machine.
     pub manifests: Vec<PathBuf>,
 }
 
-/// What pyo3 reads to build an extension for any Python without asking one.
+/// Variables for pyo3 to build an extension for any Python without calling one.
 const FOR_ANY_PYTHON: [(&str, &str); 2] =
     [("PYO3_NO_PYTHON", "1"), ("PYO3_BUILD_EXTENSION_MODULE", "1")];
 
 /// Builds a crate.
 ///
 /// # Errors
-/// There is no cargo, or it fails; why has been told.
+/// Cargo is missing or fails; the reason was reported.
 pub fn build(job: Job<'_>) -> Result<Built, NotBuilt> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = command(&cargo, &job);
@@ -95,7 +95,7 @@ pub fn build(job: Job<'_>) -> Result<Built, NotBuilt> {
         }
     }
     let status = child.wait().map_err(RunError::file("cannot wait for", cargo.as_ref()))?;
-    // Only now, so that cargo's progress and the errors do not run into one another.
+    // Reported at the end, so that cargo's progress and the errors do not mix.
     messages.retain(|message| job.blame.concerns(message));
     let reader = Reader { blame: &job.blame, tools: job.tools };
     reader.tell(job.folder, &messages, status.success())?;
@@ -111,7 +111,7 @@ fn command(cargo: &OsStr, job: &Job<'_>) -> Command {
     if let Some(caller) = job.caller {
         command.current_dir(caller);
     }
-    // Cargo would read a relative folder of the environment from the caller's.
+    // Cargo would resolve a relative folder in the environment from the caller's folder.
     let is_said = env::var_os("CARGO_TARGET_DIR").is_some() && job.caller.is_none();
     if let (Some(target), false) = (job.target, is_said) {
         command.arg("--target-dir").arg(target);
@@ -126,21 +126,21 @@ fn command(cargo: &OsStr, job: &Job<'_>) -> Command {
     command
 }
 
-/// The manifest of the package that a message of cargo is about, if the package lies on this machine: that of another
-/// never changes.
+/// The manifest of a cargo message's package, if it is on this machine: other packages never
+/// change.
 fn manifest(line: &Value) -> Option<PathBuf> {
     let is_here = line.get("package_id")?.as_str()?.contains("path+file:");
     is_here.then_some(PathBuf::from(line.get("manifest_path")?.as_str()?))
 }
 
-/// Who reads what the compiler has said.
+/// The reader of the compiler's messages.
 struct Reader<'a> {
     blame: &'a Blame<'a>,
     tools: Option<Tools<'a>>,
 }
 
 impl Reader<'_> {
-    /// Tells what the compiler has said about a crate, and that it was not built, if it was not.
+    /// Reports the compiler's messages about a crate, and a failed build.
     fn tell(&self, folder: &Path, messages: &[Message], is_built: bool) -> Result<(), RunError> {
         let failed = format!("cargo could not build the crate in '{}'", folder.display());
         let Some(tools) = self.tools else {
@@ -152,10 +152,10 @@ impl Reader<'_> {
         };
         for message in messages {
             tools(&self.blame.json(message))?;
-            // Its excerpts are worth reading, too.
+            // The messages' excerpts are useful, too.
             say(&message.rendered);
         }
-        // Otherwise cargo has told standard error why.
+        // Otherwise cargo has already printed the reason on standard error.
         if !is_built && !messages.iter().any(|message| message.is_error) {
             let (severity, help) = (Severity::Error, "standard error has what cargo says");
             let report = Report { severity, code: "", message: &failed, help, marks: Vec::new() };
@@ -166,7 +166,7 @@ impl Reader<'_> {
 }
 
 impl Artifact {
-    /// Where it is, if a message of cargo tells of it.
+    /// The path of the artifact in a message of cargo.
     fn path(self, line: &Value) -> Option<PathBuf> {
         match self {
             Artifact::Program => line.get("executable")?.as_str().map(PathBuf::from),
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn artifacts_are_found_in_what_cargo_says() {
+    fn artifacts_are_found_in_cargos_messages() {
         let library = json!({ "reason": "compiler-artifact", "executable": null,
             "target": { "crate_types": ["cdylib"] },
             "filenames": ["/t/libx.so", "/t/libx.rlib"] });

@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use afp_codegen::{MADE_BY, Origin, RUST_MADE_BY};
 use afp_run::{RunError, hash, write_whole};
 
-/// The versions that cargo builds with.
+/// The locked versions for cargo.
 const LOCK: &str = "Cargo.lock";
-/// Says by its hash which file of a checkout they were taken from.
+/// The hash of the checkout's lock file.
 const LOCK_OF: &str = "locked";
 
-/// Writes the crate of a plan into a folder of builds, which is ours alone: the files that differ from what is there, so that
-/// cargo builds only what changed. Sources of an earlier plan are removed.
+/// Writes the crate of a plan into a folder that only AFP uses. Only changed files are written, so
+/// that cargo builds only the changes. Sources of an earlier plan are removed.
 ///
 /// # Errors
 /// The folder cannot be written.
@@ -22,10 +22,11 @@ pub fn write_own(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Resu
     put_own(folder, files, origin)
 }
 
-/// The same into a folder of somebody's choice; what else is there stays.
+/// Like [`write_own`], for a folder that the user chose; other files in it stay.
 ///
 /// # Errors
-/// The folder holds a crate that somebody else made, or other files of the same names, or cannot be written.
+/// The folder has a crate from another source, or other files of the same names, or cannot be
+/// written.
 pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(), RunError> {
     let manifest = folder.join("Cargo.toml");
     match fs::read_to_string(&manifest) {
@@ -48,7 +49,7 @@ pub fn write(folder: &Path, files: &[(&str, &str)], origin: &Origin) -> Result<(
     pin(folder, origin).map(drop)
 }
 
-/// Writes the files that differ from what is there into a folder that is ours alone.
+/// Writes the changed files into a folder that only AFP uses.
 ///
 /// # Errors
 /// The folder cannot be written.
@@ -75,7 +76,7 @@ fn put(folder: &Path, files: &[(&str, &str)]) -> Result<(), RunError> {
     Ok(())
 }
 
-/// The file with the versions that the checkout was tested with; `None` where there is no checkout.
+/// The lock file of the checkout; `None` without a checkout.
 pub(crate) fn lock_of(origin: &Origin) -> Option<PathBuf> {
     match origin {
         Origin::Path(root) => Some(Path::new(root).join(LOCK)),
@@ -83,8 +84,8 @@ pub(crate) fn lock_of(origin: &Origin) -> Option<PathBuf> {
     }
 }
 
-/// Writes down the versions that the checkout was tested with: another physics engine drives other paths. Gives the
-/// file's name where it was written.
+/// Writes the checkout's lock file: another version of the physics engine drives other paths.
+/// Returns the file's name if it was written.
 ///
 /// # Errors
 /// The folder cannot be written.
@@ -95,13 +96,13 @@ pub fn pin(folder: &Path, origin: &Origin) -> Result<Option<&'static str>, RunEr
             write_whole("cannot write", &lock, &text)?;
             Ok(Some(LOCK))
         }
-        // Without it cargo chooses versions by the manifests.
+        // Without it, cargo chooses versions by the manifests.
         _ => Ok(None),
     }
 }
 
-/// The same in a folder that is ours alone, again whenever those versions are others. Cargo adds to the file what else the
-/// crate needs, so it is remembered what it was made from.
+/// Like [`pin`], for a folder that only AFP uses, and again after each change of the versions.
+/// Cargo adds the crate's other dependencies to the file, so its source's hash is stored.
 fn pin_anew(folder: &Path, origin: &Origin) -> Result<(), RunError> {
     let Some(text) = lock_of(origin).and_then(|tested| fs::read_to_string(tested).ok()) else {
         return Ok(());
@@ -115,7 +116,8 @@ fn pin_anew(folder: &Path, origin: &Origin) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Whether an earlier build made a file of a crate of ours. Of what is no Rust nobody can tell: the manifest says it.
+/// Whether an earlier build generated a file. Files other than Rust have no mark; for them, the
+/// manifest decides.
 fn is_made_here(path: &Path) -> bool {
     !is_rust(path) || fs::read_to_string(path).is_ok_and(|text| text.starts_with(RUST_MADE_BY))
 }
@@ -124,7 +126,7 @@ fn is_rust(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "rs")
 }
 
-/// Refuses a folder in which others keep something under a name that the crate would take.
+/// Refuses a folder with other files under the crate's names.
 fn refuse_others(
     folder: &Path,
     files: &[(&str, &str)],
@@ -143,7 +145,7 @@ fn refuse_others(
     }
 }
 
-/// Removes the Rust of an earlier plan.
+/// Removes the Rust files of an earlier plan.
 fn remove_old(
     folder: &Path,
     files: &[(&str, &str)],
@@ -167,7 +169,7 @@ mod tests {
     const OURS: &str = "// Made by 'afpc build' from x.afp.\n";
 
     #[test]
-    fn rust_of_others_is_neither_removed_nor_replaced() {
+    fn other_rust_files_are_not_removed_or_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         let manifest = ("Cargo.toml", "# Made by 'afpc build' from x.afp.\n");
@@ -191,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_of_ours_takes_the_versions_of_the_checkout_anew_when_they_change() {
+    fn a_folder_of_builds_takes_the_new_versions_of_the_checkout() {
         let (checkout, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let origin = Origin::Path(checkout.path().display().to_string());
         let files = [("Cargo.toml", "# Made by 'afpc build' from x.afp.\n")];

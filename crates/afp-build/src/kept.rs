@@ -1,4 +1,4 @@
-//! What is built once and kept.
+//! Cached builds.
 
 mod folder;
 mod fresh;
@@ -17,7 +17,7 @@ use fresh::Around;
 
 pub use folder::cache;
 
-/// What parts are linked into.
+/// The kind of a linked product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Product {
     /// The command line, with these features.
@@ -27,7 +27,7 @@ pub enum Product {
 }
 
 impl Product {
-    /// What it is called in the names of folders and packages.
+    /// Its name in folders and packages.
     fn name(self) -> &'static str {
         match self {
             Product::Runner(_) => "runner",
@@ -35,7 +35,7 @@ impl Product {
         }
     }
 
-    /// Features of what does everything.
+    /// The features of its main dependency.
     fn features(self) -> &'static [&'static str] {
         match self {
             Product::Runner(features) => features,
@@ -43,7 +43,7 @@ impl Product {
         }
     }
 
-    /// What it is called in messages.
+    /// Its name in messages.
     fn words(self) -> &'static str {
         match self {
             Product::Runner(_) => "a runner",
@@ -53,12 +53,12 @@ impl Product {
 }
 
 impl Parts<'_> {
-    /// The file that has them linked in: what was kept of an earlier build if nothing has changed since, else built now.
+    /// The file with the parts linked in: cached if nothing has changed, or else built now.
     ///
     /// # Errors
-    /// No folder that can be written, no cargo, a crate that does not build.
+    /// There is no writable folder, cargo is missing, a crate does not build.
     pub fn product(mut self, product: Product) -> Result<PathBuf, NotBuilt> {
-        // The same whatever the order of the plans.
+        // The order of the plans must not matter.
         self.toolboxes.sort_by(|one, other| one.name.cmp(&other.name));
         let kept = Kept::new(&self, product)?;
         let files = kept.files(&self)?;
@@ -69,12 +69,12 @@ impl Parts<'_> {
     }
 }
 
-/// A product and where it is kept.
+/// A product and its folder.
 struct Kept {
     product: Product,
     options: LinkOptions,
     folder: PathBuf,
-    /// Where cargo builds.
+    /// Cargo's target folder.
     target: PathBuf,
 }
 
@@ -100,7 +100,7 @@ impl Kept {
         Ok(Kept { product, options, folder: kept.join(below), target: build })
     }
 
-    /// What decides how it is built besides its packages.
+    /// The influences on its build other than its packages.
     fn around<'a>(&self, parts: &Parts<'a>) -> Around<'a> {
         let lock = crate_folder::lock_of(&self.options.origin);
         Around { caller: &parts.project.folder, lock }

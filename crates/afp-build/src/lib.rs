@@ -1,9 +1,9 @@
-//! Builds generated crates with cargo, and keeps those that more than one command needs.
+//! Builds generated crates with cargo, and caches those that several commands need.
 //!
-//! A plan is interpreted, but robots and templates are Rust. So whoever runs plans of a project with a robot or
-//! toolboxes of its own needs them linked: into a *runner*, which is `afpc` with them, or into a *Python
-//! extension*. [`Parts`] are what is linked; [`Parts::product`] gives the file that has them, built where it is not
-//! there yet and kept until something that it was built from changes.
+//! A plan is interpreted, but robots and templates are Rust. Plans of a project with its own robot
+//! or toolboxes need a program with them: a *runner*, which is `afpc` linked with them, or a
+//! *Python extension*. [`Parts`] are the linked parts. [`Parts::product`] returns the file, cached
+//! until one of its sources changes.
 #![forbid(unsafe_code)]
 
 pub mod cargo;
@@ -18,13 +18,13 @@ use afp_run::RunError;
 pub use kept::{Product, cache};
 pub use parts::{Parts, no_hardware};
 
-/// Why something was not built.
+/// The reason for a missing product.
 #[derive(Debug)]
 pub enum NotBuilt {
     Why(RunError),
-    /// It has been told, to people or to tools.
+    /// The reason was reported to people or tools.
     Told {
-        /// The first error in a line, with its place in Rust; `None` where cargo got to none.
+        /// The first error in one line, with its place in Rust; `None` if cargo reported none.
         first: Option<String>,
     },
 }

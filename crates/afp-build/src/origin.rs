@@ -1,4 +1,4 @@
-//! Where generated manifests take crates from.
+//! The sources of crates in generated manifests.
 
 use std::path::Path;
 
@@ -6,8 +6,7 @@ use afp_codegen::{Dependency, Features, Origin};
 use afp_project::{CrateLink, ProjectFile};
 use afp_run::RunError;
 
-/// Where a manifest takes the `afp` crates from: as the project says, else from the checkout that
-/// built this program.
+/// The source of the `afp` crates: from the project file, or else the checkout of this program.
 ///
 /// # Errors
 /// The checkout is gone.
@@ -18,7 +17,7 @@ pub fn of_afp(project: &ProjectFile) -> Result<Origin, RunError> {
     }
 }
 
-/// The crate of a toolbox as a manifest names it.
+/// The crate of a toolbox as a dependency.
 pub fn dependency(krate: &CrateLink) -> Dependency {
     Dependency {
         key: krate.key.clone(),
@@ -40,7 +39,7 @@ fn origin_in(folder: &Path, origin: &afp_project::Origin) -> Origin {
     }
 }
 
-/// An origin as a project file has it.
+/// An origin in a project file's form.
 pub fn as_written(origin: Origin) -> afp_project::Origin {
     match origin {
         Origin::Path(path) => afp_project::Origin::Path(path),
@@ -49,7 +48,7 @@ pub fn as_written(origin: Origin) -> afp_project::Origin {
     }
 }
 
-/// The checkout that built this program.
+/// The checkout of this program.
 fn checkout() -> Result<Origin, RunError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2);
     match root.filter(|root| root.join("crates/afp/Cargo.toml").is_file()) {

@@ -1,4 +1,4 @@
-//! What is linked: the robot of a project, and toolboxes.
+//! The linked parts: a project's robot, and toolboxes.
 
 use afp_dsl::graph::Graph;
 use afp_project::{CrateLink, HardwareLink, ProjectFile, RobotLink};
@@ -6,7 +6,7 @@ use afp_run::RunError;
 
 use afp_toolboxes::project::{OwnToolbox, OwnToolboxes};
 
-/// What is linked into one program or extension.
+/// The linked parts of a program or extension.
 pub struct Parts<'a> {
     pub(crate) project: &'a ProjectFile,
     pub(crate) robot: Option<RobotLink>,
@@ -15,7 +15,7 @@ pub struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    /// What some plans need; none for no plans.
+    /// The parts that some plans need; empty without plans.
     ///
     /// # Errors
     /// A robot or a toolbox without a crate, two robots, two toolboxes of one name.
@@ -39,10 +39,10 @@ impl<'a> Parts<'a> {
         Ok(Parts::new(project, project.robot()?))
     }
 
-    /// All that a project has of its own.
+    /// All parts of a project.
     ///
     /// # Errors
-    /// A robot or a toolbox without a crate, a toolbox file that is wrong.
+    /// A robot or a toolbox without a crate, an invalid toolbox file.
     pub fn of_project(own: &'a OwnToolboxes) -> Result<Self, RunError> {
         let robot = own.project.robot()?;
         let mut parts = Parts::new(&own.project, robot.clone());
@@ -54,7 +54,7 @@ impl<'a> Parts<'a> {
         Parts { project, robot, hardware: None, toolboxes: Vec::new() }
     }
 
-    /// The same with the robot itself.
+    /// Adds the hardware robot.
     ///
     /// # Errors
     /// The project has none, or it has no crate.
@@ -92,12 +92,13 @@ impl<'a> Parts<'a> {
         Ok(())
     }
 
-    /// Whether there is nothing beside the Carbot and the built-in toolboxes.
+    /// Whether there are no parts except the Carbot and the built-in toolboxes.
     pub fn is_empty(&self) -> bool {
         self.robot.is_none() && self.toolboxes.is_empty()
     }
 
-    /// Whether a program with a robot (none for the Carbot), the robot itself and toolboxes has all of it.
+    /// Whether a program with a robot (`None` for the Carbot), a hardware robot and toolboxes has
+    /// all parts.
     pub fn are_in(&self, robot: Option<&str>, hardware: Option<&str>, toolboxes: &[&str]) -> bool {
         let itself = self.hardware.as_ref().map(HardwareLink::rust_type);
         let has_hardware = itself.is_none() || itself.as_deref() == hardware;
@@ -131,7 +132,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// There is nothing that a plan could run on but a simulation.
+/// The error for a plan that can only run in simulation.
 pub fn no_hardware(project: &ProjectFile) -> RunError {
     match &project.project.robot {
         None => RunError::usage(

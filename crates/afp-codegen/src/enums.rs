@@ -12,7 +12,7 @@ use afp_dsl::types::Enum;
 /// An enum of a plan file, with its Rust name.
 pub type FileEnum = (Arc<Enum>, Ident);
 
-/// The enum, under a Rust name, with everything that entries and ports need of it.
+/// The enum, under a Rust name, with all its trait implementations for entries and ports.
 pub fn choices(core: &TokenStream, choices: &Enum, name: &Ident) -> TokenStream {
     let help = doc(&choices.doc, &format!("The enum `{}`.", choices.name));
     let indices = || 0..choices.variants.len() as u16;

@@ -1,7 +1,8 @@
 //! Formulas as native expressions.
 //!
-//! Each expression has the Rust type of its formula. Operators stand where they mean the same as
-//! in the interpreter; what could panic, wrap or round differently is a call into `afp_core::rt`.
+//! Each expression has the Rust type of its formula. Operators are used if they have the same
+//! meaning as in the interpreter. Operations that could panic, wrap or round differently are calls
+//! into `afp_core::rt`.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -37,21 +38,21 @@ fn atom(tokens: TokenStream) -> Expr {
 
 /// Writes the formulas of one component.
 pub struct Formulas<'a> {
-    /// Where types live.
+    /// The paths of types.
     pub type_paths: &'a TypePaths<'a>,
     /// The getters of the plan's entries.
     pub entries: &'a [Ident],
-    /// The names of the scratch texts, for what no entry holds, in the order of their use.
+    /// The names of the scratch texts, for values outside of entries, in the order of their use.
     pub scratch: Vec<Ident>,
 }
 
 impl<'a> Formulas<'a> {
-    /// For one component of a plan.
+    /// The formulas of one component of a plan.
     pub fn new(type_paths: &'a TypePaths<'a>, entries: &'a [Ident]) -> Self {
         Formulas { type_paths, entries, scratch: Vec::new() }
     }
 
-    /// What an input port of the formula's type gets: texts and objects are borrowed.
+    /// The value for an input port of the formula's type: texts and objects are borrowed.
     pub fn input(&mut self, formula: &Formula) -> TokenStream {
         match &formula.ty {
             Type::Text => match borrowed_text(self, formula.part()) {
@@ -137,7 +138,7 @@ impl<'a> Formulas<'a> {
         }
     }
 
-    /// A function, on ints or on SI values; it goes by the name that it has in `afp_core::rt`.
+    /// A function, on ints or on SI values; it has its name in `afp_core::rt`.
     fn called(&self, function: Function, operands: &[Part<'_>]) -> TokenStream {
         let ints = operands.iter().all(|operand| operand.ty == Type::Int);
         let name = ident(function.rust_name(ints));
@@ -149,7 +150,7 @@ impl<'a> Formulas<'a> {
         quote!(#name(#(#operands),*) #question)
     }
 
-    /// A text to be looked at within the expression: an `&str`.
+    /// A text for use within the expression: an `&str`.
     fn text(&self, formula: Part<'_>) -> TokenStream {
         borrowed_text(self, formula).unwrap_or_else(|| {
             let text = self.expr(formula).at(Bond::Atom);
@@ -190,7 +191,7 @@ impl<'a> Formulas<'a> {
                 let (a, b) = (self.expr(a).at(Bond::Product), self.expr(b).at(Bond::Sign));
                 Expr(quote!(#a * #b), Bond::Product)
             }
-            // A product is the same in either order, and a literal has no fault to come first.
+            // A product is the same in either order, and a literal cannot fail first.
             Operator::Mul if of_a == plain && is_literal(a) => {
                 let (a, b) = (self.expr(a).at(Bond::Sign), self.expr(b).at(Bond::Product));
                 Expr(quote!(#b * #a), Bond::Product)
@@ -241,7 +242,7 @@ impl<'a> Formulas<'a> {
             }
             Conversion::ToText(_) => {
                 let value = match inner.op() {
-                    // Printed as it is, nothing else says that it is no i32.
+                    // Printed without a suffix, only the context shows that it is not an i32.
                     Op::Int(value) => long(*value),
                     _ => self.expr(inner).at(Bond::Atom),
                 };
@@ -252,7 +253,7 @@ impl<'a> Formulas<'a> {
     }
 }
 
-/// A divisor: whether its value is finite is not known yet if it is computed.
+/// A divisor: if it is computed, it may not be finite.
 fn checked(divisor: Part<'_>, value: TokenStream) -> TokenStream {
     if is_computed(divisor) { quote!(divisor(#value)?) } else { value }
 }
@@ -273,12 +274,12 @@ fn exact(formula: Part<'_>) -> Option<f64> {
     }
 }
 
-/// A literal, which a minus makes bind less tightly.
+/// A literal; a minus makes it bind less tightly.
 fn signed(tokens: TokenStream, negative: bool) -> Expr {
     Expr(tokens, if negative { Bond::Sign } else { Bond::Atom })
 }
 
-/// A text that an entry or the program itself holds: an `&str`.
+/// A text from an entry or from the program itself: an `&str`.
 fn borrowed_text(formulas: &Formulas<'_>, formula: Part<'_>) -> Option<TokenStream> {
     match formula.op() {
         Op::Text(text) => Some(text.as_str().to_token_stream()),
@@ -290,7 +291,7 @@ fn borrowed_text(formulas: &Formulas<'_>, formula: Part<'_>) -> Option<TokenStre
     }
 }
 
-/// A value converted; a text comes as an `&str`, a quantity to be printed as an operand of `.`.
+/// A converted value. A text is an `&str`, and a printed quantity is an operand of `.`.
 pub fn convert(
     type_paths: &TypePaths<'_>,
     conversion: &Conversion,
@@ -325,7 +326,7 @@ pub fn convert(
     }
 }
 
-/// The dimension of a number's type; none for everything else.
+/// The dimension of a number's type; no dimension for everything else.
 fn dimension(ty: &Type) -> Dimension {
     match ty {
         Type::Quantity(dimension) => *dimension,
@@ -333,7 +334,7 @@ fn dimension(ty: &Type) -> Dimension {
     }
 }
 
-/// Whether a formula is a literal, perhaps with a sign: finite, and the same at all times.
+/// Whether a formula is a literal, perhaps with a sign: finite and constant.
 pub fn is_literal(formula: Part<'_>) -> bool {
     match formula.op() {
         Op::Neg => formula.operand().is_some_and(is_literal),

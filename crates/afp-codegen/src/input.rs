@@ -1,4 +1,4 @@
-//! What stands between the brackets of `plan!` and `toolbox!`.
+//! The arguments of `plan!` and `toolbox!`.
 
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
@@ -9,19 +9,19 @@ use syn::{Ident, LitStr, Path, Token, Type, TypeParamBound, braced};
 use crate::layout::located;
 use crate::toolbox::Asked;
 
-/// `[path of core,] "file"`, and behind it
+/// `[path of core,] "file"`, followed by
 /// - for `plan!`: `[, toolboxes = { "file" => path of module, ... }]`,
 /// - for `toolbox!`: `[, robot: Trait + ...]` or `[, robot = Type]`.
 pub struct MacroInput {
     /// The path of `afp_core`, which a crate that re-exports it passes.
     pub core: TokenStream,
-    /// The file, as written.
+    /// The file, as in the source.
     pub path: String,
-    /// Where that stands.
+    /// The place of the file's name.
     span: Span,
     /// Toolboxes that are not built in: the file and the path of the module that implements it.
     pub toolboxes: Vec<(String, String)>,
-    /// What a toolbox asks of a robot, where that is said.
+    /// A toolbox's requirements for a robot, if given.
     pub robot: Option<Asked>,
 }
 
@@ -52,11 +52,11 @@ impl Parse for MacroInput {
 }
 
 impl MacroInput {
-    /// What was made of it, as if it stood where the file is named: else what is wrong with the Rust beside the macro
-    /// would be shown inside of `afp`.
+    /// The result, with spans at the file's name: errors in the Rust code next to the macro would
+    /// otherwise be reported inside of `afp`.
     ///
     /// # Errors
-    /// Nothing could be made.
+    /// No result could be made.
     pub fn located(
         &self,
         made: Result<TokenStream, TokenStream>,

@@ -1,4 +1,4 @@
-//! A whole crate for a plan: what `afpc build` writes and builds.
+//! A whole crate for a plan: the output of `afpc build`.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -12,42 +12,43 @@ use crate::plan::{Generated, plan};
 use afp_dsl::graph::Graph;
 use afp_syntax::source::Span;
 
-/// What a generated crate needs to know about its surroundings.
+/// The surroundings of a generated crate.
 #[derive(Clone, Debug)]
 pub struct CrateOptions {
-    /// The plan's file, as it was named.
+    /// The plan's file name from the caller.
     pub file: String,
-    /// Path and text of the plan's file and of those that it uses, see
-    /// [`afp_dsl::Compiled::plan_texts`]; the crate carries them along.
+    /// Path and text of the plan's file and of the files that it uses, see
+    /// [`afp_dsl::Compiled::plan_texts`]; the crate contains them.
     pub texts: Vec<(String, String)>,
-    /// Where the `afp` crates come from.
+    /// The source of the `afp` crates.
     pub origin: Origin,
     /// Crates of toolboxes that are not built in.
     pub dependencies: Vec<Dependency>,
-    /// The path of the type of the robot that the program runs on, whose crate is among the dependencies; without one
-    /// it is the simulated Carbot.
+    /// The path of the robot's type, whose crate is among the dependencies; the simulated Carbot if
+    /// `None`.
     pub robot: Option<String>,
-    /// The robot itself, which the program has beside the simulated one; its crate is among the dependencies, too.
+    /// The hardware robot, in addition to the simulated robot; its crate is among the dependencies,
+    /// too.
     pub hardware: Option<Hardware>,
-    /// Features of what runs the plan: `live` lets others watch.
+    /// Features of the runtime: `live` lets others watch.
     pub features: Vec<String>,
     /// Whether only a library is wanted, without the program that runs it in simulation.
     pub lib: bool,
 }
 
-/// The robot itself.
+/// The hardware robot.
 #[derive(Clone, Debug)]
 pub struct Hardware {
     /// The path of its type.
     pub ty: String,
-    /// What it is opened with, name and value.
+    /// The settings for opening it: name and value.
     pub settings: Vec<(String, String)>,
 }
 
 /// A file of a generated crate.
 #[derive(Clone, Debug)]
 pub struct CrateFile {
-    /// Its path below the crate's folder.
+    /// Its path, relative to the crate's folder.
     pub path: String,
     /// Its text.
     pub text: String,
@@ -56,7 +57,7 @@ pub struct CrateFile {
 }
 
 impl CrateFile {
-    /// What a line (counted from 1) is made from, and whether that is more than the whole plan.
+    /// The source place of a line (counted from 1), and whether it is smaller than the whole plan.
     pub fn place(&self, line: usize) -> (Span, bool) {
         let place = self.places.at(line);
         (place.unwrap_or(self.whole), place.is_some())
@@ -94,18 +95,18 @@ pub fn crate_files(graph: &Graph, options: &CrateOptions) -> Vec<CrateFile> {
     files
 }
 
-/// Crates that Rust has for itself, and names of folders that cargo keeps for itself.
+/// Crates that belong to Rust, and folder names that cargo reserves.
 const KEPT: &[&str] =
     &["alloc", "build", "core", "deps", "examples", "incremental", "proc_macro", "std", "test"];
 
-/// The name of the crate in Rust: the plan's, unless another crate beside it has that.
+/// The name of the crate in Rust: the plan's name, unless a dependency has it.
 fn crate_name(plan: &str, dependencies: &[Dependency]) -> String {
     let others = dependencies.iter().flat_map(|it| [&it.key, &it.package]);
     let others: Vec<_> = others.map(|name| name.replace('-', "_")).collect();
     let kept = [KEPT, NEVER].concat().into_iter();
     let mut names = UniqueNames::taken(kept.chain(others.iter().map(String::as_str)));
     match snake(plan) {
-        // What the crates of AFP depend on in turn.
+        // Indirect dependencies of AFP's crates.
         name if name.starts_with("afp_") => names.unique(format!("{name}_plan")),
         name => names.unique_or(name, "plan"),
     }
@@ -121,7 +122,7 @@ fn cargo_toml(krate: &str, options: &CrateOptions, dependencies: Vec<Dependency>
     manifest(&made_by, &package, dependencies, profile)
 }
 
-/// The crates that a plan needs: those of its toolboxes beside `afp` and what runs it.
+/// The crates that a plan needs: those of its toolboxes, `afp` and the runtime.
 fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     let origin = &options.origin;
     let mut all = vec![Dependency::ours("afp", origin).with_only(&[])];
@@ -144,7 +145,7 @@ fn dependencies(graph: &Graph, options: &CrateOptions) -> Vec<Dependency> {
     all
 }
 
-/// The dependency that a path in Rust begins with.
+/// The dependency at the start of a Rust path.
 fn given<'a>(options: &'a CrateOptions, path: &str) -> Option<&'a Dependency> {
     let name = path.split("::").next().unwrap_or("");
     options.dependencies.iter().find(|given| given.key.replace('-', "_") == name)

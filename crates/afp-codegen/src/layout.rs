@@ -1,8 +1,8 @@
-//! Tokens as text that people read.
+//! Tokens as readable text.
 //!
-//! Comments travel through the tokens as `#[comment = " text"]`, which the printer knows and the
-//! compiler does not; code that goes to the compiler as tokens has them taken out. Places of the plan
-//! travel the same way, and leave the text as a table beside it.
+//! Comments are passed through the tokens as `#[comment = " text"]`, which the printer knows; code
+//! for the compiler has them removed. Places of the plan use the same form and become a table next
+//! to the text.
 
 use proc_macro2::{Group, Span as RustSpan, TokenStream, TokenTree};
 use quote::quote;
@@ -10,7 +10,7 @@ use quote::quote;
 use crate::places::Places;
 use afp_syntax::source::Span;
 
-/// How a comment begins that is a place.
+/// The prefix of a comment that is a place.
 const PLACE: &str = "\u{1}";
 
 /// A comment above the next item, arm, element or statement.
@@ -19,14 +19,14 @@ pub fn comment(text: &str) -> TokenStream {
     quote!(#[comment = #text])
 }
 
-/// The place in the plan that the next item, arm, field or element is made from; it stands behind all
-/// other attributes.
+/// The place in the plan for the next item, arm, field or element; it comes after all other
+/// attributes.
 pub fn at(span: Span) -> TokenStream {
     let text = format!("{PLACE}{} {} {}", span.file, span.start, span.end);
     quote!(#[comment = #text])
 }
 
-/// The place that a printed line is about.
+/// The place of a printed line.
 fn place(line: &str) -> Option<Span> {
     let mut numbers = line.trim_start().strip_prefix("//")?.strip_prefix(PLACE)?.split(' ');
     let file = numbers.next()?.parse().ok()?;
@@ -34,7 +34,7 @@ fn place(line: &str) -> Option<Span> {
     Some(Span { file, start, end })
 }
 
-/// Help lines as a doc comment; `fallback` where there are none.
+/// Help lines as a doc comment; `fallback` if there are none.
 pub fn doc(help: &str, fallback: &str) -> TokenStream {
     let help = if help.trim().is_empty() { fallback } else { help };
     let lines =
@@ -42,7 +42,7 @@ pub fn doc(help: &str, fallback: &str) -> TokenStream {
     quote!(#(#[doc = #lines])*)
 }
 
-/// Tokens for the compiler as if they stood at a place; `$crate` means what it meant.
+/// Tokens for the compiler with spans at a place; `$crate` keeps its meaning.
 pub fn located(tokens: TokenStream, at: RustSpan) -> TokenStream {
     let each = tokens.into_iter().map(|mut token| {
         match &mut token {
@@ -78,20 +78,21 @@ pub fn code(tokens: TokenStream) -> TokenStream {
     kept.into_iter().collect()
 }
 
-/// Whether this is the bracket of `#[comment = ...]`.
+/// Whether a group is the bracket of `#[comment = ...]`.
 fn is_comment(group: &Group) -> bool {
     let first = group.stream().into_iter().next();
     matches!(first, Some(TokenTree::Ident(ident)) if ident == "comment")
 }
 
-/// The text of a file: formatted, with air between the items.
+/// The text of a file: formatted, with empty lines between the items.
 ///
-/// Tokens that are no Rust file come back as they are, so that the compiler shows what is wrong.
+/// Tokens that are not a valid Rust file are returned unchanged, so that the compiler reports the
+/// error.
 pub fn file(tokens: TokenStream) -> String {
     file_with_places("", tokens).0
 }
 
-/// The text of a file below a line of comment, if that is not empty, and which place each line is made from.
+/// The text of a file below a comment line, if that is not empty, with the place of each line.
 pub fn file_with_places(head: &str, tokens: TokenStream) -> (String, Places) {
     match syn::parse2(tokens.clone()) {
         Ok(file) => airy(head, &prettyplease::unparse(&file)),
@@ -99,7 +100,8 @@ pub fn file_with_places(head: &str, tokens: TokenStream) -> (String, Places) {
     }
 }
 
-/// Blank lines below the head and between items, where the printer leaves none, and no places among the lines.
+/// Adds empty lines below the head and between items, where the printer leaves none, and removes
+/// the lines with places.
 fn airy(head: &str, text: &str) -> (String, Places) {
     let mut airy = String::with_capacity(text.len() + text.len() / 16);
     let (mut places, mut here) = (Places::default(), None);
@@ -122,7 +124,7 @@ fn airy(head: &str, text: &str) -> (String, Places) {
         places.line(line, here.take());
         airy += line;
         before = line;
-        // The printer breaks what is empty, too.
+        // The printer also breaks empty blocks.
         if line.ends_with(" {")
             && let Some(end) = lines.next_if(|next| next.trim_start().starts_with('}'))
         {
@@ -180,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_know_the_place_of_the_innermost_item_around_them() {
+    fn lines_have_the_place_of_the_innermost_item_around_them() {
         let span = |start| Span { file: 3, start, end: 90 };
         let [a, b, c, d] = [1, 2, 3, 4].map(|start| at(span(start)));
         let tokens = quote! {

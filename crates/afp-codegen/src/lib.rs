@@ -1,8 +1,8 @@
 //! The Rust back end: typed templates from a toolbox, a native plan from a graph, a whole crate.
 //!
-//! One function per construct, each returning tokens; one module per generated artifact. What
-//! comes out of a plan reads like a program somebody wrote: its actors, its supervisors, the plan,
-//! its rules, under the plan's own names. It uses nothing of the run time but `afp_core::rt` and
+//! There is one function per construct, which returns tokens, and one module per generated
+//! artifact. The code of a plan reads like a hand-written program: its actors, its supervisors, the
+//! plan, its rules, under the plan's own names. Of the run time, it only uses `afp_core::rt` and
 //! the types that components see.
 
 mod enums;
@@ -34,7 +34,7 @@ pub use scenarios::{ScenarioSetting, ScenarioTests};
 pub use toolbox::{Asked, Support, complete, declaration, register_supported, toolbox};
 pub use wrong::{compile_error, compile_errors};
 
-/// How generated code names what it uses.
+/// The names that generated code uses.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The path of `afp_core`, such as `::afp_core` or `::afp::core`.

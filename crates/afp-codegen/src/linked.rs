@@ -1,4 +1,4 @@
-//! The crates that link a project's robot and toolboxes: the command line with them, and the Python extension.
+//! Crates that link a project's robot and toolboxes: the command line, and the Python extension.
 
 use std::collections::BTreeMap;
 
@@ -10,27 +10,28 @@ use crate::layout::file;
 use crate::manifest::{Dependency, Origin, manifest, quoted};
 use crate::toolbox::{Support, register_supported};
 
-/// What is linked.
+/// The linked parts.
 #[derive(Clone, Debug)]
 pub struct LinkOptions {
     /// The name of the package and of its program.
     pub package: String,
-    /// Where the `afp` crates come from.
+    /// The source of the `afp` crates.
     pub origin: Origin,
-    /// The path of the robot's type; without one it is the Carbot.
+    /// The path of the robot's type; the Carbot if `None`.
     pub robot: Option<String>,
-    /// The path of the type of the robot itself, for the command line; beside a simulated one of the project.
+    /// The path of the hardware robot's type, for the command line; in addition to a simulated
+    /// robot of the project.
     pub hardware: Option<String>,
-    /// The toolboxes: the name behind `use`, and the path of the module that has `templates`.
+    /// The toolboxes: the name in `use`, and the path of the module with `templates`.
     pub toolboxes: Vec<(String, String)>,
     /// The crates of the robot and of the toolboxes.
     pub dependencies: Vec<Dependency>,
-    /// The features of the command line, where that is linked.
+    /// The features of the command line, if it is linked.
     pub features: Vec<String>,
 }
 
-/// Packages of the command line that a run spends no time in, and the levels at which they are optimised: those of this
-/// workspace's own manifest.
+/// Packages of the command line that a run spends no time in, with their levels of optimisation, as
+/// in this workspace's manifest.
 const LEVELS: [(&str, u8); 7] = [
     ("annotate-snippets", 1),
     ("clap_builder", 1),
@@ -40,7 +41,7 @@ const LEVELS: [(&str, u8); 7] = [
     ("saphyr-parser", 1),
     ("spade", 1),
 ];
-/// The same of those that its feature `png` brings.
+/// The packages and levels of its feature `png`.
 const LEVELS_OF_PNG: [(&str, u8); 9] = [
     ("fontdb", 1),
     ("harfrust", 1),
@@ -53,10 +54,11 @@ const LEVELS_OF_PNG: [(&str, u8); 9] = [
     ("usvg", 1),
 ];
 
-/// The files of a runner: path below its folder, and text. `declared` is what the toolboxes declare, in their order.
+/// The files of a runner: path below its folder, and text. `declared` are the toolboxes'
+/// declarations, in their order.
 ///
 /// # Errors
-/// A path that Rust cannot say; it is given back.
+/// A path that is invalid in Rust; it is returned.
 pub fn runner_files(
     options: &LinkOptions,
     declared: &[&Toolbox],
@@ -73,16 +75,16 @@ pub fn runner_files(
     ])
 }
 
-/// The files of a Python extension, as [`runner_files`].
+/// The files of a Python extension, like [`runner_files`].
 ///
 /// # Errors
-/// A path that Rust cannot say; it is given back.
+/// A path that is invalid in Rust; it is returned.
 pub fn extension_files(
     options: &LinkOptions,
     declared: &[&Toolbox],
 ) -> Result<Vec<(String, String)>, String> {
     let ours = Dependency::ours("afp-py", &options.origin);
-    // The Carbot is a feature of it.
+    // The Carbot is a feature.
     let ours = if options.robot.is_some() { ours.with_only(&[]) } else { ours };
     let library = format!("[lib]\ncrate-type = [\"cdylib\"]\n\n{}", profile(options, []));
     let manifest =
@@ -94,8 +96,8 @@ pub fn extension_files(
     ])
 }
 
-/// A plan is interpreted here: what counts is that the build is done soon. Crates of the project, in which a panic may
-/// be looked for, know their lines.
+/// Plans are interpreted, so a short build matters most. The project's own crates have line
+/// numbers, for finding a panic.
 fn profile<'l>(
     options: &LinkOptions,
     levels: impl IntoIterator<Item = &'l (&'l str, u8)>,
@@ -103,7 +105,7 @@ fn profile<'l>(
     let levels = levels.into_iter().map(|(name, level)| (*name, format!("opt-level = {level}")));
     let own = options.dependencies.iter().map(|own| &*own.package);
     let own = own.map(|package| (package, "debug = \"line-tables-only\"".to_owned()));
-    // One section for each package, of one of the project's own whatever its name.
+    // One section for each package; a project's package with the same name wins.
     let sections: BTreeMap<&str, String> = levels.chain(own).collect();
     let mut profile = "[profile.release]\nlto = \"off\"\n".to_owned();
     for (package, line) in sections {
@@ -112,7 +114,7 @@ fn profile<'l>(
     profile
 }
 
-/// What the crate needs beside the one that does everything.
+/// The dependencies of the crate, in addition to the main one.
 fn dependencies(options: &LinkOptions, ours: Dependency) -> Vec<Dependency> {
     let mut dependencies = options.dependencies.clone();
     dependencies.push(ours);
@@ -123,17 +125,17 @@ fn dependencies(options: &LinkOptions, ours: Dependency) -> Vec<Dependency> {
     dependencies
 }
 
-/// What is linked in, for the heads of files.
+/// The description of the linked parts, for the heads of files.
 fn about(options: &LinkOptions) -> String {
     let names = options.toolboxes.iter().map(|(name, _)| name).chain(&options.robot);
     let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
     names.join(", ")
 }
 
-/// What registers templates.
+/// The code that registers templates.
 struct Registering<'a> {
     options: &'a LinkOptions,
-    /// What the toolboxes declare, in their order.
+    /// The toolboxes' declarations, in their order.
     declared: &'a [&'a Toolbox],
     /// The path of `afp_core`.
     core: TokenStream,
@@ -142,11 +144,12 @@ struct Registering<'a> {
 }
 
 impl Registering<'_> {
-    /// A closure that registers the templates that a robot supports, those of the built-in toolboxes too for one of one's
-    /// own. A plan that uses another one is refused by its name, which is more than the Rust compiler would say.
+    /// A closure that registers the templates that a robot supports, including built-in toolboxes
+    /// for a project's robot. A plan with another template is rejected by its name, which is
+    /// clearer than the Rust compiler's error.
     fn on(&self, robot: Option<&str>) -> Result<TokenStream, String> {
         let platform = robot.map(tokens).transpose()?;
-        // Templates of the Carbot need its devices, which another robot may have in part.
+        // The Carbot's templates need its devices; another robot may have some of them.
         let built_in = platform.as_ref().map(|ty| {
             quote! {
                 afp_std::register!(registry, #ty);
@@ -240,7 +243,7 @@ fn extension(options: &LinkOptions, declared: &[&Toolbox]) -> Result<String, Str
     }))
 }
 
-/// Lets the linker of a Mac leave to Python what Python brings.
+/// Lets the linker on macOS resolve Python's symbols at run time.
 fn build_script() -> String {
     file(quote! {
         #![doc = " What Python brings is not there when the extension is linked."]
@@ -273,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn every_package_has_one_section_of_the_profile() {
+    fn every_package_has_one_section_in_the_profile() {
         let path = Origin::Path("/robots".to_owned());
         let own = |key: &str, package: &str| Dependency {
             key: key.to_owned(),

@@ -1,14 +1,14 @@
 //! The manifests of generated crates.
 
-/// How every such manifest begins.
+/// The start of every manifest.
 pub const MADE_BY: &str = "# Made by 'afpc";
-/// How every file of Rust begins that the next build may replace or remove.
+/// The start of every Rust file that the next build may replace or remove.
 pub const RUST_MADE_BY: &str = "// Made by 'afpc build'";
 
-/// Where a crate comes from.
+/// The source of a crate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// A folder; for the `afp` crates that of their checkout.
+    /// A folder; for the `afp` crates, their checkout.
     Path(String),
     /// A repository.
     Git(String),
@@ -16,25 +16,25 @@ pub enum Origin {
     Version(String),
 }
 
-/// A crate that a manifest names.
+/// A dependency in a manifest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dependency {
     /// The name in the manifest; with `_` for `-` the name in Rust.
     pub key: String,
     /// The name of the package.
     pub package: String,
-    /// Where it comes from; a path is that of the package.
+    /// The source of the crate; a path is that of the package.
     pub origin: Origin,
-    /// What it comes with.
+    /// Its features.
     pub features: Features,
 }
 
 /// Features of a package.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Features {
-    /// Those that it has by default.
+    /// The default features.
     Default,
-    /// These and none else.
+    /// Only these features.
     Only(Vec<String>),
 }
 
@@ -51,7 +51,7 @@ impl Dependency {
         Dependency { key, package, origin, features: Features::Default }
     }
 
-    /// The same with no feature but these and those that others ask for.
+    /// The dependency with only these features and those of other dependents.
     pub(super) fn with_only(self, features: &[String]) -> Dependency {
         Dependency { features: Features::Only(features.to_vec()), ..self }
     }
@@ -77,7 +77,8 @@ impl Dependency {
     }
 }
 
-/// A manifest: what made it (` build' from x.afp`), the package's name, what it needs, its profiles.
+/// A manifest: its generator (` build' from x.afp`), the package's name, its dependencies, its
+/// profiles.
 pub(super) fn manifest(
     made_by: &str,
     package: &str,

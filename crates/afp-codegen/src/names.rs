@@ -1,4 +1,4 @@
-//! Names of the text as Rust identifiers.
+//! Names in the source as Rust identifiers.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -14,17 +14,17 @@ const KEYWORDS: &[&str] = &[
     "virtual", "where", "while", "yield",
 ];
 
-/// Rust's words that cannot be names at all. The checks refuse them, but not `self_`, of which the
-/// change of case leaves `self`.
+/// Rust's words that cannot be names at all. The checks reject them, except for `self_`, which the
+/// change of case turns into `self`.
 pub const NEVER: &[&str] = &["self", "Self", "super", "crate"];
 
-/// Rust's types of lower case: a module of such a name hides the type from what stands beside it.
+/// Rust's lower-case types: a module of that name hides the type from its neighbours.
 pub const PRIMITIVES: &[&str] = &[
     "bool", "char", "f128", "f16", "f32", "f64", "i128", "i16", "i32", "i64", "i8", "isize", "str",
     "u128", "u16", "u32", "u64", "u8", "usize",
 ];
 
-/// An identifier, raw where it has to be.
+/// An identifier, raw if necessary.
 pub fn ident(name: &str) -> Ident {
     if KEYWORDS.contains(&name) {
         Ident::new_raw(name, Span::call_site())
@@ -35,7 +35,7 @@ pub fn ident(name: &str) -> Ident {
     }
 }
 
-/// A path that a toolbox names, such as `afp_carbot` or `crate::gripper`.
+/// A path in a toolbox, such as `afp_carbot` or `crate::gripper`.
 pub fn path(text: &str) -> TokenStream {
     let parts = text.split("::").map(|part| match part {
         "crate" | "self" | "super" => Ident::new(part, Span::call_site()),
@@ -75,7 +75,7 @@ pub fn shout(name: &str) -> String {
 }
 
 /// The words of a name, in lower case. A word begins after `_`, at a capital after a small letter
-/// or digit, and at the last capital of a run that goes on in small letters.
+/// or digit, and at the last capital of a run before small letters.
 fn words(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
     let mut words = vec![String::new()];
@@ -94,7 +94,7 @@ fn words(name: &str) -> Vec<String> {
         }
     }
     words.retain(|word| !word.is_empty());
-    // A name of nothing but digits or underscores still needs a first letter.
+    // A name of only digits or underscores still needs a first letter.
     match words.first() {
         Some(word) if word.starts_with(|first: char| first.is_ascii_digit()) => {
             words.insert(0, "n".to_owned());
@@ -105,23 +105,23 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Hands out names that differ from one another.
+/// Assigns distinct names.
 #[derive(Debug, Default)]
 pub struct UniqueNames(Vec<String>);
 
 impl UniqueNames {
-    /// A register in which some names are taken.
+    /// A register with some names taken.
     pub fn taken<'n>(names: impl IntoIterator<Item = &'n str>) -> Self {
         UniqueNames(names.into_iter().map(str::to_owned).collect())
     }
 
-    /// The name itself; one that is taken gets a word behind it, then a number.
+    /// The name itself; a taken name gets a suffix word, then a number.
     pub fn unique_or(&mut self, name: String, word: &str) -> String {
         let is_taken = self.0.contains(&name);
         self.unique(if is_taken { format!("{name}_{word}") } else { name })
     }
 
-    /// The name itself, or the first of `name_2`, `name_3`... that is free.
+    /// The name itself, or the first free one of `name_2`, `name_3`...
     pub fn unique(&mut self, name: String) -> String {
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let free = std::iter::once(name.clone()).chain(numbered).find(|n| !self.0.contains(n));

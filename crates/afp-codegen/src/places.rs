@@ -1,8 +1,8 @@
-//! Which place of a plan each line of a generated file is made from.
+//! The places in a plan of a generated file's lines.
 
 use afp_syntax::source::Span;
 
-/// The places of a file's lines. A place holds for the item that begins at its line.
+/// The places of a file's lines. A place applies to the item that begins at its line.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     lines: Vec<Line>,
@@ -10,9 +10,9 @@ pub struct Places {
 
 #[derive(Clone, Copy, Debug)]
 struct Line {
-    /// Blanks before the text; `None` for an empty line.
+    /// Spaces before the text; `None` for an empty line.
     indent: Option<usize>,
-    /// Whether it goes on with an item that began above, such as `}` or `) -> u8 {`.
+    /// Whether it continues an earlier item, such as `}` or `) -> u8 {`.
     continues: bool,
     place: Option<Span>,
 }
@@ -28,9 +28,9 @@ impl Places {
         });
     }
 
-    /// The place of the innermost item around a line (counted from 1) that has one.
+    /// The place of the innermost item with a place around a line (counted from 1).
     pub fn at(&self, line: usize) -> Option<Span> {
-        // Only lines that are indented less than all between belong to items around this one.
+        // Only lines with less indentation than all lines between belong to items around this line.
         let mut limit = usize::MAX;
         for line in self.lines.get(..line)?.iter().rev() {
             let Some(indent) = line.indent.filter(|indent| *indent <= limit) else { continue };

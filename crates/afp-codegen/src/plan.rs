@@ -2,7 +2,7 @@
 //!
 //! Each plan becomes a module of four sections, as in the paper's Table I: its actors (with
 //! computations and sub-plans), its supervisors, the plan itself, and its rules. The scheduler of
-//! `afp_core` drives the result through `afp_core::rt`; nothing of the graph is left in it.
+//! `afp_core` drives the result through `afp_core::rt`; the graph is not needed at run time.
 
 mod accessors;
 mod bindings;
@@ -27,16 +27,16 @@ use afp_dsl::graph::{Graph, PlanId};
 use afp_syntax::source::Span;
 use context::{Context, Shared};
 
-/// The Rust code of a graph: a module for each plan, and what they share.
+/// The Rust code of a graph: a module for each plan, and their common parts.
 #[derive(Clone, Debug)]
 pub struct Generated {
     /// The modules, sub-plans before the plans that use them.
     pub modules: Vec<Module>,
     /// The module and the type of each plan.
     pub plans: Vec<(Ident, Ident)>,
-    /// The module of the plan that runs.
+    /// The module of the running plan.
     pub main: Ident,
-    /// The type of the plan that runs, in its module.
+    /// The type of the running plan, in its module.
     pub plan: Ident,
 }
 
@@ -51,7 +51,7 @@ pub struct Module {
     pub imports: TokenStream,
     /// Its sections, each with its title.
     pub sections: Vec<(&'static str, TokenStream)>,
-    /// The plan that it is made from.
+    /// The source plan.
     pub span: Span,
 }
 
@@ -100,7 +100,7 @@ fn plan_section(context: &Context<'_>) -> TokenStream {
 }
 
 impl Module {
-    /// The content of the module, to be printed as a file.
+    /// The content of the module, for a printed file.
     pub fn tokens(&self) -> TokenStream {
         let lines = self.doc.lines().map(|line| format!(" {line}"));
         let imports = &self.imports;
@@ -117,8 +117,8 @@ impl Module {
 }
 
 impl Generated {
-    /// All modules with their bodies in a module of the main plan's name, which has the types of
-    /// all plans; that of the main plan stands beside it too.
+    /// All modules with their bodies in a module of the main plan's name, with the types of all
+    /// plans. The main plan's type is also next to it.
     pub fn tokens(&self) -> TokenStream {
         let modules = self.modules.iter().map(|module| {
             let (name, about) = (&module.name, doc(&module.doc, ""));

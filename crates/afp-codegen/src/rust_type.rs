@@ -7,11 +7,11 @@ use crate::names::{camel, ident};
 use afp_dsl::types::{Dimension, Enum, Object, Type};
 use afp_types::RADIANS_PER_DEGREE;
 
-/// Where types live, seen from the code that is being made.
+/// The paths of types, for the generated code.
 pub struct TypePaths<'a> {
-    /// What stands before the names of `afp_core`: its path with `::`, or nothing for imports.
+    /// The prefix of the names in `afp_core`: its path with `::`, or nothing for imports.
     pub core: TokenStream,
-    /// What stands before the names of `afp_core::quantity`.
+    /// The prefix of the names in `afp_core::quantity`.
     pub quantity: TokenStream,
     /// The path of an enum.
     pub choice: &'a dyn Fn(&Enum) -> TokenStream,
@@ -20,7 +20,7 @@ pub struct TypePaths<'a> {
 }
 
 impl TypePaths<'_> {
-    /// The type of a value by itself; an object's own type; `V` for `any` and `number`.
+    /// The type of a single value; an object's own type; `V` for `any` and `number`.
     pub fn value(&self, ty: &Type) -> TokenStream {
         match ty {
             Type::Bool => quote!(bool),
@@ -36,7 +36,7 @@ impl TypePaths<'_> {
         }
     }
 
-    /// The type of a quantity, by its alias where there is one.
+    /// The type of a quantity, by its alias if there is one.
     pub fn quantity(&self, dimension: Dimension) -> TokenStream {
         let quantity = &self.quantity;
         if dimension == Dimension::NONE {
@@ -63,7 +63,7 @@ impl TypePaths<'_> {
         }
     }
 
-    /// A constant quantity; one that is a round number of degrees says so.
+    /// A constant quantity; a round number of degrees uses its constructor.
     pub fn constant(&self, dimension: Dimension, value: f64) -> TokenStream {
         if let Some(degrees) = degrees(dimension, value) {
             let (path, degrees) = (self.quantity(dimension), float(degrees));
@@ -91,13 +91,13 @@ fn alias(dimension: Dimension) -> Option<&'static str> {
     })
 }
 
-/// The degrees, or degrees a second, that make exactly this quantity, when they are round.
+/// The degrees, or degrees a second, that make exactly this quantity, if they are round.
 pub fn degrees(dimension: Dimension, value: f64) -> Option<f64> {
     let turns = matches!(alias(dimension), Some("Angle" | "AngularSpeed"));
     if turns { round_degrees(value) } else { None }
 }
 
-/// The degrees that make exactly this many radians, when they are a whole number of thousandths.
+/// The degrees that make exactly this many radians, if they are a whole number of thousandths.
 fn round_degrees(radians: f64) -> Option<f64> {
     let degrees = (radians / RADIANS_PER_DEGREE * 1e3).round() / 1e3;
     (degrees * RADIANS_PER_DEGREE == radians).then_some(degrees)
@@ -123,9 +123,9 @@ pub fn int(value: impl Into<i64>) -> TokenStream {
     if value < 0 { quote!(-#literal) } else { quote!(#literal) }
 }
 
-/// The same with its type, for where that follows from nothing else.
+/// An integer literal with its type, if the context does not determine it.
 pub fn long(value: i64) -> TokenStream {
-    // The least one is no literal with a sign.
+    // The smallest integer has no literal with a sign.
     let Some(magnitude) = value.checked_abs() else { return quote!(i64::MIN) };
     let literal = Literal::i64_suffixed(magnitude);
     if value < 0 { quote!(-#literal) } else { quote!(#literal) }

@@ -1,4 +1,4 @@
-//! Tests of Rust from scenarios.
+//! Rust tests from scenarios.
 
 use afp_dsl::Compiled;
 use afp_dsl::graph::Graph;
@@ -20,12 +20,12 @@ pub struct ScenarioTests<'a> {
     names: UniqueNames,
 }
 
-/// Where scenarios are and what they run on. Written as `"file or folder" [, robot = type] [, path of a function that
-/// registers templates]...`.
+/// The place of scenarios and their robot. Written as `"file or folder" [, robot = type] [, path of
+/// a function that registers templates]...`.
 pub struct ScenarioSetting {
-    /// The file or folder, as written.
+    /// The file or folder, as in the source.
     pub path: String,
-    /// The type of the robot; without one it is the Carbot.
+    /// The type of the robot; the Carbot if `None`.
     robot: Option<TokenStream>,
     /// The paths of functions that register templates.
     register: Vec<TokenStream>,
@@ -52,15 +52,16 @@ impl Parse for ScenarioSetting {
 }
 
 impl<'a> ScenarioTests<'a> {
-    /// No tests. `is_built_in` tells whether a toolbox, by the path of its Rust, is built in.
+    /// Starts without tests. `is_built_in` returns whether a toolbox, by its Rust path, is built
+    /// in.
     pub fn new(setting: &'a ScenarioSetting, is_built_in: fn(&str) -> bool) -> Self {
         let (modules, names) = (TokenStream::new(), UniqueNames::default());
         ScenarioTests { setting, is_built_in, modules, names }
     }
 
-    /// Adds the module of a file. `path` names it, `full` finds it when the tests run, and `texts` are the expressions
-    /// of all texts that went into it. A scenario that is wrong, or that its plan cannot meet any more, is a test that
-    /// fails.
+    /// Adds the module of a file. `path` is its name, `full` is its path at run time, and `texts`
+    /// are the expressions of all its sources. An invalid scenario, or one that its plan can no
+    /// longer pass, is a failing test.
     pub fn add(&mut self, path: &str, full: &str, compiled: &Compiled, texts: &[TokenStream]) {
         let module = ident(&self.names.unique(slug(path.trim_end_matches(".afp"))));
         let mut names = UniqueNames::default();
@@ -74,7 +75,7 @@ impl<'a> ScenarioTests<'a> {
             test(&mut names, &each.name, &quote!(panic!("{}", #text);))
         });
         let invalid: TokenStream = invalid.collect();
-        // Cargo watches the files only because something includes them.
+        // Cargo only watches included files.
         self.modules.extend(quote! {
             mod #module {
                 #valid
@@ -84,7 +85,7 @@ impl<'a> ScenarioTests<'a> {
         });
     }
 
-    /// The modules; `None` where there are none.
+    /// The modules; `None` if there are none.
     pub fn modules(self) -> Option<TokenStream> {
         (!self.modules.is_empty()).then_some(self.modules)
     }
@@ -98,7 +99,7 @@ impl<'a> ScenarioTests<'a> {
         }
     }
 
-    /// The expression of the robot with the templates that a plan may use.
+    /// The expression of the robot with the available templates.
     fn robot(&self, plan: &Graph) -> TokenStream {
         let register = &self.setting.register;
         let Some(robot) = &self.setting.robot else {
@@ -137,7 +138,7 @@ impl<'a> ScenarioTests<'a> {
     }
 }
 
-/// A test under a name of its own.
+/// A test with its own name.
 fn test(names: &mut UniqueNames, title: &str, body: &TokenStream) -> TokenStream {
     let name = ident(&names.unique(slug(title)));
     quote! {
@@ -148,7 +149,7 @@ fn test(names: &mut UniqueNames, title: &str, body: &TokenStream) -> TokenStream
     }
 }
 
-/// A text as a name in Rust.
+/// A text as a Rust name.
 fn slug(text: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     snake(&text.chars().map(plain).collect::<String>())

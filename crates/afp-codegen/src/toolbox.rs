@@ -1,7 +1,8 @@
-//! Typed templates from a toolbox: for each one a marker, its inputs, its outcomes; and its devices.
+//! Typed templates from a toolbox: a marker, inputs and outcomes for each template, and the
+//! devices.
 //!
-//! A crate that implements a toolbox puts this into a module `templates`; the types that implement
-//! the templates carry the templates' names in the module around it.
+//! An implementing crate has them in a module `templates`. The implementing types have the
+//! templates' names in the module around it.
 
 mod complete;
 mod declared;
@@ -25,7 +26,7 @@ pub use complete::{Asked, complete};
 pub use declared::declaration;
 pub use register::{Support, register_supported};
 
-/// Everything that `toolbox!` makes.
+/// The whole output of `toolbox!`.
 pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     let (core, source) = (&options.core, &options.source);
     let text = doc("", "The text of the toolbox file.");
@@ -46,12 +47,12 @@ pub fn toolbox(toolbox: &Toolbox, options: &Options) -> TokenStream {
     }
 }
 
-/// The templates that Rust types implement: what reads a table has the ports of a plan's own.
+/// The templates that Rust types implement; readers of tables have ports from the plan.
 fn implemented(toolbox: &Toolbox) -> impl Iterator<Item = &Template> {
     toolbox.templates.iter().filter(|template| template.reads_table.is_none())
 }
 
-/// What templates of one kind are called in Rust.
+/// The Rust names for templates of one kind.
 struct Words {
     template: Ident,
     component: Ident,
@@ -69,7 +70,7 @@ fn words(kind: TemplateKind) -> Words {
     Words { template, component, outcome, outcomes }
 }
 
-/// Types as the module of a template sees them.
+/// Types for the module of a template.
 fn type_paths(core: &TokenStream) -> TypePaths<'_> {
     let choice = &|choices: &Enum| {
         let name = ident(&camel(&choices.name));
@@ -82,8 +83,8 @@ fn type_paths(core: &TokenStream) -> TypePaths<'_> {
     TypePaths { core: quote!(#core::), quantity: quote!(#core::quantity::), choice, object }
 }
 
-/// The module of a template's types. A template that is called as the modules of the devices or a type of Rust are gives
-/// way.
+/// The module of a template's types. A template whose name collides with the devices' modules or a
+/// Rust type gets another name.
 pub(crate) fn module(template: &Template) -> Ident {
     let name = snake(&template.name);
     let taken = devices::MODULES.contains(&&*name) || PRIMITIVES.contains(&&*name);
@@ -112,7 +113,7 @@ fn template(core: &TokenStream, template: &Template) -> TokenStream {
     }
 }
 
-/// Whether components of this kind read anything while they run.
+/// Whether components of this kind read inputs while they run.
 fn has_live(template: &Template) -> bool {
     template.kind != TemplateKind::Computation
 }
@@ -151,7 +152,7 @@ fn implement(core: &TokenStream, template: &Template) -> TokenStream {
     }
 }
 
-/// The bound on the type that stands for `any`, `number` or `discrete`, where the template has such
+/// The bound on the type parameter for `any`, `number` or `discrete`, if the template has such
 /// ports.
 fn bound(template: &Template) -> Option<Ident> {
     let types = || {
@@ -163,8 +164,8 @@ fn bound(template: &Template) -> Option<Ident> {
     bound.map(|(_, bound)| ident(bound))
 }
 
-/// The inputs read before the start, with their positions among all inputs. A computation reads
-/// all of them there.
+/// The inputs before the start, with their positions among all inputs. A computation reads all of
+/// its inputs there.
 fn inputs(template: &Template) -> impl Iterator<Item = (u16, &InPort)> {
     let all = (0..).zip(&template.inputs);
     all.filter(|(_, port)| !port.live || !has_live(template))
@@ -176,14 +177,14 @@ fn live(template: &Template) -> impl Iterator<Item = (u16, &InPort)> {
     all.filter(|(_, port)| port.live && has_live(template))
 }
 
-/// What a struct or enum of ports is generic over.
+/// The generic parameters of a struct or enum of ports.
 #[derive(Clone, Copy)]
 struct Parameters {
     /// It borrows texts or objects.
     borrows: bool,
-    /// It holds texts or objects of its own, and cannot be copied.
+    /// It owns texts or objects, and cannot be copied.
     owns: bool,
-    /// It has objects, of which nothing but `Clone` is known.
+    /// It has objects, which only implement `Clone`.
     opaque: bool,
     /// It has values of the type `V`.
     generic: bool,
@@ -202,7 +203,7 @@ impl Parameters {
         all
     }
 
-    /// `<'a, V>` for something that borrows.
+    /// `<'a, V>` for a borrowing type.
     fn arguments(self) -> TokenStream {
         match (self.borrows, self.generic) {
             (true, true) => quote!(<'a, V>),
@@ -212,7 +213,7 @@ impl Parameters {
         }
     }
 
-    /// `<V>` for something that owns.
+    /// `<V>` for an owning type.
     fn owned_arguments(self) -> TokenStream {
         if self.generic { quote!(<V>) } else { TokenStream::new() }
     }
@@ -224,7 +225,7 @@ mod tests {
     use afp_syntax::source::Source;
 
     #[test]
-    fn templates_called_as_what_stands_beside_them_give_way() {
+    fn templates_with_names_of_neighbours_are_renamed() {
         let text = "toolbox lamps\ndevice lamp { signal on: bool }\nactor Signal { state Shown }\n\
                     actor Devices { state Done }\nactor Str { state Done }\nactor Blink { state Done }";
         let (lamps, _) = Toolbox::parse(&Source::new("lamps.afp", text), 0, "lamps");

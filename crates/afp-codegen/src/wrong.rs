@@ -1,11 +1,11 @@
-//! What is wrong as errors of the Rust compiler.
+//! Diagnostics as errors of the Rust compiler.
 
 use afp_syntax::diagnostics::{Diagnostics, Severity};
 use afp_syntax::source::Sources;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// A compile error for each error among the diagnostics, rendered as `afpc check` renders it.
+/// A compile error for each error in the diagnostics, in the format of `afpc check`.
 pub fn compile_errors(diags: &Diagnostics, sources: &Sources) -> TokenStream {
     let errors = diags.iter().filter(|each| each.severity == Severity::Error);
     let errors = errors.map(|each| {
@@ -16,7 +16,7 @@ pub fn compile_errors(diags: &Diagnostics, sources: &Sources) -> TokenStream {
     errors.collect()
 }
 
-/// A compile error that says this.
+/// A compile error with this message.
 pub fn compile_error(text: &str) -> TokenStream {
     let text = format!("\n{text}");
     quote!(::core::compile_error! { #text })

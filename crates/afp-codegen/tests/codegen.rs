@@ -1,7 +1,8 @@
-//! Golden Rust: each `codegen/*.afp` makes the `.rs` beside it. `AFP_BLESS=1` rewrites.
+//! Golden Rust: each `codegen/*.afp` generates the `.rs` with its name. `AFP_BLESS=1` rewrites.
 //!
-//! A case is about one construct. A first line `// shows: Actors, Rules` keeps its golden text to the sections
-//! of that name. That all of it compiles is tested where the macros are (`afp-macros`, `tests/everything.rs`).
+//! A case is about one construct. A first line `// shows: Actors, Rules` limits its golden text to
+//! these sections. The macros' tests check that all of it compiles (`afp-macros`,
+//! `tests/everything.rs`).
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -32,7 +33,7 @@ fn toolboxes() -> Toolboxes {
     toolboxes
 }
 
-/// The Rust text of a file: its toolbox, or what it shows of the modules of its plans.
+/// The Rust text of a file: its toolbox, or the shown parts of its plans' modules.
 fn generate(path: &Path) -> String {
     let name = path.file_name().unwrap().to_string_lossy().into_owned();
     let source = Source::new(name, fs::read_to_string(path).unwrap());
@@ -53,7 +54,7 @@ fn generate(path: &Path) -> String {
     texts.collect::<Vec<_>>().join("\n")
 }
 
-/// The text of a module, or of those of its sections that are named.
+/// The text of a module, or of the named sections.
 fn show(module: &Module, sections: Option<&str>) -> Option<String> {
     let Some(sections) = sections else { return Some(afp_codegen::file(module.tokens())) };
     let named = |title: &str| sections.split(", ").any(|section| section == title);
@@ -63,7 +64,7 @@ fn show(module: &Module, sections: Option<&str>) -> Option<String> {
 }
 
 #[test]
-fn plans_and_toolboxes_make_the_rust_beside_them() {
+fn plans_and_toolboxes_generate_their_golden_rust() {
     let mut wrong = Vec::new();
     for case in cases() {
         let golden = case.with_extension("rs");
@@ -87,7 +88,7 @@ fn plans_and_toolboxes_make_the_rust_beside_them() {
     );
 }
 
-/// The plan of the paper: its text, its graph, and how a crate is made of it.
+/// The plan of the paper: its text, its graph, and the options of its crate.
 fn wall_following() -> (String, Graph, CrateOptions) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/wall_following.afp");
     let text = fs::read_to_string(path).unwrap();
@@ -110,7 +111,7 @@ fn wall_following() -> (String, Graph, CrateOptions) {
 }
 
 #[test]
-fn a_crate_names_what_it_needs_and_carries_its_text() {
+fn a_crate_names_its_dependencies_and_contains_its_text() {
     let (text, graph, mut options) = wall_following();
     let files = afp_codegen::crate_files(&graph, &options);
     let get = |path: &str| files.iter().find(|file| file.path == path).map(|file| &file.text);
@@ -146,7 +147,7 @@ fn a_crate_names_what_it_needs_and_carries_its_text() {
     assert!(library.contains("include_str!(\"../lib/avoid.afp\")"), "{library:?}");
 }
 
-/// The files of a crate of a plan and the sub-plans that it uses in turn, each one last in the next one's file.
+/// The files of a crate of a plan and its sub-plans, each used by the file of the next one.
 fn crate_of(plans: &[&str], options: &CrateOptions) -> Vec<CrateFile> {
     let texts = plans.iter().enumerate().map(|(i, name)| match plans.get(i + 1) {
         Some(next) => {
@@ -163,7 +164,7 @@ fn crate_of(plans: &[&str], options: &CrateOptions) -> Vec<CrateFile> {
 }
 
 #[test]
-fn no_name_of_a_plan_takes_that_of_another_file_or_crate() {
+fn no_name_of_a_plan_collides_with_a_file_or_crate() {
     let (_, _, mut options) = wall_following();
     options.robot = Some("robot_arm::Arm".to_owned());
     options.dependencies = vec![Dependency {
@@ -204,7 +205,7 @@ fn no_name_of_a_plan_takes_that_of_another_file_or_crate() {
 }
 
 #[test]
-fn every_file_of_rust_says_what_made_it_and_knows_its_lines() {
+fn every_rust_file_names_its_generator_and_has_places() {
     let (_, graph, options) = wall_following();
     let files = afp_codegen::crate_files(&graph, &options);
     let rust = files.iter().filter(|file| file.path.ends_with(".rs"));
@@ -220,7 +221,7 @@ fn every_file_of_rust_says_what_made_it_and_knows_its_lines() {
 }
 
 #[test]
-fn a_library_takes_its_dependencies_from_where_it_is_told() {
+fn a_library_takes_its_dependencies_from_the_given_place() {
     let (_, graph, mut options) = wall_following();
     options.lib = true;
     options.origin = Origin::Version("0.1.0".to_owned());

@@ -5,14 +5,14 @@
 
 use std::ops::Range;
 
-/// What an editor does with a character.
+/// The effect of a character in an editor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trick {
     /// Some editors show a line break.
     Break,
-    /// Editors show what is around it in another order.
+    /// Editors show the surrounding characters in another order.
     Order,
-    /// Editors show nothing.
+    /// Editors do not show it.
     Unseen,
 }
 
@@ -22,12 +22,12 @@ pub struct Hidden {
     /// The place, in bytes.
     pub span: Range<usize>,
     pub trick: Trick,
-    /// The first of them, escaped.
+    /// The first character, escaped.
     pub shown: String,
 }
 
 impl Hidden {
-    /// What is wrong with it, to follow its name.
+    /// The fault, for a sentence after its name.
     pub fn fault(&self) -> &'static str {
         match self.trick {
             Trick::Break => "is a line break in some editors, but not here",
@@ -37,7 +37,7 @@ impl Hidden {
     }
 }
 
-/// Finds all of them, in order. A byte order mark at the start of a text is none.
+/// Finds all hidden characters, in order. A byte order mark at the start of a text is allowed.
 pub fn hidden(text: &str) -> Vec<Hidden> {
     let mut found: Vec<Hidden> = Vec::new();
     // Nearly all texts end here.
@@ -65,7 +65,9 @@ pub fn hidden(text: &str) -> Vec<Hidden> {
     found
 }
 
-/// The trick of a character by itself; that of `\r` only where no `\n` follows.
+/// The trick of a single character; `
+/// r` only has one if no `
+/// n` follows.
 pub fn trick(each: char) -> Option<Trick> {
     Some(match each {
         '\t' | '\n' | ' '..='~' => return None,
@@ -76,7 +78,7 @@ pub fn trick(each: char) -> Option<Trick> {
             Trick::Order
         }
         _ if each.is_control() => Trick::Unseen,
-        // Those that Unicode asks to show as nothing: `Default_Ignorable_Code_Point`.
+        // Unicode's `Default_Ignorable_Code_Point`: characters to show as nothing.
         '\u{ad}'
         | '\u{34f}'
         | '\u{115f}'
@@ -98,8 +100,8 @@ pub fn trick(each: char) -> Option<Trick> {
     })
 }
 
-/// Whether a character is part of how the one before it is shown: one that joins letters or pictures, or selects how a
-/// picture looks. The mark at the start of a file says how the file is encoded.
+/// Whether a character belongs to the previous one: it joins letters or emoji, or selects an
+/// emoji's style.
 fn belongs(each: char, before: Option<char>) -> bool {
     let is_joiner = |each| matches!(each, '\u{200c}' | '\u{200d}');
     let selects = |each| matches!(each, '\u{fe00}'..='\u{fe0f}' | '\u{e0100}'..='\u{e01ef}');
@@ -108,7 +110,7 @@ fn belongs(each: char, before: Option<char>) -> bool {
         Some(before) if is_joiner(each) => {
             !before.is_ascii() && (selects(before) || trick(before).is_none())
         }
-        // Pictures of keys are made of digits.
+        // Keycap emoji consist of digits.
         Some(before) => {
             let takes = !before.is_ascii() || matches!(before, '0'..='9' | '#' | '*');
             selects(each) && takes && trick(before).is_none()
@@ -121,7 +123,7 @@ mod tests {
     use super::{Trick, hidden};
 
     #[test]
-    fn each_character_that_hides_something_is_found_at_its_place() {
+    fn each_hidden_character_is_found_at_its_place() {
         let breaks = "\r \x0b \x0c \x1c \u{85} \u{2028} \u{2029}";
         let orders = "\u{61c} \u{200e} \u{200f} \u{202a} \u{202e} \u{2066} \u{2069}";
         let unseen = "\0 \x1b \x7f \u{ad} \u{200b} \u{200c} \u{200d} \u{2060} \u{fe0f} \u{e0041}";
@@ -145,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_of_lines_and_parts_of_pictures_and_letters_hide_nothing() {
+    fn line_ends_and_parts_of_emoji_and_letters_hide_nothing() {
         let all = [
             "\u{feff}plan\r\n\t// grün → 20 °C\r\n",
             "❤\u{fe0f}\u{200d}🔥 👩\u{200d}🔧 1\u{fe0f}\u{20e3}",

@@ -1,4 +1,4 @@
-//! Mistakes for tools: one form of object, whoever has found them.
+//! Diagnostics as JSON objects for tools, in one form for all sources.
 
 use std::ops::Range;
 
@@ -9,8 +9,9 @@ use crate::{Mark, Report, line_column};
 impl Report<'_> {
     /// The report as an object.
     ///
-    /// Keys: `code`, `severity`, `message`, `place`, that of the first mark, `notes` (each `place` and `text`) of the
-    /// others, and `help`, empty for none. Code and place are `null` where there is none; places are those of [`place`].
+    /// Keys: `code`, `severity`, `message`, `place` (of the first mark), `notes` (each with `place`
+    /// and `text`) of the other marks, and `help`, which may be empty. Code and place are `null` if
+    /// absent; places have the form of [`place`].
     pub fn json(&self) -> Value {
         let notes = self.marks.iter().skip(1);
         let notes = notes.map(|mark| json!({ "place": mark.place(), "text": mark.label }));

@@ -1,7 +1,7 @@
-//! Mistakes in texts, shown as compilers show them: what is wrong, where, the line and a mark.
+//! Errors in texts, shown as compilers show them: the message, the place, the line and a mark.
 //!
-//! Plans, worlds and project files have different readers but one reader of their errors, so all
-//! of them are drawn here, and written for tools in one form. Nothing is known of what a text means.
+//! Plans, worlds and project files have different parsers. This crate draws all their errors, and
+//! writes them for tools in one form. It is independent of the texts' meaning.
 
 pub mod hidden;
 mod json;
@@ -19,19 +19,19 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 
 pub use json::place;
 
-/// How bad it is.
+/// The severity of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// The text has no meaning and cannot be used.
+    /// The text is invalid.
     Error,
-    /// The text has a meaning, but hardly the one that was wanted.
+    /// The text is valid, but probably not intended.
     Warning,
-    /// Worth knowing; nothing needs to change.
+    /// Information; nothing needs to change.
     Note,
 }
 
 impl Severity {
-    /// The word that stands before the code.
+    /// The word before the code.
     pub fn as_str(self) -> &'static str {
         match self {
             Severity::Error => "error",
@@ -41,38 +41,40 @@ impl Severity {
     }
 }
 
-/// Something wrong in texts.
+/// A report about texts.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
     /// How bad it is.
     pub severity: Severity,
-    /// The code to ask about; empty for none.
+    /// The code for `afpc explain`; may be empty.
     pub code: &'a str,
-    /// What is wrong.
+    /// The message.
     pub message: &'a str,
-    /// What to do; empty for nothing. It is shown at the first mark, whose label is then of no use.
+    /// The help; may be empty. It is shown at the first mark instead of its label.
     pub help: &'a str,
-    /// Where, the place to mend first. Those of one file are shown together unless they are far from each other.
+    /// The places, the first one to fix first. Marks of one file are shown together unless they are
+    /// far apart.
     pub marks: Vec<Mark<'a>>,
 }
 
 /// A place in a text.
 #[derive(Clone, Debug)]
 pub struct Mark<'a> {
-    /// The file's path as it is to be shown.
+    /// The file's path as shown.
     pub path: &'a str,
     pub text: &'a str,
-    /// Its lines, where they have been found for many reports; without them each one counts them anew.
+    /// The lines of the text, if they are shared by many reports; `None` counts them for each
+    /// report.
     pub lines: Option<&'a LineTable<'a>>,
-    /// The bytes; `None` for the file as a whole. What lies beyond the text or cuts a character
-    /// stands for the nearest place.
+    /// The bytes; `None` for the whole file. Offsets outside of the text or inside a character move
+    /// to the nearest place.
     pub span: Option<Range<usize>>,
-    /// What to say beside them; empty for nothing.
+    /// The label; may be empty.
     pub label: String,
 }
 
 impl Report<'_> {
-    /// The report as text without a final line break, with terminal colours when asked.
+    /// The report as text without a final line break; `colour` adds terminal colours.
     pub fn render(&self, colour: bool) -> String {
         let mut title = level(self.severity).primary_title(self.message);
         if !self.code.is_empty() {
@@ -120,7 +122,7 @@ impl Report<'_> {
         }
     }
 
-    /// The marks that are shown in one piece with one of them: those of its file that are not too far away.
+    /// The marks that are shown together with one: those of its file that are not too far away.
     fn near(&self, first: usize, shown: &[bool]) -> Vec<usize> {
         let mark = &self.marks[first];
         let start = |mark: &Mark<'_>| mark.span.as_ref().map(|span| span.start);
@@ -134,13 +136,13 @@ impl Report<'_> {
     }
 }
 
-/// Marks farther from each other than so many bytes are shown one after the other: what lies between them is read for
-/// each report, only to be left out.
+/// Marks farther apart than this number of bytes are shown separately: the text between them would
+/// be read for each report only to be left out.
 const FAR: usize = 16 << 10;
 
 /// Line and column of a byte, both counted from 1; columns count characters.
 ///
-/// An offset past the end or inside a character stands for the nearest one before it.
+/// An offset past the end or inside a character moves to the nearest one before it.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let before = &text[..text.floor_char_boundary(offset)];
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
@@ -155,15 +157,15 @@ fn level(severity: Severity) -> Level<'static> {
     }
 }
 
-/// The span as a range that surely lies in the text and on character borders.
+/// The span, limited to the text and to character borders.
 fn range(text: &str, span: &Range<usize>) -> Range<usize> {
     let end = text.len().min(span.end);
     let start = text.floor_char_boundary(span.start.min(end));
     start..text.ceil_char_boundary(end)
 }
 
-/// The lines that ranges of a text reach over, and the number of the first. To show a mark takes
-/// as long as these lines are, not the text.
+/// The lines of some ranges in a text, and the number of the first. The time depends on these
+/// lines, and not on the whole text.
 fn lines(mark: &Mark<'_>, ranges: impl Iterator<Item = Range<usize>>) -> (Range<usize>, usize) {
     let text = mark.text;
     let all = ranges.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0);
@@ -189,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mark_stands_under_the_text() {
+    fn the_mark_is_under_the_text() {
         let marks = vec![mark("x = 1\nä = 'cd'\n", Some(11..15))];
         let shown = Report { help: "write 'b'", ..report(marks) }.render(false);
         let wanted = "error: it is wrong
@@ -231,7 +233,7 @@ mod tests {
         assert_eq!(report.render(false), wanted);
     }
 
-    /// Once for each error of a long file, what lay between was read all the same.
+    /// The text in between was once read again for each error of a long file.
     #[test]
     fn marks_far_from_each_other_are_shown_one_after_the_other() {
         let text = format!("a = 1\n{}b = 2\n", "\n".repeat(FAR));

@@ -1,4 +1,4 @@
-//! Something wrong in a text: in a world, a map or a project file.
+//! An error in a world, a map or a project file.
 
 use std::error::Error;
 use std::fmt;
@@ -6,29 +6,29 @@ use std::ops::Range;
 
 use crate::{Mark, Report, Severity};
 
-/// What is wrong in a text, and what to do.
+/// An error in a text, with its fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// The bytes of the text, where the place is known.
+    /// The bytes of the text, if the place is known.
     pub span: Option<Range<usize>>,
-    /// What is wrong, without the place.
+    /// The message, without the place.
     pub message: String,
-    /// What to write instead; empty where nobody knows.
+    /// The fix; empty if it is unknown.
     pub help: String,
 }
 
 impl Mistake {
-    /// Something wrong at some bytes of the text, where the place is known.
+    /// An error at some bytes of the text, if the place is known.
     pub fn new(span: Option<Range<usize>>, message: impl Into<String>) -> Self {
         Mistake { span, message: message.into(), help: String::new() }
     }
 
-    /// The same with what to write instead.
+    /// Adds a fix.
     pub fn with_help(self, help: impl Into<String>) -> Self {
         Mistake { help: help.into(), ..self }
     }
 
-    /// What is made of its report, in a text of a file.
+    /// Passes its report, in a text of a file, to a function.
     pub fn report<T>(&self, path: &str, text: &str, make: impl FnOnce(&Report<'_>) -> T) -> T {
         let Mistake { span, message, help } = self;
         let mark = Mark { path, text, lines: None, span: span.clone(), label: String::new() };

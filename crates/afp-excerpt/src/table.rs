@@ -1,22 +1,23 @@
-//! Where lines begin, for texts of which many places are asked for.
+//! The line starts of a text, for many lookups of places.
 
 use std::ops::Range;
 
-/// Characters of a line are counted from a stop, which are at most so many bytes apart.
+/// Columns are counted from a stop; two stops are at most this number of bytes apart.
 const APART: usize = 1024;
 
-/// The lines of a text. Finding them reads the text once; then each place takes a few steps, however long its line is.
+/// The lines of a text. The constructor reads the text once; then each lookup takes a few steps,
+/// even in long lines.
 #[derive(Clone, Debug)]
 pub struct LineTable<'t> {
     text: &'t str,
     stops: Vec<Stop>,
 }
 
-/// A place whose line and column are known: the start of a line, or one in a long line.
+/// A place with a known line and column: the start of a line, or a place in a long line.
 #[derive(Clone, Copy, Debug, Default)]
 struct Stop {
     at: usize,
-    /// From 0, as the column.
+    /// Counted from 0, like the column.
     line: usize,
     column: usize,
     start: usize,
@@ -44,7 +45,7 @@ impl<'t> LineTable<'t> {
 
     /// Line and column of a byte, both counted from 1; columns count characters.
     ///
-    /// An offset past the end or inside a character stands for the nearest one before it.
+    /// An offset past the end or inside a character moves to the nearest one before it.
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
         let offset = self.text.floor_char_boundary(offset);
         let stop = self.stop(offset);
@@ -55,7 +56,7 @@ impl<'t> LineTable<'t> {
         self.text
     }
 
-    /// The line of a byte. The line break belongs to it.
+    /// The line of a byte, including its line break.
     pub fn line(&self, offset: usize) -> Range<usize> {
         let Stop { line, start, .. } = self.stop(offset.min(self.text.len()));
         let behind = self.stops.partition_point(|stop| stop.line <= line);
@@ -75,7 +76,7 @@ mod tests {
     use crate::line_column;
 
     #[test]
-    fn places_are_those_that_counting_from_the_start_finds() {
+    fn places_equal_those_counted_from_the_start() {
         let long = "ä°c".repeat(2000);
         for text in ["", "\n", "a\n\nb", "ab\nä°c\n", &long, &format!("x\n{long}\n\n{long}y\n")] {
             let table = LineTable::new(text);

@@ -1,4 +1,4 @@
-//! Wording that all who speak of mistakes share: lists, articles, quoted words, and the name that was probably meant.
+//! Common wording of messages: lists, articles, quoted words, and suggestions for misspelled names.
 
 /// `'a', 'b' and 'c'`, in single quotes.
 pub fn list<'a>(names: impl IntoIterator<Item = &'a str>, joint: &str) -> String {
@@ -16,24 +16,25 @@ pub fn a(name: &str) -> String {
     format!("{article} {name}")
 }
 
-/// A word as a shell takes it: quoted where it has to be.
+/// A word for a shell, quoted if necessary.
 ///
 /// ```
 /// use afp_excerpt::words::shell_word;
 ///
 /// assert_eq!(shell_word("plans/square.afp"), "plans/square.afp");
-/// assert_eq!(shell_word("name=it's"), r"'name=it'\''s'");
+/// assert_eq!(shell_word("name=it's"), r"'name=it'
+/// ''s'");
 /// ```
 pub fn shell_word(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "._-+=:/,@%".contains(c);
-    // A 'z' shell looks up a word that begins with '='.
+    // The shell zsh looks up a word that begins with '='.
     match !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
         true => word.to_owned(),
         false => format!("'{}'", word.replace('\'', r"'\''")),
     }
 }
 
-/// The name of a file as a shell takes it: with its path if it looks like an option.
+/// A file name for a shell: with its path if it looks like an option.
 pub fn shell_file(name: &str) -> String {
     match name.starts_with('-') {
         true => shell_word(&format!("./{name}")),
@@ -41,15 +42,15 @@ pub fn shell_file(name: &str) -> String {
     }
 }
 
-/// The name and the value of a setting, such as `distance=35cm`; none without a name. Spaces around both do not count, and the value
-/// may be in quotes.
+/// The name and the value of a setting, such as `distance=35cm`; `None` without a name. Spaces
+/// around both are ignored, and the value may be in quotes.
 pub fn read_setting(text: &str) -> Option<(&str, &str)> {
     let (name, value) = text.split_once('=')?;
     let name = Some(name.trim()).filter(|name| !name.is_empty())?;
     Some((name, unquoted(value.trim())))
 }
 
-/// A setting as [`read_setting`] reads it, and a shell takes it: in quotes if some of the value would not count.
+/// A setting for [`read_setting`] and a shell: in quotes if a part of the value would be ignored.
 pub fn shell_setting(name: &str, value: &str) -> String {
     let plain = format!("{name}={value}");
     match read_setting(&plain) == Some((name, value)) && !value.is_empty() {
@@ -58,12 +59,12 @@ pub fn shell_setting(name: &str, value: &str) -> String {
     }
 }
 
-/// A value without the quotes that it may be in.
+/// A value without its optional quotes.
 pub fn unquoted(value: &str) -> &str {
     value.strip_prefix('"').and_then(|it| it.strip_suffix('"')).unwrap_or(value)
 }
 
-/// What to write instead of a name that nothing has: the one of `known` that was probably meant, or that there are those.
+/// The help for an unknown name: the name in `known` that was probably meant, or a list of all.
 pub fn instead<'a>(name: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
     match nearest(name, known.clone()) {
         Some(meant) => format!("write '{meant}'"),
@@ -71,15 +72,16 @@ pub fn instead<'a>(name: &str, known: impl IntoIterator<Item = &'a str> + Clone)
     }
 }
 
-/// The candidate that differs least from `name`, when it is near enough to be a slip; of several the first.
+/// The candidate nearest to `name` if it is near enough for a misspelling; the first of several.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     all_nearest(name, candidates).first().copied()
 }
 
-/// The candidates that differ least from `name`, all by as much, when they are near enough to be a slip.
+/// The candidates nearest to `name` at the same distance, if they are near enough for a
+/// misspelling.
 ///
-/// Only what looks alike is compared letter by letter, and not more than some hundreds of those, so
-/// that thousands of unknown names among thousands of known ones are no trouble.
+/// Only similar candidates are compared letter by letter, and at most some hundreds of them.
+/// Therefore thousands of unknown names among thousands of known ones take little time.
 pub fn all_nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let limit = (name.chars().count() / 3).clamp(1, 3);
     let alike = candidates.into_iter().filter(|candidate| look_alike(name, candidate, limit));
@@ -88,7 +90,7 @@ pub fn all_nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>
     for candidate in alike.take(MOST_ALIKE) {
         other = letters(candidate, other);
         let score = distance(&name, &other, &mut rows);
-        // Where every letter differs it is another word.
+        // If every letter differs, it is another word.
         if score >= name.len().max(other.len()) {
             continue;
         }
@@ -103,8 +105,8 @@ pub fn all_nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>
     nearest
 }
 
-/// Whether two words are about as long and begin or end with the same letter; short ones and those
-/// with foreign letters always are.
+/// Whether two words have about the same length and begin or end with the same letter; always true
+/// for short words and words with non-ASCII letters.
 fn look_alike(left: &str, right: &str, limit: usize) -> bool {
     if !left.is_ascii() || !right.is_ascii() {
         return true;
@@ -118,10 +120,10 @@ fn look_alike(left: &str, right: &str, limit: usize) -> bool {
     ends && a.len().abs_diff(b.len()) <= limit
 }
 
-/// How many candidates are compared letter by letter.
+/// The maximum number of candidates that are compared letter by letter.
 const MOST_ALIKE: usize = 200;
 
-/// The letters of a word, all of them small, in the room of another one.
+/// The lower-case letters of a word, in the buffer of another one.
 fn letters(word: &str, mut room: Vec<char>) -> Vec<char> {
     room.clear();
     match word.is_ascii() {
@@ -131,12 +133,12 @@ fn letters(word: &str, mut room: Vec<char>) -> Vec<char> {
     room
 }
 
-/// Room for the rows of a table of distances: the one before the last, the last, the next.
+/// Buffers for the rows of a table of distances: the one before the last, the last, the next.
 type Rows = [Vec<usize>; 3];
 
-/// How many letters have to be changed, added, removed or swapped with their neighbour.
+/// The number of letters to change, add, remove or swap with their neighbour.
 fn distance(left: &[char], right: &[char], rows: &mut Rows) -> usize {
-    // What both begin and end with costs nothing, and is most of what looks alike.
+    // The common start and end cost nothing, and similar words share most of their letters.
     let same = left.iter().zip(right).take_while(|(a, b)| a == b).count();
     let (left, right) = (&left[same..], &right[same..]);
     let same = left.iter().rev().zip(right.iter().rev()).take_while(|(a, b)| a == b).count();
@@ -160,7 +162,7 @@ fn distance(left: &[char], right: &[char], rows: &mut Rows) -> usize {
             }
             next[j + 1] = best;
         }
-        // The oldest row is written over next.
+        // The oldest row is overwritten next.
         std::mem::swap(before, row);
         std::mem::swap(row, next);
     }
@@ -172,7 +174,7 @@ mod tests {
     use super::{Rows, all_nearest, distance, instead, list, nearest};
 
     #[test]
-    fn slips_find_the_name_that_was_meant() {
+    fn a_misspelled_name_finds_the_intended_name() {
         let names = ["Forward", "Turn", "SearchWall"];
         assert_eq!(nearest("Froward", names), Some("Forward"));
         assert_eq!(nearest("forward", names), Some("Forward"));
@@ -186,13 +188,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_meant_is_told_what_there_is() {
+    fn an_unrelated_name_gets_a_list() {
         assert_eq!(instead("wordl", ["world", "measures"]), "write 'world'");
         assert_eq!(instead("speed", ["world", "measures"]), "it has 'world' and 'measures'");
     }
 
     #[test]
-    fn slips_are_counted_by_letters() {
+    fn misspellings_are_counted_by_letters() {
         let count = |a: &str, b: &str| {
             let letters = |word: &str| word.chars().collect::<Vec<_>>();
             distance(&letters(a), &letters(b), &mut Rows::default())

@@ -1,30 +1,30 @@
-//! From lines to text: columns of neighbouring lines are made equally wide.
+//! From lines to text: columns of neighbouring lines get the same width.
 //!
-//! A run of entries shares the width of its keywords, also across comments; names are padded among
-//! directly adjacent lines only. So are the names of edges, the times of scenarios and the values of
-//! tables, and comments behind the code.
+//! A run of entries shares the width of its keywords, also across comments; names are only padded
+//! among directly adjacent lines. The same applies to the names of edges, the times of scenarios,
+//! the values of tables, and trailing comments.
 
 /// One line of the result.
 #[derive(Debug, Default)]
 pub(super) struct Line {
-    /// How many levels it is indented.
+    /// The level of indentation.
     pub indent: usize,
-    /// Whether a blank line stands above it.
+    /// Whether a blank line comes before it.
     pub blank: bool,
-    /// What it is, as far as columns are concerned.
+    /// The kind of its columns.
     pub columns: Columns,
-    /// Its code, cut where a column can begin.
+    /// Its code, cut at the starts of columns.
     pub cells: Vec<String>,
-    /// The comment behind the code.
+    /// The trailing comment.
     pub comment: Option<String>,
 }
 
-/// What the columns of a line are.
+/// The kind of a line's columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Columns {
     #[default]
     None,
-    /// A comment on a line of its own.
+    /// A separate comment line.
     Comment,
     /// Keyword, name and type of an entry or port.
     Entry,
@@ -36,7 +36,7 @@ pub(super) enum Columns {
     Row,
 }
 
-/// The text of all lines, each ended by a line break.
+/// The text of all lines, each with a final line break.
 pub(super) fn text(mut lines: Vec<Line>) -> String {
     let keyword_follows =
         |line: &Line| matches!(line.columns, Columns::Entry | Columns::Comment) && !line.blank;
@@ -63,7 +63,8 @@ pub(super) fn text(mut lines: Vec<Line>) -> String {
     text
 }
 
-/// Cuts the lines before each one that does not follow the one above it, and visits the pieces.
+/// Splits the lines before each line that does not continue the previous one, and visits the
+/// pieces.
 fn for_runs(
     lines: &mut [Line],
     follows: impl Fn(&Line) -> bool,
@@ -79,7 +80,7 @@ fn for_runs(
     }
 }
 
-/// Makes a cell equally wide in all lines of those columns that have more than `least` cells.
+/// Pads a cell in all lines of these columns with more than `least` cells.
 fn pad(run: &mut [Line], cell: usize, columns: &[Columns], least: usize) {
     let takes_part =
         |line: &Line| columns.contains(&line.columns) && line.cells.len() > least.max(cell);
@@ -91,7 +92,7 @@ fn pad(run: &mut [Line], cell: usize, columns: &[Columns], least: usize) {
     }
 }
 
-/// Makes the values of each column equally wide; the last ones have nothing behind them.
+/// Pads the values of each column except the last.
 fn pad_rows(run: &mut [Line]) {
     let most = run.iter().map(|line| line.cells.len()).max().unwrap_or(0);
     for cell in 0..most.saturating_sub(1) {

@@ -1,8 +1,8 @@
-//! The canonical form of a text: the formatter alone decides white space.
+//! The canonical form of a text: only the formatter determines white space.
 //!
-//! Names, numbers, comments and the order of items stay as they are. A list that is written on one
-//! line stays on it and a list with a line break in it gets one line for each item, so that the
-//! author chooses which bodies are short; blank lines between items stay, at most one at a time.
+//! Names, numbers, comments and the order of items stay the same. A list on one line stays on one
+//! line, and a list with a line break gets one line for each item, so that the author chooses which
+//! bodies are short. Blank lines between items stay, at most one at a time.
 
 mod align;
 mod printer;
@@ -13,18 +13,18 @@ use afp_syntax::parse;
 
 use printer::Printer;
 
-/// What a file may begin with to say how it is encoded.
+/// The optional byte order mark at the start of a file.
 const MARK: &str = "\u{feff}";
 
-/// Gives the canonical form of a plan file or toolbox.
+/// Returns the canonical form of a plan file or toolbox.
 ///
-/// Formatting the result again changes nothing. Every comment is kept, in order, without the
-/// blanks at its end; commas between items are added or dropped as the list's form asks. All lines
-/// end as the first one does, and a byte order mark stays.
+/// Formatting the result again changes nothing. Every comment is kept, in order, without trailing
+/// spaces; commas between items are added or dropped to fit the list's form. All lines end like the
+/// first one, and a byte order mark stays.
 ///
 /// # Errors
-/// The text has syntax errors, since what is not understood cannot be laid out: the diagnostics
-/// say which, with spans in file 0. Errors of names, types or units do not matter here.
+/// The text has syntax errors, which prevent a layout: the diagnostics list them, with spans in
+/// file 0. Errors of names, types or units do not matter here.
 pub fn format(text: &str) -> Result<String, Diagnostics> {
     let mut diags = Diagnostics::default();
     let parse = parse(text, 0, &mut diags);
@@ -36,7 +36,8 @@ pub fn format(text: &str) -> Result<String, Diagnostics> {
     Ok(lying_as(text, &align::text(lines)))
 }
 
-/// A text with `\n` between lines as another one lies in its file.
+/// A text with `
+/// n` line ends, converted to the line ends and byte order mark of another text.
 fn lying_as(text: &str, formatted: &str) -> String {
     let mark = if text.starts_with(MARK) { MARK } else { "" };
     let first = text.split('\n').next().filter(|first| first.len() < text.len());

@@ -1,20 +1,20 @@
 //! From the tree to lines, in one walk.
 //!
-//! Comments are collected until the next token is printed, since only that token says where a line
-//! ends. A comment in the middle of an item breaks the line there.
+//! Comments are collected until the next token is printed, because only that token determines the
+//! end of a line. A comment in the middle of an item breaks the line there.
 
 use super::align::{Columns, Line};
 use super::spacing;
 use afp_syntax::kind::Kind;
 use afp_syntax::{Node, Token};
 
-/// What stands before the next token.
+/// The space before the next token.
 #[derive(Clone, Copy, Debug)]
 enum Gap {
     /// Nothing.
     Glue,
     Blank,
-    /// A new line; `closes` when it closes a body, `apart` when a blank line belongs above it.
+    /// A new line; `closes` if it closes a body, `apart` if a blank line belongs before it.
     Line {
         columns: Columns,
         closes: bool,
@@ -25,17 +25,17 @@ enum Gap {
 /// A comment that is not yet printed.
 struct Comment {
     text: String,
-    /// Line breaks between it and what stands before it.
+    /// The number of line breaks before it.
     breaks: usize,
     help: bool,
 }
 
-/// The lines printed so far and what is known of the next one.
+/// The lines so far, and the state for the next one.
 #[derive(Default)]
 pub(super) struct Printer {
     lines: Vec<Line>,
     indent: usize,
-    /// What the parent of the next token asks for.
+    /// The gap from the parent of the next token.
     gap: Option<Gap>,
     /// Whether a new cell begins with the next token.
     cell: bool,
@@ -43,17 +43,17 @@ pub(super) struct Printer {
     /// Line breaks since the last comment or token.
     breaks: usize,
     before: Option<Token>,
-    /// Whether nothing stands in the current body yet, so that no blank line belongs here.
+    /// Whether the current body is still empty, so that no blank line belongs here.
     fresh: bool,
 }
 
-/// The brackets of a node and what they hold.
+/// The brackets of a node and the form of its contents.
 struct Body {
     open: Kind,
     close: Kind,
     broken: bool,
     items: usize,
-    /// What follows each item.
+    /// The separator after each item.
     comma: Comma,
 }
 
@@ -170,7 +170,7 @@ impl Printer {
         });
     }
 
-    /// Prints the comments that stand before the next token; gives whether there were any.
+    /// Prints the comments before the next token; returns whether there were any.
     fn comments_before(&mut self, at_line: bool, closes: bool) -> bool {
         let comments = std::mem::take(&mut self.comments);
         let any = !comments.is_empty();
@@ -224,7 +224,7 @@ impl Printer {
         self.before = Some(token.clone());
     }
 
-    /// Begins a line as the structure asks.
+    /// Begins a line in the structure's form.
     fn line(&mut self, token: &Token, columns: Columns, closes: bool, apart: bool) {
         let at = self.lines.len();
         let fresh = self.fresh;
@@ -237,7 +237,7 @@ impl Printer {
         }
     }
 
-    /// Goes on with an item below a comment in its middle.
+    /// Continues an item after a comment in its middle.
     fn continuation(&mut self, token: &Token) {
         if let Some(line) = self.lines.last_mut() {
             line.columns = Columns::None;
@@ -310,7 +310,7 @@ fn is_comment(kind: Kind) -> bool {
     kind.is_trivia() && kind != Kind::Whitespace
 }
 
-/// Whether an item of a file is set apart by blank lines.
+/// Whether blank lines separate an item of a file.
 fn is_large(node: &Node) -> bool {
     match node.kind() {
         Kind::Plan | Kind::Scenario | Kind::Template | Kind::Toolbox => true,
@@ -334,7 +334,7 @@ fn columns(item: &Node) -> Columns {
 
 fn begins_cell(node: &Node, token: &Token, before: Option<&Token>) -> bool {
     match node.kind() {
-        // The token behind the keyword.
+        // The token after the keyword.
         Kind::Entry | Kind::InPort | Kind::OutPort | Kind::Signal => before.is_some_and(|before| {
             before.kind() == Kind::Keyword
                 && before.parent().as_ref() == Some(node)
@@ -355,7 +355,7 @@ fn is_list_comma(token: &Token) -> bool {
         .any(solid)
 }
 
-/// Whether a line break or comment stands in a node before its first token.
+/// Whether a node has a line break or comment before its first token.
 fn begins_line(node: &Node) -> bool {
     let tokens = node.descendants_with_tokens().filter_map(|each| each.into_token());
     let mut trivia = tokens.take_while(|token| token.kind().is_trivia());

@@ -1,9 +1,9 @@
-//! What stands between two tokens of one item.
+//! The spaces between two tokens of one item.
 
 use afp_syntax::Token;
 use afp_syntax::kind::Kind;
 
-/// Whether there is a blank between two neighbours on a line.
+/// Whether there is a space between two neighbours on a line.
 pub(super) fn is_apart(before: &Token, next: &Token) -> bool {
     let of_type = |token: &Token| matches!(parent(token), Kind::Type | Kind::Factor);
     match (before.kind(), next.kind()) {

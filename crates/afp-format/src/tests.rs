@@ -1,4 +1,4 @@
-//! What the canonical form looks like, case by case.
+//! The canonical form, case by case.
 
 use super::format;
 
@@ -34,7 +34,7 @@ fn becomes(text: &str, expected: &str) {
 }
 
 #[test]
-fn lines_that_count_from_a_moment_stand_deeper() {
+fn lines_that_count_from_a_moment_are_indented() {
     becomes(
         "scenario \"s\" for P{from  go active{at 1 s:press touch,until 2 s}from go->back{expect end within 1 s // soon
         from end{until 1 s}}}",
@@ -83,7 +83,7 @@ plan P {
 }
 
 #[test]
-fn devices_are_as_short_as_their_author_wrote_them() {
+fn devices_keep_the_form_of_their_author() {
     becomes(
         "toolbox t /// Help.\ndevice wheels{fault blocked fault slip( share:float=0.5 from 0 to 1 )}\
          robot { }sensor bumper{press left,right\nsignal l:bool signal right:bool\n// why\nstop a}\
@@ -109,7 +109,7 @@ device x {}
 }
 
 #[test]
-fn reactions_are_as_short_as_their_author_wrote_them() {
+fn reactions_keep_the_form_of_their_author() {
     becomes(
         "plan P { start a supervise k:K{E->b} actor a:A{on k{E->terminate}F->b}\
          actor b:B{on k{E,G->ignore\nH->a}}}",
@@ -154,7 +154,7 @@ plan P {
 }
 
 #[test]
-fn comments_stay_where_they_are() {
+fn comments_keep_their_places() {
     becomes(
         "// head\n\n\n\n// of the plan  \nplan P { // behind the brace\n\n// free\n\n\n//own\nstart go //start\n
         /// help /// more\nactor // middle\n\n// and own\ngo: A { A -> go // a\n// b\n, // c\nBBB -> go//d\n
@@ -217,14 +217,14 @@ actor B {
 }
 
 #[test]
-fn a_text_with_syntax_errors_is_left_alone() {
+fn a_text_with_syntax_errors_is_not_changed() {
     let diags = format("plan P { start }").unwrap_err();
     assert!(diags.has_errors());
     assert_eq!(formatted(""), "");
 }
 
 #[test]
-fn lines_end_as_the_first_one_does_and_a_mark_stays() {
+fn lines_end_like_the_first_one_and_a_byte_order_mark_stays() {
     for (text, expected) in [
         ("// a\r\nuse   std\r\n", "// a\r\nuse std\r\n"),
         ("// a\r\nuse   std\n", "// a\r\nuse std\r\n"),
@@ -239,7 +239,7 @@ fn lines_end_as_the_first_one_does_and_a_mark_stays() {
 }
 
 #[test]
-fn values_of_a_table_stand_below_each_other() {
+fn values_of_a_table_are_aligned() {
     becomes(
         "table route ( x:length,y : length name:string, ){(1m,-2 m,\"door\"),( 10 m+5 cm , 3 m,\"\",)
         // the last one

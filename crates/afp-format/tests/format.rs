@@ -1,4 +1,4 @@
-//! The canonical form: shipped files have it, and nothing but white space and commas changes.
+//! The canonical form: shipped files have it, and only white space and commas change.
 //!
 //! `AFP_BLESS=1` rewrites shipped plans and toolboxes; read the diff like code.
 
@@ -12,7 +12,7 @@ use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::{kind::Kind, parse};
 use proptest::prelude::*;
 
-/// Folders of `.afp` files that people read as examples.
+/// Folders of `.afp` files that serve as examples.
 const FOLDERS: &[&str] =
     &["plans", "plans/parts", "crates/afp-toolboxes/toolboxes", "bench/plans", "bench/toolbox"];
 
@@ -92,9 +92,9 @@ proptest! {
         }
     }
 
-    /// Cuts a piece out of a text and puts one of another in its place.
+    /// Replaces a piece of a text with a piece of another.
     #[test]
-    fn any_patchwork_that_can_be_read_is_formatted_once_and_for_all(
+    fn any_valid_patchwork_is_formatted_in_one_pass(
         bases in any::<(prop::sample::Index, prop::sample::Index)>(),
         places in any::<(u16, u16)>(),
         lengths in (0..40_usize, 0..60_usize),

@@ -1,8 +1,8 @@
-//! The macros `toolbox!`, `plan!` and `scenarios!`: files looked up, `afp-dsl` asked, what `afp-codegen` makes of the
-//! answer handed on.
+//! The macros `toolbox!`, `plan!` and `scenarios!`: they find the files, compile them with
+//! `afp-dsl`, and generate code with `afp-codegen`.
 //!
-//! All emit `include_str!` of the files they read, so an edit rebuilds. Every diagnostic becomes
-//! a compile error of its own, rendered as `afpc check` renders it.
+//! All emit `include_str!` of the files they read, so an edit rebuilds. Every diagnostic becomes a
+//! separate compile error, in the format of `afpc check`.
 #![warn(missing_docs)]
 
 mod sources;
@@ -27,47 +27,50 @@ use sources::{Available, File};
 
 /// Turns a toolbox file into typed templates.
 ///
-/// `toolbox!("carbot.afp")` takes a path relative to the crate's manifest, or the name of a built-in
-/// toolbox file. It belongs into a module `templates` beside the types that implement the
+/// `toolbox!("carbot.afp")` takes a path relative to the crate's manifest, or the name of a
+/// built-in toolbox file. Use it in a module `templates` next to the types that implement the
 /// templates under the templates' names.
 ///
-/// Behind the path stands what the templates ask of a robot, as traits: `toolbox!("signals.afp", robot: super::Lights)`;
-/// nothing where they ask for nothing, `robot = Bench` where they are implemented for one type alone. A template that is
-/// declared and not implemented for such a robot does not compile.
+/// After the path, write the templates' requirements for a robot, as traits:
+/// `toolbox!("signals.afp", robot: super::Lights)`. Write nothing if there are no requirements, or
+/// `robot = Bench` if only one type is supported. A declared template without an implementation for
+/// such a robot does not compile.
 #[proc_macro]
 pub fn toolbox(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), toolbox_code).into()
 }
 
-/// Turns a plan of a file, with the sub-plans it uses, into native code.
+/// Turns a plan of a file, with its sub-plans, into native code.
 ///
-/// `plan!("plans/wall_following.afp")` takes a path relative to the crate's manifest, with the name of a plan behind a
-/// colon another one than the first: `plan!("plans/patrol.afp:Search")`. It makes a module for each plan and brings the
-/// plan's type into scope. Toolboxes that are not built in are those of the project file `afp.toml`, which stands beside
-/// the manifest or above; others follow: `plan!("x.afp", toolboxes = { "gripper.afp" => crate::gripper })`.
+/// `plan!("plans/wall_following.afp")` takes a path relative to the crate's manifest. A name after
+/// a colon selects another plan than the first: `plan!("plans/patrol.afp:Search")`. It generates a
+/// module for each plan and brings the plan's type into scope. Other toolboxes than the built-in
+/// ones come from the project file `afp.toml`, in the manifest's folder or above. More can follow:
+/// `plan!("x.afp", toolboxes = { "gripper.afp" => crate::gripper })`.
 #[proc_macro]
 pub fn plan(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), plan_code).into()
 }
 
-/// Registers the templates of a toolbox that a platform supports; crates of toolboxes wrap it in a macro of their own.
+/// Registers the templates of a toolbox that a platform supports; toolbox crates wrap it in their
+/// own macro.
 #[doc(hidden)]
 #[proc_macro]
 pub fn register(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), register_code).into()
 }
 
-/// Makes a test of each scenario of a file or of the files of a folder.
+/// Generates a test from each scenario of a file or of a folder's files.
 ///
-/// `scenarios!("plans/tests")` takes a path relative to the crate's manifest; behind it may stand what
-/// registers the templates of toolboxes of one's own: `scenarios!("tests", gripper::templates::register)`, or a robot:
-/// `scenarios!("tests", robot = vacuum::Vacuum)`.
+/// `scenarios!("plans/tests")` takes a path relative to the crate's manifest. Functions that
+/// register the templates of other toolboxes can follow: `scenarios!("tests",
+/// gripper::templates::register)`. So can a robot: `scenarios!("tests", robot = vacuum::Vacuum)`.
 #[proc_macro]
 pub fn scenarios(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into(), scenarios_code).into()
 }
 
-/// What the input makes, or what is wrong with it.
+/// The generated code, or the errors.
 fn expand<I: Parse>(
     input: TokenStream,
     make: fn(I) -> Result<TokenStream, TokenStream>,
@@ -82,7 +85,7 @@ fn toolbox_code(input: MacroInput) -> Result<TokenStream, TokenStream> {
         toolbox.templates.retain(|template| names.insert(template.name.clone()));
         let options = Options { core: input.core.clone(), source: file.text };
         let code = afp_codegen::code(afp_codegen::toolbox(&toolbox, &options));
-        // Of a broken toolbox, whatever is missing follows from what is wrong with it.
+        // In a broken toolbox, missing templates are consequences of its errors.
         let nothing = Asked::Traits(TokenStream::new());
         let asked = input.robot.as_ref().unwrap_or(&nothing);
         let complete = errors.is_empty().then(|| complete(&input.core, &toolbox, asked));
@@ -91,7 +94,7 @@ fn toolbox_code(input: MacroInput) -> Result<TokenStream, TokenStream> {
     input.located(made)
 }
 
-/// What a toolbox file declares, what is wrong with it, and the file.
+/// A toolbox file's declarations, diagnostics, and the file.
 fn read_toolbox(path: &str) -> Result<(Toolbox, TokenStream, File), TokenStream> {
     let file = sources::toolbox(path)?;
     let mut sources = Sources::default();
@@ -118,7 +121,7 @@ fn plan_tokens(input: &MacroInput) -> Result<TokenStream, TokenStream> {
     }
     let options = Options { core: input.core.clone(), ..Options::default() };
     let plan = afp_codegen::code(afp_codegen::plan(graph, &options).tokens());
-    // Cargo watches the files only because something includes them.
+    // Cargo only watches included files.
     Ok(quote! {
         #plan
         const _: &[&str] = &[#(#texts),*];
@@ -149,6 +152,6 @@ fn scenarios_code(setting: ScenarioSetting) -> Result<TokenStream, TokenStream> 
     }
     let none = || compile_error(&format!("error: there are no scenarios in '{}'", setting.path));
     let modules = tests.modules().ok_or_else(none)?;
-    // A file that gets its first scenario is watched before.
+    // A file is watched even before its first scenario.
     Ok(quote!(#modules const _: &[&str] = &[#(#without),*];))
 }

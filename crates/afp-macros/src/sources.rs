@@ -1,4 +1,5 @@
-//! Files beside the manifest, and the toolboxes: built in, of the project, or named by the caller.
+//! Files relative to the manifest, and the toolboxes: built in, from the project, or from the
+//! caller.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -13,27 +14,27 @@ use afp_toolboxes::project::OwnToolboxes;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// A text and the expression that gives it to the program.
+/// A text and the expression for it in the program.
 pub struct File {
     /// The text, for the compiler of plans.
     pub source: Source,
-    /// `include_str!`, or the text itself where it is built in.
+    /// `include_str!`, or the text itself if it is built in.
     pub text: TokenStream,
 }
 
-/// What a plan file is compiled with.
+/// The inputs for compiling a plan file.
 pub struct Available {
     toolboxes: Toolboxes,
-    /// The expressions of the texts that were read, the project file's included.
+    /// The expressions of all read texts, including the project file.
     pub texts: Vec<TokenStream>,
-    /// Toolboxes without a crate: the name and the error that says why.
+    /// Toolboxes without a crate: the name and the error.
     pub without_crate: Vec<(String, String)>,
 }
 
-/// A toolbox file: one beside the manifest, else a built-in one.
+/// A toolbox file: relative to the manifest, or else built in.
 ///
 /// # Errors
-/// A compile error that says what is missing, as of everything here.
+/// A compile error for a missing file, as everywhere in this module.
 pub fn toolbox(path: &str) -> Result<File, TokenStream> {
     read(path).or_else(|missing| {
         let is_it = |each: &&afp_toolboxes::Builtin| each.file_name == path;
@@ -42,7 +43,7 @@ pub fn toolbox(path: &str) -> Result<File, TokenStream> {
     })
 }
 
-/// A file beside the manifest.
+/// A file relative to the manifest.
 pub fn read(path: &str) -> Result<File, TokenStream> {
     let full = root().join(path);
     match fs::read_to_string(&full) {
@@ -51,7 +52,7 @@ pub fn read(path: &str) -> Result<File, TokenStream> {
     }
 }
 
-/// The file itself, or the plan files of the folder, seen from the manifest.
+/// The file itself, or the plan files of the folder, relative to the manifest.
 ///
 /// # Errors
 /// A folder that cannot be read.
@@ -67,10 +68,10 @@ pub fn plan_files(path: &str) -> Result<Vec<String>, TokenStream> {
     Ok(plans.map(|file| file.strip_prefix(&root).unwrap_or(file).display().to_string()).collect())
 }
 
-/// A plan file, and the name of a plan in it where one stands behind a colon: `patrol.afp:Search`.
+/// A plan file, and the optional name of a plan after a colon: `patrol.afp:Search`.
 ///
 /// # Errors
-/// As [`read`].
+/// Those of [`read`].
 pub fn read_plan(path: &str) -> Result<(File, Option<&str>), TokenStream> {
     match path.rsplit_once(':') {
         Some((file, plan)) if file.ends_with(".afp") => Ok((read(file)?, Some(plan))),
@@ -78,8 +79,9 @@ pub fn read_plan(path: &str) -> Result<(File, Option<&str>), TokenStream> {
     }
 }
 
-/// Compiles a plan file, the plan of that name in it or the first, with the built-in toolboxes, then those of the project whose `afp.toml` stands beside the
-/// manifest or above, then those of `files`, each with the module that implements it.
+/// Compiles a plan file: the plan of that name, or the first one. It uses the built-in toolboxes,
+/// then those of the project with the `afp.toml` in the manifest's folder or above, then those of
+/// `files`, each with the module of its implementation.
 pub fn compile(
     file: &File,
     plan: Option<&str>,
@@ -127,7 +129,7 @@ impl Available {
     }
 }
 
-/// The path of a toolbox's module as the crate under compilation names it.
+/// The path of a toolbox's module in the crate under compilation.
 fn rust_path(krate: &CrateLink, root: &Path) -> String {
     let is_here = krate.folder.is_some() && krate.folder == root.canonicalize().ok();
     let is_library = env::var("CARGO_CRATE_NAME").is_ok_and(|name| name == krate.rust_name())
@@ -139,7 +141,7 @@ fn rust_path(krate: &CrateLink, root: &Path) -> String {
     }
 }
 
-/// Whether a package has a library; of one without, a program holds its own templates.
+/// Whether a package has a library; without one, a program has its own templates.
 fn has_library(root: &Path) -> bool {
     let manifest = fs::read_to_string(root.join("Cargo.toml")).unwrap_or_default();
     root.join("src/lib.rs").exists() || manifest.lines().any(|line| line.trim() == "[lib]")
@@ -161,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_package_has_a_library_or_holds_its_templates_itself() {
+    fn a_package_without_a_library_has_its_own_templates() {
         let here = Path::new(env!("CARGO_MANIFEST_DIR"));
         assert!(has_library(here));
         assert!(!has_library(&here.join("tests/wrong")));

@@ -1,4 +1,4 @@
-//! What the macros say when something is wrong.
+//! The macros' errors.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -29,7 +29,7 @@ fn every_error_of_a_toolbox_is_a_compile_error_with_its_place() {
 }
 
 #[test]
-fn the_templates_of_a_broken_toolbox_are_there_all_the_same() {
+fn the_templates_of_a_broken_toolbox_are_generated_all_the_same() {
     let text = expand(quote!("tests/wrong/toolbox.afp"), toolbox_code).to_string();
     assert!(text.contains("pub struct Drive") && text.contains("pub mod drive"), "{text}");
 }
@@ -43,7 +43,7 @@ fn a_missing_file_is_named() {
 }
 
 #[test]
-fn a_plan_of_a_file_goes_by_its_name() {
+fn a_plan_of_a_file_is_selected_by_its_name() {
     let errors = errors(&expand(quote!("tests/files/main.afp:Nobody"), plan_code));
     assert!(errors[0].contains("'Nobody'"), "{errors:?}");
     let text = expand(quote!("tests/files/sub/pause.afp:Pause"), plan_code).to_string();
@@ -73,7 +73,7 @@ fn errors_of_toolbox(name: &str) -> Vec<String> {
 }
 
 #[test]
-fn what_is_no_file_name_is_a_compile_error() {
+fn an_invalid_file_name_is_a_compile_error() {
     for wrong in [quote!(), quote!(7), quote!("a.afp", boxes = {}), quote!("a.afp" "b.afp")] {
         let text = expand(wrong, plan_code).to_string();
         assert!(text.contains("compile_error"), "{text}");
@@ -81,7 +81,7 @@ fn what_is_no_file_name_is_a_compile_error() {
 }
 
 #[test]
-fn every_scenario_of_a_folder_is_a_test_however_it_is_written() {
+fn every_scenario_of_a_folder_is_a_test() {
     let text = expand(quote!("tests/scenarios"), scenarios_code).to_string();
     for name in ["behind_a_tab", "in_two_lines", "behind_a_plan"] {
         assert!(text.contains(&format!("fn {name} ()")), "{name}: {text}");
@@ -91,7 +91,7 @@ fn every_scenario_of_a_folder_is_a_test_however_it_is_written() {
 }
 
 #[test]
-fn a_built_in_toolbox_goes_by_its_file_name() {
+fn a_built_in_toolbox_is_found_by_its_file_name() {
     let text = expand(quote!("std.afp"), toolbox_code).to_string();
     assert!(text.contains("pub mod wait"));
 }

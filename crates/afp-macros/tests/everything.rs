@@ -2,7 +2,7 @@
 //! code generator, compiled.
 
 mod kit {
-    //! The toolbox of the golden cases, its components driven by a script.
+    //! The toolbox of the golden cases, with scripted components.
 
     use std::collections::VecDeque;
     use std::marker::PhantomData;
@@ -16,12 +16,12 @@ mod kit {
         afp_macros::toolbox!("../afp-codegen/tests/codegen/toolbox.afp", robot = super::Script);
     }
 
-    /// What polls say next, and what was done.
+    /// The results of the next polls, and the history.
     #[derive(Default)]
     pub struct Script {
-        /// The states that polls of `Seek` reach.
+        /// The results of the next polls of `Seek`.
         pub seek: VecDeque<Option<templates::seek::State>>,
-        /// What the components saw and did.
+        /// The history of the components.
         pub told: Vec<String>,
     }
 
@@ -128,13 +128,13 @@ mod plan {
 }
 
 mod vacuum {
-    //! A toolbox of nothing but devices.
+    //! A toolbox with only devices.
 
     afp_macros::toolbox!("../afp-codegen/tests/codegen/devices.afp");
 }
 
 mod golden {
-    //! The golden cases of the code generator, but that of the paper's plan: who runs it compiles it.
+    //! The golden cases of the code generator, except the paper's plan: its users compile it.
 
     macro_rules! cases {
         ($($name:ident $file:literal)*) => {
@@ -191,7 +191,7 @@ impl<N: Names> Sink for Lines<N> {
     }
 }
 
-/// What a plan tells while it follows the script, and what its components saw.
+/// The trace of a plan with this script, and the history of its components.
 fn story<P: Plan<Script> + NamedPlan>(
     mut plan: P,
     seek: &[Option<State>],
@@ -223,7 +223,7 @@ fn loaded() -> LoadedPlan<Script> {
     LoadedPlan::new(&compiled.graph.unwrap(), &registry).unwrap()
 }
 
-/// Both back ends follow the script; their stories are the same, and this is it.
+/// Runs both back ends with the script and asserts that their results are the same; returns them.
 fn same_story(seek: &[Option<State>]) -> Vec<String> {
     let (lines, told) = story(Everything::new(), seek);
     let (of_loaded, told_by_loaded) = story(loaded(), seek);
@@ -233,7 +233,7 @@ fn same_story(seek: &[Option<State>]) -> Vec<String> {
 }
 
 #[test]
-fn results_of_a_sub_plan_reach_the_plan_that_uses_it() {
+fn results_of_a_sub_plan_reach_its_parent() {
     let found = State::Found { place: Place(7), said: Default::default() };
     let lines = same_story(&[Some(found), None, Some(kit::lost("60 cm", 0.5))]);
     for line in [
@@ -264,14 +264,14 @@ fn texts_are_joined_from_values_of_every_kind() {
 }
 
 #[test]
-fn a_text_that_is_no_quantity_is_a_fault_of_who_reads_it() {
+fn a_text_that_is_not_a_quantity_is_a_fault_of_its_reader() {
     let found = State::Found { place: Place(7), said: Default::default() };
     let lines = same_story(&[Some(found), None, Some(kit::lost("far", 0.5))]);
     assert_eq!(lines.last().unwrap(), "0.030000 Everything ended Error(conversion)");
 }
 
 #[test]
-fn a_number_that_is_not_finite_is_a_fault_of_who_writes_it() {
+fn a_number_that_is_not_finite_is_a_fault_of_its_writer() {
     let found = State::Found { place: Place(7), said: Default::default() };
     let lines = same_story(&[Some(found), None, Some(kit::lost("far", f64::NAN))]);
     assert!(lines.iter().any(|line| line.contains("round.seek fault arithmetic")), "{lines:#?}");

@@ -1,5 +1,5 @@
-//! Draws the flow of the simulated camera over its picture, beside the true flow:
-//! `cargo run --package afp-navigation --example arrows -- FILE.png`.
+//! Draws the optical flow of the simulated camera over its picture, next to the true flow: `cargo
+//! run --package afp-navigation --example arrows -- FILE.png`.
 
 use afp_carbot::devices::{Camera, Flow, FlowCamera, Navigator};
 use afp_core::Duration;
@@ -10,9 +10,9 @@ use std::fs::File;
 
 /// The hall with a trolley of the scenarios.
 const HALL: &str = include_str!("../../afp-test/tests/motion/hall.toml");
-/// A pixel of the camera is so many of the drawing.
+/// The scale of the drawing: pixels per camera pixel.
 const SCALE: usize = 4;
-/// Arrows are so many times as long as the flow.
+/// The scale of the arrows, relative to the flow.
 const LONGER: f64 = 3.0;
 /// Between the two pictures, pixels.
 const GAP: usize = 8;
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(1).ok_or("give the name of the picture")?;
     let mut sim = Simulation::new(&World::parse(HALL)?, 1)?;
     let mut time = None;
-    // The trolley crosses from the fourth second on.
+    // The trolley crosses after the fourth second.
     while sim.now().as_secs_f64() < 6.5 {
         let now = sim.now();
         let turn = if now.as_secs_f64() < 5.5 { 0.0 } else { 0.2 };
@@ -60,10 +60,10 @@ fn places<'a>(flow: &'a Flow<'_>) -> impl Iterator<Item = ([f64; 2], Option<[f64
     })
 }
 
-/// A place in the picture and what has become of it: how far to the right and down.
+/// A place in the picture and its shift: to the right and down.
 type Arrow = ([f64; 2], [f64; 2]);
 
-/// Where every place has truly gone.
+/// The true shift of every place.
 fn truths(sim: &mut Simulation) -> Result<Vec<Arrow>, Box<dyn Error>> {
     let now = sim.now();
     let flow = sim.flow(now)?.value.map_err(|why| format!("{why:?}"))?;
@@ -75,12 +75,12 @@ fn truths(sim: &mut Simulation) -> Result<Vec<Arrow>, Box<dyn Error>> {
 struct Drawing {
     width: usize,
     height: usize,
-    /// Where the second picture begins.
+    /// The left border of the second picture.
     second: usize,
     rgb: Vec<u8>,
 }
 
-/// The camera's picture twice, side by side, paler than it is.
+/// The camera's picture twice, side by side, in pale colours.
 fn draw_picture(sim: &Simulation) -> Result<Drawing, Box<dyn Error>> {
     let frame = sim.frame().value.map_err(|why| format!("{why:?}"))?;
     let second = frame.width * SCALE + GAP;

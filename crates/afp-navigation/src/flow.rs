@@ -1,12 +1,12 @@
-//! Optical flow: how a camera's pictures move, computed as a job.
+//! Optical flow: the motion of a camera's pictures, computed as a job.
 //!
 //! ```text
 //!   Frame ──grey──▶ the last two pictures ──copied──▶ FlowJob ──OpticalFlow──▶ shifts on a grid
 //!             in FlowSensor::look, at a poll          on a worker
 //! ```
 //!
-//! [`OpticalFlow`] is the way to compute; [`LucasKanade`] is the one that every platform has, in fixed
-//! point and so the same everywhere to the last bit. `OpenCv` is behind the feature `opencv`.
+//! [`OpticalFlow`] is the interface of methods. [`LucasKanade`] is available on every platform, in
+//! fixed point and therefore bit-identical everywhere. `OpenCv` needs the feature `opencv`.
 
 mod job;
 mod lucas_kanade;
@@ -52,11 +52,11 @@ use afp_core::{Fault, Reason};
 /// }
 /// ```
 pub trait OpticalFlow: Send + 'static {
-    /// Writes how far what is at each place of the grid in `before` has moved in `after`, or none where
-    /// that cannot be told. Pictures are of one size, `shifts` has an element for each place.
+    /// Writes the shift from `before` to `after` at each place of the grid, or `None` if it is
+    /// unknown. Pictures have the same size, and `shifts` has an element for each place.
     ///
     /// # Errors
-    /// [`BAD_PICTURES`], or what else keeps it from computing.
+    /// [`BAD_PICTURES`], or the method's own fault.
     fn flow(
         &mut self,
         before: &Picture,
@@ -84,23 +84,23 @@ pub const BAD_PICTURES: Fault = Fault::new(&Reason {
     text: "two pictures of the camera differ in size, or are smaller than the grid of the flow",
 });
 
-/// A window that Lucas and Kanade compare, pixels on a side.
+/// The side of a Lucas-Kanade window, in pixels.
 const WINDOW: usize = 15;
-/// How often the picture is halved, so that fast motion is found too: this many sizes of it.
+/// The number of picture sizes, each half of the previous one, so that fast motion is found.
 const LEVELS: usize = 3;
-/// A place at which a window varies less than this is too dull to be followed: the smaller eigenvalue of
-/// its gradients, in grey levels a pixel squared. The grain of the camera alone stays below.
+/// The minimum variation of a usable window: the smaller eigenvalue of its gradients, in grey
+/// levels a pixel squared. The camera's grain stays below it.
 const DULL: f32 = 4.0;
-/// A place counts when following it there and back ends no farther from it than this, pixels.
+/// The maximum distance between a place and the end of its path there and back, in pixels.
 const RETURN: f32 = 0.5;
-/// At most so many steps towards the best match on each size of the picture.
+/// The maximum number of steps towards the best match on each size of the picture.
 const STEPS: usize = 20;
 
-/// Places every so many pixels at least.
+/// The minimum distance between places, in pixels.
 const STRIDE: usize = 8;
 
-/// The grid on which the flow of a picture of this size is computed: every 8 pixels, in a larger picture as near together as
-/// [`Grid::MOST`] allows.
+/// The grid for the flow of a picture of this size: every 8 pixels, or in a larger picture as dense
+/// as [`Grid::MOST`] allows.
 pub const fn grid(width: usize, height: usize) -> Grid {
     let mut stride = STRIDE;
     loop {
@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_grid_covers_every_picture_from_edge_to_edge_with_no_more_places_than_there_is_room_for() {
+    fn a_grid_covers_every_picture_within_the_limit_of_places() {
         for (width, height) in [(160, 120), (320, 240), (640, 480), (1920, 1080), (4000, 30)] {
             let grid = grid(width, height);
             assert!(grid.len() > 200 && grid.len() <= Grid::MOST, "{width} {height}: {grid:?}");

@@ -1,4 +1,4 @@
-//! Maps: where the robot is on one, and which path leads where.
+//! Maps: localisation on a map, and paths on it.
 //!
 //! ```text
 //!   Map ──▶ EchoField: what the range sensor hears where
@@ -7,12 +7,13 @@
 //!     in Locator::on_echo                            on a worker        in Locator::belief
 //! ```
 //!
-//! The filter is a particle filter with a fixed number of particles (Monte Carlo localisation: Thrun, Burgard and Fox,
-//! *Probabilistic Robotics*, 2005, chapter 8). Echoes that the belief does not explain make it look for places that
-//! explain them better and put particles there (sensor resetting: Lenser and Veloso, *Sensor resetting localization for
-//! poorly modelled mobile robots*, ICRA 2000), so that a robot that was carried finds itself again.
+//! The filter is a particle filter with a fixed number of particles (Monte Carlo localisation:
+//! Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, chapter 8). If the belief does not
+//! explain the echoes, the filter searches for better places and puts particles there (sensor
+//! resetting: Lenser and Veloso, *Sensor resetting localization for poorly modelled mobile robots*,
+//! ICRA 2000). A carried robot finds itself again in this way.
 //!
-//! What the map does not explain of echoes and bumps, the [`Planner`] leads round:
+//! The [`Planner`] avoids obstacles that are missing on the map but found by echoes and bumps:
 //!
 //! ```text
 //!   Map ──▶ Grid: clearance of each cell       SearchJob: A* ──▶ Path
@@ -20,10 +21,10 @@
 //!   echoes, bumps at believed poses ──▶ Finds ──copied──┘
 //! ```
 //!
-//! The same search, on the same grid, finds from where to look around next: it ends where most of the floor comes in sight that has
-//! not been.
+//! The same search on the same grid finds the next place to look around: it ends where most of the
+//! unseen floor becomes visible.
 //!
-//! Nothing here knows a simulator: what is true reaches neither map nor filter.
+//! Nothing here depends on a simulator: neither map nor filter knows the ground truth.
 
 mod field;
 mod filter;

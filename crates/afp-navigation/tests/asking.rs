@@ -1,6 +1,6 @@
-//! Who asks for a way or a view allocates nothing: only the job may, on its worker.
+//! Requests for a path or a view allocate nothing: only the job may, on its worker.
 //!
-//! A test binary of its own, because it counts in the global allocator.
+//! This is a separate test binary, because it counts in the global allocator.
 
 use afp_carbot::Path;
 use afp_carbot::devices::{Aim, Beam, Belief, Body, Echo, Trip};
@@ -12,7 +12,7 @@ use afp_navigation::maps::{EchoField, Map, Planner, SearchJob};
 #[global_allocator]
 static ALLOCATOR: Counting = Counting::SYSTEM;
 
-/// Takes jobs and never does them.
+/// Takes jobs and never runs them.
 struct Idle {
     jobs: Vec<SearchJob>,
     begun: u64,
@@ -38,7 +38,7 @@ impl Worker<SearchJob> for Idle {
 }
 
 #[test]
-fn asking_allocates_nothing() {
+fn requests_allocate_nothing() {
     let metres = Length::from_si;
     let beam = Beam {
         forward: metres(0.1),
@@ -52,7 +52,7 @@ fn asking_allocates_nothing() {
     let mut planner = Planner::new(field, &body, beam.forward, |jobs| Idle { jobs, begun: 0 });
     let seen = Path::new((0..Path::MOST).map(|n| [n as f64 / 50.0, 0.0])).unwrap();
     let here = (metres(0.0), metres(0.0));
-    // What the map does not show, all around: more than is remembered.
+    // Unknown obstacles all around: more than the limit.
     let hear = |planner: &mut Planner<Idle>, round: u64| {
         for degrees in 0..360 {
             let (bearing, distance) = (Angle::from_deg(f64::from(degrees)), Some(metres(1.2)));
@@ -71,7 +71,7 @@ fn asking_allocates_nothing() {
             assert!(ticket.is_some());
         }
     };
-    // The field computes what it is asked for the first time.
+    // The field computes cells on their first use.
     hear(&mut planner, 1);
     let before = allocations();
     hear(&mut planner, 2);

@@ -1,6 +1,6 @@
-//! A robot that drives round a room finds itself there, and finds itself again, without an allocation.
+//! A robot that drives around a room knows its place, and finds it again, without an allocation.
 //!
-//! A test binary of its own, because it counts in the global allocator.
+//! This is a separate test binary, because it counts in the global allocator.
 
 use afp_carbot::devices::Beam;
 use afp_carbot::history::Pose;
@@ -29,7 +29,7 @@ fn field() -> (EchoField, Beam) {
     (EchoField::new(Map::new(walls.into_iter().chain(sides).chain(furniture)), &beam), beam)
 }
 
-/// A robot on a circle, whose odometry counts 2 % too far, and who looks about.
+/// A robot on a circle that looks around. Its odometry counts 2 % too much.
 struct Robot {
     place: Pose2,
     odometry: Pose2,
@@ -53,7 +53,7 @@ impl Robot {
     }
 }
 
-/// How far off the belief is: metres and degrees.
+/// The error of the belief: metres and degrees.
 fn off(filter: &Filter, robot: &Robot) -> (f64, f64) {
     let belief = filter.belief();
     let turned = belief.heading.si() - robot.place.heading;
@@ -74,7 +74,7 @@ fn a_filter_follows_and_finds_the_robot_and_allocates_nothing() {
         let (far, turned) = off(&filter, &robot);
         assert!(far < 0.12 && turned < 8.0, "ping {ping}: {far} m, {turned} deg");
     }
-    // Somebody carries it.
+    // Somebody carries the robot.
     robot.place = Pose2 { x: 3.4, y: 2.4, heading: 2.0 };
     let lost = (0..600).take_while(|_| {
         filter.update(&robot.go(&field));

@@ -1,7 +1,7 @@
-//! The flow against the true flow of rendered pictures, of which every point's way is known.
+//! The flow against the true flow of rendered pictures, which is known at every place.
 //!
 //! `cargo test --release -p afp-navigation --test flow -- --nocapture` prints the figures of
-//! `docs/optical-flow.md`; with `--features opencv`, OpenCV stands beside.
+//! `docs/optical-flow.md`; with `--features opencv`, they include OpenCV.
 
 use afp_carbot::devices::{Camera, Navigator, Shift};
 use afp_core::quantity::{AngularSpeed, Speed};
@@ -10,7 +10,7 @@ use afp_navigation::flow::{LucasKanade, OpticalFlow, Picture, grid};
 use afp_sim::{Simulation, World};
 use std::time::Instant;
 
-/// A room whose walls and floor have patterns, and a trolley that crosses the view.
+/// A room with patterns on walls and floor, and a trolley that crosses the view.
 const ROOM: &str = r##"
 version = 1
 [robot]
@@ -38,7 +38,7 @@ texture = "mottled"
 path = { by_m = [[0.0, -2.2]], speed_m_s = 0.3 }
 "##;
 
-/// How the robot moves: what that is called, speed in m/s and turn in rad/s.
+/// The robot's motions: name, speed in m/s and turn in rad/s.
 const MOTIONS: [(&str, f64, f64); 4] = [
     ("stands", 0.0, 0.0),
     ("drives straight ahead, 20 cm/s", 0.2, 0.0),
@@ -49,18 +49,18 @@ const MOTIONS: [(&str, f64, f64); 4] = [
 /// Pairs of pictures from one motion.
 const PAIRS: usize = 40;
 
-/// What came of one method and one motion.
+/// The results of one method and one motion.
 #[derive(Debug)]
 struct Figures {
     method: &'static str,
     motion: &'static str,
-    /// Distances between the end of the flow and the end of the true flow, pixels, smallest first.
+    /// Distances between the computed and the true end of the flow, in pixels, smallest first.
     errors: Vec<f64>,
-    /// Places whose true flow is known.
+    /// The number of places with a known true flow.
     places: usize,
-    /// How far places truly moved, pixels, smallest first.
+    /// The lengths of the true flow, in pixels, smallest first.
     ways: Vec<f64>,
-    /// Of one pair of pictures.
+    /// The time of one pair of pictures.
     nanos: u128,
 }
 
@@ -139,7 +139,7 @@ fn each_pair(
         }
         std::mem::swap(&mut before, &mut after);
         after.take(&frame);
-        // At first the robot gets up to speed.
+        // First the robot accelerates.
         if frame.number > 5 {
             pairs += 1;
             show(&sim, &before, &after)?;

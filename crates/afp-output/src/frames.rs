@@ -1,18 +1,18 @@
-//! Messages of others on a stream of bytes, as the protocols of debuggers and language servers have them: a header with the
-//! length, an empty line, the message. A client cannot make the reader take more memory than the bound.
+//! Messages on a stream of bytes, as in the protocols of debuggers and language servers: a header
+//! with the length, an empty line, the message. The size bound limits the reader's memory.
 
 use std::fmt;
 
-/// The longest message of a client that may be a stranger, in bytes.
+/// The maximum length of a message from an unknown client, in bytes.
 pub const MAX_MESSAGE: usize = 1 << 20;
-/// The longest header.
+/// The maximum length of a header.
 const MAX_HEADER: usize = 1 << 12;
 
-/// Takes messages out of what has arrived.
+/// Extracts messages from the received bytes.
 #[derive(Debug)]
 pub struct Frames {
     arrived: Vec<u8>,
-    /// The longest message that is taken, in bytes.
+    /// The maximum length of a message, in bytes.
     longest: usize,
 }
 
@@ -22,40 +22,40 @@ impl Default for Frames {
     }
 }
 
-/// What arrived is no message; the stream cannot be understood any more.
+/// The input is not a message; the rest of the stream is unreadable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WireError {
-    /// No header with a length stands where a message begins.
+    /// The message does not begin with a header and a length.
     Header,
-    /// The message has so many bytes, more than the longest one.
+    /// The message is longer than the maximum.
     TooLong {
-        /// The length that its header says.
+        /// The length in its header.
         length: usize,
-        /// The length of the longest message.
+        /// The maximum length.
         longest: usize,
     },
-    /// The message is no text; the next one can be read.
+    /// The message is not valid UTF-8; the next one can be read.
     NoText,
     /// The stream ends within a message.
     CutOff,
 }
 
 impl Frames {
-    /// Messages of at most so many bytes.
+    /// A reader of messages up to this length in bytes.
     pub fn up_to(longest: usize) -> Frames {
         Frames { arrived: Vec::new(), longest }
     }
 
-    /// Some bytes have arrived.
+    /// Adds received bytes.
     pub fn push(&mut self, bytes: &[u8]) {
         self.arrived.extend_from_slice(bytes);
     }
 
-    /// The next message, once all of it is there.
+    /// The next complete message.
     ///
     /// # Errors
-    /// What arrived is no message.
+    /// The input is not a message.
     pub fn next_message(&mut self) -> Result<Option<String>, WireError> {
         let end = self.arrived.windows(4).position(|four| four == b"\r\n\r\n");
         let Some(end) = end else {
@@ -75,10 +75,10 @@ impl Frames {
         Ok(Some(text.to_owned()))
     }
 
-    /// Nothing arrives any more.
+    /// Ends the input.
     ///
     /// # Errors
-    /// The last message is not whole, or no message.
+    /// The last message is incomplete or invalid.
     pub fn finish(self) -> Result<(), WireError> {
         match &*self.arrived {
             [] => Ok(()),
@@ -88,7 +88,7 @@ impl Frames {
     }
 }
 
-/// The length that a header says; none if it says none, or two that differ.
+/// The length in a header; `None` if it has none, or two that differ.
 fn length(header: &[u8]) -> Option<usize> {
     let header = std::str::from_utf8(header).ok()?;
     let lengths = header.split("\r\n").filter_map(|line| {
@@ -98,7 +98,7 @@ fn length(header: &[u8]) -> Option<usize> {
     lengths.reduce(|one, other| one.filter(|_| one == other)).flatten()
 }
 
-/// A message with its header, to be sent in one piece.
+/// A message with its header.
 pub fn frame(message: &str) -> Vec<u8> {
     format!("Content-Length: {}\r\n\r\n{message}", message.len()).into_bytes()
 }
@@ -125,7 +125,7 @@ mod tests {
     use super::{Frames, MAX_MESSAGE, WireError, frame};
 
     #[test]
-    fn messages_come_out_however_they_arrive() {
+    fn messages_are_the_same_for_every_split_of_the_bytes() {
         let sent: Vec<u8> = ["{}", "{\"ä\":1}", ""].iter().flat_map(|text| frame(text)).collect();
         for size in 1..sent.len() {
             let (mut frames, mut got) = (Frames::default(), Vec::new());
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_message_is_refused() {
+    fn invalid_messages_are_refused() {
         let long = format!("Content-Length: {}\r\n\r\n", MAX_MESSAGE + 1);
         let babble = "x".repeat(5000);
         for (bytes, error) in [
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stream_that_ends_within_a_message_is_told_from_one_that_ends_behind_it() {
+    fn a_stream_that_ends_within_a_message_is_an_error() {
         for (bytes, ends) in [
             ("", Ok(())),
             ("Content-Length: 2\r\n\r\n{}", Ok(())),

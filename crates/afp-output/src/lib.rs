@@ -1,13 +1,14 @@
-//! Files that appear under their name only when they are whole, and those of others, read with a bound.
+//! Output files that replace their target only when they are complete, and bounded reading of other
+//! files.
 //!
-//! An output is written beside its file, under the same name with `.part` appended, and takes the
-//! file's place at the end. Whoever reads sees the old file or the new one, also after a power
-//! failure. Links are followed and permissions kept.
+//! An output is written next to its file, under the same name with `.part` appended, and replaces
+//! the file at the end. A reader sees the old file or the new one, even after a power failure.
+//! Links are followed and permissions kept.
 //!
-//! Not everything can be replaced. Devices and pipes are written straight into. A file with several
-//! names, or of another owner, would be cut off from them: it gets the bytes of the whole new file
-//! instead. So does a file in a folder that takes no new ones, whose new bytes are kept among the
-//! temporary files until then.
+//! Some files cannot be replaced. Devices and pipes are written directly. A file with several
+//! names, or of another owner, would lose them, so it gets the bytes of the whole new file instead.
+//! The same applies to a file in a folder that accepts no new files; its new bytes are first
+//! written among the temporary files.
 
 pub mod frames;
 mod part;
@@ -22,41 +23,42 @@ use part::{Part, Taken};
 pub use read::{read_bytes, read_file, read_text, read_text_file};
 use target::Target;
 
-/// What helps where a file or its folder is not there.
+/// The help for a missing file or folder.
 pub const ELSEWHERE: &str = "check the path; relative paths start in the current folder";
 
-/// A file that is being written.
+/// A file during writing.
 ///
-/// Dropped without [`Output::finish`] or [`Output::discard`], as by a crash, it leaves what was
-/// written at [`Output::path`].
+/// If it is dropped without [`Output::finish`] or [`Output::discard`], for example by a crash, the
+/// written bytes remain at [`Output::path`].
 #[derive(Debug)]
 pub struct Output {
     file: File,
-    /// Where the bytes go.
+    /// The path of the written bytes.
     path: PathBuf,
-    /// What `path` becomes in the end; `None` where it is the end.
+    /// The final path; `None` if it is already `path`.
     becomes: Option<PathBuf>,
-    /// Where that is now which a process that died left of it.
+    /// The new path of a dead process's unfinished file.
     kept: Option<PathBuf>,
 }
 
 impl Output {
-    /// Begins to write the file `path`. What a process that died left of it is kept, see [`Output::kept`].
+    /// Starts writing the file `path`. The unfinished file of a dead process is kept, see
+    /// [`Output::kept`].
     ///
     /// Opening a named pipe waits for its reader.
     ///
     /// # Errors
-    /// The folder is not there or not writable, the file is not writable, is a folder, or is being
-    /// written by somebody else ([`io::ErrorKind::ResourceBusy`]).
+    /// The folder is missing or not writable; the file is not writable, is a folder, or is being
+    /// written by another process ([`io::ErrorKind::ResourceBusy`]).
     pub fn create(path: &Path) -> io::Result<Output> {
         Output::begin(path, Taken::Refuse)
     }
 
-    /// The same where `path` with `.part` appended may be what is read meanwhile: then it is written
-    /// under the next name, `run.2.mcap.part` for `run.mcap`.
+    /// Like [`Output::create`], if `path` with `.part` appended may be an input of the same
+    /// process. Then it is written under the next name, `run.2.mcap.part` for `run.mcap`.
     ///
     /// # Errors
-    /// As of [`Output::create`].
+    /// Those of [`Output::create`].
     pub fn create_beside_part(path: &Path) -> io::Result<Output> {
         Output::begin(path, Taken::Next)
     }
@@ -77,37 +79,37 @@ impl Output {
         Ok(Output { file, path, becomes: Some(target), kept })
     }
 
-    /// Where the bytes are until [`Output::finish`].
+    /// The path of the bytes until [`Output::finish`].
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where that is now which a process that died left of the same file: `run.2.mcap.part`.
+    /// The new path of a dead process's unfinished file: `run.2.mcap.part`.
     pub fn kept(&self) -> Option<&Path> {
         self.kept.as_deref()
     }
 
-    /// Puts the file in its place.
+    /// Replaces the target.
     ///
     /// # Errors
-    /// The disk is full or fails, somebody else has begun to write a file of that name; what was written stays at
-    /// [`Output::path`].
+    /// The disk is full or fails, or another process has started to write a file of that name. The
+    /// written bytes remain at [`Output::path`].
     pub fn finish(mut self) -> io::Result<()> {
         self.sync()?;
         self.put().map(drop)
     }
 
-    /// Brings the bytes to the disk.
+    /// Syncs the bytes to the disk.
     fn sync(&mut self) -> io::Result<()> {
         self.file.flush()?;
-        // Devices and pipes have nothing that could be synchronised.
+        // Devices and pipes cannot be synchronised.
         match self.becomes.is_some() || self.file.metadata()?.is_file() {
             true => self.file.sync_all(),
             false => Ok(()),
         }
     }
 
-    /// Puts the file in its place; gives its length and time as they were when nobody else could know it.
+    /// Replaces the target; returns the length and time from before the file was visible to others.
     fn put(mut self) -> io::Result<Metadata> {
         let Some(target) = &self.becomes else { return self.file.metadata() };
         part::refuse_taken(target)?;
@@ -123,10 +125,10 @@ impl Output {
         Ok(written)
     }
 
-    /// Gives up; nothing of what was written stays, and an old file is as it was.
+    /// Discards the output; an old file is not changed.
     pub fn discard(self) {
         if self.becomes.is_some() {
-            // There is a failure to tell of already, which matters more.
+            // An earlier failure matters more than this one.
             let _ = fs::remove_file(&self.path);
         }
     }
@@ -142,22 +144,21 @@ impl Write for Output {
     }
 }
 
-/// Writes a file at once. Of several at once each writes all of it, one after the other.
+/// Writes a whole file. Concurrent writers take turns.
 ///
 /// # Errors
-/// The folder is not there or not writable, the disk is full, or somebody else has been writing the
-/// file for seconds. No file of that name is left half
-/// written then, and an old one stays as it was.
+/// The folder is missing or not writable, the disk is full, or another process has been writing the
+/// file for seconds. The file is then unchanged or absent, and never incomplete.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_if(path, bytes, || true).map(drop)
 }
 
-/// The same, unless in the last moment it is not wanted any more: none then, and the old file stays. Gives the length and the
-/// time that the file was given with its bytes. What another program writes right afterwards has others: whoever looks at the
-/// file itself may see those.
+/// Like [`write_whole`], but a final check can cancel the write; then returns `None` and keeps the
+/// old file. Returns the length and the time that the file got with its bytes. Another program may
+/// change the file immediately afterwards, so its present values may differ.
 ///
 /// # Errors
-/// As of [`write_whole`].
+/// Those of [`write_whole`].
 pub fn write_if(
     path: &Path,
     bytes: &[u8],
@@ -177,15 +178,15 @@ pub fn write_if(
     }
 }
 
-/// What a file is called while it is written.
+/// The name of a file during writing.
 pub fn part_of(path: &Path) -> PathBuf {
     part::name(path, 1)
 }
 
-/// Finds out early whether a file can be written later. Devices and pipes are taken at their word.
+/// Checks early whether a file can be written later. Devices and pipes are not checked.
 ///
 /// # Errors
-/// As of [`Output::create`].
+/// Those of [`Output::create`].
 pub fn check_writable(path: &Path) -> io::Result<()> {
     let Target::File(target) = Target::of(path)? else { return Ok(()) };
     match Part::create(&target, Taken::Wait) {
@@ -197,18 +198,19 @@ pub fn check_writable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Whether a folder, but not necessarily a file in it, refuses to be written.
+/// Whether an error means that a folder is not writable, although a file in it may be.
 fn takes_no_files(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }
 
-/// Gives a file the bytes of another, one writer after the other. It takes the space for them first and is cut to its length
-/// last: a full disk leaves it as it was, unless its file system writes what changes to a new place.
+/// Copies a file's bytes into another file; writers take turns. It reserves the space first and
+/// truncates last, so that a full disk leaves the file unchanged, except on a copy-on-write file
+/// system.
 fn fill(target: &Path, from: &mut File) -> io::Result<Metadata> {
     let length = from.metadata()?.len();
     from.rewind()?;
     let mut file = File::options().write(true).open(target)?;
-    // Where a file system knows no locks nobody else waits, either.
+    // On a file system without locks, nobody else waits, either.
     let _ = file.lock();
     reserve(&mut file, length)?;
     io::copy(from, &mut file)?;
@@ -217,11 +219,11 @@ fn fill(target: &Path, from: &mut File) -> io::Result<Metadata> {
     file.metadata()
 }
 
-/// Takes the space that a file needs to become so long, without touching what it holds.
+/// Reserves the space for a file's new length without changing its contents.
 fn reserve(file: &mut File, length: u64) -> io::Result<()> {
     let old = file.seek(SeekFrom::End(0))?;
     let mut missing = io::repeat(0).take(length.saturating_sub(old));
-    // Some systems find out that a disk is full when the bytes go there.
+    // Some systems only notice a full disk when the bytes are written.
     if let Err(full) = io::copy(&mut missing, file).and_then(|_| file.sync_all()) {
         file.set_len(old)?;
         return Err(full);
@@ -229,11 +231,11 @@ fn reserve(file: &mut File, length: u64) -> io::Result<()> {
     file.rewind()
 }
 
-/// Makes a new name last through a power failure.
+/// Makes a new name survive a power failure.
 fn sync_folder(folder: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     match File::open(folder).and_then(|folder| folder.sync_all()) {
-        // Not every system can do this, nor every folder be opened.
+        // Some systems cannot do this, and some folders cannot be opened.
         Err(error) if matches!(error.kind(), InvalidInput | PermissionDenied | Unsupported) => {
             Ok(())
         }

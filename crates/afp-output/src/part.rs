@@ -1,4 +1,5 @@
-//! The file beside an output, or where its folder takes none elsewhere, in which it is written until it is whole.
+//! The part file of an output until it is complete: next to the output, or elsewhere if the folder
+//! accepts no files.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -7,26 +8,27 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// A part of our own: locked as long as it is open.
+/// Our own part file, locked while it is open.
 pub(crate) struct Part {
     pub(crate) file: File,
     pub(crate) path: PathBuf,
-    /// Where the rest of a dead process is that had this name.
+    /// The new path of a dead process's file with this name.
     pub(crate) kept: Option<PathBuf>,
 }
 
-/// What to do where the part of a file is open somewhere else.
+/// The behaviour if the part file is open in another process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Taken {
-    /// Nobody writes over what another one is at, and what a dead process left of one is kept.
+    /// Refuse; the file of a dead process is kept.
     Refuse,
-    /// Wait for a moment: the other one is done at once, too. What a dead process left is overwritten.
+    /// Wait for a moment, because the other write is short. The file of a dead process is
+    /// overwritten.
     Wait,
-    /// Take one of the next name.
+    /// Use the next name.
     Next,
 }
 
-/// How long to wait for another one that writes a file at once.
+/// The time to wait for a concurrent short write.
 const PATIENCE: Duration = Duration::from_secs(2);
 const LOOK_AGAIN: Duration = Duration::from_millis(1);
 
@@ -34,7 +36,8 @@ impl Part {
     /// Creates an empty part for a file.
     ///
     /// # Errors
-    /// The folder is not there or not writable; another one writes the file, or is at it as the part of another file.
+    /// The folder is missing or not writable, or another process writes the file, or uses it as the
+    /// part of another file.
     pub(crate) fn create(target: &Path, taken: Taken) -> io::Result<Part> {
         refuse_taken(target)?;
         let begin = Instant::now();
@@ -55,8 +58,8 @@ impl Part {
                 }
                 continue;
             }
-            // Where locks are not to be had, two at once are on their own. The one who had the
-            // lock may have given the part its final name just now.
+            // Without locks, two concurrent writers are not protected. The owner of the lock may
+            // have renamed the part just now.
             if !is_at(&file, &path)? {
                 continue;
             }
@@ -78,10 +81,10 @@ impl Part {
         }
     }
 
-    /// Creates an empty part for a file whose folder takes none, among the temporary files.
+    /// Creates an empty part among the temporary files, for a file in a folder that accepts none.
     ///
     /// # Errors
-    /// There is no room for it; another one is at the file as the part of another file.
+    /// There is no space for it, or another process uses the file as the part of another file.
     pub(crate) fn elsewhere(target: &Path) -> io::Result<Part> {
         refuse_taken(target)?;
         let beside = std::env::temp_dir().join(target.file_name().unwrap_or_default());
@@ -103,7 +106,7 @@ impl Part {
     }
 }
 
-/// How to make a file in a folder of everybody: one that was not there, for nobody else.
+/// The options for a new private file in a shared folder.
 fn private() -> OpenOptions {
     let mut options = File::options();
     options.read(true).write(true).create_new(true);
@@ -112,7 +115,7 @@ fn private() -> OpenOptions {
     options
 }
 
-/// Gives the part of a dead process the next name that is free.
+/// Renames the part of a dead process to the next free name.
 fn keep(target: &Path, part: &Path) -> io::Result<PathBuf> {
     let mut others = (2..).map(|number| name(target, number));
     let free = others.find(|other| fs::symlink_metadata(other).is_err());
@@ -121,11 +124,12 @@ fn keep(target: &Path, part: &Path) -> io::Result<PathBuf> {
     Ok(free)
 }
 
-/// Refuses a file that somebody is at, who would be left with one that has no name: the part of another file, a journal.
-/// One that has got its final name just now is free at once.
+/// Refuses a file that a process has locked: the part of another file, or a journal. Replacing it
+/// would leave that process with a nameless file. A file that has just got its final name is free
+/// soon.
 ///
 /// # Errors
-/// Another one has locked it.
+/// Another process has locked the file.
 pub(crate) fn refuse_taken(target: &Path) -> io::Result<()> {
     let begin = Instant::now();
     let is_taken = || match File::open(target).map(|file| file.try_lock_shared()) {
@@ -146,7 +150,8 @@ fn busy() -> io::Error {
     io::Error::new(io::ErrorKind::ResourceBusy, why)
 }
 
-/// Gives a part the permissions of the old file: what is private is private from the beginning.
+/// Gives a part the permissions of the old file, so that a private file is private from the
+/// beginning.
 fn permit_as(target: &Path, file: &File) -> io::Result<()> {
     match fs::metadata(target) {
         Ok(old) if old.permissions() != file.metadata()?.permissions() => {
@@ -156,8 +161,8 @@ fn permit_as(target: &Path, file: &File) -> io::Result<()> {
     }
 }
 
-/// The name of the part of a file: `run.mcap.part`, then `run.2.mcap.part`, whose other endings
-/// stay what they are.
+/// The name of a file's part: `run.mcap.part`, then `run.2.mcap.part`, with the other extensions
+/// kept.
 pub(crate) fn name(target: &Path, number: u32) -> PathBuf {
     let mut name = OsString::new();
     match (number, target.extension()) {

@@ -1,27 +1,27 @@
-//! Files that others wrote: never read without a bound, since a name may stand for something without an end.
+//! Bounded reading of input files: a name may refer to an endless stream.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 
-/// The greatest length of a file that is read, in bytes: what is longer is none of ours, or has no end.
+/// The maximum length of an input file, in bytes.
 const MOST: u64 = 64 << 20;
 
-/// The bytes of what a person names, which may be a pipe and wait for its writer.
+/// The bytes of a file that the user named; a pipe waits for its writer.
 ///
 /// # Errors
-/// It cannot be read, or is longer than 64 MiB.
+/// The file cannot be read, or is longer than 64 MiB.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     bounded(File::open(path)?, MOST)
 }
 
-/// The bytes of what another file names, or what was found in a folder: a file and nothing that one waits for.
+/// The bytes of a file that another file refers to, or that was found in a folder: a regular file.
 ///
 /// # Errors
-/// It is a folder ([`ErrorKind::IsADirectory`]), a pipe or a device ([`ErrorKind::InvalidInput`]), cannot be read, or is
-/// longer than `most` bytes ([`ErrorKind::FileTooLarge`]).
+/// It is a folder ([`ErrorKind::IsADirectory`]), a pipe or a device ([`ErrorKind::InvalidInput`]),
+/// cannot be read, or is longer than `most` bytes ([`ErrorKind::FileTooLarge`]).
 pub fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
-    // Opening a pipe waits: it is looked at before.
+    // Opening a pipe waits, so the type is checked first.
     let about = std::fs::metadata(path)?;
     if about.is_dir() {
         return Err(ErrorKind::IsADirectory.into());
@@ -32,18 +32,18 @@ pub fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
     bounded(File::open(path)?, most)
 }
 
-/// The text of what another file names, or what was found in a folder.
+/// The text of a file that another file refers to, or that was found in a folder.
 ///
 /// # Errors
-/// As [`read_file`], with a bound of 64 MiB; it is no text in UTF-8.
+/// Those of [`read_file`], with a bound of 64 MiB; it is not valid UTF-8.
 pub fn read_text_file(path: &Path) -> Result<String, Error> {
     text(read_file(path, MOST)?)
 }
 
-/// The text of what a person names, which may be a pipe and wait for its writer.
+/// The text of a file that the user named; a pipe waits for its writer.
 ///
 /// # Errors
-/// As [`read_bytes`]; it is no text in UTF-8.
+/// Those of [`read_bytes`]; it is not valid UTF-8.
 pub fn read_text(path: &Path) -> Result<String, Error> {
     text(read_bytes(path)?)
 }

@@ -1,17 +1,17 @@
-//! What the name of an output stands for.
+//! The target of an output's name.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// As many links in a row as Linux follows.
+/// The maximum number of links in a row, as on Linux.
 const MOST_LINKS: usize = 40;
 
-/// What the name of an output stands for.
+/// The target of an output's name.
 pub(crate) enum Target {
-    /// A device, a pipe or a socket: only the stream of bytes matters.
+    /// A device, a pipe or a socket: a stream of bytes.
     Stream,
-    /// A file, there already or not yet; links are followed.
+    /// An existing or new file, after following links.
     File(PathBuf),
 }
 
@@ -19,21 +19,21 @@ impl Target {
     /// Follows links.
     ///
     /// # Errors
-    /// It is empty, a folder, or a file that may not be written.
+    /// The path is empty, a folder, or a read-only file.
     pub(crate) fn of(path: &Path) -> io::Result<Target> {
         match fs::metadata(path) {
             Ok(about) if about.is_dir() => Err(ErrorKind::IsADirectory.into()),
             Ok(about) if !about.is_file() => Ok(Target::Stream),
             Ok(_) => {
-                // A folder may let a file be replaced that is not to be written.
+                // A folder may allow replacing a read-only file.
                 File::options().write(true).open(path)?;
                 Ok(match path.canonicalize() {
                     Ok(path) => Target::File(path),
-                    // Open somewhere, but without a name: `/dev/stdout` after a removal.
+                    // An open file without a name: `/dev/stdout` after a removal.
                     Err(_) => Target::Stream,
                 })
             }
-            // With '.part' behind it, no name would be one.
+            // With '.part' appended, an empty name would become valid.
             Err(error) if path.as_os_str().is_empty() => Err(error),
             Err(error) if error.kind() == ErrorKind::NotFound => follow(path).map(Target::File),
             Err(error) => Err(error),
@@ -41,7 +41,7 @@ impl Target {
     }
 }
 
-/// The file that a link to nothing is to become.
+/// The target of a dangling link.
 fn follow(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -61,7 +61,8 @@ pub(crate) fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Whether nobody misses the old file, if there is one, when the new one takes its name.
+/// Whether the new file can replace the old file, if there is one, without breaking links or
+/// ownership.
 #[cfg(unix)]
 pub(crate) fn is_replaceable(target: &Path, new: &File) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt;

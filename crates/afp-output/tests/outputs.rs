@@ -1,4 +1,4 @@
-//! What may stand where an output goes, and what becomes of it.
+//! The possible targets of an output, and the results.
 
 #![cfg(unix)]
 
@@ -34,7 +34,7 @@ fn mode(path: &Path) -> u32 {
 }
 
 #[test]
-fn a_file_is_the_old_one_until_the_new_one_is_whole() {
+fn the_old_file_stays_until_the_new_file_is_complete() {
     let folder = folder();
     let path = folder.path().join("a.svg");
     fs::write(&path, "old").unwrap();
@@ -50,10 +50,10 @@ fn a_file_is_the_old_one_until_the_new_one_is_whole() {
 }
 
 #[test]
-fn what_is_written_at_once_is_told_from_what_another_one_writes_since() {
+fn a_written_file_differs_from_later_writes() {
     let folder = folder();
     let [path, other] = ["a.afp", "b.afp"].map(|name| folder.path().join(name));
-    // In the place of a file, and into one that has two names.
+    // In the place of a file, and into a file with two names.
     for _ in 0..2 {
         let written = write_if(&path, b"new", || true).unwrap().unwrap();
         let there = fs::metadata(&path).unwrap();
@@ -64,7 +64,7 @@ fn what_is_written_at_once_is_told_from_what_another_one_writes_since() {
 }
 
 #[test]
-fn a_new_file_has_the_permissions_of_any_new_file() {
+fn a_new_file_has_default_permissions() {
     let folder = folder();
     let [path, other] = ["a.svg", "b.svg"].map(|name| folder.path().join(name));
     write_whole(&path, b"new").unwrap();
@@ -73,7 +73,7 @@ fn a_new_file_has_the_permissions_of_any_new_file() {
 }
 
 #[test]
-fn what_is_given_up_leaves_nothing_and_what_is_dropped_its_part() {
+fn a_discarded_output_leaves_nothing_and_a_dropped_output_its_part() {
     let folder = folder();
     let path = folder.path().join("a.svg");
     fs::write(&path, "old").unwrap();
@@ -91,7 +91,7 @@ fn what_is_given_up_leaves_nothing_and_what_is_dropped_its_part() {
 }
 
 #[test]
-fn what_a_dead_process_left_is_kept() {
+fn the_part_of_a_dead_process_is_kept() {
     let folder = folder();
     let path = folder.path().join("run.mcap");
     for (rest, kept) in [("first", "run.2.mcap.part"), ("second", "run.3.mcap.part")] {
@@ -147,7 +147,7 @@ fn a_file_with_two_names_keeps_both() {
 }
 
 #[test]
-fn a_device_stays_one() {
+fn a_device_is_not_replaced() {
     let null = Path::new("/dev/null");
     check_writable(null).unwrap();
     write_whole(null, b"new").unwrap();
@@ -187,13 +187,13 @@ fn a_pipe_is_written_into() {
 }
 
 #[test]
-fn what_was_found_is_a_file_or_not_read() {
+fn only_regular_files_are_read_from_folders() {
     let folder = folder();
     let path = folder.path().join("pipe");
     let made = Command::new("mkfifo").arg(&path).status().unwrap();
     assert!(made.success());
     let kind = |path: &Path| read_text_file(path).unwrap_err().kind();
-    // Nobody writes into the pipe: to open it would be to wait for ever.
+    // The pipe has no writer, so opening it would block.
     assert_eq!(kind(&path), ErrorKind::InvalidInput);
     assert_eq!(kind(Path::new("/dev/zero")), ErrorKind::InvalidInput);
     assert_eq!(kind(folder.path()), ErrorKind::IsADirectory);
@@ -211,7 +211,7 @@ fn what_was_found_is_a_file_or_not_read() {
 }
 
 #[test]
-fn two_at_once_do_not_share_a_file() {
+fn concurrent_writers_do_not_share_a_part() {
     let folder = folder();
     let path = folder.path().join("run.mcap");
     let mut one = Output::create(&path).unwrap();
@@ -249,7 +249,7 @@ fn the_part_of_another_file_is_not_replaced() {
     }
     one.finish().unwrap();
     assert_eq!((text(&path).as_str(), files(folder.path())), ("one", vec!["run.mcap".to_owned()]));
-    // Who came first finds it out at the end.
+    // The first writer finds out at the end.
     let mut two = Output::create(&part).unwrap();
     two.write_all(b"two").unwrap();
     let three = Output::create(&path).unwrap();
@@ -258,9 +258,9 @@ fn the_part_of_another_file_is_not_replaced() {
     assert_eq!(text(&folder.path().join("run.mcap.part.part")), "two");
 }
 
-/// Nor is it waited for without an end.
+/// The wait has an end.
 #[test]
-fn what_is_written_for_long_is_not_written_at_once() {
+fn a_short_write_does_not_wait_for_a_long_one_without_end() {
     let folder = folder();
     let path = folder.path().join("run.mcap");
     let one = Output::create(&path).unwrap();
@@ -271,10 +271,11 @@ fn what_is_written_for_long_is_not_written_at_once() {
     assert_eq!(text(&path), "two");
 }
 
-/// Each time it waits for two seconds.
+/// Each try waits for two seconds.
 const TRIES: u32 = 15;
 
-/// Writes a file as soon as nobody else does. Who waits has no place in a queue: on a busy machine others may come first for long.
+/// Writes a file when no other process does. Waiting writers have no queue, so others may come
+/// first for long on a busy machine.
 fn write_in_turn(path: &Path, bytes: &[u8]) {
     for _ in 0..TRIES {
         match write_whole(path, bytes) {
@@ -286,7 +287,7 @@ fn write_in_turn(path: &Path, bytes: &[u8]) {
 }
 
 #[test]
-fn many_at_once_each_write_a_whole_file() {
+fn many_concurrent_writers_each_write_a_complete_file() {
     let folder = folder();
     let path = folder.path().join("run.mcap");
     thread::scope(|scope| {
@@ -310,7 +311,7 @@ fn many_at_once_each_write_a_whole_file() {
 }
 
 #[test]
-fn a_part_that_is_a_link_is_left_alone() {
+fn a_part_that_is_a_link_is_not_changed() {
     let folder = folder();
     let path = |name: &str| folder.path().join(name);
     fs::write(path("precious"), "mine").unwrap();
@@ -320,7 +321,7 @@ fn a_part_that_is_a_link_is_left_alone() {
 }
 
 #[test]
-fn a_check_leaves_everything_as_it_is() {
+fn a_check_changes_nothing() {
     let folder = folder();
     let path = folder.path().join("a.svg");
     check_writable(&path).unwrap();
@@ -336,7 +337,7 @@ fn a_check_leaves_everything_as_it_is() {
 /// The folder of [`a_folder_that_takes_no_files`], for its second half.
 const FOLDER: &str = "AFP_OUTPUT_TEST_FOLDER";
 
-/// Permissions mean nothing to root, who therefore hands the second half over to somebody else.
+/// Permissions do not restrict root, so the second half runs as another user.
 #[test]
 fn a_folder_that_takes_no_files() {
     if let Some(folder) = std::env::var_os(FOLDER) {
@@ -381,18 +382,19 @@ fn written_by_who_may_not(folder: &Path) {
     }
 }
 
-/// Set where [`a_disk_that_gets_full_leaves_a_file_with_two_names`] runs its second half.
+/// Set while [`a_disk_that_gets_full_leaves_a_file_with_two_names`] runs its second half.
 #[cfg(target_os = "linux")]
 const FULL: &str = "AFP_OUTPUT_TEST_FULL";
 
-/// A disk is full where files may not grow, which is so for all of a process: another one.
+/// A file size limit imitates a full disk. It applies to a whole process, so the test starts
+/// another one.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_disk_that_gets_full_leaves_a_file_with_two_names() {
     if std::env::var_os(FULL).is_some() {
         return written_where_nothing_grows();
     }
-    // Otherwise a signal ends who writes too much.
+    // Without this, a signal ends the process at the limit.
     let mut again = Command::new("sh");
     again.args(["-c", "trap '' XFSZ; exec \"$@\"", "sh"]).arg(std::env::current_exe().unwrap());
     again.args(["--exact", "a_disk_that_gets_full_leaves_a_file_with_two_names"]).env(FULL, "");
@@ -416,7 +418,7 @@ fn written_where_nothing_grows() {
 }
 
 #[test]
-fn no_name_is_no_file() {
+fn an_empty_name_is_refused() {
     for made in [check_writable(Path::new("")), write_whole(Path::new(""), b"new")] {
         assert_eq!(made.unwrap_err().kind(), std::io::ErrorKind::NotFound);
     }

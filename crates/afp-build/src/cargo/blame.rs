@@ -1,4 +1,4 @@
-//! Where an error of the Rust compiler comes from: a line of the plan, of a toolbox, or neither.
+//! The source of a Rust compiler error: a line of the plan, of a toolbox, or neither.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,23 +13,23 @@ use serde_json::{Value, json};
 use super::message::{Message, Place};
 use afp_toolboxes::project::OwnToolbox;
 
-/// What errors can be traced back to.
+/// The possible sources of errors.
 pub struct Blame<'a> {
-    /// The crate that was made from a plan.
+    /// The crate of a plan.
     pub generated: Option<Generated<'a>>,
     /// The toolboxes whose crates are built.
     pub toolboxes: &'a [OwnToolbox],
 }
 
-/// A crate that was made from a plan.
+/// The crate of a plan.
 pub struct Generated<'a> {
     pub folder: &'a Path,
     pub files: &'a [CrateFile],
-    /// The texts that it was made from.
+    /// The plan's sources.
     pub sources: &'a Sources,
 }
 
-/// A place to mend something, and the words for it.
+/// A place to fix an error, with a description.
 struct Found<'a> {
     source: &'a Source,
     span: Span,
@@ -37,18 +37,18 @@ struct Found<'a> {
 }
 
 impl Blame<'_> {
-    /// Whether a message is worth telling: warnings are of the project's own crates alone.
+    /// Whether a message is relevant: only the project's own crates have warnings.
     pub(super) fn concerns(&self, message: &Message) -> bool {
         let is_own = |own: &OwnToolbox| is_in(message, own.krate.folder.as_deref());
         message.is_error || self.toolboxes.iter().any(is_own)
     }
 
-    /// Tells standard error of a message: first where it comes from, then in the compiler's words.
+    /// Prints a message on standard error: first its source, then the compiler's words.
     pub(super) fn tell(&self, message: &Message) {
         if message.is_error {
             let places = self.places(message);
             places.iter().for_each(|found| say(found.shown()));
-            // The compiler names the file as seen from its package.
+            // The compiler's file name is relative to the package.
             if let Some((path, place)) = rust(message) {
                 let (line, column) = place.at;
                 match places.is_empty() {
@@ -60,8 +60,9 @@ impl Blame<'_> {
         say(&message.rendered);
     }
 
-    /// A message as diagnostics of plans are for tools: at the first place that it comes from, with the others and the
-    /// one in the Rust as notes; at that one where there is no other. Codes of Rust are not ours, so there is none.
+    /// A message in the form of a plan's diagnostic, for tools. Its place is the first source;
+    /// other sources and the place in Rust are notes. Without a source, its place is that in Rust.
+    /// There is no code, because Rust's codes are not AFP's.
     pub(super) fn json(&self, message: &Message) -> Value {
         let places = if message.is_error { self.places(message) } else { Vec::new() };
         let in_rust = rust(message)
@@ -85,13 +86,13 @@ impl Blame<'_> {
         object
     }
 
-    /// The places in plan and toolboxes that a message is about.
+    /// The places in plan and toolboxes for a message.
     fn places(&self, message: &Message) -> Vec<Found<'_>> {
         let plan = self.generated.as_ref().and_then(|crate_| crate_.place(message));
         let toolbox = || self.toolboxes.iter().find_map(|own| declared(own, message));
         match plan {
             Some((place, true)) => vec![place],
-            // The whole plan says little; a toolbox that is named says more.
+            // A named toolbox is more exact than the whole plan.
             Some((place, false)) => toolbox().into_iter().chain([place]).collect(),
             None => toolbox().into_iter().collect(),
         }
@@ -99,7 +100,7 @@ impl Blame<'_> {
 }
 
 impl Generated<'_> {
-    /// The place in the plan, and whether it is more than the whole plan.
+    /// The place in the plan, and whether it is smaller than the whole plan.
     fn place(&self, message: &Message) -> Option<(Found<'_>, bool)> {
         if !is_in(message, Some(self.folder)) {
             return None;
@@ -112,11 +113,11 @@ impl Generated<'_> {
     }
 }
 
-/// The declaration of a toolbox that a message is about.
+/// The declaration in a toolbox for a message.
 fn declared<'a>(own: &'a OwnToolbox, message: &Message) -> Option<Found<'a>> {
     let said = words(&message.said);
     let inside = is_in(message, own.krate.folder.as_deref());
-    // Other crates may have words of their own that a template has too.
+    // Other crates may use a template's words by chance.
     if !inside && !said.contains(&&*own.krate.rust_name()) {
         return None;
     }
@@ -133,12 +134,12 @@ fn declared<'a>(own: &'a OwnToolbox, message: &Message) -> Option<Found<'a>> {
     Some(Found { source: &own.source, span, message })
 }
 
-/// The head of the `impl` around the place of a message; `None` where it is in none.
+/// The head of the `impl` around the place of a message; `None` outside of one.
 fn head(message: &Message) -> Option<String> {
     let text = fs::read_to_string(message.path()?).ok()?;
     let lines: Vec<_> = text.lines().take(message.place.as_ref()?.at.0).collect();
     let first = lines.iter().rposition(|line| line.starts_with("impl"))?;
-    // A line that ends another item stands between.
+    // The end of another item is in between.
     if lines[first + 1..].iter().any(|line| line.starts_with('}')) {
         return None;
     }
@@ -146,7 +147,7 @@ fn head(message: &Message) -> Option<String> {
     Some(head.copied().collect::<Vec<_>>().join("\n"))
 }
 
-/// The place of a message in the Rust, with its file as people name it.
+/// The place of a message in the Rust code, with a readable path.
 fn rust(message: &Message) -> Option<(String, &Place)> {
     let path = shown(&real(&message.path()?)).display().to_string();
     Some((path, message.place.as_ref()?))

@@ -1,4 +1,4 @@
-//! An error or a warning of the Rust compiler, as cargo hands it on.
+//! An error or a warning of the Rust compiler, from cargo's output.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -7,37 +7,37 @@ use serde_json::Value;
 
 #[derive(Debug, Default)]
 pub struct Message {
-    /// Whether it is an error; else it is a warning.
+    /// Whether it is an error, and not a warning.
     pub is_error: bool,
-    /// The sentence at its head.
+    /// Its first sentence.
     pub title: String,
-    /// All of it as people read it, with colours.
+    /// The whole message as readable text, with colours.
     pub rendered: String,
-    /// The folder of the package that it is about.
+    /// The folder of its package.
     pub package: PathBuf,
-    /// Where in its Rust; none for what a linker says.
+    /// Its place in the Rust code; `None` for a linker's message.
     pub place: Option<Place>,
-    /// The title, the labels, and the same of all that stands below it.
+    /// The title, the labels, and those of all its children.
     pub said: String,
 }
 
 /// A place in the Rust of a package.
 #[derive(Debug, Default)]
 pub struct Place {
-    /// The file, below the folder of the package or absolute.
+    /// The file, relative to the package's folder or absolute.
     pub file: PathBuf,
-    /// The bytes of its text.
+    /// The byte range in the file.
     pub bytes: Range<usize>,
     /// Line and column in it, from 1.
     pub at: (usize, usize),
     /// The text of that line.
     pub line: String,
-    /// What the compiler says beside it.
+    /// The compiler's label.
     pub label: String,
 }
 
 impl Message {
-    /// Reads a line of cargo; `None` for what is no error and no warning, and for errors that only count others.
+    /// Reads a line of cargo; `None` for other lines, and for errors that only count others.
     pub fn read(line: &Value) -> Option<Message> {
         let about = line.get("message")?;
         let is_error = match about.get("level")?.as_str()? {
@@ -64,7 +64,7 @@ impl Message {
         })
     }
 
-    /// It in a line: `src/lib.rs:12:5: mismatched types`.
+    /// The message in one line: `src/lib.rs:12:5: mismatched types`.
     pub fn line(&self) -> String {
         let place = self.place.as_ref().map(|place| {
             let (line, column) = place.at;
@@ -73,7 +73,7 @@ impl Message {
         format!("{}{}", place.unwrap_or_default(), self.title)
     }
 
-    /// The file that it points at.
+    /// The file of its place.
     pub fn path(&self) -> Option<PathBuf> {
         Some(self.package.join(&self.place.as_ref()?.file))
     }
@@ -96,7 +96,7 @@ fn text(value: &Value, key: &str) -> String {
     value[key].as_str().unwrap_or_default().to_owned()
 }
 
-/// Gathers the sentences of a message.
+/// Collects the sentences of a message.
 fn collect(message: &Value, said: &mut String) {
     let mut add = |value: &Value| {
         said.push_str(value.as_str().unwrap_or(""));

@@ -1,6 +1,6 @@
-//! Where runners are kept and built.
+//! The folders for runners and their builds.
 //!
-//! Projects share what their runners are built from, so the place is one for all of them.
+//! Projects share the dependencies of their runners, so all projects use one place.
 
 use std::env;
 use std::fs;
@@ -8,27 +8,27 @@ use std::path::{Path, PathBuf};
 
 use afp_run::RunError;
 
-/// What of a project holds runners where nothing else can.
+/// A project's folder for runners if no other folder is writable.
 const IN_PROJECT: &str = "target/afp";
 
 #[derive(Debug, PartialEq)]
 pub struct Folder {
-    /// Holds the crates of runners.
+    /// The folder for the crates of runners.
     pub kept: PathBuf,
-    /// Where cargo builds them.
+    /// Cargo's build folder for them.
     pub build: PathBuf,
 }
 
-/// The first of these in which the folder `below` can be made: cargo's folder, if `CARGO_TARGET_DIR` says one; the
-/// user's cache; `target/afp` of the project.
+/// The first of these in which the folder `below` can be created: cargo's folder from
+/// `CARGO_TARGET_DIR`, the user's cache, `target/afp` of the project.
 ///
 /// # Errors
-/// It can be made in none.
+/// None of them is writable.
 pub fn find(project: &Path, below: &Path) -> Result<Folder, RunError> {
     first(candidates(project, &variable), below)
 }
 
-/// The folder of ours in the cache of this user; `None` where no variable says where that is.
+/// AFP's folder in the user's cache; `None` if no variable defines it.
 pub fn cache() -> Option<PathBuf> {
     cache_of(&variable)
 }
@@ -46,7 +46,7 @@ fn whole(path: PathBuf) -> PathBuf {
     std::path::absolute(&path).unwrap_or(path)
 }
 
-/// The first in which a folder can be made.
+/// The first folder that can be created.
 fn first(all: Vec<Folder>, below: &Path) -> Result<Folder, RunError> {
     let mut refused = RunError::usage("there is no folder for a runner", "set CARGO_TARGET_DIR");
     for folder in all {
@@ -59,7 +59,7 @@ fn first(all: Vec<Folder>, below: &Path) -> Result<Folder, RunError> {
     Err(refused)
 }
 
-/// The folders in question, the best first.
+/// The candidate folders, the best first.
 fn candidates(project: &Path, variable: &dyn Fn(&str) -> Option<PathBuf>) -> Vec<Folder> {
     let with_build = |kept: PathBuf| Folder { build: kept.join("build"), kept };
     if let Some(target) = variable("CARGO_TARGET_DIR").map(whole) {
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_made_is_left_for_the_next() {
+    fn an_unwritable_folder_is_skipped() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("file");
         fs::write(&file, "").unwrap();

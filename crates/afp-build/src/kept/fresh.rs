@@ -1,8 +1,8 @@
-//! Whether a runner is still what its sources say.
+//! Whether a runner is still up to date.
 //!
-//! Cargo writes beside each program which files of Rust it was made from, and tells in a build which packages of this
-//! machine have a part in it. A runner is fresh while its own crate is as it would be written now, and neither those
-//! files nor what decides how cargo builds them has changed since its build began; then cargo need not even be there.
+//! Cargo writes a list of source files next to each program, and reports a build's packages on this
+//! machine. A runner is up to date if its own crate, those files and the other influences on its
+//! build have not changed since its build began. Then cargo is not needed at all.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -12,23 +12,23 @@ use std::time::SystemTime;
 
 use afp_run::RunError;
 
-/// Names the program; its time is the beginning of the build.
+/// The file with the program's path; its time is the beginning of the build.
 const STAMP: &str = "built";
-/// Lists what [`watched`] gave, a path in each line.
+/// The file with the result of [`watched`], one path per line.
 const WATCHED: &str = "watched";
-/// A package's manifest, or that of the workspace around it, from which it may inherit.
+/// The manifest of a package, or of its workspace, which it may inherit from.
 const MANIFEST: &str = "Cargo.toml";
-/// What a folder says to cargo about everything below it.
+/// Cargo's settings for everything below a folder.
 const SETTINGS: [&str; 4] =
     [".cargo/config.toml", ".cargo/config", "rust-toolchain.toml", "rust-toolchain"];
 
-/// Marks the beginning of a build.
+/// Records the beginning of a build.
 ///
 /// # Errors
 /// The folder cannot be written.
 pub fn begin(folder: &Path) -> Result<SystemTime, RunError> {
     let stamp = folder.join(STAMP);
-    // The clock of the file system, which may be coarser than ours.
+    // The clock of the file system may be coarser than ours.
     let begin = || {
         fs::write(&stamp, "")?;
         fs::metadata(&stamp)?.modified()
@@ -36,7 +36,7 @@ pub fn begin(folder: &Path) -> Result<SystemTime, RunError> {
     begin().map_err(RunError::file("cannot write", &stamp))
 }
 
-/// Keeps what a build has made.
+/// Records a build's result.
 ///
 /// # Errors
 /// The folder cannot be written.
@@ -56,16 +56,16 @@ pub fn done(
     keep().map_err(RunError::file("cannot write", &stamp))
 }
 
-/// What decides how packages are built besides their manifests.
+/// The influences on a build other than its packages' manifests.
 pub struct Around<'a> {
-    /// The folder in which cargo is called.
+    /// Cargo's working folder.
     pub caller: &'a Path,
-    /// The versions that were tested, where there are some.
+    /// The tested versions, if there are any.
     pub lock: Option<PathBuf>,
 }
 
-/// The files that there are of those that decide how packages are built: their manifests and those around
-/// them, the settings of cargo where it is called, and the versions that were tested.
+/// The existing files that influence how packages are built: their manifests and those around them,
+/// cargo's settings in its working folder, and the tested versions.
 pub fn watched(manifests: &[PathBuf], around: &Around<'_>) -> BTreeSet<PathBuf> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".cargo")));
@@ -80,7 +80,7 @@ pub fn watched(manifests: &[PathBuf], around: &Around<'_>) -> BTreeSet<PathBuf> 
     all.into_iter().filter(|path| path.is_file()).collect()
 }
 
-/// The program kept in a folder, unless something that it was made from has changed; `files` are those of its crate.
+/// The program in a folder, unless one of its sources has changed; `files` are those of its crate.
 pub fn program(folder: &Path, around: &Around<'_>, files: &[(String, String)]) -> Option<PathBuf> {
     let stamp = folder.join(STAMP);
     let begun = fs::metadata(&stamp).ok()?.modified().ok()?;
@@ -106,11 +106,11 @@ pub fn program(folder: &Path, around: &Around<'_>, files: &[(String, String)]) -
     fresh.then_some(program)
 }
 
-/// The files behind the colon of a rule as make writes it, in which blanks in names are escaped.
+/// The files after the colon of a make rule, in which spaces in names are escaped.
 fn sources(list: &str) -> Vec<PathBuf> {
     let rule = list.lines().next().and_then(|line| line.split_once(": "));
     let rule = rule.map_or("", |(_, sources)| sources);
-    // A line break stands in no name that cargo lists.
+    // File names in cargo's lists have no line break.
     let rule = rule.replace("\\ ", "\n");
     let paths = rule.split(' ').filter(|path| !path.is_empty());
     paths.map(|path| path.replace('\n', " ").into()).collect()
@@ -122,13 +122,13 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn blanks_in_names_are_kept() {
+    fn spaces_in_names_are_kept() {
         let list = "/t/a\\ b: /x/my\\ crate/lib.rs /y.rs\n\n/t/other: /z.rs\n";
         assert_eq!(sources(list), ["/x/my crate/lib.rs", "/y.rs"].map(PathBuf::from));
         assert!(sources("").is_empty());
     }
 
-    /// A kept runner in `runner`, made of `ws/box` for `project`, and when its build began.
+    /// A cached runner in `runner`, made of `ws/box` for `project`, and the start of its build.
     struct Kept {
         folder: tempfile::TempDir,
         begun: SystemTime,
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_is_fresh_until_what_it_was_made_from_changes_or_goes() {
+    fn a_program_is_fresh_until_a_source_changes_or_disappears() {
         let kept = Kept::new();
         let all = [
             "ws/box/lib.rs",
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_is_stale_when_its_crate_or_the_files_around_it_are_others() {
+    fn a_program_is_stale_when_its_crate_or_its_surroundings_change() {
         for (name, text) in [
             ("runner/src/main.rs", "fn main() { }"),
             ("target/program.d", ""),

@@ -1,4 +1,4 @@
-//! Typed access for whoever starts the plan.
+//! Typed access for the code that starts the plan.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -46,7 +46,7 @@ pub fn accessors(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// The constant by which [`is_open`] entries are set.
+/// The constant for setting [`is_open`] entries.
 fn typed(context: &Context<'_>, entry: &Entry, index: u16, name: &str) -> TokenStream {
     let (name, value) = (ident(name), context.value_type(&entry.ty));
     let help = doc("", &format!("The entry `{}`, for `Scheduler::set`.", entry.name));

@@ -13,7 +13,7 @@ use afp_dsl::toolbox::{InPort, Template, TemplateKind};
 use afp_dsl::types::{Conversion, Type};
 use afp_syntax::source::Span;
 
-/// A component as its bindings see it.
+/// A component for its bindings.
 pub struct Bound<'a> {
     pub context: &'a Context<'a>,
     pub names: &'a ComponentNames,
@@ -22,28 +22,28 @@ pub struct Bound<'a> {
     pub generic: Option<&'a Type>,
     pub inputs: &'a [Formula],
     pub outputs: &'a [Output],
-    /// Its name in the text.
+    /// The place of its name in the text.
     pub span: Span,
 }
 
 /// A function of inputs or outputs.
 pub struct Function {
-    /// Its item; none where it would do nothing.
+    /// Its item; empty if it would do nothing.
     pub item: TokenStream,
-    /// Statements that declare the scratch texts that it computes into.
+    /// Statements that declare its scratch texts.
     pub scratch: TokenStream,
     /// The expression that calls it.
     pub call: TokenStream,
 }
 
 impl Bound<'_> {
-    /// What is read before the start.
+    /// The function for the inputs before the start.
     pub fn inputs(&self) -> Function {
         let about = format!("Inputs of `{}`.", self.names.text);
         self.pulled(&self.names.inputs, "Inputs", &about, |port| !self.is_live(port))
     }
 
-    /// What is read again at every poll.
+    /// The function for the inputs at every poll.
     pub fn live(&self) -> Function {
         let about = format!("Live inputs of `{}`.", self.names.text);
         self.pulled(&self.names.live, "Live", &about, |port| self.is_live(port))
@@ -104,7 +104,7 @@ impl Bound<'_> {
         }
     }
 
-    /// The values of inputs by their names, and the texts that are put together for them.
+    /// The values of inputs by their names, and the scratch texts for them.
     fn fields(&self, ports: &[(u16, (&InPort, &Formula))]) -> (Vec<TokenStream>, Vec<Ident>) {
         self.context.with_type_paths(|type_paths| {
             let mut formulas = Formulas::new(type_paths, &self.context.entries);
@@ -192,15 +192,16 @@ impl Bound<'_> {
         }
     }
 
-    /// How many outputs an outcome carries.
+    /// The number of outputs of an outcome.
     fn carried(&self, outcome: u16) -> usize {
         let ports = self.template.outputs.iter();
         ports.filter(|port| port.on.is_empty() || port.on.contains(&outcome)).count()
     }
 
-    /// The fields of an outcome that are bound, and the statements that stage them.
+    /// The bound fields of an outcome, and the statements that stage them.
     ///
-    /// Each is bound to a local of a name of ours: under its own it could hide a function that is called here.
+    /// Each field is bound to a local with a reserved name: its own name could hide a called
+    /// function.
     fn puts(&self, outcome: u16) -> Option<(Vec<TokenStream>, Vec<TokenStream>)> {
         let ports = (0..).zip(&self.template.outputs);
         let carried = ports.filter(|(_, port)| port.on.is_empty() || port.on.contains(&outcome));
@@ -210,7 +211,7 @@ impl Bound<'_> {
             let ty = if generic { self.generic? } else { &port.ty };
             let (name, local) = (ident(&snake(&port.name)), format_ident!("value_{number}"));
             let value = match (generic, ty) {
-                // It is an entry's object already.
+                // It is already an entry's object.
                 (true, Type::Object(_)) => quote!(#local),
                 _ => self
                     .context
@@ -226,7 +227,7 @@ impl Bound<'_> {
     }
 }
 
-/// The value of an output port as its entry takes it.
+/// The value of an output port in its entry's type.
 fn staged_value(
     type_paths: &TypePaths<'_>,
     output: &Output,
@@ -241,7 +242,7 @@ fn staged_value(
     }
 }
 
-/// A value as the range of its entry lets it pass.
+/// A value, limited to the range of its entry.
 pub fn limited(entry: &Entry, value: TokenStream) -> TokenStream {
     match entry.range {
         Some((least, greatest)) => {
@@ -252,7 +253,7 @@ pub fn limited(entry: &Entry, value: TokenStream) -> TokenStream {
     }
 }
 
-/// A value that can be refused, with the port or entry that it is for.
+/// A fallible value, with its port or entry.
 pub fn tried(what: &str, number: u16, value: TokenStream) -> TokenStream {
     if !can_fail(&value) {
         return value;
@@ -262,7 +263,7 @@ pub fn tried(what: &str, number: u16, value: TokenStream) -> TokenStream {
     quote!(#what(#number, || #value)?)
 }
 
-/// A call that refuses a value, without the `?` behind it.
+/// A fallible call, without the final `?`.
 fn refusing(value: &TokenStream) -> Option<TokenStream> {
     let tokens: Vec<_> = value.clone().into_iter().collect();
     match tokens.as_slice() {
@@ -284,7 +285,7 @@ fn can_fail(value: &TokenStream) -> bool {
     })
 }
 
-/// A value converted for its entry; numbers that come out of a text or an `int` are finite.
+/// A value converted for its entry; numbers from a text or an `int` are finite.
 pub fn converted(
     type_paths: &TypePaths<'_>,
     conversion: &Conversion,
@@ -304,7 +305,7 @@ fn is_generic(ty: &Type) -> bool {
     matches!(ty, Type::Any | Type::Number | Type::Discrete)
 }
 
-/// Whether a formula reads anything.
+/// Whether a formula reads entries.
 pub fn reads_entries(formula: &Formula) -> bool {
     formula.entries().next().is_some()
 }

@@ -1,4 +1,4 @@
-//! The plan on a platform: its components started, polled, interrupted and dropped.
+//! The plan on a platform: its components are started, polled, interrupted and dropped.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -10,7 +10,7 @@ use super::supervisors;
 use crate::layout::at;
 use afp_dsl::graph::{Component, Element, PlanId};
 
-/// `impl Plan<E>`, for every platform on which all components run.
+/// `impl Plan<E>`, for every platform that can run all components.
 pub fn plan(context: &Context<'_>) -> TokenStream {
     let ty = &context.ty;
     let bounds = bounds(context);
@@ -38,7 +38,7 @@ pub fn plan(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// What the platform must let run, each once, in the order of first use. Computations run anywhere.
+/// The bounds on the platform, each once, in the order of first use. Computations run anywhere.
 fn bounds(context: &Context<'_>) -> Vec<TokenStream> {
     let elements = context.plan.elements.iter().filter_map(|element| match element.component {
         Component::Actor(id) => {
@@ -68,12 +68,12 @@ fn bounds(context: &Context<'_>) -> Vec<TokenStream> {
     .collect()
 }
 
-/// A `match` on a number, or the last arm alone where there are no others.
+/// A `match` on a number, or only the last arm if there are no others.
 fn select(on: TokenStream, arms: &[TokenStream], last: TokenStream) -> TokenStream {
     if arms.is_empty() { last } else { quote!(match #on { #(#arms)* _ => #last }) }
 }
 
-/// A parameter, or `_` where nothing uses it.
+/// A parameter, or `_` if it is unused.
 fn used(name: TokenStream, used: bool) -> TokenStream {
     if used { name } else { quote!(_) }
 }
@@ -205,7 +205,7 @@ fn start_arm(context: &Context<'_>, element: &Element, names: &ComponentNames) -
     }
 }
 
-/// Starts a sub-plan with what it is given.
+/// Starts a sub-plan with its inputs.
 fn start_sub_plan_arm(
     context: &Context<'_>,
     element: &Element,
@@ -239,7 +239,7 @@ fn start_sub_plan_arm(
     }
 }
 
-/// Gives a sub-plan its live inputs before its step.
+/// Passes a sub-plan its live inputs before its step.
 fn pass_live(
     context: &Context<'_>,
     element: &Element,
@@ -269,7 +269,7 @@ fn pass_live(
     })
 }
 
-/// Stages what a sub-plan gives back.
+/// Stages the results of a sub-plan.
 fn stage_results(names: &ComponentNames, element: &Element) -> TokenStream {
     let function = &names.outputs;
     if results(element) {

@@ -1,4 +1,4 @@
-//! The Rust names of everything in one plan.
+//! The Rust names of all parts of a plan.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ const STATICS: &[&str] = &["EDGES", "ELEMENTS", "NAMES", "REASONS", "SUPERVISORS
 /// One plan, with the names of its parts.
 pub struct Context<'a> {
     pub graph: &'a Graph,
-    /// What this module shares with the others.
+    /// The common parts of all modules.
     pub shared: &'a Shared,
     pub plan: &'a Plan,
     pub rows: &'a Rows,
@@ -48,7 +48,7 @@ pub struct Context<'a> {
 
 /// The Rust names of one element or supervisor.
 pub struct ComponentNames {
-    /// As the text shows it, for comments.
+    /// Its name in the text, for comments.
     pub text: String,
     /// The variant that holds an element.
     pub variant: Ident,
@@ -62,29 +62,29 @@ pub struct ComponentNames {
     pub outputs: Ident,
     /// Its number.
     pub number: Ident,
-    /// Where its ids begin, for a sub-plan.
+    /// The start of its ids, for a sub-plan.
     pub place: Ident,
 }
 
-/// What the modules of a graph share.
+/// The common parts of a graph's modules.
 pub struct Shared {
     /// The enums of the plan files.
     pub enums: Vec<FileEnum>,
-    /// Their tables that some plan reads.
+    /// The tables that some plan reads.
     pub tables: Vec<FileTable>,
-    /// The names by which modules know one another.
+    /// The names that modules use for one another.
     pub names: GraphNames,
 }
 
 impl Shared {
-    /// What the modules of this graph share.
+    /// The common parts of this graph's modules.
     pub fn of(graph: &Graph) -> Self {
         Shared { enums: enums_of(graph), tables: tables_of(graph), names: GraphNames::new(graph) }
     }
 }
 
 impl<'a> Context<'a> {
-    /// Names everything in a plan.
+    /// Names all parts of a plan.
     pub fn new(graph: &'a Graph, shared: &'a Shared, id: PlanId) -> Self {
         let (plan, rows) = (graph.plan(id), graph.rows(id));
         let mut namer = Namer::new();
@@ -144,7 +144,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Those of what reads a table, which stands beside the plan's module.
+    /// The paths of a table's reader, which is next to the plan's module.
     fn table_paths(&self, template: &Template) -> Option<Paths> {
         let (_, table) = template.table()?;
         let (_, name) = self.shared.tables.iter().find(|(known, _)| Arc::ptr_eq(known, table))?;
@@ -155,7 +155,7 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// Gives the types as this plan's module sees them.
+    /// Provides the types for this plan's module.
     pub fn with_type_paths<R>(&self, run: impl FnOnce(&TypePaths<'_>) -> R) -> R {
         let choice =
             &|choices: &Enum| enum_path(self.graph, &self.shared.enums, &quote!(super), choices);
@@ -173,7 +173,7 @@ impl<'a> Context<'a> {
         self.with_type_paths(|type_paths| type_paths.value(ty))
     }
 
-    /// What an entry of a type holds.
+    /// The type of an entry's content.
     pub fn entry_type(&self, ty: &Type) -> TokenStream {
         let value = self.value_type(ty);
         if matches!(ty, Type::Object(_)) { quote!(Object<#value>) } else { value }
@@ -204,10 +204,10 @@ pub struct Paths {
     pub implementation: TokenStream,
 }
 
-/// Names components so that nothing collides.
+/// Assigns names to components without collisions.
 ///
-/// Functions of components end in what they are for, which no other function and no local of generated code does. So
-/// neither can hide the other, whatever the text calls a component.
+/// Names of a component's functions end in their purpose, and no other function or local of
+/// generated code does. So neither can hide the other, for any name of a component.
 struct Namer {
     variants: UniqueNames,
     functions: UniqueNames,
@@ -242,7 +242,7 @@ impl Namer {
     }
 }
 
-/// Which entries formulas read through a getter; objects are passed on to sub-plans without one.
+/// The entries that formulas read through a getter; objects are passed to sub-plans without one.
 fn read(plan: &Plan) -> Vec<bool> {
     let mut read = vec![false; plan.entries.len()];
     let mut see = |formula: &Formula| {
@@ -263,12 +263,12 @@ fn read(plan: &Plan) -> Vec<bool> {
     read
 }
 
-/// Whether a formula is an entry that is cloned as it is: a text or an object.
+/// Whether a formula is an entry that is cloned: a text or an object.
 pub fn is_bare(formula: &Formula) -> bool {
     matches!(formula.ty, Type::Text | Type::Object(_)) && matches!(formula.op(), Op::Entry(_))
 }
 
-/// Which entries a commit can write.
+/// The entries that a commit can write.
 fn written(plan: &Plan) -> Vec<bool> {
     use afp_dsl::graph::EntryKind;
     let open = |entry: &afp_dsl::graph::Entry| {

@@ -1,4 +1,4 @@
-//! The first section: what can be active, and how each element meets the configuration.
+//! The first section: the elements, and their bindings to the configuration.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -38,7 +38,7 @@ pub fn elements(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// An element made from a template, as its bindings see it.
+/// A template element for its bindings.
 pub fn bound<'a>(
     context: &'a Context<'a>,
     element: &'a Element,
@@ -85,7 +85,7 @@ fn active(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// What an element is, for a comment.
+/// The description of an element, for a comment.
 pub fn description(context: &Context<'_>, element: &Element) -> String {
     let (word, template) = match element.component {
         Component::Actor(id) => ("actor", &context.template(id).name),
@@ -95,7 +95,7 @@ pub fn description(context: &Context<'_>, element: &Element) -> String {
     format!("{word} {}: {template}", element.name)
 }
 
-/// Where a sub-plan's ids begin, what it is given and what it gives back.
+/// The start of a sub-plan's ids, its inputs and its results.
 fn sub_plan(
     context: &Context<'_>,
     element: &Element,
@@ -151,7 +151,7 @@ fn sub_plan(
     }
 }
 
-/// A live input of a sub-plan that can change: its entry, by position and in Rust, and what it is given.
+/// A live input of a sub-plan that can change: its entry, by position and in Rust, and its value.
 pub struct LiveInput<'a> {
     pub index: usize,
     /// Its position among the `in` entries.
@@ -201,7 +201,7 @@ fn live_item(
     })
 }
 
-/// What an `in` entry of a sub-plan is given.
+/// The value for an `in` entry of a sub-plan.
 fn passed(context: &Context<'_>, port: u16, entry: &Entry, formula: &Formula) -> TokenStream {
     let value = context
         .with_type_paths(|type_paths| Formulas::new(type_paths, &context.entries).value(formula));
@@ -246,7 +246,7 @@ fn result(
         (Some(conversion), Type::Text) => {
             converted(type_paths, conversion, &Type::Text, quote!(value))
         }
-        // A method call finds its way through the reference by itself.
+        // A method call dereferences automatically.
         (Some(conversion @ Conversion::ToText(_)), Type::Quantity(dimension))
             if *dimension != Dimension::NONE =>
         {
@@ -263,13 +263,13 @@ fn result(
     })
 }
 
-/// Whether a sub-plan is given anything, and whether that reads the configuration.
+/// Whether a sub-plan has inputs, and whether they read the configuration.
 pub fn passes(element: &Element) -> (bool, bool) {
     let reads = element.inputs.iter().any(reads_entries);
     (!element.inputs.is_empty(), reads)
 }
 
-/// Whether a sub-plan gives back anything.
+/// Whether a sub-plan has results.
 pub fn results(element: &Element) -> bool {
     !element.outputs.is_empty()
 }

@@ -1,7 +1,7 @@
-//! The Rust names by which the modules of a graph know one another.
+//! The Rust names that the modules of a graph use for one another.
 //!
-//! Names of plans and toolboxes meet names that are there already: those that a module imports or declares for itself,
-//! other modules, crates. They are made apart here, once for the whole graph.
+//! Names of plans and toolboxes can collide with existing names: imports and declarations of a
+//! module, other modules, crates. They are made unique here, once for the whole graph.
 
 use proc_macro2::Ident;
 
@@ -18,7 +18,7 @@ pub struct GraphNames {
     pub toolboxes: Vec<Ident>,
 }
 
-/// Types of a plan's module itself, its type parameters, and types that are always there.
+/// Types of a plan's module itself, its type parameters, and types of Rust's prelude.
 const TYPES: &[&str] = &[
     "A",
     "Active",
@@ -42,13 +42,14 @@ const TYPES: &[&str] = &[
     "Staged",
     "Supervisors",
 ];
-/// Files and modules beside those of plans, and crates that code beside them may name without `::`.
+/// Files and modules other than those of plans, and crates that code next to them may name without
+/// `::`.
 const MODULES: &[&str] = &["core", "enums", "lib", "main", "std", "tables", "units"];
 /// Crates that code of a plan's module may name without `::`.
 const CRATES: &[&str] = &["afp", "afp_core", "alloc", "core", "std"];
 
 impl GraphNames {
-    /// Names everything; the main plan first, so that it alone decides what it is called.
+    /// Names all parts; the main plan comes first, so that other plans do not affect its name.
     pub fn new(graph: &Graph) -> Self {
         let mut modules = UniqueNames::taken([MODULES, PRIMITIVES].concat());
         let mut types = UniqueNames::taken(TYPES.iter().copied().chain(imported()));
@@ -71,7 +72,7 @@ impl GraphNames {
     }
 }
 
-/// Names for the imported modules of templates. A crate that is named like a toolbox keeps its name.
+/// Names for the imported modules of templates. A crate with a toolbox's name keeps its name.
 fn toolboxes(all: &[std::sync::Arc<Toolbox>]) -> Vec<Ident> {
     let roots = all.iter().filter_map(|each| each.rust_path.split("::").next());
     let mut names = UniqueNames::taken([CRATES, PRIMITIVES].concat().into_iter().chain(roots));

@@ -1,4 +1,4 @@
-//! The `use` items of a plan's module: what its code names, and nothing else.
+//! The `use` items of a plan's module: exactly the names that its code uses.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use quote::quote;
 use crate::names::{ident, path};
 use afp_dsl::graph::{Function, Graph};
 
-/// What lives at the root of `afp_core`.
+/// The names at the root of `afp_core`.
 const CORE: &[&str] = &[
     "Duration",
     "Environment",
@@ -86,7 +86,7 @@ const RT: &[&str] = &[
     "stage_outside",
     "store_text",
 ];
-/// What lives in `afp_core::quantity`.
+/// The names in `afp_core::quantity`.
 const QUANTITY: &[&str] = &[
     "Acceleration",
     "Angle",
@@ -101,7 +101,7 @@ const QUANTITY: &[&str] = &[
     "Time",
     "Voltage",
 ];
-/// What lives in `afp_core::trace`.
+/// The names in `afp_core::trace`.
 const TRACE: &[&str] = &[
     "ComponentId",
     "ComponentKind",
@@ -112,7 +112,7 @@ const TRACE: &[&str] = &[
     "Sink",
 ];
 
-/// All names that code of a module says without a path because they are imported there.
+/// All imported names that code of a module uses without a path.
 pub fn imported() -> impl Iterator<Item = &'static str> {
     [CORE, QUANTITY, TRACE].into_iter().flatten().copied().chain(in_rt())
 }
@@ -124,7 +124,7 @@ fn in_rt() -> BTreeSet<&'static str> {
     functions.chain(RT.iter().copied()).collect()
 }
 
-/// The items for what the sections name.
+/// The imports for the sections.
 pub fn imports(
     core: &TokenStream,
     graph: &Graph,
@@ -162,7 +162,7 @@ pub fn imports(
     }
 }
 
-/// The identifiers that begin a path.
+/// The identifiers at the start of a path.
 fn names(tokens: TokenStream, used: &mut BTreeSet<String>) {
     let mut before = [' '; 2];
     for token in tokens {

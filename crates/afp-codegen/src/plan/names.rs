@@ -1,4 +1,4 @@
-//! The names that a trace shows, with all sub-plans unfolded.
+//! The names in a trace, with all sub-plans unfolded.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -37,7 +37,7 @@ pub fn names(context: &Context<'_>, id: PlanId) -> TokenStream {
     }
 }
 
-/// The units in which texts give entries their values.
+/// The units for the values of entries in texts.
 fn access(context: &Context<'_>) -> TokenStream {
     let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
     let units: Vec<_> = entries()
@@ -93,7 +93,7 @@ fn component(names: &ComponentNames, texts: &PlanTexts) -> TokenStream {
     }
 }
 
-/// A port and what is bound to it.
+/// A port and its binding.
 fn port(names: &PortNames, texts: &PlanTexts) -> TokenStream {
     let PortNames { name, unit, .. } = names;
     let (ty, choices) = (names.ty.declared_name(), names.ty.choices());
@@ -116,7 +116,7 @@ fn placed(place: Option<TextPlace<'_>>) -> Option<TokenStream> {
     })
 }
 
-/// An edge of an element that holds instead of one of a global supervisor.
+/// An edge of an element that replaces an edge of a global supervisor.
 fn reaction(reaction: &Reaction, target: &str) -> TokenStream {
     let supervisor = Literal::u32_unsuffixed(reaction.supervisor);
     let event = match reaction.event.map(Literal::u16_unsuffixed) {

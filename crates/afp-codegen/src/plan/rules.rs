@@ -1,4 +1,4 @@
-//! The fourth section: where every state and event leads, as static rows.
+//! The fourth section: the targets of all states and events, as static rows.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
@@ -68,7 +68,7 @@ pub fn rules(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// Why the plan fails, as the rules name it, and the table where there is one.
+/// The reasons for the plan's failures in the rules, and their table if there is one.
 fn reasons(texts: &[String]) -> (TokenStream, Option<TokenStream>) {
     if texts.is_empty() {
         return (quote!(&[]), None);
@@ -153,7 +153,7 @@ fn event_set(events: Events) -> TokenStream {
     quote!(Events::from_bits(#bits))
 }
 
-/// The edges of all components, each under its rule as the plan states it.
+/// The edges of all components, each below its rule in the plan's words.
 fn edges(context: &Context<'_>) -> Vec<TokenStream> {
     let (plan, rows) = (context.plan, context.rows);
     let mut edges = Vec::with_capacity(rows.edges.len());
@@ -242,7 +242,7 @@ fn target(context: &Context<'_>, target: Option<Target>) -> TokenStream {
     quote!(Some(Target::#target))
 }
 
-/// A span of time in the largest unit that says it exactly.
+/// A duration in the largest exact unit.
 fn duration(time: Duration) -> TokenStream {
     let nanos = time.as_nanos();
     let (unit, value) = match nanos {

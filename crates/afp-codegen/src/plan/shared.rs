@@ -1,4 +1,4 @@
-//! What the plans of a graph share: enums of their files, and units that texts may carry.
+//! The common parts of a graph's plans: enums of their files, and units for texts.
 
 use afp_types::Scale;
 use proc_macro2::{Literal, TokenStream};
@@ -14,7 +14,7 @@ use afp_dsl::graph::{EntryKind, Formula, Graph, Op};
 use afp_dsl::types::readable::{ReadableUnit, readable};
 use afp_dsl::types::{Conversion, Dimension, Type};
 
-/// The modules `enums` and `units`, where they have anything in them.
+/// The modules `enums` and `units`, if they are not empty.
 pub fn modules(graph: &Graph, enums: &[FileEnum], options: &Options) -> Vec<Module> {
     let core = &options.core;
     let mut modules = Vec::new();
@@ -67,7 +67,7 @@ fn unit(unit: &ReadableUnit) -> TokenStream {
     quote!(Unit { name: #name, scale: Scale::#scale })
 }
 
-/// The enums of the plan files that any entry or formula has, in the order of first use.
+/// The enums of the plan files in entries or formulas, in the order of first use.
 pub fn enums_of(graph: &Graph) -> Vec<FileEnum> {
     let mut enums: Vec<FileEnum> = Vec::new();
     let mut names = UniqueNames::default();
@@ -83,7 +83,7 @@ pub fn enums_of(graph: &Graph) -> Vec<FileEnum> {
     enums
 }
 
-/// The dimensions that are read from texts: by writers from outside, and by conversions.
+/// The dimensions that are read from texts: by external writers, and by conversions.
 fn dimensions_of(graph: &Graph) -> Vec<Dimension> {
     let mut dimensions = Vec::new();
     let mut add = |ty: &Type| {
@@ -115,7 +115,7 @@ fn formulas(graph: &Graph) -> impl Iterator<Item = &Formula> {
     })
 }
 
-/// Every type of an entry or a formula, and every type converted to or from.
+/// Every type of an entry or a formula, and every type in a conversion.
 fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
     for plan in &graph.plans {
         plan.entries.iter().for_each(|entry| see(&entry.ty));

@@ -1,4 +1,4 @@
-//! The plan's data: its configuration, what is staged for it, and what the scheduler asks of it.
+//! The plan's data: its configuration, its staged values, and its interface to the scheduler.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -68,7 +68,7 @@ pub fn entry_doc(entry: &Entry) -> TokenStream {
     }
 }
 
-/// What formulas read.
+/// The getter for formulas.
 fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
     let value = context.value_type(&entry.ty);
     let help = doc("", &format!("The value of `{}`.", entry.name));
@@ -86,7 +86,7 @@ fn getter(context: &Context<'_>, entry: &Entry, name: &Ident) -> TokenStream {
     }
 }
 
-/// A number as it stands in a `match`.
+/// A number as a pattern in a `match`.
 fn number(index: usize) -> Literal {
     Literal::usize_unsuffixed(index)
 }
@@ -126,7 +126,7 @@ fn value(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// The first input that has no value.
+/// The first input without a value.
 fn missing_input(context: &Context<'_>) -> TokenStream {
     let entries = context.plan.entries.iter().zip(&context.entries).enumerate();
     let missing =
@@ -193,10 +193,10 @@ pub fn plan_state(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// Above this number of elements, a step for each would cost more memory than its time is worth.
+/// With more elements, a separate step for each would cost more memory than it saves time.
 const MAX_STEPS: usize = 64;
 
-/// A step of its own for each element that can be active.
+/// A separate step for each element that can be active.
 fn at_element(context: &Context<'_>) -> Option<TokenStream> {
     let elements = context.plan.elements.iter().zip(&context.elements);
     let lasting = elements.filter(|(e, _)| !matches!(e.component, Component::Computation(_)));
@@ -214,13 +214,13 @@ fn at_element(context: &Context<'_>) -> Option<TokenStream> {
     })
 }
 
-/// How many releases are kept: those of the globals and of the richest element.
+/// The number of kept releases: those of the global supervisors and of the element with the most.
 fn slots(context: &Context<'_>) -> usize {
     let locals = context.plan.elements.iter().map(|element| element.supervisors.len());
     usize::from(context.plan.globals) + locals.max().unwrap_or(0)
 }
 
-/// Initial values, in the order in which they may refer to one another.
+/// The initial values, in the order of their references.
 fn initialise(context: &Context<'_>) -> TokenStream {
     let entries = context.plan.entries.iter().zip(&context.entries);
     let cleared = entries.filter(|(entry, _)| entry.kind != EntryKind::In);
@@ -265,7 +265,7 @@ fn initialise(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// What values each entry accepts from outside, as arms of a match.
+/// The accepted external values of each entry, as arms of a match.
 fn accepts(context: &Context<'_>) -> Vec<TokenStream> {
     let entries = context.plan.entries.iter().enumerate();
     let accepts = entries.map(|(index, entry)| {
@@ -289,7 +289,7 @@ fn accepts(context: &Context<'_>) -> Vec<TokenStream> {
     accepts.collect()
 }
 
-/// What writers from outside may do.
+/// The rights of external writers.
 fn outside(context: &Context<'_>) -> TokenStream {
     let entries = || context.plan.entries.iter().zip(&context.entries).enumerate();
     let accepts = accepts(context);
@@ -334,7 +334,7 @@ fn outside(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// Whether writers from outside can write an entry.
+/// Whether external writers can write an entry.
 pub fn is_open(entry: &Entry) -> bool {
     matches!(entry.kind, EntryKind::In | EntryKind::Var) && !matches!(entry.ty, Type::Object(_))
 }

@@ -1,4 +1,4 @@
-//! The second section: what watches, and how each supervisor meets the configuration.
+//! The second section: the supervisors, and their bindings to the configuration.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -41,7 +41,7 @@ pub fn supervisors(context: &Context<'_>) -> TokenStream {
     }
 }
 
-/// A supervisor as its bindings see it.
+/// A supervisor for its bindings.
 pub fn bound<'a>(
     context: &'a Context<'a>,
     supervisor: &'a Supervisor,

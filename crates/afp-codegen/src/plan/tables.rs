@@ -1,7 +1,7 @@
-//! The tables of plan files: rows as statics, and what reads them.
+//! The tables of plan files: rows as statics, and their readers.
 //!
-//! `Row` of `std` has the columns of the plan's table as outputs, so it is made here, one for each table, in the
-//! shape that `toolbox!` gives every other template.
+//! `Row` of `std` has the columns of the plan's table as outputs. Therefore it is generated here
+//! for each table, in the form that `toolbox!` gives every other template.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use afp_dsl::table::{Cell, Table};
 use afp_dsl::toolbox::{Constant, Template};
 use afp_dsl::types::{Dimension, Enum, Object, Type};
 
-/// A table of a plan file, with the module of what reads it.
+/// A table of a plan file, with its reader's module.
 pub type FileTable = (Arc<Table>, Ident);
 
 /// The templates of a graph's computations that read tables.
@@ -49,7 +49,7 @@ pub fn types(graph: &Graph, see: &mut dyn FnMut(&Type)) {
     readers(graph).flat_map(|(reader, _)| &reader.outputs).for_each(|port| see(&port.ty));
 }
 
-/// The module `tables`, where any plan reads one.
+/// The module `tables`, if any plan reads a table.
 pub fn module(
     graph: &Graph,
     enums: &[FileEnum],
@@ -58,7 +58,7 @@ pub fn module(
 ) -> Option<Module> {
     let core = &options.core;
     let choice = &|choices: &Enum| enum_path(graph, enums, &quote!(super::super), choices);
-    // No column holds an object.
+    // Columns have no objects.
     let object = &|_: &Object| TokenStream::new();
     let quantity = quote!(#core::quantity::);
     let type_paths = TypePaths { core: quote!(#core::), quantity, choice, object };
@@ -76,7 +76,7 @@ pub fn module(
     })
 }
 
-/// The path of an enum from a module; `root` leads to the module that has all others.
+/// The path of an enum from a module; `root` leads to the parent of all modules.
 pub fn enum_path(
     graph: &Graph,
     enums: &[FileEnum],
@@ -94,7 +94,7 @@ pub fn enum_path(
     quote!(#module::templates::#name)
 }
 
-/// What reads one table, in a module of its own.
+/// The reader of a table, in its own module.
 fn reader(
     core: &TokenStream,
     type_paths: &TypePaths<'_>,
@@ -151,7 +151,7 @@ fn reader(
     }
 }
 
-/// What says to the scheduler which ports and states there are.
+/// The description of ports and states for the scheduler.
 fn implemented(core: &TokenStream) -> TokenStream {
     quote! {
         impl #core::ComputationTemplate for Row {
@@ -193,7 +193,7 @@ fn value(type_paths: &TypePaths<'_>, ty: &Type, cell: &Cell) -> TokenStream {
             let (path, variant) = (type_paths.value(ty), variant(choices, *place));
             quote!(#path::#variant)
         }
-        // The check lets no other value into a cell.
+        // The check allows no other value in a cell.
         _ => TokenStream::new(),
     }
 }

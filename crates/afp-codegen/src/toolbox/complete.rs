@@ -1,4 +1,4 @@
-//! The proof that every template of a toolbox is implemented: it does not compile otherwise.
+//! A compile-time proof that every template of a toolbox is implemented.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -10,11 +10,11 @@ use super::{bound, words};
 use crate::names::{camel, ident, snake};
 use afp_dsl::toolbox::{Template, TemplateKind, Toolbox};
 
-/// What the templates of a toolbox ask of a robot.
+/// The requirements of a toolbox's templates for a robot.
 pub enum Asked {
-    /// The traits that every robot implements which can use all of them: `Lights + Wheels`.
+    /// The traits of a robot that can use all templates: `Lights + Wheels`.
     Traits(TokenStream),
-    /// The one type of robot that they are implemented for.
+    /// The only robot type of the implementations.
     Type(TokenStream),
 }
 
@@ -32,10 +32,11 @@ impl Asked {
     }
 }
 
-/// A function that compiles when the Rust implements every template for such a robot, and the names of what they ask for.
+/// A function that compiles if the Rust code implements every template for such a robot, and the
+/// names of the required traits.
 ///
-/// Generic code is compiled before anybody names a robot, so a template that nobody implements would
-/// show only where a plan that uses it is built.
+/// Generic code is compiled before it has a robot. Without this function, a missing implementation
+/// would only be found in the build of a plan.
 pub fn complete(core: &TokenStream, toolbox: &Toolbox, asked: &Asked) -> TokenStream {
     let robot = match asked {
         Asked::Traits(_) => quote!(Robot),

@@ -1,14 +1,14 @@
-//! From an error in the Rust of a toolbox back to the declaration that it is about.
+//! From an error in a toolbox's Rust code to its declaration.
 
 use crate::names::{camel, snake};
 use afp_dsl::toolbox::{Template, Toolbox};
 use afp_syntax::source::Span;
 
-/// The declaration that an error of the Rust compiler is about: a state, an event or a port of a
-/// template, else the template; `None` when it is about none of them.
+/// The declaration for an error of the Rust compiler: a state, an event or a port of a template, or
+/// else the template; `None` if there is no such declaration.
 ///
-/// `said` are the names in the error's text, `line` those in the line of Rust that it points at,
-/// `around` those in the head of the item around that line.
+/// `said` are the names in the error's text, `line` the names in the line of Rust that it points
+/// at, `around` the names in the head of the item around that line.
 pub fn declaration(
     toolbox: &Toolbox,
     said: &[&str],
@@ -23,9 +23,9 @@ pub fn declaration(
     let outcomes = template.outcomes.iter().map(|outcome| (&outcome.name, outcome.span));
     let outputs = template.outputs.iter().map(|port| (&port.name, port.span));
     let inputs = template.inputs.iter().map(|port| (&port.name, port.span));
-    // A value of the wrong type stands in a line that names its state, too: the port says more.
+    // A line with a value of the wrong type names its state, too; the port is more exact.
     let parts: Vec<_> = outputs.chain(inputs).chain(outcomes).collect();
-    // About a state that is not declared, the ports beside it say nothing.
+    // For an undeclared state, its ports are irrelevant.
     let of_outcomes = said.contains(&"State") || said.contains(&"Event");
     let line = if of_outcomes { &[] } else { line };
     let part = [said, line].into_iter().find_map(|names| {
@@ -63,7 +63,7 @@ supervisor CheckLost { event Lost }";
     }
 
     #[test]
-    fn the_smallest_declaration_that_is_named_counts() {
+    fn the_smallest_named_declaration_counts() {
         let head = "impl Actor templates Grip E for Grip";
         assert_eq!(found("Quantity integer", "State Held reached 3", head), Some("reached"));
         assert_eq!(found("Found State", "State Found reached 3", head), Some("Grip"));

@@ -11,10 +11,10 @@ use afp_dsl::toolbox::{
     Amount, Control, Device, Fault, Signal, SignalType, Toolbox, device::ROBOT,
 };
 
-/// The modules that [`devices`] makes.
+/// The modules that [`devices`] generates.
 pub const MODULES: [&str; 2] = ["devices", "signal"];
 
-/// The modules `devices` and `signal`; nothing where no device is declared.
+/// The modules `devices` and `signal`; empty without devices.
 pub fn devices(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     let all = &toolbox.devices;
     if all.is_empty() {
@@ -46,14 +46,14 @@ pub fn devices(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     }
 }
 
-/// The name of something of a device: of the robot as a whole its own, else that of the device before it, once
-/// where both are the same.
+/// The name of a device's part. For the robot it is the part's name, otherwise the device's name
+/// comes first; equal names are not repeated.
 fn joined(device: &Device, name: &str) -> String {
     let (device_name, own) = (snake(&device.name), snake(name));
     if device.name == ROBOT || device_name == own { own } else { format!("{device_name}_{own}") }
 }
 
-/// Names that differ from one another.
+/// Distinct names.
 fn unique(names: &mut UniqueNames, name: String, spell: fn(&str) -> String) -> Ident {
     ident(&spell(&names.unique(name)))
 }
@@ -86,12 +86,12 @@ fn controls(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream
     (declared, found)
 }
 
-/// The enum of faults, and how it is found by a number.
+/// The enum of faults, and its lookup by number.
 fn faults(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream) {
     let mut names = UniqueNames::default();
     let mut code = Code::default();
     for device in devices {
-        // What every sensor has is one kind of fault of it.
+        // The faults of every sensor are one kind of fault.
         let inherited: Vec<_> = device.faults.iter().filter_map(defect).collect();
         if !inherited.is_empty() {
             let name = names.unique(snake(&device.name));
@@ -129,12 +129,12 @@ fn faults(core: &TokenStream, devices: &[Device]) -> (TokenStream, TokenStream) 
     (declared, found)
 }
 
-/// What is written for faults, in the order of their numbers.
+/// The code for faults, in the order of their numbers.
 #[derive(Default)]
 struct Code {
     variants: Vec<TokenStream>,
     accessors: Vec<TokenStream>,
-    /// How each number is made from `amount`.
+    /// The construction of each number's fault from `amount`.
     made: Vec<TokenStream>,
 }
 
@@ -189,7 +189,7 @@ impl Code {
     }
 }
 
-/// The variant of `Defect` of a fault that every sensor has.
+/// The variant of `Defect` for a fault that every sensor has.
 fn defect(fault: &Fault) -> Option<Ident> {
     let name = fault.name.as_str();
     let own = || if name == "nan" { "NotANumber".to_owned() } else { camel(name) };
@@ -200,7 +200,7 @@ fn quantity(core: &TokenStream, amount: &Amount) -> TokenStream {
     type_paths(core).quantity(amount.dimension)
 }
 
-/// The range of an amount, for people.
+/// The range of an amount, as readable text.
 fn bounds(amount: &Amount) -> String {
     let unit = amount.dimension.si_unit();
     let Amount { name, from, to, default, .. } = amount;
@@ -295,8 +295,8 @@ fn number(value: f64) -> TokenStream {
     }
 }
 
-/// Help in one line, as tables show it: in small letters where it begins with one word of prose, without a full
-/// stop.
+/// Help in one line for tables: in small letters if it begins with one word of prose, without a
+/// full stop.
 fn help(text: &str) -> String {
     let line = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
     let line = line.trim_end_matches('.');

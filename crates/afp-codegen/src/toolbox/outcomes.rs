@@ -1,4 +1,4 @@
-//! The states or events of a template as an enum that carries their outputs.
+//! The states or events of a template as an enum with their outputs.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -9,7 +9,7 @@ use crate::names::{camel, ident, snake};
 use afp_dsl::toolbox::{OutPort, Template};
 use afp_dsl::types::{Dimension, Type};
 
-/// The enum, and how its outputs are handed over.
+/// The enum, and the access to its outputs.
 pub fn outcomes(core: &TokenStream, template: &Template) -> TokenStream {
     if template.states_of.is_some() {
         return positions(core);
@@ -47,7 +47,7 @@ pub fn outcomes(core: &TokenStream, template: &Template) -> TokenStream {
     }
 }
 
-/// The states of a template that has one for each value of an enum.
+/// The states of a template with one state for each value of an enum.
 fn positions(core: &TokenStream) -> TokenStream {
     let about = doc("", "The state: the value's position in its enum.");
     quote! {
@@ -66,7 +66,7 @@ fn positions(core: &TokenStream) -> TokenStream {
     }
 }
 
-/// The outputs that an outcome carries, with their positions among all outputs.
+/// The outputs of an outcome, with their positions among all outputs.
 pub fn outputs(template: &Template, outcome: u16) -> impl Iterator<Item = (u16, &OutPort)> {
     let all = (0..).zip(&template.outputs);
     all.filter(move |(_, port)| port.on.is_empty() || port.on.contains(&outcome))
@@ -122,12 +122,12 @@ fn implement(
     }
 }
 
-/// What holds an output while it is handed over: under its own name it could hide what it is handed to.
+/// The local for an output: its own name could hide a called function.
 fn local(number: u16) -> Ident {
     format_ident!("value_{number}")
 }
 
-/// Hands over one output.
+/// Passes on one output.
 fn give(core: &TokenStream, number: u16, port: &OutPort) -> TokenStream {
     let (name, number) = (local(number), Literal::u16_unsuffixed(number));
     match &port.ty {

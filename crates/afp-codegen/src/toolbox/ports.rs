@@ -1,4 +1,4 @@
-//! The inputs of a template as structs, with their checks and their way out of formulas.
+//! The inputs of a template as structs, with their checks and their computation from formulas.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -10,13 +10,13 @@ use crate::rust_type::{degrees, int};
 use afp_dsl::toolbox::{Constant, InPort, Template};
 use afp_dsl::types::{Dimension, Type};
 
-/// What a component reads before it starts.
+/// The inputs before the start.
 pub fn inputs(core: &TokenStream, template: &Template) -> TokenStream {
     let ports: Vec<_> = read_once(template).collect();
     structure(core, template, "Inputs", "What is read before the start.", &ports)
 }
 
-/// What a component reads again at every poll.
+/// The inputs at every poll.
 pub fn live(core: &TokenStream, template: &Template) -> TokenStream {
     let ports: Vec<_> = read_live(template).collect();
     structure(core, template, "Live", "What is read again at every poll.", &ports)
@@ -74,7 +74,7 @@ fn help(port: &InPort) -> String {
     if port.doc.is_empty() { facts } else { format!("{}\n\n{facts}", port.doc) }
 }
 
-/// A number of a port's type as people read it.
+/// A number of a port's type as readable text.
 fn show(ty: &Type, value: f64) -> String {
     match ty {
         Type::Quantity(dimension) if *dimension != Dimension::NONE => {
@@ -154,7 +154,7 @@ fn check(core: &TokenStream, index: u16, port: &InPort) -> Option<TokenStream> {
     }
 }
 
-/// Shows a port to the trace; an object is shown by the commit that wrote it, not as an input.
+/// Shows a port in the trace; an object appears with its writing commit, and not as an input.
 fn shown(core: &TokenStream, index: u16, port: &InPort) -> Option<TokenStream> {
     let (name, index) = (ident(&snake(&port.name)), Literal::u16_unsuffixed(index));
     match port.ty {
@@ -190,7 +190,7 @@ fn implement_from_args(
     }
 }
 
-/// The value of a port, pulled from its formula.
+/// The value of a port, from its formula.
 fn pull(core: &TokenStream, index: u16, ty: &Type) -> TokenStream {
     let index = Literal::u16_unsuffixed(index);
     match ty {

@@ -1,4 +1,5 @@
-//! Names the implementations of a toolbox to those who load plans: all of them, or those that a platform supports.
+//! Registers the implementations of a toolbox for plans loaded at run time: all of them, or those
+//! that a platform supports.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
@@ -44,21 +45,21 @@ pub fn register(core: &TokenStream, toolbox: &Toolbox) -> TokenStream {
     }
 }
 
-/// A platform, and what a toolbox is to be registered with for it. Written as `path of core, "file", path of the
-/// implementation, registry, platform, [traits]`.
+/// A platform, and the parts for registering a toolbox with it. Written as `path of core, "file",
+/// path of the implementation, registry, platform, [traits]`.
 pub struct Support {
     /// The path of `afp_core`.
     pub core: TokenStream,
-    /// The file of the toolbox, as written.
+    /// The file of the toolbox, as in the source.
     pub file: String,
-    /// The module that holds `templates` beside the types that implement them.
+    /// The module with `templates` and the implementing types.
     pub module: TokenStream,
     /// The expression of the registry, a `&mut`.
     pub registry: TokenStream,
     /// The type of the platform.
     pub platform: TokenStream,
-    /// The paths of the traits that the toolbox asks for, to name those that are missing; without them all are named that
-    /// `toolbox!` was told.
+    /// The paths of the toolbox's required traits, for messages about missing ones; without them,
+    /// messages name all traits in `toolbox!`.
     pub traits: Option<Vec<TokenStream>>,
 }
 
@@ -79,7 +80,7 @@ impl Parse for Support {
     }
 }
 
-/// What stands before the next comma.
+/// The tokens before the next comma.
 fn next<T: ToTokens>(
     input: ParseStream<'_>,
     parse: fn(ParseStream<'_>) -> syn::Result<T>,
@@ -89,8 +90,8 @@ fn next<T: ToTokens>(
     Ok(tokens)
 }
 
-/// Statements that register every template that a platform supports, and note the others with the traits that it
-/// does not implement.
+/// Statements that register every template that a platform supports, and record the missing traits
+/// of the others.
 pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
     let Support { core, module, registry, platform, traits, .. } = support;
     let missing = match traits {
@@ -132,9 +133,10 @@ pub fn register_supported(toolbox: &Toolbox, support: &Support) -> TokenStream {
     }}
 }
 
-/// An expression: the name of a trait that the platform does not implement; empty where it does.
+/// An expression: the name of a trait that the platform does not implement; empty if it does.
 ///
-/// A constant of the type itself, which is there where the trait is, counts before that of a trait.
+/// A constant of the type itself, which exists if the trait is implemented, has precedence over a
+/// trait's constant.
 fn missing(platform: &TokenStream, path: &TokenStream) -> TokenStream {
     let name = path.to_string();
     let name = name.rsplit(':').next().unwrap_or("").trim();

@@ -1,11 +1,11 @@
-//! Plans in many forms: other white space, commas and comments between the tokens.
+//! Plans in many forms: with other white space, commas and comments between the tokens.
 
 use afp_syntax::diagnostics::Diagnostics;
 use afp_syntax::{Token, kind::Kind, parse};
 
 /// The text in another form: the same names, numbers and signs in the same order.
 ///
-/// Every comment is there once. The form may have syntax errors, but most have none.
+/// Every comment occurs once. The form may have syntax errors, but most forms have none.
 pub fn mutated(text: &str, seeds: &[u8]) -> String {
     let root = parse(text, 0, &mut Diagnostics::default()).root();
     let mut mutated = String::new();
@@ -58,7 +58,7 @@ fn within_item(seed: u8, place: usize) -> String {
     }
 }
 
-/// Whether an item begins, or a list ends, behind white space.
+/// Whether an item begins, or a list ends, after white space.
 fn begins_item(gap: &Token) -> bool {
     let Some(next) = next(gap) else { return false };
     if matches!(next.kind(), Kind::CloseBrace | Kind::CloseParen) {

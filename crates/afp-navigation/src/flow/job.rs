@@ -4,7 +4,7 @@ use super::{OpticalFlow, Picture};
 use afp_carbot::devices::{Grid, Shift};
 use afp_core::{Duration, Fault, Job};
 
-/// Two pictures, and the flow between them once it has run.
+/// Two pictures, and after the run the flow between them.
 #[derive(Clone)]
 pub struct FlowJob<M> {
     pub(crate) before: Picture,
@@ -15,7 +15,7 @@ pub struct FlowJob<M> {
 }
 
 impl<M: OpticalFlow> FlowJob<M> {
-    /// With buffers for pictures of this size.
+    /// A job with buffers for pictures of this size.
     pub fn new(width: usize, height: usize, method: M) -> Self {
         let grid = super::grid(width, height);
         let picture = || Picture::new(width, height);
@@ -23,7 +23,7 @@ impl<M: OpticalFlow> FlowJob<M> {
         FlowJob { before: picture(), after: picture(), grid, shifts, method }
     }
 
-    /// Takes over the pictures to compare.
+    /// Copies the pictures to compare.
     pub(crate) fn prepare(&mut self, before: &Picture, after: &Picture) {
         self.before.copy(before);
         self.after.copy(after);
@@ -34,7 +34,7 @@ impl<M: OpticalFlow> FlowJob<M> {
 }
 
 impl<M: OpticalFlow> Job for FlowJob<M> {
-    /// Several times what a core of a desktop computer takes for 160 x 120 pixels.
+    /// Several times the time of a desktop core for 160 x 120 pixels.
     const TAKES: Duration = Duration::from_millis(20);
 
     fn run(&mut self) -> Result<(), Fault> {

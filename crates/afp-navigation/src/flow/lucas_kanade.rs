@@ -12,7 +12,7 @@ use optical_flow_lk::{
     TrackKernel, TrackOptions, TrackParams, TrackStatus, TrackerCapacity, TrackerContext,
 };
 
-/// The same on every target to the last bit.
+/// The result is bit-identical on every target.
 const OPTIONS: TrackOptions = TrackOptions::new().with_kernel(TrackKernel::FixedPoint);
 
 const PARAMETERS: TrackParams =
@@ -26,7 +26,7 @@ pub struct LucasKanade {
 }
 
 impl LucasKanade {
-    /// With buffers for pictures of this size; others are possible and make it allocate.
+    /// Creates buffers for pictures of this size; other sizes allocate.
     pub fn new(width: usize, height: usize) -> Self {
         let points = super::grid(width, height).len();
         let (width, height) = (width as u32, height as u32);
@@ -40,7 +40,7 @@ impl LucasKanade {
 }
 
 impl Clone for LucasKanade {
-    /// With buffers of its own: nothing goes over from one flow to the next.
+    /// Creates new buffers: no state is kept between flows.
     fn clone(&self) -> Self {
         let (width, height) = self.pictures[0].dimensions();
         LucasKanade::new(width as usize, height as usize)
@@ -77,7 +77,7 @@ impl OpticalFlow for LucasKanade {
     }
 }
 
-/// Copies a picture into one of the library's kind.
+/// Copies a picture into the library's type.
 fn take(image: &mut GrayImage, picture: &Picture) -> Result<(), Fault> {
     let (width, height) = (picture.width() as u32, picture.height() as u32);
     if image.dimensions() == (width, height) {

@@ -6,7 +6,7 @@ use afp_core::{Fault, Reason};
 use opencv::core::{Mat, MatTraitConst, Point2f, Size, TermCriteria, TermCriteria_Type, Vector};
 use opencv::video::{OPTFLOW_USE_INITIAL_FLOW, calc_optical_flow_pyr_lk};
 
-/// OpenCV does not want to.
+/// OpenCV has failed.
 pub const OPENCV_FAILED: Fault =
     Fault::new(&Reason { code: "opencv-failed", text: "OpenCV refused to compute the flow" });
 
@@ -22,7 +22,7 @@ pub struct OpenCv {
     back: Tracked,
 }
 
-/// Where points were found.
+/// The tracked points.
 #[derive(Debug, Default)]
 struct Tracked {
     points: Vector<Point2f>,
@@ -31,7 +31,7 @@ struct Tracked {
 }
 
 impl OpenCv {
-    /// OpenCV makes its buffers itself.
+    /// OpenCV creates its buffers itself.
     pub fn new() -> Self {
         Self::default()
     }
@@ -43,7 +43,7 @@ impl OpenCv {
         self.back.track(after, before, &self.there.points)
     }
 
-    /// The `n`-th point's shift, if it came back to where it began.
+    /// The `n`-th point's shift, if it returned to its start.
     fn shift(&self, n: usize) -> Option<Shift> {
         let found = self.there.found.get(n).ok()? & self.back.found.get(n).ok()? != 0;
         let [from, there, back] = [&self.from, &self.there.points, &self.back.points]

@@ -10,7 +10,7 @@ pub struct Picture {
     grey: Vec<u8>,
 }
 
-/// How much red, green and blue add to brightness, of 256 (ITU-R BT.601).
+/// The weights of red, green and blue in the brightness, of 256 (ITU-R BT.601).
 const WEIGHTS: [u32; 3] = [77, 150, 29];
 
 impl Picture {
@@ -34,8 +34,8 @@ impl Picture {
         &self.grey
     }
 
-    /// Takes over a frame in grey. Allocates only when the frame has another size; pixels that the frame
-    /// lacks are black.
+    /// Copies a frame in grey. Allocates only if the frame has a different size; missing pixels are
+    /// black.
     pub fn take(&mut self, frame: &Frame<'_>) {
         (self.width, self.height) = (frame.width, frame.height);
         let grey = |[red, green, blue]: &[u8; 3]| {
@@ -48,7 +48,7 @@ impl Picture {
         self.grey.resize(frame.width * frame.height, 0);
     }
 
-    /// Takes over another picture. Allocates only when that has another size.
+    /// Copies another picture. Allocates only if it has a different size.
     pub fn copy(&mut self, other: &Picture) {
         self.clone_from(other);
     }
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn green_is_brighter_than_red_and_that_than_blue() {
+    fn green_is_brighter_than_red_and_red_than_blue() {
         let rgb = [255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255];
         let mut picture = Picture::new(1, 1);
         picture.take(&Frame { width: 4, height: 1, rgb: &rgb, number: 1 });
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_cut_short_is_filled_up_with_black() {
+    fn a_truncated_frame_is_filled_up_with_black() {
         let mut picture = Picture::new(2, 2);
         picture.take(&Frame { width: 2, height: 2, rgb: &[255; 7], number: 1 });
         assert_eq!(picture.grey(), [255, 255, 0, 0]);

@@ -1,4 +1,4 @@
-//! A camera's flow as a sensor: what a platform needs to be a
+//! A camera's flow as a sensor: the platform's part of a
 //! [`FlowCamera`](afp_carbot::devices::FlowCamera).
 
 use super::{FlowJob, OpticalFlow, Picture};
@@ -6,16 +6,16 @@ use afp_carbot::devices::{Flow, Frame, Grid, Invalid, Reading, Shift};
 use afp_core::{Duration, Fault, Instant, Poll, Ticket, Worker};
 use std::marker::PhantomData;
 
-/// Pictures farther apart than this are not compared: too much has happened.
+/// The maximum time between two compared pictures.
 const APART: Duration = Duration::from_millis(250);
-/// A camera that has said the same picture for this long is frozen.
+/// A camera with the same picture for this time is frozen.
 const FROZEN: Duration = Duration::from_millis(200);
 
-/// Compares the pictures of a camera, each with the one before, on a worker.
+/// Compares the pictures of a camera, each with the previous one, on a worker.
 #[derive(Clone)]
 pub struct FlowSensor<M, W> {
     worker: W,
-    /// The last two pictures that differ, the earlier one first.
+    /// The last two different pictures, the earlier one first.
     pictures: [Seen; 2],
     under_way: Option<UnderWay>,
     latest: Latest,
@@ -26,12 +26,12 @@ pub struct FlowSensor<M, W> {
 #[derive(Clone, Debug, Default)]
 struct Seen {
     picture: Picture,
-    /// 0 when there is none yet.
+    /// 0 if there is no picture yet.
     number: u64,
     time: Instant,
 }
 
-/// The comparison that the worker has.
+/// The comparison on the worker.
 #[derive(Clone, Copy, Debug)]
 struct UnderWay {
     ticket: Ticket,
@@ -42,9 +42,9 @@ struct UnderWay {
 /// The latest flow.
 #[derive(Clone, Debug)]
 struct Latest {
-    /// The number of the picture that was compared last, whatever came of it.
+    /// The number of the last compared picture, even without a result.
     number: u64,
-    /// The time of the flow's later picture; none when there is no flow yet.
+    /// The time of the flow's later picture; `None` without a flow.
     time: Option<Instant>,
     span: Duration,
     grid: Grid,
@@ -52,8 +52,8 @@ struct Latest {
 }
 
 impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
-    /// For pictures of this size, which `worker` has slots for; one is enough. A camera with larger
-    /// pictures makes it allocate.
+    /// A sensor for pictures of this size. `worker` needs one slot for them. Larger pictures
+    /// allocate.
     pub fn new(width: usize, height: usize, worker: W) -> Self {
         let grid = super::grid(width, height);
         let seen = || Seen { picture: Picture::new(width, height), ..Seen::default() };
@@ -73,8 +73,8 @@ impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
         }
     }
 
-    /// Looks at what the camera says now, begins to compare it if it is new and the worker has nothing
-    /// else to do, and gives the latest flow there is.
+    /// Takes the camera's present picture and compares it if it is new and the worker is free.
+    /// Returns the latest flow.
     ///
     /// # Errors
     /// The fault of the computation.
@@ -93,7 +93,7 @@ impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
         Ok(self.reading(frame.time))
     }
 
-    /// Takes the flow that the worker has finished.
+    /// Takes a finished flow from the worker.
     fn fetch(&mut self, now: Instant) -> Result<(), Fault> {
         let Some(UnderWay { ticket, time, span }) = self.under_way else { return Ok(()) };
         let polled = self.worker.poll(ticket, now);
@@ -108,7 +108,7 @@ impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
         Ok(())
     }
 
-    /// Keeps a picture if it is a new one.
+    /// Keeps a picture if it is new.
     fn see(&mut self, frame: &Frame<'_>, time: Instant) {
         let [older, newer] = &mut self.pictures;
         if frame.number == newer.number {
@@ -116,7 +116,7 @@ impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
         }
         older.picture.take(frame);
         if older.picture == newer.picture && newer.number != 0 {
-            // Another number on the same picture: no camera without a fault sees twice the same.
+            // The same picture with a new number: only a broken camera repeats a picture.
             older.number = 0;
             return;
         }
@@ -124,8 +124,8 @@ impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
         self.pictures.swap(0, 1);
     }
 
-    /// Lets the worker compare the last two pictures, unless that has been done or they do not belong
-    /// together.
+    /// Starts the comparison of the last two pictures, unless it was already done or they do not
+    /// belong together.
     fn begin(&mut self, now: Instant) -> Result<(), Fault> {
         let [before, after] = &self.pictures;
         let span = after.time.since(before.time);
@@ -141,7 +141,7 @@ impl<M: OpticalFlow, W: Worker<FlowJob<M>>> FlowSensor<M, W> {
         Ok(())
     }
 
-    /// The latest flow, for a camera whose reading has this time.
+    /// The latest flow, for a camera reading with this time.
     fn reading(&self, time: Instant) -> Reading<Flow<'_>> {
         let Latest { span, grid, ref shifts, .. } = self.latest;
         if time.since(self.pictures[1].time) > FROZEN {

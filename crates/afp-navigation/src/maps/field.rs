@@ -1,8 +1,8 @@
-//! What the range sensor should hear, wherever it is and wherever it looks.
+//! The expected reading of the range sensor, at any place and in any direction.
 //!
-//! Room by room of a grid and direction by direction, computed when first asked for and kept: a filter asks for
-//! thousands of places a second, most of them close to each other. Within a room the distance goes on linearly, so that
-//! the grid can be coarse.
+//! It is computed on first use for each cell of a grid and each direction, and kept: a filter needs
+//! thousands of places a second, most of them close to each other. Within a cell the distance is
+//! extrapolated linearly, so that the grid can be coarse.
 
 mod cone;
 
@@ -14,33 +14,33 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 
-/// The side of a room, metres; larger where a map has too many.
+/// The side of a cell, in metres; larger if a map has too many cells.
 const CELL: f64 = 0.1;
-/// At most so many rooms: 72 directions of two bytes each make 72 megabytes.
+/// The maximum number of cells: 72 directions of two bytes each make 72 megabytes.
 const MOST: f64 = 500_000.0;
-/// Directions, counted from the x axis.
+/// The number of directions, counted from the x axis.
 pub(crate) const DIRECTIONS: usize = 72;
 const STEP: f64 = TAU / DIRECTIONS as f64;
 
-/// Nothing has been computed yet.
+/// Not yet computed.
 const UNKNOWN: u16 = u16::MAX;
 const SILENCE: u16 = u16::MAX - 1;
 const SOLID: u16 = u16::MAX - 2;
-/// Parts of a metre in which distances are kept, if so many fit beside the rays.
+/// Distances are stored in these parts of a metre, if they fit next to the rays.
 const PARTS: f64 = 1000.0;
 
-/// What the sensor should hear.
+/// The expected reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expected {
-    /// An echo from so far away, metres.
+    /// An echo from this distance, in metres.
     Echo(f64),
-    /// Nothing: all is far away or mirrors the sound to somewhere else.
+    /// Silence: all obstacles are far away or mirror the sound away.
     Silence,
-    /// It cannot be there: something stands there, or the map ends.
+    /// An impossible place: inside of an obstacle, or beyond the map.
     Solid,
 }
 
-/// What the range sensor hears on a map. Copies share what has been computed.
+/// The range sensor's expected readings on a map. Copies share the results.
 #[derive(Clone, Debug)]
 pub struct EchoField {
     map: Arc<Map>,
@@ -56,17 +56,19 @@ pub struct EchoField {
     coding: Coding,
 }
 
-/// How an echo is kept: its ray in the high bits, its distance in the low ones, in parts of a metre.
+/// The encoding of an echo: its ray in the high bits, its distance in the low bits, in parts of a
+/// metre.
 #[derive(Clone, Copy, Debug)]
 struct Coding {
     shift: u32,
-    /// So many make a metre.
+    /// The number of parts in a metre.
     parts: f64,
 }
 
 impl Coding {
-    /// Of echoes within a cone. What is kept of one is none of the values for what is no echo: these have all bits of a ray
-    /// set, and the number of rays, of which the last one is less, fits into them.
+    /// The encoding of echoes within a cone. The special values for no echo have all ray bits set.
+    /// No encoded echo does, because the number of rays fits into these bits and the last ray is
+    /// less.
     fn new(cone: Cone) -> Self {
         let rays = 2 * cone.side + 1;
         let bits = usize::BITS - rays.leading_zeros();
@@ -85,7 +87,7 @@ impl Coding {
 }
 
 impl EchoField {
-    /// The field of a sensor on a map. Takes the memory for all of it, and hardly any time.
+    /// The field of a sensor on a map. Allocates all memory, and takes hardly any time.
     pub fn new(map: Map, beam: &Beam) -> Self {
         let [low, high] = map.bounds().map(Vector2::from);
         let size = high - low;
@@ -112,7 +114,7 @@ impl EchoField {
         }
     }
 
-    /// Whether what one of them has computed the other one knows.
+    /// Whether two fields share their results.
     pub fn shares_with(&self, other: &EchoField) -> bool {
         Arc::ptr_eq(&self.cells, &other.cells)
     }
@@ -122,7 +124,8 @@ impl EchoField {
         &self.map
     }
 
-    /// What a sensor at a place (metres) that looks along a direction (radians against the x axis) should hear.
+    /// The expected reading of a sensor at a place (in metres) and in a direction (in radians
+    /// against the x axis).
     pub fn expected(&self, [x, y]: [f64; 2], direction: f64) -> Expected {
         let [across, up] = [(x - self.low.x) / self.cell, (y - self.low.y) / self.cell];
         let inside = across >= 0.0 && up >= 0.0;
@@ -130,7 +133,7 @@ impl EchoField {
         if !inside || column >= self.columns || row >= self.rows {
             return Expected::Solid;
         }
-        // What is cut off towards zero is rounded then, faster than by rounding.
+        // Truncation after an offset rounds, faster than rounding itself.
         let nearest = (direction / STEP + f64::copysign(0.5, direction)) as i64;
         let towards = nearest.rem_euclid(DIRECTIONS as i64) as usize;
         let room = (row * self.columns + column) * DIRECTIONS;
@@ -163,7 +166,7 @@ impl EchoField {
         self.low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell
     }
 
-    /// Computes a room for all directions. Whoever does it at the same time computes the same.
+    /// Computes a cell for all directions. Concurrent calls compute the same values.
     fn compute(&self, room: usize, middle: Vector2<f64>) {
         let Some(entries) = self.cells.get(room..room + DIRECTIONS) else { return };
         let solid = self.map.is_solid(middle.into());
@@ -184,7 +187,7 @@ mod tests {
     use super::*;
     use afp_core::quantity::{Angle, Length};
 
-    /// A sensor that hears so many degrees, and metres far.
+    /// A sensor with this opening in degrees, and this range in metres.
     fn beam_of(opening: f64, max: f64) -> Beam {
         let [forward, min, max] = [0.1, 0.03, max].map(Length::from_si);
         Beam { forward, opening: Angle::from_deg(opening), min, max }
@@ -199,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_is_heard_from_where_it_is_nearest() {
+    fn a_wall_is_heard_from_its_nearest_place() {
         let map = Map::new([wall([2.0, 2.1], [-2.0, 2.0]), wall([-2.1, -2.0], [-2.0, 2.0])]);
         let field = EchoField::new(map, &beam());
         for x in [0.0, 0.03, 0.42, 1.37] {
@@ -217,12 +220,13 @@ mod tests {
     }
 
     #[test]
-    fn each_sensor_hears_its_own_cone_as_far_as_it_hears() {
-        // A post that one ray meets, a wall behind it, and something aside, so that the map begins at the left.
+    fn each_sensor_hears_its_own_cone_up_to_its_range() {
+        // A post in one ray, a wall behind it, and an obstacle aside, so that the map begins at the
+        // left.
         let post = wall([8.0, 8.1], [-0.4, 0.4]);
         let far = wall([12.0, 12.1], [-4.0, 4.0]);
         let map = Map::new([post, far, wall([-0.1, 0.0], [-4.0, -3.9])]);
-        // Opening and range of a sensor; how far aside it may look and still hears the post.
+        // Opening and range of a sensor; how far aside it still hears the post.
         for (opening, max, aside) in [
             (30.0, 4.0, None),
             (30.0, 9.0, Some(15)),
@@ -246,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_of_an_echo_is_told_again() {
+    fn an_encoded_echo_is_decoded_unchanged() {
         for side in 0..DIRECTIONS / 2 {
             for range in [0.5, 4.0, 100.0] {
                 let cone = Cone::new(&beam_of(10.0 * side as f64, range), 1000.0);
@@ -270,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_at_a_slant_sends_its_sound_away() {
+    fn a_slanted_wall_sends_its_sound_away() {
         let map = Map::new([wall([-4.0, 4.0], [1.0, 1.1]), wall([-4.0, 4.0], [-1.1, -1.0])]);
         let field = EchoField::new(map, &beam());
         let heard = |degrees: f64| field.expected([0.0, 0.0], degrees.to_radians());

@@ -1,6 +1,8 @@
-//! The particle filter: places where the robot may be, moved with the odometry and weighed by echoes.
+//! The particle filter: possible places of the robot, moved with the odometry and weighted by
+//! echoes.
 //!
-//! Each update takes the same work but for what a lost robot searches. Nothing is allocated after the filter was made.
+//! Each update takes constant work, except for the search of a lost robot. Only the constructor
+//! allocates.
 
 mod cloud;
 mod memory;
@@ -18,51 +20,53 @@ use memory::Memory;
 use search::Rival;
 use std::f64::consts::{PI, TAU};
 
-/// An echo is weighed when the sensor has moved so far since the last that was, metres, or looks so far aside, radians:
-/// what is heard twice from the same place errs the same way twice.
+/// An echo is used when the sensor has moved by this distance since the last one, in metres, or has
+/// turned by this angle, in radians: two echoes from the same place have the same error.
 const MOVED: f64 = 0.03;
 const TURNED: f64 = 0.07;
-/// A rival place must explain so much more of the latest echoes than the belief does, and so many of them.
+/// A rival place must explain the latest echoes better than the belief by this margin, and this
+/// number of them.
 const BETTER: f64 = 0.08;
-/// A rival must explain so much at least: where much is not on the map, no place explains it well.
+/// The minimum explanation by a rival: if much is missing on the map, no place explains the echoes
+/// well.
 const CONVINCING: f64 = 0.68;
 const ENOUGH: usize = 32;
-/// So many of them must be no silence, which many places explain.
+/// The minimum number of echoes that are not silence, which many places explain.
 const HEARD: usize = 32;
 
-/// A ping: where the odometry took the robot to be when it was sent, where the sensor looked, and what came back.
+/// A ping: the odometry's pose at its time, the sensor's bearing, and the echo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ping {
-    /// By odometry.
+    /// The odometry's pose.
     pub robot: Pose,
-    /// Against the heading, radians.
+    /// The bearing relative to the heading, in radians.
     pub bearing: f64,
-    /// Metres; none for silence.
+    /// The distance in metres; `None` for silence.
     pub distance: Option<f64>,
 }
 
-/// Where the robot is, by all that it has heard.
+/// The robot's place, estimated from all echoes.
 #[derive(Clone, Debug)]
 pub struct Filter {
     field: EchoField,
-    /// From the robot's centre to the sensor, metres.
+    /// The distance from the robot's centre to the sensor, in metres.
     forward: f64,
     noise: Noise,
     cloud: Cloud,
     memory: Memory,
     rival: Rival,
-    /// The odometry to which the particles have been moved.
+    /// The odometry of the particles' last motion.
     moved_to: Pose,
-    /// What was weighed last.
+    /// The last used ping.
     weighed: Option<Ping>,
     belief: Pose2,
-    /// How well the belief explains what is remembered.
+    /// How well the belief explains the remembered echoes.
     explained: f64,
 }
 
 impl Filter {
-    /// A robot that was told where it stands, to within a decimetre and a few degrees, when its odometry said nothing
-    /// but zeros. `seed` decides on the particles.
+    /// A filter for a robot that knows its start to within a decimetre and a few degrees, at the
+    /// odometry's zero. `seed` determines the particles.
     pub fn new(field: EchoField, beam: &Beam, start: Pose2, seed: u64) -> Self {
         let mut noise = Noise::new(seed, "particles");
         let cloud = Cloud::around(start, &mut noise);
@@ -80,7 +84,7 @@ impl Filter {
         }
     }
 
-    /// Takes in a ping.
+    /// Updates the filter with a ping.
     pub fn update(&mut self, ping: &Ping) {
         let moved = relative(self.moved_to, ping.robot);
         self.moved_to = ping.robot;
@@ -111,7 +115,7 @@ impl Filter {
         self.belief = self.cloud.densest(self.belief);
     }
 
-    /// Where the robot is, at the odometry of the last ping.
+    /// The robot's place, at the odometry of the last ping.
     pub fn belief(&self) -> Belief {
         let [spread, turn_spread] = self.cloud.spread(self.belief);
         Belief {
@@ -137,7 +141,7 @@ impl Filter {
     }
 }
 
-/// `to` in the frame of `from`, both by odometry.
+/// `to` in the frame of `from`; both are odometry poses.
 pub(crate) fn relative(from: Pose, to: Pose) -> Pose2 {
     let (sin, cos) = libm::sincos(from.heading);
     let (x, y) = (to.x - from.x, to.y - from.y);
@@ -146,6 +150,6 @@ pub(crate) fn relative(from: Pose, to: Pose) -> Pose2 {
 
 /// The same direction within half a turn of zero.
 pub(crate) fn wrap(angle: f64) -> f64 {
-    // Most are there already, and rounding is what takes time.
+    // Most angles are already in range, and rounding takes time.
     if angle.abs() < PI { angle } else { angle - TAU * libm::round(angle / TAU) }
 }

@@ -1,55 +1,59 @@
-//! What the sensors have found where the map shows nothing.
+//! Obstacles that the sensors have found and that are missing on the map.
 
 use crate::maps::field::{EchoField, Expected};
 use afp_carbot::devices::Body;
 use afp_core::{Duration, Instant};
 use afp_session::Pose2;
 
-/// At most so many places are remembered; those make room that were found the longest ago.
+/// The maximum number of remembered places; the oldest ones are replaced.
 pub(crate) const MOST: usize = 1024;
-/// Echoes from farther away than this are too vague, metres.
+/// Echoes from farther away are too vague, in metres.
 const NEAR: f64 = 1.5;
-/// What the map shows so near to an echo explains it, metres.
+/// An object on the map within this distance explains an echo, in metres.
 const EXPLAINED: f64 = 0.25;
-/// An echo is taken to come from so far aside of where the sensor looks, radians, at so many places.
+/// The angles and the number of an echo's possible places beside the sensor's direction, in
+/// radians.
 const ASIDE: f64 = 0.1;
 const PLACES: i32 = 2;
-/// Places nearer to each other than this are one, metres.
+/// Places within this distance count as one, in metres.
 const SAME: f64 = 0.06;
-/// Heard so often a place counts as occupied; so often at most does it count.
+/// The number of echoes of an occupied place, and the maximum of the counter.
 const SURE: i8 = 2;
 const SUREST: i8 = 6;
-/// An echo from so far behind a place, metres, and so near to the line to it, radians, says that it is free.
+/// An echo from this distance behind a place, in metres, within this angle of the line to it, in
+/// radians, shows that the place is free.
 const BEHIND: f64 = 0.3;
 const THROUGH: f64 = 0.12;
-/// So long is remembered what nobody has heard again.
+/// The time after which an unconfirmed place is forgotten.
 const REMEMBERED: Duration = Duration::from_secs(60);
-/// What presses the bumper stands so far before the robot's front, and so far inside of its sides, metres.
+/// The position of an object at the pressed bumper: its distance from the robot's front, and its
+/// distance inside of the sides, in metres.
 const AHEAD: f64 = 0.04;
 const INSIDE: f64 = 0.025;
 
-/// A place where something is.
+/// The place of an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Found {
     place: [f64; 2],
     count: i8,
-    /// The range sensor looks over what only the bumper has felt.
+    /// Whether only the bumper has felt it, so that the range sensor may not detect it.
     felt: bool,
     last: Instant,
 }
 
 impl Found {
-    /// Whether it has been heard or felt in the last minute.
+    /// Whether it was heard or felt in the last minute.
     fn is_remembered(&self, now: Instant) -> bool {
         now.since(self.last) < REMEMBERED
     }
 }
 
-/// What has been found, in the frame of the map.
+/// The found obstacles, in the frame of the map.
 #[derive(Clone, Debug)]
 pub(crate) struct Finds {
     found: Vec<Found>,
-    /// What presses the bumper stands so far before the robot's middle, and so far aside at most, metres.
+    /// The position of an object at the pressed bumper: its distance from the robot's middle, and
+    /// its maximum distance to the side, in metres.
     bumper: [f64; 2],
 }
 
@@ -57,26 +61,27 @@ pub(crate) struct Finds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Heard {
     pub(crate) sensor: [f64; 2],
-    /// Where it looked, against the x axis.
+    /// Its direction, against the x axis.
     pub(crate) direction: f64,
-    /// Metres.
+    /// Its distance, in metres.
     pub(crate) distance: f64,
 }
 
 impl Finds {
-    /// Nothing, by a robot with this body.
+    /// An empty list, for a robot with this body.
     pub(crate) fn new(body: &Body) -> Self {
         let bumper = [body.front.si() + AHEAD, body.half_width.si() - INSIDE];
         Finds { found: Vec::with_capacity(MOST), bumper }
     }
 
-    /// Where something is; what nobody has heard again is forgotten, whether anything has been heard since or not.
+    /// The places of obstacles. Unconfirmed places are forgotten after their time.
     pub(crate) fn places(&self, now: Instant) -> impl Iterator<Item = [f64; 2]> {
         let is_there = move |found: &&Found| found.count >= SURE && found.is_remembered(now);
         self.found.iter().filter(is_there).map(|found| found.place)
     }
 
-    /// Takes in an echo: what it comes from, unless the map explains it, and what it went past.
+    /// Handles an echo: adds its source unless the map explains it, and clears the places that it
+    /// passed.
     pub(crate) fn on_echo(&mut self, heard: &Heard, field: &EchoField, now: Instant) {
         let Heard { sensor, direction, distance } = *heard;
         self.found.retain_mut(|found| {
@@ -98,7 +103,7 @@ impl Finds {
         }
     }
 
-    /// The bumper of a robot that is there is pressed.
+    /// Handles a press of the bumper of a robot at this place.
     pub(crate) fn on_bump(&mut self, robot: Pose2, now: Instant) {
         let [ahead, aside] = self.bumper;
         for n in -PLACES..=PLACES {
@@ -114,7 +119,7 @@ impl Finds {
             libm::hypot(x, y) < SAME
         };
         if let Some(known) = self.found.iter_mut().find(near) {
-            // Places of one echo that are close to each other count once.
+            // Close places of one echo count once.
             if known.last < new.last || new.felt {
                 known.count = known.count.saturating_add(new.count).min(SUREST);
             }
@@ -129,7 +134,7 @@ impl Finds {
     }
 }
 
-/// Whether something that the map shows is where an echo comes from, or nearer.
+/// Whether the echo's source on the map is at its distance or nearer.
 fn is_explained(heard: &Heard, field: &EchoField) -> bool {
     [-0.17, 0.0, 0.17].iter().any(|aside| {
         match field.expected(heard.sensor, heard.direction + aside) {
@@ -167,7 +172,7 @@ mod tests {
         EchoField::new(map, &beam)
     }
 
-    /// When the ping of a number is sent.
+    /// The time of the `number`-th ping.
     fn ping(number: u64) -> Instant {
         Instant::ZERO + Duration::from_millis(50 * number)
     }
@@ -181,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_heard_twice_where_the_map_shows_nothing_is_there() {
+    fn an_unknown_obstacle_is_found_by_two_echoes() {
         let (mut finds, field) = (Finds::new(&carbot()), field());
         finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
         assert_eq!(places(&finds, ping(0)), [] as [[f64; 2]; 0]);
@@ -192,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn where_there_are_too_many_those_heard_again_stay() {
+    fn the_confirmed_obstacles_stay_if_there_are_too_many() {
         let mut finds = Finds::new(&carbot());
         let mut note = |x: usize, n: u64| {
             let place = [x as f64, 0.0];
@@ -206,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_map_shows_and_what_is_far_away_is_no_news() {
+    fn objects_on_the_map_and_far_away_are_ignored() {
         let (mut finds, field) = (Finds::new(&carbot()), field());
         let wall = Heard { sensor: [3.0, 2.0], direction: 0.0, distance: 0.85 };
         for heard in [wall, ahead(1.8)] {
@@ -217,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_heard_through_has_gone_but_for_what_was_felt() {
+    fn a_place_behind_which_echoes_come_is_free_unless_it_was_felt() {
         let (mut finds, field) = (Finds::new(&carbot()), field());
         for n in 0..3 {
             finds.on_echo(&ahead(1.0), &field, ping(n));
@@ -232,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn what_presses_the_bumper_stands_before_the_front() {
+    fn an_object_at_the_bumper_is_before_the_front() {
         let mut finds = Finds::new(&body(1.0, 0.8));
         finds.on_bump(Pose2 { x: 1.0, y: 2.0, heading: 0.0 }, ping(0));
         let found = places(&finds, ping(0));
@@ -243,14 +248,14 @@ mod tests {
     }
 
     #[test]
-    fn after_a_minute_it_is_forgotten() {
+    fn after_a_minute_an_obstacle_is_forgotten() {
         let (mut finds, field) = (Finds::new(&carbot()), field());
         finds.on_echo(&ahead(1.0), &field, Instant::ZERO);
         finds.on_echo(&ahead(1.0), &field, ping(1));
         let later = |secs| ping(1) + Duration::from_secs(secs);
         assert_ne!(places(&finds, later(59)), [] as [[f64; 2]; 0]);
         assert_eq!(places(&finds, later(60)), [] as [[f64; 2]; 0]);
-        // An echo from there is the first one again.
+        // The next echo from its place counts as the first.
         finds.on_echo(&ahead(1.0), &field, later(61));
         assert_eq!(places(&finds, later(61)), [] as [[f64; 2]; 0]);
     }

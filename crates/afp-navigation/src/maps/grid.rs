@@ -1,19 +1,19 @@
-//! A map in cells, and how far from obstacles each is.
+//! A map in cells, with each cell's distance from obstacles.
 
 use crate::maps::map::Map;
 use crate::maps::room::Room;
 use nalgebra::Vector2;
 
-/// The side of a cell, metres; larger where a map has too many.
+/// The side of a cell, in metres; larger if a map has too many cells.
 const CELL: f64 = 0.05;
-/// At most so many cells.
+/// The maximum number of cells.
 const MOST: f64 = 500_000.0;
 
-/// An occupancy grid for a robot, that knows for each cell how far away the nearest thing is, up to where it makes no
-/// difference to the robot.
+/// An occupancy grid for a robot. For each cell, it has the distance to the nearest obstacle, up to
+/// the maximum that matters to the robot.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
-    /// What the robot needs.
+    /// The space that the robot needs.
     pub(crate) room: Room,
     low: Vector2<f64>,
     pub(crate) cell: f64,
@@ -23,7 +23,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// Of all that a map shows.
+    /// The grid of a whole map.
     pub(crate) fn new(map: &Map, room: Room) -> Self {
         let [low, high] = map.bounds().map(Vector2::from);
         let size = high - low;
@@ -37,12 +37,12 @@ impl Grid {
         grid
     }
 
-    /// How far the nearest thing is from the middle of a cell.
+    /// The distance between the middle of a cell and the nearest obstacle.
     pub(crate) fn clearance(&self, index: usize) -> f32 {
         self.clearance.get(index).copied().unwrap_or(0.0)
     }
 
-    /// The cell of a place; none beyond the map.
+    /// The cell of a place; `None` beyond the map.
     pub(crate) fn index(&self, [x, y]: [f64; 2]) -> Option<usize> {
         let [across, up] = [(x - self.low.x) / self.cell, (y - self.low.y) / self.cell];
         let inside = across >= 0.0 && up >= 0.0;
@@ -57,7 +57,7 @@ impl Grid {
         [at(self.low.x, column), at(self.low.y, row)]
     }
 
-    /// The cells whose middles are within so many metres of a place or box of places.
+    /// The cells with their middles within this distance of a place or box of places, in metres.
     pub(crate) fn around(
         &self,
         low: [f64; 2],
@@ -74,7 +74,7 @@ impl Grid {
         up.flat_map(move |row| across.clone().map(move |column| row * columns + column))
     }
 
-    /// Takes something small at a place into account, as if it were so much farther away, metres.
+    /// Adds a small obstacle at a place, as if it were farther away by `off`, in metres.
     pub(crate) fn add(&mut self, place: [f64; 2], farther: f64) {
         for index in self.around(place, place, f64::from(self.room.most)) {
             let [x, y] = self.place(index);
@@ -82,7 +82,7 @@ impl Grid {
         }
     }
 
-    /// Takes the clearances of another grid of the same map.
+    /// Copies the clearances of another grid of the same map.
     pub(crate) fn clone_clearance(&mut self, other: &Grid) {
         self.clearance.clone_from(&other.clearance);
     }
@@ -103,7 +103,7 @@ impl Grid {
     }
 }
 
-/// How far a place is from a convex outline; nothing inside of it.
+/// The distance between a place and a convex outline; 0 inside of it.
 fn distance(outline: &[Vector2<f64>], place: Vector2<f64>) -> f64 {
     let next = outline.iter().cycle().skip(1);
     let sides = || outline.iter().zip(next.clone());
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_knows_its_clearance() {
+    fn a_cell_has_its_clearance() {
         let grid = grid();
         let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());
         assert_eq!((grid.columns, grid.rows), (40, 40));
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_added_takes_room() {
+    fn an_added_obstacle_takes_space() {
         let mut grid = grid();
         grid.add([1.0, 1.0], 0.0);
         let clearance = |x, y| grid.clearance(grid.index([x, y]).unwrap());

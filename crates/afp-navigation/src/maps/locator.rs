@@ -1,8 +1,8 @@
-//! Localisation as a sensor: what a platform needs to be a
+//! Localisation as a sensor: the platform's part of a
 //! [`Localisation`](afp_carbot::devices::Localisation).
 //!
-//! The platform passes it each echo; the filter runs as a job, so that no poll waits for it, and what it believes is
-//! carried on by the odometry.
+//! The platform passes it each echo. The filter runs as a job, so that no poll waits for it, and
+//! the odometry updates its latest belief.
 
 use crate::maps::filter::{Filter, Ping, relative, wrap};
 use afp_carbot::devices::{Belief, Echo, Invalid, Motion, Reading};
@@ -11,10 +11,10 @@ use afp_core::quantity::{Angle, Length};
 use afp_core::{Duration, Fault, Instant, Job, Poll, Ticket, Worker};
 use afp_session::Pose2;
 
-/// So many pings wait for the filter at most: most of a second. The oldest make room.
+/// The maximum number of pings that wait for the filter: most of a second. The oldest are dropped.
 const WAITING: usize = 16;
 
-/// A filter and the pings that it is to take in.
+/// A filter and its next pings.
 #[derive(Clone, Debug)]
 pub struct LocateJob {
     filter: Filter,
@@ -22,14 +22,14 @@ pub struct LocateJob {
 }
 
 impl LocateJob {
-    /// With that filter, which lives here from now on.
+    /// A job with this filter.
     pub fn new(filter: Filter) -> Self {
         LocateJob { filter, pings: Vec::with_capacity(WAITING) }
     }
 }
 
 impl Job for LocateJob {
-    /// Ten times what a core of a desktop computer takes for a ping when the robot is lost.
+    /// Ten times the time of a desktop core for a ping of a lost robot.
     const TAKES: Duration = Duration::from_millis(5);
 
     fn run(&mut self) -> Result<(), Fault> {
@@ -38,23 +38,23 @@ impl Job for LocateJob {
     }
 }
 
-/// Finds the robot on its map.
+/// Locates the robot on its map.
 #[derive(Clone, Debug)]
 pub struct Locator<W> {
     worker: W,
     history: History,
-    /// When the last ping that was heard was sent.
+    /// The time of the last handled ping.
     heard: Option<Instant>,
     waiting: Vec<Ping>,
     under_way: Option<(Ticket, Pose)>,
-    /// Why the job gives nothing any more.
+    /// The fault of the job.
     failed: Option<Fault>,
-    /// What was believed last, and the odometry at which.
+    /// The last belief, and its odometry.
     believed: (Belief, Pose),
 }
 
 impl<W: Worker<LocateJob>> Locator<W> {
-    /// With a worker that has one slot, whose filter was told this start.
+    /// A locator for a worker with one slot, whose filter knows this start.
     pub fn new(worker: W, start: Pose2) -> Self {
         let belief = Belief {
             x: Length::from_si(start.x),
@@ -74,7 +74,8 @@ impl<W: Worker<LocateJob>> Locator<W> {
         }
     }
 
-    /// Takes in what range sensor and odometry say, if it is new; to be called for each echo, whoever asks or not.
+    /// Handles the readings of range sensor and odometry if they are new. Call it for each echo,
+    /// even if the belief is not used.
     pub fn on_echo(&mut self, echo: Reading<Echo>, motion: Reading<Motion>, now: Instant) {
         self.history.note(motion);
         if self.heard.is_none_or(|last| echo.time > last)
@@ -93,7 +94,7 @@ impl<W: Worker<LocateJob>> Locator<W> {
         }
     }
 
-    /// Where the robot is, by what was heard and by the odometry since.
+    /// The robot's place, from the echoes and the later odometry.
     ///
     /// # Errors
     /// The job panicked.
@@ -107,7 +108,7 @@ impl<W: Worker<LocateJob>> Locator<W> {
         Ok(self.latest(motion))
     }
 
-    /// The same without a look at the worker.
+    /// The latest belief, without checking the worker.
     pub fn latest(&self, motion: Reading<Motion>) -> Reading<Belief> {
         let (belief, at) = self.believed;
         let carried = motion.value.map(|motion| carried(belief, at, motion.into()));
@@ -117,7 +118,7 @@ impl<W: Worker<LocateJob>> Locator<W> {
         Reading { time: motion.time, value }
     }
 
-    /// Where the robot was at an instant of the last half second, by what is believed now.
+    /// The robot's place at an instant of the last half second, by the present belief.
     pub fn belief_at(&self, when: Instant) -> Option<Belief> {
         let (belief, at) = self.believed;
         self.history.at(when).map(|pose| carried(belief, at, pose))
@@ -147,7 +148,7 @@ impl<W: Worker<LocateJob>> Locator<W> {
     }
 }
 
-/// A belief, carried on from one pose of the odometry to another.
+/// A belief, moved from one odometry pose to another.
 fn carried(belief: Belief, from: Pose, to: Pose) -> Belief {
     let pose = Pose2 { x: belief.x.si(), y: belief.y.si(), heading: belief.heading.si() };
     let Pose2 { x, y, heading } = pose.beyond(relative(from, to));

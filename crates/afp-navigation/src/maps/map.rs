@@ -1,18 +1,18 @@
-//! What is known of a place beforehand: the faces of what stands there.
+//! A map: the faces of known obstacles.
 
 use nalgebra::Vector2;
 
-/// One side of something, looked at from outside.
+/// One side of an obstacle, seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Face {
-    /// What stands there is to the left on the way from `from` to `to`.
+    /// The obstacle is to the left of the direction from `from` to `to`.
     pub(crate) from: Vector2<f64>,
     pub(crate) to: Vector2<f64>,
-    /// Towards whoever looks, a unit vector.
+    /// The outward unit normal.
     pub(crate) normal: Vector2<f64>,
 }
 
-/// A map: the outlines of what stands for good and is high enough for the range sensor.
+/// A map: the outlines of permanent obstacles that are high enough for the range sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
     outlines: Vec<Vec<Vector2<f64>>>,
@@ -22,7 +22,8 @@ pub struct Map {
 }
 
 impl Map {
-    /// A map of convex outlines: metres, counter-clockwise. What has less than three corners is left out.
+    /// A map of convex outlines: metres, counter-clockwise. Outlines with less than three corners
+    /// are left out.
     pub fn new(outlines: impl IntoIterator<Item = Vec<[f64; 2]>>) -> Self {
         let solid = outlines.into_iter().filter(|corners| corners.len() > 2);
         let outlines: Vec<Vec<_>> =
@@ -34,12 +35,13 @@ impl Map {
         Map { outlines, faces, low, high }
     }
 
-    /// The lower left and the upper right corner of all that stands there, metres; both the origin where nothing stands.
+    /// The lower left and the upper right corner of all obstacles, in metres; the origin for an
+    /// empty map.
     pub fn bounds(&self) -> [[f64; 2]; 2] {
         [self.low.into(), self.high.into()]
     }
 
-    /// Whether a place is inside of something.
+    /// Whether a place is inside of an obstacle.
     pub fn is_solid(&self, place: [f64; 2]) -> bool {
         let place = Vector2::from(place);
         let left_of =
@@ -73,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_solid_inside_of_an_outline_alone() {
+    fn a_place_is_only_solid_inside_of_an_outline() {
         let map =
             Map::new([vec![[1.0, 1.0], [2.0, 1.0], [2.0, 3.0], [1.0, 3.0]], vec![[0.0, 0.0]]]);
         assert!(map.is_solid([1.5, 2.9]));

@@ -1,8 +1,8 @@
-//! Paths on the map, to a place or to where much comes in sight: what a platform needs to be a
+//! Paths on the map, to a place or to a viewpoint: the platform's part of a
 //! [`PathPlanner`](afp_carbot::devices::PathPlanner).
 //!
-//! The platform passes it each echo and each bump, with where the robot takes itself to be; what the map does not
-//! explain is avoided from then on. The search runs as a job.
+//! The platform passes it each echo and each bump, with the robot's estimated place. Paths avoid
+//! obstacles that are missing on the map. The search runs as a job.
 
 use crate::maps::field::EchoField;
 use crate::maps::found::{self, Finds, Heard};
@@ -16,26 +16,26 @@ use afp_core::{Duration, Fault, Instant, Job, Poll, Ticket, Worker};
 use afp_session::Pose2;
 use std::sync::Arc;
 
-/// A robot that knows its place no better than this knows nothing of what it hears, metres.
+/// The maximum uncertainty of a place for handling its echoes, in metres.
 const CERTAIN: f64 = 0.25;
 
-/// What was found stands so much farther away than it seems to, metres: at first not at all, and where no path is left as
-/// far as an echo and a belief err.
+/// The additional distance of found obstacles, in metres: first none, and if no path is left, the
+/// error of an echo and a belief.
 const DOUBTED: [f64; 2] = [0.0, 0.1];
 
-/// A robot within so many metres of its path is on it.
+/// A robot within this distance of its path is on it, in metres.
 const ON_IT: f64 = 0.1;
 
-/// What a search is for: what has been found so far, and where it leads.
+/// The input of a search: the found obstacles, and the goal.
 #[derive(Clone, Debug, PartialEq)]
 struct Quest {
     found: Vec<[f64; 2]>,
     goal: Goal,
-    /// From where has been looked around, for a view.
+    /// The places of earlier views.
     seen: Vec<[f64; 2]>,
 }
 
-/// Where a search leads, metres.
+/// The goal of a search, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
     Place { at: [f64; 2], near: f64 },
@@ -43,7 +43,7 @@ enum Goal {
 }
 
 impl Quest {
-    /// With room for all that can be asked for: who asks allocates nothing.
+    /// A quest with all buffers: later requests allocate nothing.
     fn new() -> Self {
         let goal = Goal::Place { at: [0.0; 2], near: 0.0 };
         let [found, seen] = [found::MOST, Path::MOST].map(Vec::with_capacity);
@@ -64,7 +64,7 @@ impl Quest {
     }
 }
 
-/// A search for a path, and what it needs.
+/// A path search and its data.
 #[derive(Clone, Debug)]
 pub struct SearchJob {
     map: Arc<Grid>,
@@ -72,7 +72,7 @@ pub struct SearchJob {
     from: [f64; 2],
     quest: Quest,
     path: Option<Path>,
-    /// For which the path was found.
+    /// The input of the last search.
     last: Quest,
 }
 
@@ -82,7 +82,7 @@ impl SearchJob {
         SearchJob { grid: (*map).clone(), map, from: [0.0; 2], quest, path: None, last }
     }
 
-    /// The place that the path has to lead to, and how near to it will do; none where no view is to be had.
+    /// The goal of the path, and the tolerance; `None` if there is no viewpoint.
     fn goal(&self) -> Option<([f64; 2], f64)> {
         match self.quest.goal {
             Goal::Place { at, near } => Some((at, near)),
@@ -93,7 +93,8 @@ impl SearchJob {
         }
     }
 
-    /// What is left of the path that was found last, where that still is one: nothing else has been found, and the robot is on it.
+    /// The rest of the last path if it is still valid: no new obstacle was found, and the robot is
+    /// on it.
     fn rest_of_the_last(&self) -> Option<Path> {
         let path = self.path.as_ref().filter(|_| self.last == self.quest)?;
         let rest = path.rest_from(self.from, ON_IT)?;
@@ -103,7 +104,7 @@ impl SearchJob {
 }
 
 impl Job for SearchJob {
-    /// Several times what a core of a desktop computer takes for a map of ten metres by ten that leads nowhere.
+    /// Several times the time of a desktop core for a failing search on a map of ten metres by ten.
     const TAKES: Duration = Duration::from_millis(60);
 
     fn run(&mut self) -> Result<(), Fault> {
@@ -127,33 +128,33 @@ impl Job for SearchJob {
     }
 }
 
-/// Searches for paths on a map.
+/// Plans paths on a map.
 #[derive(Clone, Debug)]
 pub struct Planner<W> {
     worker: W,
     field: EchoField,
     finds: Finds,
-    /// From the robot's centre to the range sensor, metres.
+    /// The distance from the robot's centre to the range sensor, in metres.
     forward: f64,
 }
 
 impl<W: Worker<SearchJob>> Planner<W> {
-    /// For a robot with this body, its range sensor so far before its middle, on the map of a field, with a worker that
-    /// `make_worker` makes of its jobs.
+    /// A planner for a robot with this body and with its range sensor `forward` of its middle, on
+    /// the map of a field. `make_worker` creates a worker from its jobs.
     pub fn new(
         field: EchoField,
         body: &Body,
         forward: Length,
         make_worker: impl FnOnce(Vec<SearchJob>) -> W,
     ) -> Self {
-        /// Two elements of a plan may search at a time.
+        /// Two elements of a plan may search at the same time.
         const SLOTS: usize = 2;
         let map = Arc::new(Grid::new(field.map(), Room::of(body)));
         let worker = make_worker((0..SLOTS).map(|_| SearchJob::new(map.clone())).collect());
         Planner { worker, field, finds: Finds::new(body), forward: forward.si() }
     }
 
-    /// Takes in an echo that was sent where the robot takes itself to have been.
+    /// Handles an echo from a ping at the robot's estimated place.
     pub fn on_echo(&mut self, echo: &Echo, robot: &Belief, now: Instant) {
         let Some(distance) = echo.distance.filter(|_| is_certain(robot)) else { return };
         let robot = pose(robot);
@@ -166,15 +167,15 @@ impl<W: Worker<SearchJob>> Planner<W> {
         self.finds.on_echo(&heard, &self.field, now);
     }
 
-    /// Takes in that something stands right before the robot, where it takes itself to be: its bumper is pressed, or its drive
-    /// does not get ahead.
+    /// Handles an obstacle directly ahead of the robot's estimated place: its bumper is pressed, or
+    /// its drive is blocked.
     pub fn on_bump(&mut self, robot: &Belief, now: Instant) {
         if is_certain(robot) {
             self.finds.on_bump(pose(robot), now);
         }
     }
 
-    /// As [`PathPlanner::search`](afp_carbot::devices::PathPlanner::search).
+    /// Like [`PathPlanner::search`](afp_carbot::devices::PathPlanner::search).
     ///
     /// # Errors
     /// Searches have panicked.
@@ -187,10 +188,10 @@ impl<W: Worker<SearchJob>> Planner<W> {
         self.worker.begin(now, &mut prepare)
     }
 
-    /// As [`PathPlanner::found`](afp_carbot::devices::PathPlanner::found).
+    /// Like [`PathPlanner::found`](afp_carbot::devices::PathPlanner::found).
     ///
     /// # Errors
-    /// The search failed, or has been asked after before.
+    /// The search failed, or its result was already taken.
     pub fn found(&mut self, ticket: Ticket, now: Instant) -> Result<Poll<Option<Path>>, Fault> {
         Ok(match self.worker.poll(ticket, now)? {
             Poll::Pending => Poll::Pending,
@@ -218,7 +219,8 @@ mod tests {
         Aim::Place { at, near: Length::from_si(0.0) }
     }
 
-    /// Whether a search leads past things found at these places, in a hall of four metres by two, from its left to its right.
+    /// Whether a path leads past obstacles at these places, from left to right in a hall of four
+    /// metres by two.
     fn leads_past(found: &[[f64; 2]]) -> bool {
         let wall =
             |x: [f64; 2], y: [f64; 2]| vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
@@ -231,9 +233,9 @@ mod tests {
     }
 
     #[test]
-    fn what_was_found_is_doubted_where_no_way_is_left_and_only_by_as_much_as_it_may_be_off() {
+    fn found_obstacles_are_only_doubted_if_no_path_is_left_and_by_their_error() {
         assert!(leads_past(&[]));
-        // So far apart, half a metre and 30 cm, from wall to wall; the robot wants 56 cm.
+        // At these distances, half a metre and 30 cm, from wall to wall; the robot needs 56 cm.
         let row = |count: i32, apart: f64| -> Vec<_> {
             (0..count).map(|n| [2.0, 0.25 + apart * f64::from(n)]).collect()
         };
@@ -242,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_is_kept_for_as_long_as_nothing_else_is_found_and_the_robot_is_on_it() {
+    fn a_path_is_kept_until_a_new_obstacle_is_found_or_the_robot_leaves_it() {
         let wall = |y: f64| vec![[0.0, y], [4.0, y], [4.0, y + 0.1], [0.0, y + 0.1]];
         let map = Map::new([wall(0.0), wall(1.9)]);
         let mut job = SearchJob::new(Arc::new(Grid::new(&map, Room::of(&carbot()))));

@@ -6,21 +6,24 @@ use afp_carbot::Path;
 use afp_core::Fault;
 use pathfinding::prelude::astar;
 
-/// Where the robot stands it may be closer to things than elsewhere, with so much clearance at least, metres.
+/// The minimum clearance near the robot's start, in metres.
 const TIGHT: f32 = 0.05;
-/// How much farther than through a roomy cell it counts through one in which the robot just fits, and through a tight one.
+/// The factor of the length of a path through a cell in which the robot just fits, and through a
+/// tight cell.
 const NARROW: f32 = 4.0;
 const SQUEEZE: f32 = 12.0;
-/// The length from a cell to its neighbour, and to the one across its corner, in such a unit that numbers stay whole.
+/// The length from a cell to its neighbour, and to its diagonal neighbour, in a unit with whole
+/// numbers.
 pub(crate) const BESIDE: u32 = 100;
 const ACROSS: u32 = 141;
-/// A piece of the path spans so many cells at most, and may have so much less clearance than the cells that it leaves out, metres.
+/// The maximum length of a straight piece in cells, and the clearance that it may have less than
+/// the cells that it replaces, in metres.
 const PIECE: usize = 80;
 const LESS: f32 = 0.03;
 
-/// The path from one place to another, or as near to it as `near`; none where there is none. By A* (Hart, Nilsson and
-/// Raphael, 1968) on the eight neighbours of each cell, keeping to the middle of what is narrow; its corners are then drawn
-/// tight.
+/// The path from one place to another, or to within `near` of it; `None` if there is no path. It
+/// uses A* (Hart, Nilsson and Raphael, 1968) on the eight neighbours of each cell and keeps to the
+/// middle of narrow places; then its corners are tightened.
 ///
 /// # Errors
 /// It has too many corners.
@@ -46,7 +49,7 @@ pub(crate) fn path(
     Path::new(pulled_tight(grid, &cells, from, last)).map(Some)
 }
 
-/// The cell where the path ends: that of the place if the robot fits there, else the nearest.
+/// The cell at the end of the path: the goal's cell if the robot fits there, or else the nearest.
 fn goal(grid: &Grid, to: [f64; 2], near: f64) -> Option<usize> {
     let fits = |index: &usize| grid.clearance(*index) >= grid.room.fits;
     if let Some(exact) = grid.index(to).filter(fits) {
@@ -60,7 +63,7 @@ fn goal(grid: &Grid, to: [f64; 2], near: f64) -> Option<usize> {
     close.min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
-/// How much farther than it is a path through a cell counts; none where the robot does not fit.
+/// The factor of a path's length through a cell; `None` if the robot does not fit.
 pub(crate) fn weight(grid: &Grid, index: usize, from: [f64; 2]) -> Option<f32> {
     let clearance = grid.clearance(index);
     let Room { fits, leaving, most, .. } = grid.room;
@@ -93,7 +96,7 @@ pub(crate) fn neighbours(
     })
 }
 
-/// The corners that a path needs.
+/// The necessary corners of a path.
 fn pulled_tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> Vec<[f64; 2]> {
     let mut places: Vec<_> = cells.iter().map(|index| grid.place(*index)).collect();
     if let Some(first) = places.first_mut() {
@@ -118,12 +121,12 @@ fn pulled_tight(grid: &Grid, cells: &[usize], from: [f64; 2], to: [f64; 2]) -> V
     corners
 }
 
-/// Whether the robot fits all along a straight piece.
+/// Whether the robot fits along a straight piece.
 pub(crate) fn is_free(grid: &Grid, from: [f64; 2], to: [f64; 2]) -> bool {
     is_clear(grid, from, to, grid.room.fits - LESS)
 }
 
-/// Whether there is so much clearance all along a straight piece.
+/// Whether a straight piece has this clearance.
 fn is_clear(grid: &Grid, from: [f64; 2], to: [f64; 2], clearance: f32) -> bool {
     let [x, y] = [to[0] - from[0], to[1] - from[1]];
     let steps = libm::ceil(libm::hypot(x, y) / grid.cell * 2.0).max(1.0);
@@ -148,7 +151,8 @@ mod tests {
         vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
     }
 
-    /// Two rooms of three metres by four beside each other, with a door of `width` in the middle of the wall.
+    /// Two rooms of three metres by four, with a door of `width` in the middle of the wall between
+    /// them.
     fn rooms_of(body: &Body, width: f64) -> Grid {
         let half = width / 2.0;
         let map = Map::new([
@@ -162,7 +166,7 @@ mod tests {
         Grid::new(&map, Room::of(body))
     }
 
-    /// As the Carbot sees them.
+    /// The rooms for the Carbot.
     fn rooms(width: f64) -> Grid {
         rooms_of(&carbot(), width)
     }
@@ -171,7 +175,7 @@ mod tests {
         path(grid, from, to, 0.1).unwrap().map(|path| path.places().collect())
     }
 
-    /// The length of a path, and the least clearance along it.
+    /// The length of a path, and its minimum clearance.
     fn measure(grid: &Grid, places: &[[f64; 2]]) -> (f64, f32) {
         let pieces = places.windows(2);
         let length =
@@ -187,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn straight_on_where_nothing_is_in_the_way() {
+    fn a_free_path_is_straight() {
         let path = places(&rooms(1.0), [1.0, 2.0], [5.0, 2.0]).unwrap();
         assert!(path.len() <= 3, "{path:?}");
         let ends =
@@ -196,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn through_the_door_with_room_for_the_robot() {
+    fn a_path_leads_through_the_door_with_space_for_the_robot() {
         let grid = rooms(1.0);
         let path = places(&grid, [1.0, 0.7], [5.0, 0.7]).unwrap();
         let (length, clearance) = measure(&grid, &path);
@@ -208,14 +212,15 @@ mod tests {
     }
 
     #[test]
-    fn through_no_door_that_is_too_narrow() {
+    fn a_path_avoids_a_door_that_is_too_narrow() {
         assert_eq!(places(&rooms(0.5), [1.0, 2.0], [5.0, 2.0]), None);
         assert!(places(&rooms(0.75), [1.0, 2.0], [5.0, 2.0]).is_some());
     }
 
     #[test]
-    fn through_no_door_that_is_too_narrow_for_the_body() {
-        // Sides of the body, and the widest door of these that it does not fit through: it turns in place everywhere.
+    fn a_path_avoids_a_door_that_is_too_narrow_for_the_body() {
+        // Sides of the body, and the widest of these doors that it does not fit through: it can
+        // turn in place everywhere.
         let doors = [0.3, 0.5, 0.75, 1.1, 1.5, 1.8];
         for (length, width, closed) in
             [(0.2, 0.15, 0.3), (0.4, 0.35, 0.5), (0.7, 0.6, 0.75), (1.2, 0.9, 1.5)]
@@ -229,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn round_what_was_found() {
+    fn a_path_goes_around_found_obstacles() {
         let mut grid = rooms(2.5);
         for n in 0..10 {
             grid.add([3.0, 1.6 + 0.05 * f64::from(n)], 0.0);
@@ -240,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn a_goal_in_a_wall_is_none_unless_near_to_it_will_do() {
+    fn a_goal_in_a_wall_needs_a_tolerance() {
         let grid = rooms(1.0);
         assert_eq!(places(&grid, [1.0, 2.0], [0.2, 2.0]), None);
         let near = path(&grid, [1.0, 2.0], [0.2, 2.0], 0.3).unwrap().unwrap();
@@ -251,12 +256,12 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_close_to_a_wall_finds_away_from_it() {
+    fn a_robot_close_to_a_wall_finds_a_path_away_from_it() {
         assert!(places(&rooms(1.0), [0.3, 2.0], [5.0, 2.0]).is_some());
     }
 
     #[test]
-    fn to_where_the_robot_is() {
+    fn a_path_to_the_robots_own_place_is_empty() {
         assert_eq!(places(&rooms(1.0), [1.0, 2.0], [1.01, 2.01]).unwrap().len(), 2);
     }
 }

@@ -1,24 +1,26 @@
-//! The search for a place to look around from.
+//! The search for the next place to look around.
 
 use crate::maps::grid::Grid;
 use crate::maps::room::Room;
 use crate::maps::search::{BESIDE, neighbours, weight};
 use pathfinding::prelude::dijkstra_reach;
 
-/// The floor is looked at, and from, in squares with sides of so many metres; with larger ones where a map has more than so many.
+/// The side of the floor's squares, in metres, and their maximum number; a map with more of them
+/// has larger squares.
 const SQUARE: f64 = 0.3;
 const MOST: f64 = 400.0;
-/// Nearer to a wall than this nothing is looked at, metres.
+/// Floor nearer to a wall than this is ignored, in metres.
 const FLOOR: f32 = 0.1;
-/// What was in sight counts so much of what was not, and again so much for each further time.
+/// The relative value of floor that was already seen, again for each further time.
 const AGAIN: f64 = 0.2;
-/// How fast a place loses with the length of the way to it: by e in so many metres.
+/// The distance over which the value of a place falls by e, in metres.
 const FAR: f64 = 10.0;
 
-/// From where next to look around for something, for whoever is at `from` and has looked around there and from the places
-/// `seen`, `sight` metres far: where most comes in sight that has not been, less the longer the way (González-Baños and Latombe,
-/// *Navigation strategies for exploring indoor environments*, 2002). The robot turns there in comfort, if that is possible
-/// anywhere. None where it gets nowhere.
+/// The next place to look around for a robot at `from` that has looked around there and at the
+/// places `seen`, `sight` metres far. It is the place with the most newly visible floor, reduced by
+/// the length of the path (González-Baños and Latombe, *Navigation strategies for exploring indoor
+/// environments*, 2002). The robot has comfortable space to turn there, if possible. `None` if it
+/// can reach no place.
 pub(crate) fn best(grid: &Grid, from: [f64; 2], seen: &[[f64; 2]], sight: f64) -> Option<[f64; 2]> {
     let views = views(grid, from)?;
     let spots = spots(grid, from, seen, sight);
@@ -30,7 +32,8 @@ pub(crate) fn best(grid: &Grid, from: [f64; 2], seen: &[[f64; 2]], sight: f64) -
     valued.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(view, _)| view)
 }
 
-/// Places that the robot gets to, and how long the way there counts, metres; none where it is beyond the map.
+/// Reachable places, and the weighted lengths of their paths, in metres; `None` if the robot is
+/// beyond the map.
 fn views(grid: &Grid, from: [f64; 2]) -> Option<Vec<([f64; 2], f64)>> {
     let start = grid.index(from)?;
     let cost = |cell: usize| weight(grid, cell, from);
@@ -45,7 +48,7 @@ fn views(grid: &Grid, from: [f64; 2]) -> Option<Vec<([f64; 2], f64)>> {
     Some(views.into_iter().map(|(cell, cost)| (grid.place(cell), metres(cost))).collect())
 }
 
-/// Places to look at, and what they count.
+/// Places on the floor, and their values.
 fn spots(grid: &Grid, from: [f64; 2], seen: &[[f64; 2]], sight: f64) -> Vec<([f64; 2], f64)> {
     let floor = (0..grid.columns * grid.rows).filter(|cell| grid.clearance(*cell) > FLOOR);
     let spots = roomiest(grid, floor.map(|cell| (cell, 0)));
@@ -58,7 +61,7 @@ fn spots(grid: &Grid, from: [f64; 2], seen: &[[f64; 2]], sight: f64) -> Vec<([f6
     spots.into_iter().map(spot).collect()
 }
 
-/// Of each square the cell with the most clearance; the first of those that are alike.
+/// For each square, the cell with the most clearance; among equals the first.
 fn roomiest(grid: &Grid, cells: impl Iterator<Item = (usize, u32)>) -> Vec<(usize, u32)> {
     let all = (grid.columns * grid.rows) as f64;
     let side = libm::ceil(libm::sqrt(all / MOST)).max(libm::round(SQUARE / grid.cell)) as usize;
@@ -76,8 +79,8 @@ fn roomiest(grid: &Grid, cells: impl Iterator<Item = (usize, u32)>) -> Vec<(usiz
     squares.into_iter().flatten().collect()
 }
 
-/// Whether nothing stands between two places that are so near to each other. From where the next thing is so far away, the line
-/// is free for as long.
+/// Whether no obstacle is between two near places. The clearance of a place is also the free length
+/// of the line from it.
 fn is_in_sight(grid: &Grid, eye: [f64; 2], place: [f64; 2], sight: f64) -> bool {
     let away = [place[0] - eye[0], place[1] - eye[1]];
     let length = libm::hypot(away[0], away[1]);
@@ -107,7 +110,8 @@ mod tests {
         vec![[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
     }
 
-    /// Three rooms in a row, each three metres by four, with doors of `doors` metres: one at the upper end, one at the lower.
+    /// Three rooms in a row, each three metres by four, with doors of `doors` metres: one at the
+    /// upper end, one at the lower.
     fn rooms(doors: [f64; 2]) -> Grid {
         let [first, second] = [[0.1, 3.9 - doors[0]], [0.1 + doors[1], 3.9]];
         let map = Map::new([
@@ -121,7 +125,7 @@ mod tests {
         Grid::new(&map, Room::of(&carbot()))
     }
 
-    /// The places from which one looks around in turn, from the first on.
+    /// The viewpoints in order, from the first on.
     fn looks(grid: &Grid, first: [f64; 2], count: usize) -> Vec<[f64; 2]> {
         let mut looks = vec![first];
         while looks.len() < count {
@@ -131,7 +135,7 @@ mod tests {
         looks
     }
 
-    /// The share of the floor that is in sight from none of some places.
+    /// The share of the floor that is visible from none of some places.
     fn unseen(grid: &Grid, looks: &[[f64; 2]]) -> f64 {
         let spots = spots(grid, looks[0], &looks[1..], 4.0);
         let unseen = spots.iter().filter(|(_, worth)| *worth == 1.0).count();
@@ -152,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn one_does_not_run_out_of_views_and_each_room_has_its_turn() {
+    fn views_do_not_run_out_and_each_room_has_its_turn() {
         let grid = rooms([1.0, 1.0]);
         let looks = looks(&grid, [1.5, 1.5], 30);
         for turn in looks.chunks(10) {
@@ -164,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn no_view_where_no_way_leads() {
+    fn an_unreachable_place_is_not_a_view() {
         let seen = [[1.2, 2.0], [1.8, 2.0], [1.5, 3.0]];
         let room = |door| {
             let [x, _] = best(&rooms([door, 0.4]), [1.5, 1.5], &seen, 4.0).unwrap();
@@ -186,14 +190,14 @@ mod tests {
     }
 
     #[test]
-    fn beyond_the_map_and_on_an_empty_one_there_is_none() {
+    fn beyond_the_map_and_on_an_empty_map_there_is_no_view() {
         assert_eq!(best(&rooms([1.0, 1.0]), [-1.0, 1.0], &[], 4.0), None);
         let empty = Grid::new(&Map::new([]), Room::of(&carbot()));
         assert_eq!(best(&empty, [0.0, 0.0], &[], 4.0), None);
     }
 
     #[test]
-    fn no_further_than_one_sees() {
+    fn floor_beyond_the_sight_is_not_seen() {
         let grid = rooms([1.0, 1.0]);
         assert!(is_in_sight(&grid, [1.0, 1.0], [2.5, 1.0], 1.6));
         assert!(!is_in_sight(&grid, [1.0, 1.0], [2.5, 1.0], 1.4));

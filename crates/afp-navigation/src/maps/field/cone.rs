@@ -1,38 +1,38 @@
-//! A cone of sound as rays, and what of it comes back.
+//! A cone of sound as rays, and its echo.
 //!
-//! A wall mirrors sound (Kuc and Siegel, *Physically based simulation model for acoustic sensor robot navigation*, 1987):
-//! what meets it at a slant goes elsewhere, the sooner the farther away it is. The nearest place of the cone that sends
-//! sound back is heard.
+//! A wall mirrors sound (Kuc and Siegel, *Physically based simulation model for acoustic sensor
+//! robot navigation*, 1987). Sound at a slant is reflected away, and more of it with distance. The
+//! nearest place of the cone that returns sound is heard.
 
 use super::{DIRECTIONS, STEP};
 use crate::maps::map::Face;
 use afp_carbot::devices::Beam;
 use nalgebra::Vector2;
 
-/// A wall is heard up to this slant from close by, and up to so much less for each metre by a sensor that hears so many
-/// metres far, radians; one that hears farther loses less.
+/// The maximum slant of an audible wall nearby, and its decrease per metre for a sensor with this
+/// range, in radians. The decrease is smaller for longer ranges.
 const SLANT: f64 = 0.72;
 const SLANT_LOST: f64 = 0.09;
 const HEARS: f64 = 4.0;
-/// A ray at the cone's edge is fainter: heard up to so much less.
+/// A ray at the cone's edge is fainter: its maximum slant is smaller by this.
 const SLANT_LOST_AT_EDGE: f64 = 0.1;
 
-/// What a sensor listens to.
+/// The listening area of a sensor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
     /// Rays to either side of its axis, a direction apart.
     pub(super) side: usize,
-    /// Where they end, metres.
+    /// Their length, in metres.
     pub(super) range: f64,
-    /// A wall is heard up to so much less slant for each metre, radians.
+    /// The decrease of the maximum slant per metre, in radians.
     slant_lost: f64,
 }
 
-/// What a ray meets.
+/// The hit of a ray.
 #[derive(Clone, Copy, Debug)]
 struct Met {
     range: f64,
-    /// Of the slant at which it meets it.
+    /// The cosine of the slant at the hit.
     cos: f64,
 }
 
@@ -40,12 +40,12 @@ struct Met {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heard {
     pub(super) range: f64,
-    /// The ray that it comes by, counted from the right edge of the cone.
+    /// The ray of the echo, counted from the right edge of the cone.
     pub(super) ray: u16,
 }
 
 impl Cone {
-    /// Of a sensor, where nothing is farther away than `farthest`, metres.
+    /// The cone of a sensor on a map without anything farther than `farthest`, in metres.
     pub(super) fn new(beam: &Beam, farthest: f64) -> Self {
         let side = libm::round(beam.opening.si() / 2.0 / STEP) as usize;
         let most = beam.max.si();
@@ -56,7 +56,7 @@ impl Cone {
         }
     }
 
-    /// What a sensor at a place hears, direction by direction.
+    /// The echoes of a sensor at a place, by direction.
     pub(super) fn echoes(
         self,
         faces: &[Face],
@@ -67,12 +67,12 @@ impl Cone {
         for face in faces {
             cast(face, directions, from, self.range, &mut met);
         }
-        // Slant by ray: each is heard by several directions.
+        // Slant by ray: several directions hear each ray.
         let met = met.map(|met| met.map(|Met { range, cos }| (range, libm::acos(cos.min(1.0)))));
         std::array::from_fn(|direction| self.listen(&met, direction))
     }
 
-    /// The nearest ray that is heard.
+    /// The nearest audible ray.
     fn listen(self, met: &[Option<(f64, f64)>; DIRECTIONS], direction: usize) -> Option<Heard> {
         let side = self.side;
         let rays = (0..=2 * side).filter_map(|ray| {
@@ -86,7 +86,7 @@ impl Cone {
     }
 }
 
-/// Lets a face be met by the rays that reach it, where nothing nearer is.
+/// Adds a face to the rays that hit it and have no nearer hit.
 fn cast(
     face: &Face,
     directions: &[Vector2<f64>],
@@ -104,7 +104,7 @@ fn cast(
     };
     let (one, other) = (angle(face.from), angle(face.to));
     let (least, most) = (one.min(other), one.max(other));
-    // Of the two arcs between the corners the face is the smaller one.
+    // The face is the smaller of the two arcs between the corners.
     let turns = DIRECTIONS as f64;
     let (first, last) =
         if most - least > turns / 2.0 { (most, least + turns) } else { (least, most) };

@@ -8,27 +8,27 @@ use afp_session::Pose2;
 use nalgebra::{Vector2, Vector3};
 use std::mem;
 
-/// So many particles.
+/// The number of particles.
 const COUNT: usize = 400;
-/// How well a robot knows its start: standard deviations, metres and radians.
+/// The uncertainty of the start: standard deviations, in metres and radians.
 const START: [f64; 2] = [0.05, 0.04];
-/// How wide particles are put around a place that is tried.
+/// The spread of particles around a candidate place.
 const TRIED: [f64; 2] = [0.08, 0.08];
-/// So many are put there.
+/// The number of particles at a candidate place.
 const ADDED: usize = COUNT / 10;
-/// How the odometry errs over a metre and a turn of one radian: standard deviations in metres and radians, growing with
-/// the root of the way.
+/// The odometry's errors over a metre and a turn of one radian: standard deviations in metres and
+/// radians, growing with the root of the distance.
 const WAY: f64 = 0.02;
 const TURN: f64 = 0.03;
 const TURN_OF_WAY: f64 = 0.025;
-/// Particles are drawn anew when fewer than this count.
+/// Particles are resampled if fewer than this are effective.
 const FEWEST: f64 = COUNT as f64 / 2.0;
-/// Particles within this, metres and radians, are of one place.
+/// Particles within this distance and angle are of one place, in metres and radians.
 const NEAR: f64 = 0.4;
 const ALIKE: f64 = 0.5;
-/// So many places are compared.
+/// The number of compared places.
 const PLACES: usize = 10;
-/// Another place must have so many times the weight of the one that is believed in.
+/// The relative weight that another place needs to replace the believed one.
 const MORE: f64 = 1.3;
 
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ impl Particle {
         Particle { pose, towards: [cos, sin], weight }
     }
 
-    /// What lies so far ahead of it and to its left, metres.
+    /// The place at this distance ahead and to its left, in metres.
     fn beyond(&self, ahead: f64, left: f64) -> [f64; 2] {
         let ([cos, sin], Pose2 { x, y, .. }) = (self.towards, self.pose);
         [x + ahead * cos - left * sin, y + ahead * sin + left * cos]
@@ -55,7 +55,7 @@ impl Particle {
 #[derive(Clone, Debug)]
 pub(super) struct Cloud {
     particles: Vec<Particle>,
-    /// Room to draw into.
+    /// A buffer for resampling.
     drawn: Vec<Particle>,
 }
 
@@ -65,7 +65,7 @@ impl Cloud {
         Cloud { particles: (0..COUNT).map(particle).collect(), drawn: Vec::with_capacity(COUNT) }
     }
 
-    /// Moves all as the odometry says, each a little otherwise.
+    /// Moves all particles by the odometry's motion, each with its own noise.
     pub(super) fn drive(&mut self, moved: Pose2, noise: &mut Noise) {
         let way = libm::hypot(moved.x, moved.y);
         let turn = moved.heading.abs();
@@ -82,7 +82,7 @@ impl Cloud {
         }
     }
 
-    /// Weighs all by a ping.
+    /// Weights all particles by a ping.
     pub(super) fn weigh(&mut self, field: &EchoField, forward: f64, ping: &Ping) {
         let mut sum = 0.0;
         for particle in &mut self.particles {
@@ -91,11 +91,12 @@ impl Cloud {
             particle.weight *= likelihood(expected, ping.distance);
             sum += particle.weight;
         }
-        // The least likelihood is no smaller than a fiftieth, so a sum never vanishes between two draws.
+        // The minimum likelihood is a fiftieth, so that a sum never vanishes between two
+        // resamplings.
         self.particles.iter_mut().for_each(|particle| particle.weight /= sum);
     }
 
-    /// Puts particles around a place, each of mean weight, instead of some others.
+    /// Puts particles of mean weight around a place, instead of some others.
     pub(super) fn add(&mut self, place: Pose2, noise: &mut Noise) {
         let from = noise.below((COUNT - ADDED) as u32) as usize;
         for particle in self.particles.iter_mut().skip(from).take(ADDED) {
@@ -103,8 +104,8 @@ impl Cloud {
         }
     }
 
-    /// Draws particles anew, each as often as its weight says, when few are left that count: the low variance sampler
-    /// of *Probabilistic Robotics*, table 4.4.
+    /// Resamples the particles in proportion to their weights if too few are effective: the low
+    /// variance sampler of *Probabilistic Robotics*, table 4.4.
     pub(super) fn resample(&mut self, noise: &mut Noise) {
         let [sum, squares] = self.particles.iter().fold([0.0; 2], |[sum, squares], particle| {
             [sum + particle.weight, squares + particle.weight * particle.weight]
@@ -122,7 +123,7 @@ impl Cloud {
                 target += step;
             }
         }
-        // Rounding may leave the last one out.
+        // Rounding may omit the last one.
         let last = self.particles.last().copied();
         while let Some(last) = last.filter(|_| self.drawn.len() < COUNT) {
             self.drawn.push(Particle { weight: 1.0 / COUNT as f64, ..last });
@@ -130,7 +131,7 @@ impl Cloud {
         mem::swap(&mut self.particles, &mut self.drawn);
     }
 
-    /// The middle of the place that has the most weight; that of `believed` has a start.
+    /// The middle of the place with the most weight; `believed` has an advantage.
     pub(super) fn densest(&self, believed: Pose2) -> Pose2 {
         let mut best = (believed, self.weight_near(believed) * MORE);
         let all: f64 = self.particles.iter().map(|particle| particle.weight).sum();
@@ -170,7 +171,7 @@ impl Cloud {
         Pose2 { x: place.x + off.x, y: place.y + off.y, heading }
     }
 
-    /// How far particles are from a place, root mean square: metres and radians.
+    /// The root mean square distance of particles from a place, in metres and radians.
     pub(super) fn spread(&self, place: Pose2) -> [f64; 2] {
         let [mut off, mut turned, mut weights] = [0.0; 3];
         for Particle { pose, weight, .. } in &self.particles {
@@ -184,7 +185,7 @@ impl Cloud {
     }
 }
 
-/// Whether two places are the same but for details.
+/// Whether two places are nearly the same.
 pub(super) fn is_near(one: Pose2, other: Pose2) -> bool {
     let off = Vector2::new(one.x - other.x, one.y - other.y);
     off.norm_squared() < NEAR * NEAR && wrap(one.heading - other.heading).abs() < ALIKE

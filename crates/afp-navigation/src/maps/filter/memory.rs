@@ -1,13 +1,13 @@
-//! The latest pings, to be heard again from anywhere.
+//! The latest pings, for evaluation at any place.
 
 use super::{Ping, relative};
 use afp_carbot::history::Pose;
 
-/// So many are remembered: two to four metres of the way.
+/// The number of remembered pings: two to four metres of the path.
 const KEPT: usize = 64;
 
-/// A remembered ping, against where the robot is now: where the sensor was, metres, where it looked, radians, and what
-/// it heard.
+/// A remembered ping, relative to the robot's present place: the sensor's place in metres, its
+/// direction in radians, and the echo.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Echo {
     pub(super) x: f64,
@@ -37,7 +37,7 @@ impl Memory {
         self.next = (self.next + 1) % KEPT;
     }
 
-    /// All that is remembered, against where the odometry takes the robot to be now.
+    /// All remembered pings, relative to the odometry's present pose.
     pub(super) fn seen_from(&mut self, now: Pose, forward: f64) -> &[Echo] {
         let mut count = 0;
         for (ping, echo) in self.pings.iter().flatten().zip(&mut self.echoes) {

@@ -1,7 +1,8 @@
-//! Looks for a place that explains the latest echoes better than the belief does: a robot that was carried is there.
+//! Searches for a place that explains the latest echoes better than the belief, for robots that
+//! were carried.
 //!
-//! A rival of the belief is kept, moved with the odometry like a particle. Each update tries to better it: by places near
-//! it, and by some anywhere on the map.
+//! The best rival of the belief is kept and moved with the odometry like a particle. Each update
+//! tries to improve it: with places near it, and with some anywhere on the map.
 
 use super::cloud::is_near;
 use super::memory::Echo;
@@ -11,26 +12,29 @@ use afp_platform::Noise;
 use afp_session::Pose2;
 use std::f64::consts::TAU;
 
-/// So many places anywhere are tried at each update while the belief is doubted, and while it is not.
+/// The number of places anywhere that each update tries while the belief is doubted, and while it
+/// is not.
 const DOUBTING: usize = 250;
 const CONTENT: usize = 25;
-/// A belief that explains the latest echoes less well than this is doubted; 1 is as well as can be.
+/// A belief that explains the latest echoes less well than this is doubted; 1 is the maximum.
 const DOUBT: f64 = 0.6;
-/// A place is tried by so many of the echoes first, and left when it explains them so much less well than the rival does all.
+/// The number of echoes in a first test of a place, and the margin for rejecting it against the
+/// rival.
 const PROBES: usize = 8;
 const HOPELESS: f64 = 0.2;
-/// So many places near the rival, metres and radians.
+/// The number of places near the rival, and their spread in metres and radians.
 const NEARBY: usize = 12;
 const OFF: f64 = 0.12;
 const TURNED: f64 = 0.12;
 
-/// How well a place explains echoes: the mean likelihood, 1 where there are none.
+/// How well a place explains echoes: the mean likelihood, or 1 without echoes.
 pub(super) fn explained(field: &EchoField, echoes: &[Echo], place: Pose2) -> f64 {
     mean(summed(field, echoes.iter(), place, f64::NEG_INFINITY, likelihood), echoes)
 }
 
-/// The same for the belief. A rival has to explain echoes by the map; the belief need not, so that a box that was put before
-/// the robot does not carry it off to where a wall is as near.
+/// How well the belief explains echoes. A rival must explain them by the map. The belief may also
+/// have unknown obstacles, so that a box in front of the robot does not move it to a wall at that
+/// distance.
 pub(super) fn excused(field: &EchoField, echoes: &[Echo], place: Pose2) -> f64 {
     mean(summed(field, echoes.iter(), place, f64::NEG_INFINITY, sonar::excused), echoes)
 }
@@ -39,12 +43,12 @@ fn mean(sum: f64, echoes: &[Echo]) -> f64 {
     if echoes.is_empty() { 1.0 } else { sum / echoes.len() as f64 }
 }
 
-/// The likelihoods added up, or something below `least` where they cannot reach it.
+/// The sum of the likelihoods, or a smaller value than `least` if they cannot reach it.
 fn sum(field: &EchoField, echoes: &[Echo], place: Pose2, least: f64) -> f64 {
     summed(field, echoes.iter(), place, least, likelihood)
 }
 
-/// Whether a place may be better than one of which the likelihoods add up to `least`, by some of the echoes.
+/// Whether a place may be better than a likelihood sum of `least`, by some of the echoes.
 fn is_promising(field: &EchoField, echoes: &[Echo], place: Pose2, least: f64) -> bool {
     let probes = echoes.iter().step_by((echoes.len() / PROBES).max(1)).take(PROBES);
     let least = (least / echoes.len() as f64 - HOPELESS) * probes.len() as f64;
@@ -59,7 +63,7 @@ fn summed<'e>(
     likelihood: fn(Expected, Option<f64>) -> f64,
 ) -> f64 {
     let (sin, cos) = libm::sincos(place.heading);
-    // Of all likelihoods only what is lost against the best is counted, so that hopeless places are left early.
+    // Only the loss against the maximum is counted, so that hopeless places are left early.
     let (mut sum, enough) = (echoes.len() as f64, least);
     for echo in echoes {
         let at = [place.x + echo.x * cos - echo.y * sin, place.y + echo.x * sin + echo.y * cos];
@@ -72,18 +76,18 @@ fn summed<'e>(
     sum
 }
 
-/// The best place so far that is not the belief's.
+/// The best place so far, other than the belief.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rival(Option<Pose2>);
 
 impl Rival {
-    /// Goes with the robot.
+    /// Moves with the robot.
     pub(super) fn drive(&mut self, moved: Pose2) {
         self.0 = self.0.map(|place| place.beyond(moved));
     }
 
-    /// Tries other places than those near the belief, which explains the echoes so well; the best one, and how well that
-    /// does.
+    /// Tries places away from the belief, which has the explanation `explained`; returns the best
+    /// place, and its explanation.
     pub(super) fn improve(
         &mut self,
         field: &EchoField,

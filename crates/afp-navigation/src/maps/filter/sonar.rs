@@ -1,28 +1,28 @@
-//! How likely what the range sensor heard is, where it is thought to be.
+//! The likelihood of a range sensor's reading at an assumed place.
 //!
-//! Relative to the likeliest, in shares: an echo from where the map says, one from something nearer that is not on the
-//! map, anything else.
+//! It is relative to the maximum, for three cases: an echo from the map, an echo from a nearer
+//! object that is not on the map, and any other.
 
 use crate::maps::field::Expected;
 
-/// How far an echo may be off, metres, and how much farther for each metre: noise, the grid of the field, the wrong
-/// speed of sound.
+/// The error of an echo, in metres, and its growth per metre: noise, the grid of the field, the
+/// wrong speed of sound.
 const OFF: f64 = 0.025;
 const OFF_SHARE: f64 = 0.015;
 
-/// An echo from nearer than the map says: somebody stands there.
+/// An echo from nearer than the map's: an unknown object.
 const NEARER: f64 = 0.15;
-/// An echo that nothing explains.
+/// An echo without an explanation.
 const UNEXPLAINED: f64 = 0.05;
-/// An echo where the map is silent: it knows nothing of what is soft, small or new.
+/// An echo if the map is silent: soft, small or new objects are missing on the map.
 const UNHEARD_OF: f64 = 0.2;
-/// Silence where the map says an echo, and where it does not.
+/// Silence if the map has an echo, and if it has none.
 const MISSED: f64 = 0.25;
 const SILENT: f64 = 0.7;
-/// A place where nobody can be.
+/// An impossible place.
 const IMPOSSIBLE: f64 = 0.02;
 
-/// The likelihood of what was heard.
+/// The likelihood of a reading.
 pub(super) fn likelihood(expected: Expected, heard: Option<f64>) -> f64 {
     match (expected, heard) {
         (Expected::Solid, _) => IMPOSSIBLE,
@@ -32,17 +32,17 @@ pub(super) fn likelihood(expected: Expected, heard: Option<f64>) -> f64 {
         (Expected::Echo(expected), Some(heard)) => {
             let error = (heard - expected) / (OFF + OFF_SHARE * heard);
             let rest = if error < 0.0 { NEARER } else { UNEXPLAINED };
-            // Squared, the bell of Lorentz falls off nearly as that of Gauss does, and costs one division.
+            // The squared Lorentzian falls off nearly like a Gaussian, and costs one division.
             let bell = 1.0 / (1.0 + 0.25 * error * error);
             rest + (1.0 - rest) * bell * bell
         }
     }
 }
 
-/// What becomes of the likelihood where something may stand that is not on the map.
+/// The likelihood of a reading that an unknown object may explain.
 const EXCUSED: f64 = 0.95;
 
-/// The same for a place that is believed in: something that is not on the map may stand before what is.
+/// The likelihood at a believed place: an unknown object may be before the map's object.
 pub(super) fn excused(expected: Expected, heard: Option<f64>) -> f64 {
     let likelihood = likelihood(expected, heard);
     let nearer = match (expected, heard) {
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_map_says_is_the_likeliest_and_nearer_likelier_than_farther() {
+    fn the_maps_distance_is_the_likeliest_and_nearer_likelier_than_farther() {
         let of = |heard| likelihood(Expected::Echo(2.0), Some(heard));
         assert_eq!(of(2.0), 1.0);
         assert!(of(1.0) > of(3.0) && of(1.95) > of(1.9) && of(1.9) > of(1.5));
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_before_the_map_is_excused_and_nothing_else() {
+    fn an_object_before_the_maps_is_excused_and_nothing_else() {
         let of = |heard| excused(Expected::Echo(2.0), heard);
         assert_eq!((of(Some(1.0)), of(Some(2.0))), (EXCUSED, 1.0));
         assert!(of(Some(3.0)) < 0.1 && of(None) < 0.3);
