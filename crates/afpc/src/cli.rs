@@ -22,7 +22,7 @@ use crate::commands::{
 use crate::no_plan::NoPlan;
 use crate::{Linked, declared};
 
-/// Compiles, checks, draws and runs Action Flow Plans.
+/// Compile, check, draw and run Action Flow Plans.
 #[derive(Parser, Debug)]
 #[command(name = "afpc", version, after_help = EXAMPLES)]
 struct Cli {
@@ -33,51 +33,51 @@ struct Cli {
 /// The commands.
 #[derive(Subcommand, Debug)]
 enum Command {
-    /// Makes a project that works at once: a plan, a toolbox or a robot
+    /// Create a project: a plan, a toolbox or a robot
     #[command(after_help = new::EXAMPLES)]
     New(new::Arguments),
-    /// Lists what toolboxes can do
+    /// List the templates of toolboxes
     #[command(after_help = templates::EXAMPLES)]
     Templates(templates::Arguments),
-    /// Reports everything that is wrong with plans and toolboxes
+    /// Report all errors in plans and toolboxes
     #[command(after_help = check::EXAMPLES)]
     Check(check::Arguments),
-    /// Explains an error code
+    /// Explain an error code
     Explain(explain::Arguments),
-    /// Puts plans and toolboxes into canonical form
+    /// Format plans and toolboxes
     #[command(after_help = fmt::EXAMPLES)]
     Fmt(fmt::Arguments),
-    /// Draws a plan
+    /// Draw a plan
     #[command(after_help = graph::EXAMPLES)]
     Graph(graph::Arguments),
-    /// Runs a plan now, on the simulated robot
+    /// Run a plan on the simulated robot
     #[command(after_help = afp_run::EXAMPLES)]
     Run(run::Arguments),
-    /// Runs scenarios, on all cores
+    /// Run scenarios on all cores
     #[command(after_help = test::EXAMPLES)]
     Test(test::Arguments),
-    /// Runs a plan many times, over seeds, worlds and values, on all cores
+    /// Run a plan with many seeds, worlds and values on all cores
     #[command(after_help = sweep::EXAMPLES)]
     Sweep(sweep::Arguments),
-    /// Generates a readable Rust crate from a plan and builds it
+    /// Generate a readable Rust crate from a plan and build it
     #[command(after_help = build::EXAMPLES)]
     Build(build::Arguments),
-    /// Shows, checks and repairs the log of a run
+    /// Show, check and repair the log of a run
     #[command(after_help = log::EXAMPLES)]
     Log(log::Arguments),
-    /// Serves editors over standard input and output: the Language Server Protocol
+    /// Start the language server on standard input and output
     #[cfg(feature = "lsp")]
     #[command(after_help = lsp::EXAMPLES)]
     Lsp,
-    /// Serves debuggers: the Debug Adapter Protocol over a simulated run
+    /// Start the debug adapter for simulated runs
     #[cfg(feature = "dap")]
     #[command(after_help = dap::EXAMPLES)]
     Dap(dap::Arguments),
-    /// Draws and edits plans in the browser
+    /// Draw and edit plans in the browser
     #[cfg(feature = "studio")]
     #[command(after_help = studio::EXAMPLES)]
     Studio(studio::Arguments),
-    /// Prints completions for a shell
+    /// Print completions for a shell
     #[command(after_help = completions::EXAMPLES)]
     Completions(completions::Arguments),
 }

@@ -25,27 +25,27 @@ pub struct Arguments {
     #[command(flatten)]
     plan: PlanArgument,
 
-    /// What the binary runs on
+    /// The machine for the binary
     #[arg(long, default_value = "host")]
     target: Machine,
 
-    /// Where the crate goes [default: target/afp/<plan>]
+    /// Folder for the crate [default: target/afp/<plan>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 
-    /// Makes a library alone, without the program that runs the plan in simulation
+    /// Generate only a library, without the simulation program
     #[arg(long)]
     lib: bool,
 
-    /// Links the robot itself, too: the program then has '--robot hardware'. Always so for the Raspberry Pi, where the project
-    /// has '[robot.hardware]'
+    /// Link the hardware robot, too, for '--robot hardware' [default: only for the Raspberry Pi, if
+    /// the project has '[robot.hardware]']
     #[arg(long, conflicts_with = "lib")]
     hardware: bool,
-    /// Gives the program '--live': others may watch while it runs
+    /// Add the option '--live', which lets others watch a run
     #[arg(long, conflicts_with = "lib")]
     live: bool,
 
-    /// Prints one JSON object for each error, warning and note on standard output, what was built last
+    /// Print each error, warning and note, then the result, as JSON objects
     #[arg(long)]
     json: bool,
 }
@@ -62,7 +62,7 @@ Examples:
 The last line on standard output is the absolute path of the binary (with --lib, of the crate);
 with --json it is an object with the summary: plan, whether it was built, folder and binary.
 Generated manifests take the afp crates from the checkout that built afpc; [afp] path, git or
-version in afp.toml says otherwise.";
+version in afp.toml change this.";
 
 /// The default folder for builds.
 const BUILDS: &str = "target/afp";

@@ -28,16 +28,15 @@ pub struct Arguments {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
 
-    /// Prints one JSON object for each error, warning and note on standard output
+    /// Print each error, warning and note as a JSON object
     #[arg(long)]
     json: bool,
 
-    /// Prints response and interruption bound of every supervisor, and what they are made of
+    /// Print each supervisor's response and interruption bounds, and their parts
     #[arg(long)]
     timing: bool,
 
-    /// What the plan shall run on: host, pi, pi32, mcu or a target of afp.toml (without it all that
-    /// afp.toml has)
+    /// Target: host, pi, pi32, mcu or a target of afp.toml [default: all of afp.toml]
     #[arg(long, value_name = "NAME")]
     target: Option<String>,
 }

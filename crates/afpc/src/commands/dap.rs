@@ -24,14 +24,13 @@ pub use talk::{Arrived, converse, read, wait};
 /// Arguments of `afpc dap`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The plan that will be debugged: needed where it has a robot or toolboxes of its project, so that they are
-    /// built before an editor waits
+    /// Plan to debug; builds the robot and toolboxes of its project first
     #[arg(value_name = "FILE[:PLAN]")]
     plan: Option<String>,
-    /// Waits for an editor on this port of the machine itself, 0 for a free one, instead of standard input
+    /// Listen on this local port instead of standard input; 0 selects a free port
     #[arg(long, value_name = "PORT", allow_hyphen_values = true)]
     port: Option<u16>,
-    /// Runs plans and shows logs of this folder, and no others
+    /// Run plans and show logs only from this folder
     #[arg(long, value_name = "FOLDER", conflicts_with = "port")]
     inside: Option<PathBuf>,
     #[command(flatten)]
@@ -41,11 +40,11 @@ pub struct Arguments {
 /// The examples at the end of the help.
 pub const EXAMPLES: &str = "\
 Examples:
-  afpc dap                         an editor starts this and talks on standard input and output
-  afpc dap --port 4711             waits for editors; 'launch' and 'attach' need the token that is printed
+  afpc dap                         for editors, on standard input and output
+  afpc dap --port 4711             waits for editors; 'launch' and 'attach' need the printed token
 
 'launch' takes: program, world, seed, set (values by name), until (seconds), speed (a factor), stopOnEntry; or
-log, the log of a run that is over";
+log, the log of a finished run";
 
 /// Serves clients and returns the exit code.
 ///

@@ -20,7 +20,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
 
-    /// Changes nothing; prints what would change and fails if something would
+    /// Print the changes without writing them; fail if there are any
     #[arg(long)]
     check: bool,
 }
@@ -31,7 +31,7 @@ Examples:
   afpc fmt --check plans/*.afp
   afpc fmt - < plan.afp
 
-Exit codes: 0 all is formatted, 1 a file has syntax errors or cannot be read or written, or '--check' found a difference";
+Exit codes: 0 all files are formatted, 1 a file has syntax errors or cannot be read or written, or '--check' found a difference";
 
 /// Formats all files; the worst exit code wins.
 ///

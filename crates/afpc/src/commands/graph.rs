@@ -25,27 +25,27 @@ pub struct Arguments {
     #[command(flatten)]
     plan: PlanArgument,
 
-    /// Where the drawing goes [default: standard output]
+    /// File for the drawing [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Its format [default: as the file's name says, else svg]
+    /// Format [default: from the file extension, or else svg]
     #[arg(long)]
     format: Option<Format>,
 
-    /// Colours of an SVG or PNG [default: auto, as the reader's system says; of a PNG light]
+    /// Colours of an SVG or PNG [default: auto for SVG, light for PNG]
     #[arg(long)]
     theme: Option<Theme>,
 
-    /// Pixels of a PNG for each one of the SVG, 0.1 to 10 [default: 2]
+    /// PNG pixels per SVG pixel, 0.1 to 10 [default: 2]
     #[arg(long, value_name = "FACTOR", value_parser = scale, allow_hyphen_values = true)]
     scale: Option<f32>,
 
-    /// Leaves out the bodies of sub-plans
+    /// Leave out the bodies of sub-plans
     #[arg(long)]
     fold: bool,
 
-    /// Leaves out entries, formulas and what they are bound to: the flow of action alone
+    /// Draw only the flow of action, without entries and formulas
     #[arg(long)]
     no_data: bool,
 }
@@ -55,7 +55,7 @@ pub struct Arguments {
 enum Format {
     /// The paper's notation, for browsers and papers
     Svg,
-    /// The same as pixels, with fonts of its own
+    /// The drawing as pixels, with bundled fonts
     Png,
     /// For GraphViz
     Dot,
@@ -68,7 +68,7 @@ enum Format {
 /// The colours of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Theme {
-    /// Those of the reader's system
+    /// The colours of the reader's system
     Auto,
     /// Dark on light
     Light,

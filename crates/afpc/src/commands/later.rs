@@ -23,7 +23,7 @@ const LATER: &[(&str, &str, &str)] = &[
 #[cfg(feature = "dap")]
 #[derive(Args, Debug)]
 pub struct Listen {
-    /// Serves other machines, too (not in this release)
+    /// Serve other machines, too (not in this release)
     #[arg(long, hide = true, value_name = "ADDRESS")]
     listen: Option<String>,
 }

@@ -20,41 +20,41 @@ pub struct Arguments {
     /// The log
     file: PathBuf,
 
-    /// What to do with it
+    /// Action
     #[arg(default_value = "timeline")]
     action: Action,
 
-    /// Also draws the path over the world into this file, an SVG or a PNG
+    /// Also draw the path over the world into this SVG or PNG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 
-    /// Also draws what the range sensor heard over the walls into this file
+    /// Also draw the range sensor's echoes over the walls into this file
     #[arg(long, value_name = "FILE")]
     sonar: Option<PathBuf>,
 
-    /// Also draws what the camera saw into this file; for runs with '--camera'
+    /// Also draw the camera's pictures into this file; for runs with '--camera'
     #[arg(long, value_name = "FILE")]
     film: Option<PathBuf>,
 
-    /// Also draws the plan with what the run used of it into this file
+    /// Also draw the plan with the run's coverage into this file
     #[arg(long, value_name = "FILE")]
     coverage: Option<PathBuf>,
 
-    /// Where 'recover' writes to [default: <log>.recovered.mcap]
+    /// File for 'recover' [default: <log>.recovered.mcap]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
-/// What to do with a log.
+/// The actions for a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Action {
-    /// What happened, then deadlines, interruptions and coverage
+    /// Print the events, then deadlines, interruptions and coverage
     Timeline,
-    /// What the file is and holds
+    /// Print the contents of the file
     Info,
-    /// Saves what is intact into a new file
+    /// Save the intact data into a new file
     Recover,
-    /// Lists what is wrong with the file
+    /// List the errors in the file
     Doctor,
 }
 

@@ -13,8 +13,8 @@ use super::stream::read;
 use crate::no_plan::NoPlan;
 
 pub const EXAMPLES: &str = "\
-Editors start it; docs/editors.md says how. It is made to be spoken to by a program: messages come in
-on standard input and go out on standard output.";
+Editors start it, as docs/editors.md explains. Messages arrive on standard input and leave on
+standard output.";
 
 /// The maximum length of a message: a whole open document.
 const LONGEST: usize = 1 << 26;

@@ -19,15 +19,15 @@ use files::Kind;
 /// Arguments of `afpc new`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// The project's folder, which is made; its name is that of the project
+    /// New folder for the project; its name becomes the project's name
     #[arg(value_name = "NAME")]
     folder: PathBuf,
 
-    /// With a toolbox of its own for the Carbot, in Rust
+    /// Add a toolbox for the Carbot, in Rust
     #[arg(long, conflicts_with = "robot")]
     toolbox: bool,
 
-    /// With a robot of its own, in Rust: its toolbox and its simulation
+    /// Add a robot, in Rust: its toolbox and its simulation
     #[arg(long)]
     robot: bool,
 }

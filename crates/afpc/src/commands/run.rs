@@ -17,7 +17,8 @@ use crate::{Linked, early, runner};
 /// Arguments of `afpc run`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// File with the plan; append ':Plan' to select a plan other than the first. With '--again' that of the log, unless one is named
+    /// File with the plan; append ':Plan' to select a plan other than the first [default with
+    /// '--again': the plan of the log]
     #[arg(value_name = "FILE[:PLAN]", required_unless_present = "again")]
     plan: Option<String>,
     #[command(flatten)]

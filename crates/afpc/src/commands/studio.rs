@@ -21,16 +21,16 @@ use debug::DebugService;
 /// Arguments of `afpc studio`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// A plan, or a folder of plans: nothing outside of its folder is written
+    /// Plan or folder of plans; the studio writes only in this folder
     #[arg(value_name = "FILE|FOLDER", default_value = ".")]
     path: PathBuf,
-    /// Port on this machine; 0 is a free one
+    /// Local port; 0 selects a free port
     #[arg(long, default_value_t = 0, allow_hyphen_values = true)]
     port: u16,
-    /// Prints the address and leaves it to you to open it
+    /// Print the address without opening the browser
     #[arg(long)]
     no_open: bool,
-    /// A page beside the studio's own that may talk with it: the near end of a tunnel
+    /// Allow another page to connect, for example through a tunnel
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
     #[command(flatten)]
@@ -40,11 +40,11 @@ pub struct Arguments {
 /// The examples at the end of the help.
 pub const EXAMPLES: &str = "\
 Examples:
-  afpc studio                      the plans of this folder; an empty one is a good beginning
+  afpc studio                      opens the plans of this folder, which may be empty
   afpc studio plans/patrol.afp     opens that plan
   afpc studio --port 4712 --no-open
 
-It listens on this machine alone, and its address works once: whoever does not know it is not let in.";
+The studio only listens on this machine. Its address has a secret that works once.";
 
 /// A file with plans that AFP ships: its name and its text.
 macro_rules! shipped {

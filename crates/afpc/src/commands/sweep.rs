@@ -29,45 +29,45 @@ pub struct Arguments {
     #[command(flatten)]
     plan: PlanArgument,
 
-    /// Seeds of the runs; the last of 0..1000 is 999, and there may be several, as in 1,5,20..30
+    /// Seeds of the runs, such as 1,5,20..30; 0..1000 ends with 999
     #[arg(long, value_name = "FROM..TO", default_value = "0", value_parser = afp_sweep::seeds, allow_hyphen_values = true)]
     seeds: Seeds,
 
-    /// Varies an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm, gain=1,2,5; with one value
-    /// sets it, as '--set' does
+    /// Vary an entry or a value of the world: walldist=20cm..60cm, walldist=20cm..60cm:5cm,
+    /// gain=1,2,5; one value sets it, like '--set'
     #[arg(long, alias = "set", value_name = "NAME=VALUES", value_parser = afp_sweep::axis)]
     vary: Vec<Axis>,
 
-    /// World file, map (.yaml) or random:SEED; several times for several, or random:7..99
+    /// World file, map (.yaml), random:SEED or random:7..99; repeat for several worlds
     #[arg(long, value_name = "WORLD", value_parser = worlds)]
     world: Vec<Worlds>,
 
-    /// Presses a control of the robot in each run, as in 'afpc run'
+    /// Press a control of the robot in each run, as in 'afpc run'
     #[arg(long, value_name = "CONTROL@TIME", value_parser = press)]
     press: Vec<Press>,
 
-    /// Breaks something in each run, as in 'afpc run'
+    /// Inject a fault in each run, as in 'afpc run'
     #[arg(long, value_name = "DEVICE.FAULT[=AMOUNT]@TIME[..TIME]", value_parser = failure)]
     fail: Vec<Failure>,
 
-    /// Stops each run at this time
+    /// Stop each run at this time
     #[arg(long, value_name = "TIME", default_value = "60s", value_parser = afp_project::duration, allow_hyphen_values = true)]
     until: Duration,
 
-    /// Where the table of outcomes goes: .csv, .parquet (where afpc has that feature), or a folder
-    /// for all [default: target/afp/sweeps/<plan>-<grid>.csv]
+    /// Table of outcomes: .csv, .parquet (if afpc has that feature), or a folder [default:
+    /// target/afp/sweeps/<plan>-<grid>.csv]
     #[arg(short, long, value_name = "FILE|FOLDER")]
     output: Option<PathBuf>,
 
-    /// Begins anew where an earlier sweep would go on
+    /// Restart instead of continuing an earlier sweep
     #[arg(long)]
     restart: bool,
 
-    /// Prints one JSON object for each run, what they came to last
+    /// Print a JSON object for each run, then the summary
     #[arg(long)]
     json: bool,
 
-    /// How many runs go on at once [default: one for each core]
+    /// Number of parallel runs [default: one per core]
     #[arg(long, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
     jobs: Option<NonZero<usize>>,
 }
@@ -79,8 +79,8 @@ Examples:
   afpc sweep plan.afp --world random:0..100 --until 30s -o rooms.csv
   afpc sweep plan.afp --vary world.robot.charge=0.2..1
 
-A sweep that was stopped or killed goes on with the same command.
-Exit codes: 0 done, 1 a file is wrong, 2 wrong usage, 3 a run ended in Error or could not begin,
+To continue a stopped or killed sweep, repeat its command.
+Exit codes: 0 done, 1 a file is invalid, 2 wrong usage, 3 a run ended in Error or could not begin,
 130 stopped before all runs were done";
 
 /// The worlds of one `--world`.

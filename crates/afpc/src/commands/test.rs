@@ -28,37 +28,38 @@ use reporter::Reporter;
 /// Arguments of `afpc test`.
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Files or folders with scenarios, and words that the names of those to run contain [default:
-    /// the project's folder, its plans, tests and scenarios]
+    /// Files or folders with scenarios, and words in the names of scenarios [default: the project's
+    /// folder, its plans, tests and scenarios]
     #[arg(value_name = "FILTER|FILE")]
     what: Vec<String>,
 
-    /// Prints one JSON object for each scenario
+    /// Print a JSON object for each scenario
     #[arg(long)]
     json: bool,
 
-    /// Tells which elements, states, events, errors and entries no scenario made use of
+    /// Report unused elements, states, events, errors and entries
     #[arg(long, group = "told")]
     coverage: bool,
 
-    /// Counts logged runs of the same plans too
+    /// Also count logged runs of the same plans
     #[arg(long, value_name = "LOG", requires = "coverage")]
     add_log: Vec<PathBuf>,
 
-    /// With '--coverage' draws the plan with what was used into this file, an SVG or a PNG; with '--generate' writes
-    /// the scenarios into it; several plans into this folder
+    /// File for the drawing of '--coverage' (SVG or PNG) or the scenarios of '--generate'; a folder
+    /// for several plans
     #[arg(short, long, value_name = "FILE|FOLDER", requires = "told")]
     output: Option<PathBuf>,
 
-    /// Writes scenarios for plans: every event at five points of each actor's run
+    /// Write scenarios for plans: every event at five points of each actor's run
     #[arg(long, group = "told")]
     generate: bool,
 
-    /// Changes plans a little (signs, targets, constants, swapped branches) and tells which scenarios notice it
+    /// Mutate plans (signs, targets, constants, swapped branches) and report which scenarios notice
+    /// it
     #[arg(long, group = "told", conflicts_with = "output")]
     mutate: bool,
 
-    /// With '--mutate' chooses among the ways to change something
+    /// Seed for the mutations of '--mutate'
     #[arg(
         long,
         value_name = "N",
@@ -69,7 +70,7 @@ pub struct Arguments {
     )]
     seed: u64,
 
-    /// With '--mutate' fails when fewer of the mutants that change a run are noticed
+    /// Minimum percentage of noticed mutants for '--mutate'
     #[arg(
         long,
         value_name = "PERCENT",
@@ -83,15 +84,15 @@ pub struct Arguments {
 pub const EXAMPLES: &str = "\
 Examples:
   afpc test                       all scenarios of the project
-  afpc test bump                  those with 'bump' in their names
-  afpc test plans/tests/room.afp  those of a file
-  afpc test --coverage            and what none of them made use of
-  afpc test --coverage -o cover   the same as drawings, one for each plan
+  afpc test bump                  scenarios with 'bump' in their names
+  afpc test plans/tests/room.afp  scenarios of a file
+  afpc test --coverage            and all unused parts of the plans
+  afpc test --coverage -o cover   the coverage as drawings, one per plan
   afpc test --generate plans/wall_following.afp
   afpc test --mutate --at-least 95
 
 A failed scenario is run again with a log: target/afp/tests/<file>.<name>.<hash>.mcap.
-Exit codes: 0 all passed, 1 a file is wrong, 2 nothing to run, 3 a scenario failed or too few mutants are noticed,
+Exit codes: 0 all passed, 1 a file is invalid, 2 nothing to run, 3 a scenario failed or too few mutants are noticed,
 130 stopped";
 
 /// A scenario to run.

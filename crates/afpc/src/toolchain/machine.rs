@@ -7,9 +7,9 @@ use clap::ValueEnum;
 pub enum Machine {
     /// This machine
     Host,
-    /// Raspberry Pi with a system of 64 bit
+    /// Raspberry Pi with a 64-bit system
     Pi,
-    /// Raspberry Pi 2 or later with a system of 32 bit
+    /// Raspberry Pi 2 or later with a 32-bit system
     Pi32,
     /// Cortex-M (not in this release)
     #[value(hide = true)]
